@@ -1,0 +1,21 @@
+# lsys_add_grammar(TARGET DIALECT): runs Bison and Flex on DIALECT/parser.yy and DIALECT/scanner.ll of
+# the current folder and adds the results to TARGET. Nothing is written beside the sources.
+function(lsys_add_grammar target dialect)
+  set(out "${CMAKE_CURRENT_BINARY_DIR}/${dialect}")
+  file(MAKE_DIRECTORY "${out}")
+  bison_target(${dialect}_parser "${dialect}/parser.yy" "${out}/parser.cpp"
+    DEFINES_FILE "${out}/parser.h"
+    COMPILE_FLAGS "-Wall -Wcounterexamples -Werror -M ${PROJECT_SOURCE_DIR}=. -M ${PROJECT_BINARY_DIR}=.")
+  flex_target(${dialect}_scanner "${dialect}/scanner.ll" "${out}/scanner.cpp"
+    DEFINES_FILE "${out}/scanner.h")
+  add_flex_bison_dependency(${dialect}_scanner ${dialect}_parser)
+  target_sources(${target} PRIVATE
+    ${BISON_${dialect}_parser_OUTPUTS} ${FLEX_${dialect}_scanner_OUTPUTS})
+  target_include_directories(${target} PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
+  # The scanner Flex 2.6 writes has C casts; the parser is held to every warning.
+  set_source_files_properties("${out}/scanner.cpp" PROPERTIES
+    COMPILE_OPTIONS "-Wno-old-style-cast;-Wno-null-dereference;$<$<CXX_COMPILER_ID:GNU>:-Wno-useless-cast>"
+    SKIP_LINTING ON SKIP_UNITY_BUILD_INCLUSION ON)
+  set_source_files_properties("${out}/parser.cpp" PROPERTIES
+    SKIP_LINTING ON SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()

@@ -1,0 +1,31 @@
+# The two interface targets that every target of ours links: how code is compiled, and how strictly.
+
+# Numbers are portable: no contraction to fused multiply-add, no value-changing optimisation.
+add_library(lsys_options INTERFACE)
+target_include_directories(lsys_options INTERFACE "${PROJECT_SOURCE_DIR}")
+target_compile_options(lsys_options INTERFACE
+  -ffp-contract=off
+  "-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=" "-ffile-prefix-map=${PROJECT_BINARY_DIR}/=")
+if(LSYS_SANITIZE)
+  target_compile_options(lsys_options INTERFACE
+    -fsanitize=${LSYS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(lsys_options INTERFACE -fsanitize=${LSYS_SANITIZE})
+endif()
+if(LSYS_COVERAGE)
+  target_compile_options(lsys_options INTERFACE --coverage)
+  target_link_options(lsys_options INTERFACE --coverage)
+endif()
+
+add_library(lsys_warnings INTERFACE)
+target_compile_options(lsys_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wformat=2 -Wimplicit-fallthrough
+  -Wdouble-promotion
+  $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wlogical-op -Wuseless-cast -Wnull-dereference>
+  $<$<BOOL:${LSYS_WERROR}>:-Werror>)
+
+# lsys_library(NAME SOURCES... ) : a static library of ours.
+function(lsys_library name)
+  add_library(${name} STATIC ${ARGN})
+  target_link_libraries(${name} PUBLIC lsys_options PRIVATE lsys_warnings)
+endfunction()

@@ -1,0 +1,46 @@
+// The one entry of the compiler: Ast to Program to Bytecode. Both `lsc` and the viewer come through
+// here.
+#pragma once
+
+#include "compiler/bytecode.h"
+#include "compiler/program.h"
+#include "grammar/ast.h"
+#include "grammar/diagnostic.h"
+#include "grammar/names.h"
+#include "grammar/source.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+/// `-D NAME=value`.
+struct Definition {
+    std::string name;
+    float value = 0.0F;
+};
+
+struct CompileOptions {
+    std::vector<Definition> definitions;
+    std::optional<std::uint32_t> generations; // -n: a missing #n is no longer worth a warning
+    std::uint64_t max_modules = std::uint64_t{1}
+                                << 32; // for the warning about words that grow past it
+    bool lower = true;                 // false: stop after the Program
+};
+
+struct CompileOutcome {
+    std::optional<Program> program;               // without errors only
+    std::optional<Bytecode> bytecode;             // without errors only
+    std::vector<std::string> unknown_definitions; // -D names that no #define or #param has
+};
+
+/// Checks and compiles. Diagnostics are appended; the Ast is consumed to keep peak memory low.
+[[nodiscard]] CompileOutcome compile(Ast ast,
+                                     Names& names,
+                                     const SourceMap& sources,
+                                     const CompileOptions& options,
+                                     Diagnostics& diagnostics);
+
+} // namespace lsys

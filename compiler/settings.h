@@ -1,0 +1,48 @@
+// What `#set` decides, resolved: the attributes of a whole system. Shared by Program and Bytecode;
+// after the front end no character and no keyword carries a meaning of its own.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace lsys {
+
+/// How a generation rewrites the word (LANGUAGE.md section 5).
+enum class RewritingMode : std::uint8_t { Parallel, Sequential, Cyclic };
+/// Whether each module draws its production, or all modules of a rule share one draw a generation.
+enum class ChoiceScope : std::uint8_t { Module, Generation };
+/// Whether unconditional groups must sum to 1.
+enum class WeightRule : std::uint8_t { One, Any };
+/// Which table of section 7 gives modules their meaning for the turtle.
+enum class TurtleProfile : std::uint8_t { Lsys, Thesis, Abop, Houdini, L3d, Lplus, Sys };
+
+struct Settings {
+    TurtleProfile turtle = TurtleProfile::Lsys;
+    RewritingMode rewriting = RewritingMode::Parallel;
+    ChoiceScope choice = ChoiceScope::Module;
+    WeightRule weights = WeightRule::One;
+    /// `names letters` in the root file: how a word is printed.
+    bool print_letters = false;
+    float angle = 90.0F;      // degrees
+    float step = 1.0F;        // metres
+    float width = 0.1F;       // metres, diameter
+    float angle_scale = 0.9F; // factors
+    float step_scale = 0.9F;
+    float width_scale = 0.7F;
+    std::uint32_t sides = 8;
+    bool has_tropism = false;
+    std::array<float, 4> tropism{}; // x y z e
+    bool has_seed = false;
+    std::uint64_t seed = 0;
+    float spring = 30.0F;   // N m / rad
+    float density = 500.0F; // kg / m^3
+    float damping = 1.0F;   // N m s / rad
+};
+
+[[nodiscard]] std::string_view name_of(RewritingMode mode);
+[[nodiscard]] std::string_view name_of(ChoiceScope scope);
+[[nodiscard]] std::string_view name_of(WeightRule rule);
+[[nodiscard]] std::string_view name_of(TurtleProfile profile);
+
+} // namespace lsys

@@ -1,0 +1,19 @@
+// Is this Bytecode well-formed? Every index in range, stacks balanced, operands of the right kind,
+// formals numbered in order, folded constants finite, rules and groups dense. The emitter asks in
+// debug builds, a loaded file is always asked; what passes can be run without further checks.
+#pragma once
+
+#include "compiler/bytecode.h"
+
+#include <optional>
+#include <string>
+
+namespace lsys {
+
+/// The deepest expression stack a verified program can need.
+inline constexpr std::uint32_t kMaxStack = 16'384;
+
+/// What is wrong, or nothing.
+[[nodiscard]] std::optional<std::string> verify(const Bytecode& bytecode);
+
+} // namespace lsys

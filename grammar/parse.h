@@ -1,0 +1,31 @@
+// The entry of the front ends: text to Ast. Reads no files itself: included ones come from the host
+// through `FileLoader`.
+#pragma once
+
+#include "grammar/ast.h"
+#include "grammar/diagnostic.h"
+#include "grammar/names.h"
+#include "grammar/result.h"
+#include "grammar/source.h"
+
+#include <functional>
+#include <string>
+
+namespace lsys {
+
+/// The bytes of a file by path; its Error is shown at the #include.
+using FileLoader = std::function<Result<std::string>(const std::string& path)>;
+
+/// What one parse works with; all outlive it.
+struct ParseContext {
+    SourceMap& sources;
+    Names& names;
+    Diagnostics& diagnostics;
+    const FileLoader& load;
+};
+
+/// Parses the .lsys file `root` and, in place, the files it includes. Always yields an Ast; after
+/// errors it holds the statements that parsed.
+[[nodiscard]] Ast parse_lsys(FileId root, const ParseContext& context);
+
+} // namespace lsys

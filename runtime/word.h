@@ -1,0 +1,87 @@
+// Word: the derived string, packed. A stream of codes of one width (1, 2 or 4 bytes, little-endian)
+// and a stream of binary32 parameters of those codes that store any, in order. Made by derive, read
+// by dumps and by the turtle. Memory comes from one arena that is reused, advised for huge pages,
+// and never initialised.
+#pragma once
+
+#include "compiler/bytecode.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace lsys {
+
+/// Anonymous memory that grows without keeping what it holds. Move only.
+class Arena {
+public:
+    Arena() = default;
+    ~Arena();
+    Arena(Arena&& other) noexcept;
+    Arena& operator=(Arena&& other) noexcept;
+    Arena(const Arena&) = delete;
+    Arena& operator=(const Arena&) = delete;
+
+    /// Makes room for at least `bytes`; contents are lost if it grows. False: the system has no
+    /// memory.
+    [[nodiscard]] bool reserve(std::size_t bytes);
+    [[nodiscard]] std::byte* data() { return data_; }
+    [[nodiscard]] const std::byte* data() const { return data_; }
+    [[nodiscard]] std::size_t capacity() const { return capacity_; }
+
+private:
+    std::byte* data_ = nullptr;
+    std::size_t capacity_ = 0;
+};
+
+/// Bytes past the last code and parameter that writers may touch with wide stores.
+inline constexpr std::size_t kWordSlack = 64;
+
+class Word {
+public:
+    Word() = default;
+    explicit Word(std::uint32_t code_width) : code_width_(code_width) {}
+
+    /// Makes room for a word of exactly these sizes and takes them as its own. False: no memory.
+    [[nodiscard]] bool resize(std::uint64_t module_count, std::uint64_t parameter_count);
+
+    [[nodiscard]] std::uint64_t module_count() const { return module_count_; }
+    [[nodiscard]] std::uint64_t parameter_count() const { return parameter_count_; }
+    [[nodiscard]] std::uint32_t code_width() const { return code_width_; }
+    /// Bytes of the word itself.
+    [[nodiscard]] std::uint64_t byte_count() const {
+        return module_count_ * code_width_ + parameter_count_ * sizeof(float);
+    }
+    /// Bytes held from the system.
+    [[nodiscard]] std::uint64_t capacity() const {
+        return codes_.capacity() + parameters_.capacity();
+    }
+
+    /// The codes as integers of the word's width; precondition: sizeof(T) == code_width().
+    template <typename T>
+    [[nodiscard]] std::span<const T> codes() const {
+        return {reinterpret_cast<const T*>(codes_.data()), static_cast<std::size_t>(module_count_)};
+    }
+    template <typename T>
+    [[nodiscard]] std::span<T> codes() {
+        return {reinterpret_cast<T*>(codes_.data()), static_cast<std::size_t>(module_count_)};
+    }
+    [[nodiscard]] std::span<const float> parameters() const {
+        return {reinterpret_cast<const float*>(parameters_.data()),
+                static_cast<std::size_t>(parameter_count_)};
+    }
+    [[nodiscard]] std::span<float> parameters() {
+        return {reinterpret_cast<float*>(parameters_.data()),
+                static_cast<std::size_t>(parameter_count_)};
+    }
+    [[nodiscard]] Code code(std::uint64_t index) const;
+
+private:
+    Arena codes_;
+    Arena parameters_;
+    std::uint64_t module_count_ = 0;
+    std::uint64_t parameter_count_ = 0;
+    std::uint32_t code_width_ = 1;
+};
+
+} // namespace lsys
