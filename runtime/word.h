@@ -60,19 +60,17 @@ public:
     /// The codes as integers of the word's width; precondition: sizeof(T) == code_width().
     template <typename T>
     [[nodiscard]] std::span<const T> codes() const {
-        return {reinterpret_cast<const T*>(codes_.data()), static_cast<std::size_t>(module_count_)};
+        return {reinterpret_cast<const T*>(codes_.data()), module_count_};
     }
     template <typename T>
     [[nodiscard]] std::span<T> codes() {
-        return {reinterpret_cast<T*>(codes_.data()), static_cast<std::size_t>(module_count_)};
+        return {reinterpret_cast<T*>(codes_.data()), module_count_};
     }
     [[nodiscard]] std::span<const float> parameters() const {
-        return {reinterpret_cast<const float*>(parameters_.data()),
-                static_cast<std::size_t>(parameter_count_)};
+        return {reinterpret_cast<const float*>(parameters_.data()), parameter_count_};
     }
     [[nodiscard]] std::span<float> parameters() {
-        return {reinterpret_cast<float*>(parameters_.data()),
-                static_cast<std::size_t>(parameter_count_)};
+        return {reinterpret_cast<float*>(parameters_.data()), parameter_count_};
     }
     [[nodiscard]] Code code(std::uint64_t index) const;
 
