@@ -25,10 +25,9 @@ contract_failed_with(const char* condition, const char* file, int line, Values..
 } // namespace lsys
 
 #define LSYS_CHECK(condition, ...)                                                                 \
-    ((condition)                                                                                   \
-         ? static_cast<void>(0)                                                                    \
-         : ::lsys::detail::contract_failed_with(#condition, __FILE__,                              \
-                                                __LINE__ __VA_OPT__(, ) __VA_ARGS__))
+    ((condition) ? static_cast<void>(0)                                                            \
+                 : ::lsys::detail::contract_failed_with(#condition, __FILE__,                      \
+                                                        __LINE__ __VA_OPT__(, ) __VA_ARGS__))
 
 #ifdef NDEBUG
 #define LSYS_DCHECK(condition, ...) static_cast<void>(0)
