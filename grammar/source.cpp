@@ -1,6 +1,7 @@
 #include "grammar/source.h"
 
 #include "grammar/contract.h"
+#include "grammar/utf8.h"
 
 #include <algorithm>
 #include <cstring>
@@ -24,6 +25,11 @@ SourceFile::SourceFile(std::string path, std::string bytes)
         has_byte_order_mark_ = true;
         text_.erase(0, 3);
     }
+    find_lines();
+    find_checkpoints();
+}
+
+void SourceFile::find_lines() {
     line_begins_.push_back(0);
     const char* const base = text_.data();
     const char* cursor = base;
@@ -40,40 +46,54 @@ SourceFile::SourceFile(std::string path, std::string bytes)
 
 namespace {
 
-/// Length of the valid UTF-8 sequence at the start of `text`, or 1 where there is none.
-std::size_t code_point_length(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char lead = byte(0);
-    const std::size_t length = lead < 0x80   ? 1
-                               : lead < 0xC2 ? 0
-                               : lead < 0xE0 ? 2
-                               : lead < 0xF0 ? 3
-                               : lead < 0xF5 ? 4
-                                             : 0;
-    if (length <= 1 || text.size() < length) {
-        return 1;
-    }
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(i) & 0xC0) != 0x80) {
-            return 1;
-        }
-    }
-    return length;
+/// Bytes of a line after which its next column is remembered.
+constexpr std::uint32_t kStride = 4096;
+
+/// Moves on by one character.
+void step_over(std::string_view text, std::uint32_t& offset) {
+    const bool ascii = static_cast<unsigned char>(text[offset]) < 0x80;
+    offset += ascii ? 1 : decode_utf8(text.substr(offset)).length;
 }
 
 } // namespace
 
+void SourceFile::find_checkpoints() {
+    for (std::size_t i = 0; i < line_begins_.size(); ++i) {
+        const std::uint32_t end = i + 1 < line_begins_.size()
+                                      ? line_begins_[i + 1]
+                                      : static_cast<std::uint32_t>(text_.size());
+        if (end - line_begins_[i] <= kStride) {
+            continue;
+        }
+        Checkpoint place{line_begins_[i], 1};
+        std::uint32_t next = place.offset + kStride;
+        while (place.offset < end) {
+            step_over(text_, place.offset);
+            ++place.column;
+            if (place.offset >= next) {
+                checkpoints_.push_back(place);
+                next = place.offset + kStride;
+            }
+        }
+    }
+}
+
 LineColumn SourceFile::line_column(std::uint32_t offset) const {
     LSYS_CHECK(offset <= text_.size(), offset, text_.size());
     const auto after = std::upper_bound(line_begins_.begin(), line_begins_.end(), offset);
-    LineColumn place;
-    place.line = static_cast<std::uint32_t>(after - line_begins_.begin());
-    std::string_view before = std::string_view(text_).substr(*(after - 1), offset - *(after - 1));
-    while (!before.empty()) {
-        before.remove_prefix(code_point_length(before));
+    Checkpoint place{*(after - 1), 1};
+    const auto later = std::upper_bound(
+        checkpoints_.begin(), checkpoints_.end(), offset,
+        [](std::uint32_t wanted, const Checkpoint& known) { return wanted < known.offset; });
+    if (later != checkpoints_.begin() && (later - 1)->offset > place.offset) {
+        place = *(later - 1);
+    }
+    const std::string_view before = std::string_view(text_).substr(0, offset);
+    while (place.offset < offset) {
+        step_over(before, place.offset);
         ++place.column;
     }
-    return place;
+    return {static_cast<std::uint32_t>(after - line_begins_.begin()), place.column};
 }
 
 std::uint32_t SourceFile::line_count() const {

@@ -52,10 +52,19 @@ public:
     [[nodiscard]] std::uint32_t line_begin(std::uint32_t line) const;
 
 private:
+    /// A column within a long line, so that finding a place in it costs no more than in a short one.
+    struct Checkpoint {
+        std::uint32_t offset = 0;
+        std::uint32_t column = 1;
+    };
+    void find_lines();
+    void find_checkpoints();
+
     std::string path_;
     std::string text_;
     bool has_byte_order_mark_ = false;
     std::vector<std::uint32_t> line_begins_;
+    std::vector<Checkpoint> checkpoints_; // ascending
 };
 
 /// The largest file that offsets can address.

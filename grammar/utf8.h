@@ -1,0 +1,28 @@
+// Code points of UTF-8 text, one at a time. Text comes from an author's file and may hold anything;
+// a byte that is not part of a valid sequence is a character of its own.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace lsys {
+
+struct CodePoint {
+    char32_t value = 0;       // U+FFFD where it is not valid
+    std::uint32_t length = 1; // bytes
+    bool valid = false;
+};
+
+/// The first character of `text`: no overlong forms, no surrogates, nothing above U+10FFFF.
+/// Precondition: !text.empty().
+[[nodiscard]] CodePoint decode_utf8(std::string_view text);
+
+/// Appends `value` as UTF-8.
+void append_utf8(char32_t value, std::string& out);
+
+/// Columns that a terminal gives to `value`: 0 for combining characters, 2 for wide ones (East
+/// Asian Width W and F, Unicode 14), else 1. Says nothing about control characters.
+[[nodiscard]] std::uint32_t display_width(char32_t value);
+
+} // namespace lsys
