@@ -52,7 +52,8 @@ public:
     [[nodiscard]] std::uint32_t line_begin(std::uint32_t line) const;
 
 private:
-    /// A column within a long line, so that finding a place in it costs no more than in a short one.
+    /// A column within a long line, so that finding a place in it costs no more than in a short
+    /// one.
     struct Checkpoint {
         std::uint32_t offset = 0;
         std::uint32_t column = 1;
