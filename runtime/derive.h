@@ -43,7 +43,10 @@ struct DeriveOptions {
     std::uint32_t threads = 0; // 0: as many as the machine has
     Limits limits;
     const std::atomic<bool>* cancelled = nullptr;
-    /// Called between generations, and now and then within a long one.
+    /// Modules that a thread takes at a time; no word depends on it. Tests make it small.
+    std::uint32_t chunk_modules = 1U << 16;
+    /// Called between generations, and now and then within a long one; from any thread, but never
+    /// from two at once.
     std::function<void(std::uint32_t generation, std::uint64_t modules_written)> progress;
 };
 

@@ -24,15 +24,22 @@ public:
 
     /// Draw `number` as u in [0, 1): word number mod 4 of block number / 4, its high 24 bits times
     /// 2^-24.
-    [[nodiscard]] float draw(std::uint32_t number);
+    [[nodiscard]] float draw(std::uint64_t number);
 
 private:
+    static constexpr std::uint64_t kNoBlock = ~std::uint64_t{0};
+
     std::uint64_t seed_;
     std::uint64_t position_;
+    std::uint64_t block_ = kNoBlock; // the one in words_
     std::uint32_t generation_;
-    std::uint32_t block_ = 0xFFFFFFFFu;
     PhiloxBlock words_{};
 };
+
+/// A random word as u in [0, 1): its high 24 bits times 2^-24.
+[[nodiscard]] constexpr float unit_interval(std::uint32_t word) {
+    return static_cast<float>(word >> 8) * 0x1p-24F;
+}
 
 /// `{minimum, maximum}` at u (LANGUAGE.md section 4). Precondition: minimum <= maximum, finite
 /// width.
