@@ -7,6 +7,14 @@
 // arguments that are known here (`&(22.5)`), so its word stores none. The number of codes decides
 // the width of a stored code: 1 byte up to 256, 2 up to 65,536, else 4. Modules are folded in order
 // of first appearance while the width does not grow.
+//
+// Each table is filled in one order without gaps, so that nothing is shared and a walk over the
+// productions is a walk over the tables:
+//   constants       of folded[0], folded[1], ...
+//   patterns        of each production its left context, predecessor and right context
+//   template_codes  of the axiom, then of each production's successor
+//   instructions    of each global, of the axiom's arguments, then of each production its condition
+//                   and its successor's arguments
 #pragma once
 
 #include "compiler/settings.h"
@@ -42,6 +50,9 @@ inline constexpr std::uint32_t kOpcodeCount = 0
 /// Precondition: opcode < kOpcodeCount.
 [[nodiscard]] const OpcodeInfo& info(Opcode opcode);
 inline constexpr std::uint32_t kMaxOperand = (1U << 24) - 1;
+/// Random ranges of one successor with `rewriting sequential`, where pass k adds 4096 k to their
+/// numbers.
+inline constexpr std::uint32_t kMaxSequentialDraws = 4095;
 [[nodiscard]] constexpr std::uint32_t encode(Opcode opcode, std::uint32_t operand) {
     return static_cast<std::uint32_t>(opcode) | (operand << 8);
 }
@@ -196,6 +207,10 @@ struct Bytecode {
 
 /// The site of an instruction, or kNone.
 [[nodiscard]] std::uint32_t site_of(const Bytecode& bytecode, std::uint32_t instruction);
+
+/// A 64-bit checksum of bytes, for .lsb and state files: any change within one aligned group of
+/// eight bytes changes it.
+[[nodiscard]] std::uint64_t checksum(std::string_view bytes);
 
 /// A 64-bit digest of everything that decides the derived word; equal programs have equal digests.
 [[nodiscard]] std::uint64_t digest(const Bytecode& bytecode);

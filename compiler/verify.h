@@ -10,8 +10,10 @@
 
 namespace lsys {
 
-/// The deepest expression stack a verified program can need.
-inline constexpr std::uint32_t kMaxStack = 16'384;
+/// The deepest expression stack a verified program can need. Deeper expressions are no obstacle:
+/// the deeper operand is then computed first, which bounds the stack by the logarithm of their
+/// size.
+inline constexpr std::uint32_t kMaxStack = 256;
 
 /// What is wrong, or nothing.
 [[nodiscard]] std::optional<std::string> verify(const Bytecode& bytecode);
