@@ -20,6 +20,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <concepts>
 #include <limits>
@@ -320,16 +321,19 @@ void overwrite(std::string& bytes, std::size_t offset, std::uint64_t value) {
 } // namespace
 
 std::string write_module_file(const Bytecode& bytecode) {
-    std::string bytes(kMagic);
+    std::string bytes(kContentsAt, '\0');
     Writer writer(bytes);
-    writer.number(kModuleFileVersion);
-    writer.number(std::uint32_t{0});
-    writer.number(std::uint64_t{0}); // size and checksum, known at the end
-    writer.number(std::uint64_t{0});
     contents(writer, bytecode);
+    seal_module_file(bytes);
+    return bytes;
+}
+
+void seal_module_file(std::string& bytes) {
+    bytes.resize(std::max(bytes.size(), kContentsAt));
+    bytes.replace(0, kMagic.size(), kMagic);
+    overwrite(bytes, kVersionAt, std::uint64_t{kModuleFileVersion});
     overwrite(bytes, kSizeAt, bytes.size());
     overwrite(bytes, kChecksumAt, checksum(std::string_view(bytes).substr(kContentsAt)));
-    return bytes;
 }
 
 bool is_module_file(std::string_view bytes) {

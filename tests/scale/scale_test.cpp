@@ -1,0 +1,233 @@
+// Runs `lsc` as a child on one extreme input and checks how it ends. Usage: scale_test LSC CASE
+// FOLDER.
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <string>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+#include <vector>
+
+namespace {
+
+constexpr long kMaxKib = 2L * 1024 * 1024; // 2 GiB
+#ifdef LSYS_INSTRUMENTED
+constexpr bool kInstrumented = true;
+#else
+constexpr bool kInstrumented = false;
+#endif
+constexpr double kMaxSeconds = 20.0;
+
+struct Ended {
+    int status = -1; // exit status, or -signal
+    long peak_kib = 0;
+    double seconds = 0.0;
+    std::string errors; // the first bytes of standard error
+};
+
+double now() {
+    timespec time{};
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+Ended run(const std::vector<std::string>& command, const std::string& folder, const char* out) {
+    const std::string error_path = folder + "/stderr." + std::to_string(getpid());
+    std::vector<char*> arguments;
+    for (const std::string& argument : command) {
+        arguments.push_back(const_cast<char*>(argument.c_str()));
+    }
+    arguments.push_back(nullptr);
+    Ended ended;
+    const double start = now();
+    const pid_t child = fork();
+    if (child == 0) {
+        const int out_file = open(out, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        const int error_file = open(error_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        dup2(out_file, 1);
+        dup2(error_file, 2);
+        execv(arguments[0], arguments.data());
+        _exit(127);
+    }
+    int status = 0;
+    rusage usage{};
+    wait4(child, &status, 0, &usage);
+    ended.seconds = now() - start;
+    ended.peak_kib = usage.ru_maxrss;
+    ended.status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    std::ifstream errors(error_path, std::ios::binary);
+    ended.errors.resize(4000);
+    errors.read(ended.errors.data(), static_cast<std::streamsize>(ended.errors.size()));
+    ended.errors.resize(static_cast<std::size_t>(errors.gcount()));
+    unlink(error_path.c_str());
+    return ended;
+}
+
+/// Writes `before`, then `unit` `count` times, then `after`.
+void write_repeated(const std::string& path,
+                    const std::string& before,
+                    const std::string& unit,
+                    std::uint64_t count,
+                    const std::string& after) {
+    std::ofstream file(path, std::ios::binary);
+    file << before;
+    std::string block;
+    while (block.size() < 1'000'000 && block.size() / unit.size() < count) {
+        block += unit;
+    }
+    const std::uint64_t units = block.size() / unit.size();
+    for (; count >= units; count -= units) {
+        file << block;
+    }
+    for (; count > 0; --count) {
+        file << unit;
+    }
+    file << after;
+}
+
+/// Writes `count` lines made by `line`.
+void write_lines(const std::string& path,
+                 const std::string& before,
+                 std::uint64_t count,
+                 const std::function<std::string(std::uint64_t)>& line) {
+    std::ofstream file(path, std::ios::binary);
+    file << before;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        file << line(i);
+    }
+}
+
+struct Case {
+    std::function<void(const std::string& path)> make;
+    std::vector<std::string> command; // % stands for the file
+    int status = 0;
+    std::string says; // must occur in standard error; may be empty
+    const char* out = "/dev/null";
+};
+
+std::map<std::string, Case> cases() {
+    const auto repeated = [](std::string before, std::string unit, std::uint64_t count,
+                             std::string after) {
+        return [=](const std::string& path) { write_repeated(path, before, unit, count, after); };
+    };
+    const std::vector<std::string> check{"check", "%"};
+    const std::vector<std::string> count{"dump", "--count", "%"};
+    std::map<std::string, Case> all;
+    const std::string head = "#n = 1;\n";
+    all["nested-parentheses"] = {repeated(head + "#w : F(", "(", 100'000, "1;"), check, 1, "nest"};
+    all["nested-brackets"] = {repeated(head + "#w : F", "[", 100'000, "F;"), check, 1, "nest"};
+    all["nested-ranges"] = {repeated(head + "#w : F(", "{1,", 100'000, "1;"), check, 1, "nest"};
+    all["unary-chain"] = {repeated(head + "#w : F(", "-", 1'000'000, "1);"), check, 1, "nest"};
+    all["power-chain"] = {repeated(head + "#w : F(1", "^1", 1'000'000, ");"), check, 1, "nest"};
+    all["sum-chain"] = {repeated(head + "#w : F(1", "+1", 1'000'000, ");"), count, 0, ""};
+    all["axiom-100mb"] = {repeated(head + "#w : ", "F+", 50'000'000, ";"), count, 0, ""};
+    all["arguments-100mb"] = {repeated(head + "#w : ", "F(1)", 25'000'000, ";"), count, 0, ""};
+    all["comment-100mb"] = {repeated(head + "#w : F; /*", "no\n", 33'000'000, "*/"), count, 0, ""};
+    all["statements-100mb"] = {repeated(head + "#w : F;\n", "#ignore : + -;\n", 6'600'000, ""),
+                               check, 0, ""};
+    all["garbage-100mb"] = {repeated("", "a?(;=}", 16'600'000, ""), check, 1, "error"};
+    all["zeros-100mb"] = {repeated("", std::string(1, '\0'), 100'000'000, ""), check, 1, "error"};
+    all["names-100mb"] = {repeated(head + "#set names letters;\n#w : ", "FGFG", 25'000'000, ";"),
+                          count, 0, ""};
+    all["line-10mb"] = {repeated(head + "#w : F ?", " F + F", 1'700'000, " ?;"), check, 1,
+                        "unknown-character"};
+    all["identifier-10mb"] = {repeated(head + "#w : F ", "a", 10'000'000, ";"), count, 0, ""};
+    all["number-10mb"] = {repeated(head + "#w : F(0.", "1", 10'000'000, ");"), count, 0, ""};
+    all["nul-bytes"] = {repeated(head + "#w : F", std::string("\0F", 2), 1000, ";"), check, 1,
+                        "unknown-character"};
+    all["invalid-utf8"] = {repeated(head + "#w : F", "\xFF\xC0 F", 100'000, ";"), check, 1,
+                           "invalid-utf8"};
+    all["unclosed-comment"] = {repeated(head + "#w : F; /*", "x", 10'000'000, ""), check, 1,
+                               "unclosed-comment"};
+    all["unclosed-quote"] = {repeated(head + "#w : F; #object F \"", "x", 10'000'000, ""), check, 1,
+                             "unclosed-quote"};
+    all["million-productions"] = {
+        [head](const std::string& path) {
+            write_lines(path, head + "#w : A0 A999999;\n", 1'000'000, [](std::uint64_t i) {
+                return "#p" + std::to_string(i) + " : A" + std::to_string(i) + " : * : A" +
+                       std::to_string((i + 1) % 1'000'000) + " F;\n";
+            });
+        },
+        count, 0, ""};
+    all["million-alternatives"] = {
+        [head](const std::string& path) {
+            write_lines(path, head + "#set weights any;\n#w : A(1);\n", 1'000'000,
+                        [](std::uint64_t i) {
+                            return "#p" + std::to_string(i) +
+                                   " : A(x) : x == " + std::to_string(i) + " ~ 1 : A(x + 1) F;\n";
+                        });
+        },
+        count, 0, ""};
+    all["million-defines"] = {
+        [head](const std::string& path) {
+            write_lines(path, head + "#define c0 1;\n", 1'000'000, [](std::uint64_t i) {
+                return "#define c" + std::to_string(i + 1) + " c" + std::to_string(i) + " + 1;\n";
+            });
+            std::ofstream(path, std::ios::app) << "#w : F(c1000000);\n";
+        },
+        count, 0, ""};
+    all["million-errors"] = {repeated(head + "#w : F;\n", "#p : F : * : F(q);\n", 1'000'000, ""),
+                             check, 1, "more error"};
+    all["directory"] = {[](const std::string& path) { mkdir(path.c_str(), 0700); }, check, 2,
+                        "directory"};
+    all["missing-file"] = {[](const std::string&) {}, check, 2, "no such file"};
+    all["unreadable-output"] = {repeated(head + "#w : F", "F", 3, ";"),
+                                {"dump", "%", "-o", "/nowhere/at/all"},
+                                2,
+                                "/nowhere/at/all"};
+    all["full-disk"] = {repeated(head + "#w : F;", " ", 3, "#p : F : * : F F F;"),
+                        {"dump", "%", "-n", "12"},
+                        2,
+                        "no space left",
+                        "/dev/full"};
+    all["nested-word"] = {
+        repeated("#n = 5000;\n#w : A;\n#p : A : * : [A];\n#q : F < A : * : A;\n", " ", 1, ""),
+        {"dump", "--count", "%"},
+        0,
+        ""};
+    return all;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const auto all = cases();
+    if (argc != 4 || !all.contains(argv[2])) {
+        std::fprintf(stderr, "usage: scale_test LSC CASE FOLDER\n");
+        return 2;
+    }
+    const Case& wanted = all.at(argv[2]);
+    const std::string folder = argv[3];
+    const std::string path = folder + "/" + argv[2] + ".lsys";
+    wanted.make(path);
+    std::vector<std::string> command{argv[1]};
+    for (const std::string& word : wanted.command) {
+        command.push_back(word == "%" ? path : word);
+    }
+    const Ended ended = run(command, folder, wanted.out);
+    if (rmdir(path.c_str()) != 0) {
+        unlink(path.c_str());
+    }
+    std::printf("%s: status %d, %.2f s, peak %ld MiB\n%.600s\n", argv[2], ended.status,
+                ended.seconds, ended.peak_kib / 1024, ended.errors.c_str());
+    bool fine = true;
+    const auto expect = [&](bool holds, const char* what) {
+        if (!holds) {
+            std::printf("FAILED: %s\n", what);
+            fine = false;
+        }
+    };
+    expect(ended.status == wanted.status, "exit status");
+    expect(ended.errors.find(wanted.says) != std::string::npos, wanted.says.c_str());
+    expect(kInstrumented || ended.peak_kib <= kMaxKib, "peak memory");
+    expect(ended.seconds <= kMaxSeconds * (kInstrumented ? 5 : 1), "time");
+    return fine ? 0 : 1;
+}
