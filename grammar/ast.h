@@ -232,23 +232,23 @@ struct AstFile {
 
 struct Ast {
     std::vector<AstFile> files;
-    std::vector<Statement> statements;
+    ChunkedVector<Statement> statements;
 
     std::vector<GenerationsNode> generations;
-    std::vector<DefineNode> defines;
+    ChunkedVector<DefineNode> defines;
     std::vector<ParamNode> params;
     std::vector<ModuleDeclarationNode> module_declarations;
     std::vector<ObjectNode> objects;
     std::vector<IncludeNode> includes;
-    std::vector<SetNode> sets;
-    std::vector<SetValue> set_values;
+    ChunkedVector<SetNode> sets;
+    ChunkedVector<SetValue> set_values;
     std::vector<IgnoreNode> ignores;
     std::vector<AxiomNode> axioms;
-    std::vector<ProductionNode> productions;
+    ChunkedVector<ProductionNode> productions;
 
     ChunkedVector<Expression> expressions;
     ChunkedVector<ExpressionId> expression_lists; // arguments of calls, consecutive
-    std::vector<ListRange> argument_lists;        // of function calls
+    ChunkedVector<ListRange> argument_lists;        // of function calls
     ChunkedVector<ModuleNode> modules;
     ChunkedVector<CallNode> calls;
 

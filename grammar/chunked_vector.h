@@ -5,8 +5,11 @@
 
 #include "grammar/contract.h"
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -17,7 +20,39 @@ template <typename T>
 class ChunkedVector {
     static_assert(std::is_trivially_copyable_v<T>);
 
+    template <typename Vector, typename Value>
+    class Cursor {
+    public:
+        using iterator_category = std::forward_iterator_tag;
+        using value_type = T;
+        using difference_type = std::ptrdiff_t;
+        using pointer = Value*;
+        using reference = Value&;
+
+        Cursor() = default;
+        Cursor(Vector* vector, std::size_t index) : vector_(vector), index_(index) {}
+        reference operator*() const { return (*vector_)[index_]; }
+        pointer operator->() const { return &(*vector_)[index_]; }
+        Cursor& operator++() {
+            ++index_;
+            return *this;
+        }
+        Cursor operator++(int) {
+            Cursor before = *this;
+            ++index_;
+            return before;
+        }
+        friend bool operator==(const Cursor&, const Cursor&) = default;
+
+    private:
+        Vector* vector_ = nullptr;
+        std::size_t index_ = 0;
+    };
+
 public:
+    using iterator = Cursor<ChunkedVector, T>;
+    using const_iterator = Cursor<const ChunkedVector, const T>;
+
     void push_back(const T& value) {
         if (size_ % kBlock == 0 && size_ / kBlock == blocks_.size()) {
             blocks_.push_back(std::make_unique<T[]>(kBlock));
@@ -34,8 +69,13 @@ public:
         return blocks_[index / kBlock][index % kBlock];
     }
     [[nodiscard]] T& back() { return (*this)[size_ - 1]; }
+    [[nodiscard]] const T& back() const { return (*this)[size_ - 1]; }
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] bool empty() const { return size_ == 0; }
+    [[nodiscard]] iterator begin() { return {this, 0}; }
+    [[nodiscard]] iterator end() { return {this, size_}; }
+    [[nodiscard]] const_iterator begin() const { return {this, 0}; }
+    [[nodiscard]] const_iterator end() const { return {this, size_}; }
     /// Forgets all elements from `size` on.
     void truncate(std::size_t size) {
         LSYS_CHECK(size <= size_, size, size_);
@@ -43,7 +83,9 @@ public:
     }
 
 private:
-    static constexpr std::size_t kBlock = std::size_t{1} << 14;
+    /// A power of two, at most 128 KiB of elements: small trees stay cheap.
+    static constexpr std::size_t kBlock =
+        std::bit_floor(std::max<std::size_t>(1, (std::size_t{1} << 17) / sizeof(T)));
     std::vector<std::unique_ptr<T[]>> blocks_;
     std::size_t size_ = 0;
 };
