@@ -1,12 +1,20 @@
 // How long words grow, from the program alone: counts of modules for each generation by the growth
-// matrix (Rozenberg & Salomaa 1980; ABOP 1.9), exact where the system is context-free and
-// unconditional, else as bounds. Read by the checks, by `lsc stats` and by the message of a reached
-// limit.
+// matrix (Rozenberg & Salomaa 1980; ABOP 1.9) over classes of modules that are rewritten alike,
+// exact where every class has one outcome, else as bounds. Read by the checks, by `lsc stats` and
+// by the message of a reached limit.
+//
+// The bounds hold for every seed and every value that is drawn: the true count lies between them,
+// for a derivation that ends without a run-time error. A context may match or not; a stochastic
+// group may take any of its productions; a condition is decided where its values are known before
+// the derivation, and otherwise may hold or not, except that a module is only counted as copied
+// where its conditions leave a gap. A rule with several predecessor modules may match from no times
+// to as often as its modules are there.
 #pragma once
 
 #include "compiler/bytecode.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,29 +44,46 @@ struct GenerationSize {
     Count bytes;      // codes times their width, and 4 a stored parameter
 };
 
-/// exact: low == high for every generation.
+/// Generations beyond this one are not listed, but the last is still predicted where that is
+/// possible.
+inline constexpr std::uint32_t kMaxListedGenerations = 10'000;
+
+/// low[g] and high[g] are of generation g. All generations asked for are listed, up to
+/// kMaxListedGenerations, and fewer where a program is so large that listing them would take long.
 struct GrowthPrediction {
-    bool exact = false;
+    bool exact = false; // low == high for every generation
     std::vector<GenerationSize> low;
     std::vector<GenerationSize> high;
-    /// For stochastic systems without conditions and contexts: the expected counts.
+    /// For stochastic systems whose conditions are decided and that have no contexts: the expected
+    /// counts, as many as are listed.
     bool has_expected = false;
     std::vector<double> expected_modules;
+    /// The last generation asked for, also where it is not listed.
+    bool has_last = false;
+    GenerationSize last_low;
+    GenerationSize last_high;
+    /// The word of this generation and all later ones are the same, whatever is drawn.
+    std::optional<std::uint32_t> unchanged_from;
 };
 
-/// Predicts generations 0 ... generations. Time grows with generations times the size of the
-/// program.
+/// Predicts generations 0 ... generations. Time grows with the listed generations times the size of
+/// the program, and is bounded by some seconds.
 [[nodiscard]] GrowthPrediction predict_growth(const Bytecode& bytecode, std::uint32_t generations);
 
-/// The largest n whose word is predicted (exactly, or at the lower bound) to hold at most
-/// `max_modules`. Nothing if that holds for every n up to `generations`.
+/// The largest n such that all generations up to it are predicted (exactly, or at the lower bound)
+/// to hold at most `max_modules`. Nothing if that holds for every n up to `generations`, or is not
+/// known.
 struct GrowthLimit {
     std::uint32_t largest_fitting = 0;
-    GenerationSize at_largest;
-    GenerationSize at_wanted;
-    ProductionId dominant = kNoProduction; // contributes the most modules
+    GenerationSize at_largest; // lower bounds
+    GenerationSize at_next;    // of the first generation that does not fit
+    GenerationSize at_wanted;  // of the last generation asked for, if has_wanted
+    bool has_wanted = false;
+    ProductionId dominant =
+        kNoProduction; // makes the most modules of the generation that does not fit
     bool exact = false;
 };
+/// If the axiom itself is too large, largest_fitting is 0 and at_largest is at_next.
 [[nodiscard]] std::optional<GrowthLimit>
 find_growth_limit(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t max_modules);
 
