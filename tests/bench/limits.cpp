@@ -1,0 +1,186 @@
+#include "tests/bench/limits.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <sys/mman.h>
+#include <utility>
+
+namespace lsys::bench {
+
+FreshPages::FreshPages(std::size_t bytes)
+    : data_(mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)),
+      bytes_(bytes) {
+    if (data_ == MAP_FAILED) {
+        std::abort();
+    }
+}
+
+FreshPages::~FreshPages() {
+    munmap(data_, bytes_);
+}
+
+PlainSystem koch_w1() {
+    PlainSystem system{"F", {}};
+    system.successors['F'] = "F+F-F-F+F";
+    return system;
+}
+
+PlainSystem weed_w2() {
+    PlainSystem system{"X", {}};
+    system.successors['X'] = "F-[[X]+X]+F[+FX]-X";
+    system.successors['F'] = "FF";
+    return system;
+}
+
+namespace {
+
+constexpr std::size_t kStore = 32;
+
+/// A successor for every code, each stored with one copy of fixed length.
+struct Templates {
+    alignas(32) std::uint8_t text[256][kStore]{};
+    std::uint8_t length[256]{};
+};
+
+std::size_t step_plain(const Templates& templates,
+                       const std::uint8_t* in,
+                       std::size_t count,
+                       std::uint8_t* out) {
+    std::uint8_t* cursor = out;
+    for (std::size_t i = 0; i < count; ++i) {
+        std::memcpy(cursor, templates.text[in[i]], kStore);
+        cursor += templates.length[in[i]];
+    }
+    return static_cast<std::size_t>(cursor - out);
+}
+
+/// Copies a row of codes and of parameters to place `at`.
+template <std::size_t Count>
+void put(std::uint8_t* codes,
+         float* parameters,
+         std::size_t at,
+         const char (&text)[Count + 1],
+         const float (&values)[Count]) {
+    std::memcpy(codes + at, text, Count);
+    std::memcpy(parameters + at, values, Count * sizeof(float));
+}
+
+} // namespace
+
+std::size_t
+derive_plain(const PlainSystem& system, int generations, std::uint8_t* a, std::uint8_t* b) {
+    Templates templates;
+    for (std::size_t c = 0; c < 256; ++c) {
+        const char* successor = system.successors[c];
+        templates.text[c][0] = static_cast<std::uint8_t>(c);
+        templates.length[c] = 1;
+        if (successor != nullptr) {
+            templates.length[c] = static_cast<std::uint8_t>(std::strlen(successor));
+            std::memcpy(templates.text[c], successor, templates.length[c]);
+        }
+    }
+    std::size_t count = std::strlen(system.axiom);
+    std::memcpy(a, system.axiom, count);
+    for (int i = 0; i < generations; ++i) {
+        count = step_plain(templates, a, count, b);
+        std::swap(a, b);
+    }
+    return count;
+}
+
+std::size_t derive_w3(
+    int generations, std::uint8_t* a, std::uint8_t* b, float* parameters_a, float* parameters_b) {
+    static constexpr float kValues[19] = {1.4F, 2, 0, 22.5F,  2, 0,     0, 112.5F, 0, 22.5F,
+                                          2,    0, 0, 157.5F, 0, 22.5F, 2, 0,      0};
+    put<4>(a, parameters_a, 0, "!F/A", {1.4F, 2, 45, 0});
+    std::size_t count = 4;
+    for (int generation = 0; generation < generations; ++generation) {
+        std::size_t out = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint8_t code = a[i];
+            if (code == 'A') {
+                put<19>(b, parameters_b, out, "!F[&FA]/[&FA]/[&FA]", kValues);
+                out += 19;
+            } else {
+                b[out] = code;
+                parameters_b[out] = parameters_a[i] * (code == 'F'   ? 1.1F
+                                                       : code == '!' ? 1.4F
+                                                                     : 1.0F);
+                ++out;
+            }
+        }
+        count = out;
+        std::swap(a, b);
+        std::swap(parameters_a, parameters_b);
+    }
+    return count;
+}
+
+std::size_t derive_w5(
+    int generations, std::uint8_t* a, std::uint8_t* b, float* parameters_a, float* parameters_b) {
+    put<1>(a, parameters_a, 0, "A", {12.0F});
+    std::size_t count = 1;
+    for (int generation = 0; generation < generations; ++generation) {
+        std::size_t out = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint8_t code = a[i];
+            const float x = parameters_a[i];
+            if (code == 'A' && x > 0.0F) {
+                put<10>(b, parameters_b, out, "F[+A][-A]A",
+                        {1, 0, 30, x - 1, 0, 0, 30, x - 1, 0, x - 1});
+                out += 10;
+            } else {
+                b[out] = code == 'A' ? std::uint8_t{'F'} : code;
+                parameters_b[out] = code == 'A' ? 1.0F : x;
+                ++out;
+            }
+        }
+        count = out;
+        std::swap(a, b);
+        std::swap(parameters_a, parameters_b);
+    }
+    return count;
+}
+
+std::size_t derive_w4(int generations, std::uint8_t* a, std::uint8_t* b) {
+    alignas(16) static constexpr char kTexts[3][17] = {"F[+F]F[-F]F", "F[+F]F", "F[-F]F"};
+    static constexpr std::size_t kLengths[3] = {11, 6, 6};
+    a[0] = 'F';
+    std::size_t count = 1;
+    for (int generation = 0; generation < generations; ++generation) {
+        std::uint8_t* cursor = b;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (a[i] != 'F') {
+                *cursor++ = a[i];
+                continue;
+            }
+            std::uint64_t hash = (static_cast<std::uint64_t>(generation) << 40) ^ i ^ 0x1234567U;
+            hash = (hash ^ (hash >> 33)) * 0xff51afd7ed558ccdU;
+            hash = (hash ^ (hash >> 33)) * 0xc4ceb9fe1a85ec53U;
+            const auto u = static_cast<std::uint32_t>(hash >> 32);
+            const std::size_t which = (u >= 1417339207U ? 1U : 0U) + (u >= 2834678415U ? 1U : 0U);
+            std::memcpy(cursor, kTexts[which], 16);
+            cursor += kLengths[which];
+        }
+        count = static_cast<std::size_t>(cursor - b);
+        std::swap(a, b);
+    }
+    return count;
+}
+
+std::size_t derive_w6(int generations, std::size_t count, std::uint8_t* a, std::uint8_t* b) {
+    std::memset(a, 'a', count + 1);
+    a[0] = 0;
+    a[1] = 'b';
+    for (int generation = 0; generation < generations; ++generation) {
+        b[0] = 0;
+        for (std::size_t i = 1; i <= count; ++i) {
+            b[i] = a[i] == 'b' ? 'a' : (a[i - 1] == 'b' ? 'b' : a[i]);
+        }
+        std::swap(a, b);
+    }
+    const void* found = std::memchr(a, 'b', count + 1);
+    return static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - a) - 1;
+}
+
+} // namespace lsys::bench
