@@ -1,0 +1,33 @@
+// Short ways to write a grammar of reference/grammar.h by hand, for tests. Strings of letters are
+// read as published systems are: every character is a module, blanks separate nothing.
+
+#pragma once
+
+#include "tests/reference/derive.h"
+#include "tests/reference/grammar.h"
+
+#include <string>
+#include <vector>
+
+namespace lsys::reference {
+
+// "F[+F]F" as modules without parameters.
+std::vector<ModuleUse> letters(const std::string& text);
+Pattern letter_pattern(const std::string& text);
+
+// A system of single characters: axiom, and productions as "F=F+F" or "A<B>C[D]=E", with contexts
+// if `<` or `>` stands before the `=`.
+Grammar letter_system(const std::string& axiom, const std::vector<std::string>& productions);
+
+void add_axiom(Grammar& grammar, const std::vector<ModuleUse>& modules);
+void add_setting(Grammar& grammar, const std::string& key, const std::string& value);
+void add_ignored(Grammar& grammar, const std::vector<std::string>& names);
+void add_production(Grammar& grammar, Production production);
+
+// The word after `generations`, as text without separators.
+std::string text_after(const Grammar& grammar, std::uint32_t generations);
+
+// The numbers of modules of generations 0 to `generations`.
+std::vector<std::size_t> counts(const Grammar& grammar, std::uint32_t generations);
+
+} // namespace lsys::reference

@@ -1,0 +1,371 @@
+#include "tests/reference/derive.h"
+
+#include "tests/reference/evaluate.h"
+#include "tests/reference/match.h"
+#include "tests/reference/philox.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+namespace lsys::reference {
+
+namespace {
+
+constexpr std::uint32_t kBeforeTheDerivation = 0xFFFFFFFF;
+constexpr std::uint32_t kDrawsOfARule = 4096;
+
+// A production with what section 5 sorts it by.
+struct Entry {
+    const Production* production = nullptr;
+    std::string group;
+    std::size_t rule = 0;
+};
+
+struct System {
+    std::map<std::string, float> constants;
+    std::vector<Entry> productions; // in file order
+    std::vector<std::string> rules; // rule k is rules[k]; by first appearance
+    std::set<std::string> ignored;
+    bool one_choice_a_generation = false;
+    std::uint64_t seed = 0;
+    std::uint32_t steps = 0;
+    std::size_t max_modules = 0;
+};
+
+struct TooLarge {};
+
+// Raised inside a step; becomes a RunError.
+struct Stop {
+    RunError error;
+};
+
+// One step (or one pass) reads `word`, whose age is `age`.
+struct Reading {
+    const System& system;
+    const Word& word;
+    std::uint32_t age = 0;
+    std::uint32_t first_draw = 0;         // sequential rewriting: 4096 times the rule
+    std::optional<std::size_t> only_rule; // the other modes read one rule at a time
+};
+
+Environment environment_of(const Reading& reading, const Bindings& bindings) {
+    Environment environment;
+    environment.constants = &reading.system.constants;
+    environment.formals = bindings;
+    environment.step = static_cast<float>(reading.age);
+    environment.steps = static_cast<float>(reading.system.steps);
+    return environment;
+}
+
+[[noreturn]] void
+stop(const Reading& reading, const Production& production, std::size_t position, Failure failure) {
+    throw Stop{RunError{failure, production.label, position, reading.age, reading.word[position]}};
+}
+
+// "A production matches a module when name and count agree, the contexts match, and the condition
+// holds."
+bool matches(const Reading& reading,
+             const Production& production,
+             std::size_t position,
+             Bindings& bindings) {
+    bindings.clear();
+    if (!matches_around(production, reading.word, position, reading.system.ignored, bindings)) {
+        return false;
+    }
+    if (!production.condition) {
+        return true;
+    }
+    const float value = evaluate(*production.condition, environment_of(reading, bindings));
+    if (!std::isfinite(value)) {
+        stop(reading, production, position, Failure::NotFinite);
+    }
+    return value != 0.0F;
+}
+
+float probability_of(const System& system, const Production& production) {
+    Environment environment;
+    environment.constants = &system.constants;
+    return evaluate(*production.probability, environment);
+}
+
+// The random number that chooses between the productions that match at `position`.
+float draw_of_choice(const Reading& reading, std::size_t rule, std::size_t position) {
+    const System& system = reading.system;
+    if (system.one_choice_a_generation) {
+        const std::uint64_t place = std::uint64_t{0} - 1 - rule;
+        return uniform(system.seed, place, reading.age, 0);
+    }
+    return uniform(system.seed, position, reading.age, reading.first_draw);
+}
+
+struct Choice {
+    const Production* production = nullptr;
+    Bindings bindings;
+};
+
+// "Productions are tried in file order. If the first that matches has no `~`, it is taken.
+// Otherwise the choice is among all matching `~` productions whose predecessor and contexts have
+// the same names and counts, with weights p, normalised."
+Choice choose(const Reading& reading, std::size_t position) {
+    const System& system = reading.system;
+    std::vector<Choice> candidates;
+    Entry first;
+    for (const Entry& entry : system.productions) {
+        const Production& production = *entry.production;
+        if (reading.only_rule && entry.rule != *reading.only_rule) {
+            continue;
+        }
+        if (!candidates.empty() && (!production.probability || entry.group != first.group)) {
+            continue;
+        }
+        Choice candidate{&production, {}};
+        if (!matches(reading, production, position, candidate.bindings)) {
+            continue;
+        }
+        if (!production.probability) {
+            return candidate;
+        }
+        if (candidates.empty()) {
+            first = entry;
+        }
+        candidates.push_back(candidate);
+    }
+    if (candidates.empty()) {
+        return {};
+    }
+
+    float sum = 0;
+    for (const Choice& candidate : candidates) {
+        sum += probability_of(system, *candidate.production);
+    }
+    const float u = draw_of_choice(reading, first.rule, position);
+    float running = 0;
+    for (const Choice& candidate : candidates) {
+        const float weight = probability_of(system, *candidate.production) / sum;
+        running += weight;
+        if (running > u) {
+            return candidate;
+        }
+    }
+    return candidates.back();
+}
+
+// Appends the successor to `out`; its ranges are numbered in the order of their closing braces.
+void rewrite(const Reading& reading, const Choice& choice, std::size_t position, Word& out) {
+    const System& system = reading.system;
+    const Production& production = *choice.production;
+    const bool choice_took_a_draw = production.probability && !system.one_choice_a_generation;
+    std::uint32_t draw = reading.first_draw + (choice_took_a_draw ? 1 : 0);
+
+    Environment environment = environment_of(reading, choice.bindings);
+    environment.draw = [&] { return uniform(system.seed, position, reading.age, draw++); };
+    for (const ModuleUse& use : production.successor) {
+        Module module{use.name, {}};
+        for (const Expr& argument : use.arguments) {
+            float value = 0;
+            try {
+                value = evaluate(argument, environment);
+            } catch (const BadRange&) {
+                stop(reading, production, position, Failure::BadRange);
+            }
+            if (!std::isfinite(value)) {
+                stop(reading, production, position, Failure::NotFinite);
+            }
+            module.values.push_back(value);
+        }
+        out.push_back(module);
+    }
+}
+
+// Reads the word once from left to right. In parallel rewriting a predecessor is one module, so
+// that this is also the step that rewrites all modules at once.
+Word read_once(const Reading& reading, Derivation& derivation) {
+    Word out;
+    std::size_t position = 0;
+    while (position < reading.word.size()) {
+        const Choice choice = choose(reading, position);
+        if (choice.production == nullptr) {
+            out.push_back(reading.word[position]);
+            ++position;
+            continue;
+        }
+        rewrite(reading, choice, position, out);
+        ++derivation.applications[choice.production->label];
+        position += choice.production->predecessor.size();
+        if (out.size() > reading.system.max_modules) {
+            throw TooLarge{};
+        }
+    }
+    return out;
+}
+
+Word next_word(const System& system,
+               const std::string& mode,
+               const Word& word,
+               std::uint32_t age,
+               Derivation& derivation) {
+    if (mode == "sequential") {
+        Word current = word;
+        for (std::uint32_t k = 0; k < system.rules.size(); ++k) {
+            const Reading reading{system, current, age, kDrawsOfARule * k, k};
+            current = read_once(reading, derivation);
+        }
+        return current;
+    }
+    if (mode == "cyclic") {
+        if (system.rules.empty()) {
+            return word;
+        }
+        const std::size_t rule = age % system.rules.size();
+        return read_once(Reading{system, word, age, 0, rule}, derivation);
+    }
+    return read_once(Reading{system, word, age, 0, std::nullopt}, derivation);
+}
+
+// Gives constants and axiom their values, in the order of the text.
+class Start {
+public:
+    Start(const Grammar& grammar, const Request& request, System& system)
+        : request_(request), system_(system) {
+        environment_.constants = &system_.constants;
+        environment_.draw = [this] {
+            return uniform(system_.seed, range_number_++, kBeforeTheDerivation, 0);
+        };
+        for (const Statement* statement : statements_in_order(grammar)) {
+            read(*statement);
+        }
+    }
+
+    [[nodiscard]] const Word& axiom() const { return axiom_; }
+    [[nodiscard]] std::uint32_t generations() const { return generations_; }
+
+private:
+    void read(const Statement& statement) {
+        if (statement.kind == StatementKind::Generations) {
+            generations_ = static_cast<std::uint32_t>(evaluate(statement.expr, environment_));
+        } else if (statement.kind == StatementKind::Define ||
+                   statement.kind == StatementKind::Param) {
+            system_.constants[statement.name] = value_of(statement);
+        } else if (statement.kind == StatementKind::Ignore) {
+            system_.ignored.insert(statement.names.begin(), statement.names.end());
+        } else if (statement.kind == StatementKind::Axiom) {
+            for (const ModuleUse& use : statement.modules) {
+                Module module{use.name, {}};
+                for (const Expr& argument : use.arguments) {
+                    module.values.push_back(finite(evaluate(argument, environment_)));
+                }
+                axiom_.push_back(module);
+            }
+        } else if (statement.kind == StatementKind::Production) {
+            const Production& production = statement.production;
+            system_.productions.push_back(
+                {&production, group_of(production), number_of(rule_of(production))});
+        }
+    }
+
+    // Rules are numbered by first appearance.
+    std::size_t number_of(const std::string& rule) {
+        std::vector<std::string>& rules = system_.rules;
+        for (std::size_t k = 0; k < rules.size(); ++k) {
+            if (rules[k] == rule) {
+                return k;
+            }
+        }
+        rules.push_back(rule);
+        return rules.size() - 1;
+    }
+
+    // A range takes its number even where -D replaces the expression that holds it.
+    float value_of(const Statement& statement) {
+        for (const auto& [name, number] : request_.definitions) {
+            if (name == statement.name) {
+                range_number_ += count_ranges(statement.expr);
+                return number;
+            }
+        }
+        return finite(evaluate(statement.expr, environment_));
+    }
+
+    static std::uint64_t count_ranges(const Expr& expr) {
+        std::uint64_t count = expr.kind == ExprKind::Range ? 1 : 0;
+        for (const Expr& part : expr.parts) {
+            count += count_ranges(part);
+        }
+        return count;
+    }
+
+    static float finite(float value) {
+        if (!std::isfinite(value)) {
+            throw Stop{};
+        }
+        return value;
+    }
+
+    const Request& request_;
+    System& system_;
+    Environment environment_;
+    std::uint64_t range_number_ = 0;
+    std::uint32_t generations_ = 0;
+    Word axiom_;
+};
+
+std::uint64_t seed_of(const Grammar& grammar, const Request& request) {
+    if (request.seed) {
+        return *request.seed;
+    }
+    const std::optional<std::string> seed = setting(grammar, "seed");
+    return seed ? std::strtoull(seed->c_str(), nullptr, 10) : 0;
+}
+
+// "A `]` without its `[` is an error" in the last word.
+std::optional<RunError> unmatched_bracket(const Word& word, std::uint32_t age) {
+    std::uint64_t open = 0;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        if (word[i].name == "[") {
+            ++open;
+        } else if (word[i].name == "]") {
+            if (open == 0) {
+                return RunError{Failure::UnmatchedBracket, "", i, age, word[i]};
+            }
+            --open;
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+Derivation derive(const Grammar& grammar, const Request& request) {
+    Derivation derivation;
+    System system;
+    system.seed = seed_of(grammar, request);
+    system.max_modules = request.max_modules;
+    system.one_choice_a_generation = setting(grammar, "choice").value_or("module") == "generation";
+    const std::string mode = setting(grammar, "rewriting").value_or("parallel");
+    derivation.seed = system.seed;
+    try {
+        const Start start(grammar, request, system);
+        system.steps = request.generations.value_or(start.generations());
+        derivation.generations = system.steps;
+        derivation.constants = system.constants;
+        derivation.words.push_back(start.axiom());
+        for (std::uint32_t age = 0; age < system.steps; ++age) {
+            derivation.words.push_back(
+                next_word(system, mode, derivation.words.back(), age, derivation));
+        }
+    } catch (const TooLarge&) {
+        derivation.too_large = true;
+        return derivation;
+    } catch (const Stop& stopped) {
+        derivation.error = stopped.error;
+        return derivation;
+    } catch (const BadRange&) { // in a definition or in the axiom
+        derivation.error = RunError{Failure::BadRange, "", 0, 0, {}};
+        return derivation;
+    }
+    derivation.error = unmatched_bracket(derivation.words.back(), system.steps);
+    return derivation;
+}
+
+} // namespace lsys::reference

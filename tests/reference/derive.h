@@ -1,0 +1,64 @@
+// The oracle: derives a grammar by following sections 4 to 6 of the language reference sentence by
+// sentence. A word is a vector of modules with their names as text; every step looks at every
+// production for every module. Slow on purpose: the runtime is tested against it, so it must be
+// evident rather than fast, and it shares nothing with the compiler or the runtime.
+
+#pragma once
+
+#include "tests/reference/grammar.h"
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lsys::reference {
+
+struct Module {
+    std::string name;
+    std::vector<float> values;
+
+    bool operator==(const Module&) const = default;
+};
+
+using Word = std::vector<Module>;
+
+// What the command line gives.
+struct Request {
+    std::optional<std::uint64_t> seed;
+    std::optional<std::uint32_t> generations;
+    std::vector<std::pair<std::string, float>> definitions; // -D NAME=number
+    std::size_t max_modules = std::numeric_limits<std::size_t>::max();
+};
+
+enum class Failure {
+    NotFinite,       // a parameter or a condition
+    BadRange,        // min > max, or bounds or width not finite
+    UnmatchedBracket // a `]` without its `[` in the last word
+};
+
+struct RunError {
+    Failure failure = Failure::NotFinite;
+    std::string production;       // empty for UnmatchedBracket and for errors before generation 0
+    std::uint64_t position = 0;   // in the word that is read; UnmatchedBracket: in the last word
+    std::uint32_t generation = 0; // the age of that word
+    Module module;                // the first module the production rewrites
+};
+
+struct Derivation {
+    std::vector<Word> words;                           // generation 0 first
+    std::optional<RunError> error;                     // the words are those made before it
+    bool too_large = false;                            // the next word has more than max_modules
+    std::map<std::string, std::uint64_t> applications; // by label of the production
+    std::map<std::string, float> constants;
+    std::uint32_t generations = 0; // asked for
+    std::uint64_t seed = 0;
+};
+
+// Preconditions: the grammar is legal, and every definition names a #define or #param.
+Derivation derive(const Grammar& grammar, const Request& request);
+
+} // namespace lsys::reference

@@ -1,0 +1,251 @@
+#include "tests/reference/evaluate.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+
+namespace lsys::reference {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegreesPerRadian = 180.0 / kPi;
+constexpr double kRadiansPerDegree = kPi / 180.0;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+float rounded(double value) {
+    return static_cast<float>(value);
+}
+
+float truth(bool value) {
+    return value ? 1.0F : 0.0F;
+}
+
+bool holds(float value) {
+    return value != 0.0F;
+}
+
+// The angle of `degrees` as a number of right angles in 0..3, where it is one exactly.
+bool is_right_angle(float degrees, int& quarter) {
+    const double reduced = std::fmod(static_cast<double>(degrees), 360.0);
+    if (std::fmod(reduced, 90.0) != 0.0) {
+        return false; // also for NaN and for infinite angles
+    }
+    quarter = (static_cast<int>(reduced / 90.0) + 4) % 4;
+    return true;
+}
+
+double in_radians(float degrees) {
+    return std::fmod(static_cast<double>(degrees), 360.0) * kRadiansPerDegree;
+}
+
+float sine(float degrees) {
+    int quarter = 0;
+    if (is_right_angle(degrees, quarter)) {
+        constexpr float kExact[] = {0, 1, 0, -1};
+        return kExact[quarter];
+    }
+    return rounded(std::sin(in_radians(degrees)));
+}
+
+float cosine(float degrees) {
+    int quarter = 0;
+    if (is_right_angle(degrees, quarter)) {
+        constexpr float kExact[] = {1, 0, -1, 0};
+        return kExact[quarter];
+    }
+    return rounded(std::cos(in_radians(degrees)));
+}
+
+float tangent(float degrees) {
+    int quarter = 0;
+    if (is_right_angle(degrees, quarter)) {
+        constexpr float kExact[] = {0, kInfinity, 0, -kInfinity};
+        return kExact[quarter];
+    }
+    return rounded(std::tan(in_radians(degrees)));
+}
+
+float sign_of(float x) {
+    if (x > 0) {
+        return 1;
+    }
+    if (x < 0) {
+        return -1;
+    }
+    return x;
+}
+
+[[noreturn]] void unknown(const std::string& name) {
+    std::fputs(("reference: no meaning for " + name + "\n").c_str(), stderr);
+    std::abort();
+}
+
+} // namespace
+
+float range_value(float min, float max, float u) {
+    const float width = max - min;
+    if (!std::isfinite(min) || !std::isfinite(max) || !std::isfinite(width) || min > max) {
+        throw BadRange{};
+    }
+    const float offset = width * u;
+    const float value = min + offset;
+    if (min < max && value >= max) {
+        return std::nextafter(max, -kInfinity);
+    }
+    return value;
+}
+
+float apply_operator(const std::string& name, const std::vector<float>& operands) {
+    const float a = operands[0];
+    if (operands.size() == 1) {
+        return name == "-" ? -a : truth(a == 0.0F);
+    }
+    const float b = operands[1];
+    if (name == "+") {
+        return a + b;
+    }
+    if (name == "-") {
+        return a - b;
+    }
+    if (name == "*") {
+        return a * b;
+    }
+    if (name == "/") {
+        return a / b;
+    }
+    if (name == "^") {
+        return rounded(std::pow(static_cast<double>(a), static_cast<double>(b)));
+    }
+    if (name == "<") {
+        return truth(a < b);
+    }
+    if (name == "<=") {
+        return truth(a <= b);
+    }
+    if (name == ">") {
+        return truth(a > b);
+    }
+    if (name == ">=") {
+        return truth(a >= b);
+    }
+    if (name == "==") {
+        return truth(a == b);
+    }
+    if (name == "!=") {
+        return truth(a != b);
+    }
+    if (name == "&&") {
+        return truth(holds(a) && holds(b));
+    }
+    if (name == "||") {
+        return truth(holds(a) || holds(b));
+    }
+    unknown(name);
+}
+
+float apply_function(const std::string& name, const std::vector<float>& operands) {
+    const float a = operands[0];
+    const auto wide = static_cast<double>(a);
+    if (operands.size() == 2) {
+        const float b = operands[1];
+        if (name == "atan2") {
+            return rounded(std::atan2(wide, static_cast<double>(b)) * kDegreesPerRadian);
+        }
+        if (name == "pow") {
+            return rounded(std::pow(wide, static_cast<double>(b)));
+        }
+        if (name == "min") {
+            return b < a ? b : a;
+        }
+        if (name == "max") {
+            return b > a ? b : a;
+        }
+        if (name == "mod") {
+            return rounded(std::fmod(wide, static_cast<double>(b)));
+        }
+        unknown(name);
+    }
+    if (name == "sin") {
+        return sine(a);
+    }
+    if (name == "cos") {
+        return cosine(a);
+    }
+    if (name == "tan") {
+        return tangent(a);
+    }
+    if (name == "asin") {
+        return rounded(std::asin(wide) * kDegreesPerRadian);
+    }
+    if (name == "acos") {
+        return rounded(std::acos(wide) * kDegreesPerRadian);
+    }
+    if (name == "atan") {
+        return rounded(std::atan(wide) * kDegreesPerRadian);
+    }
+    if (name == "sqrt") {
+        return std::sqrt(a);
+    }
+    if (name == "exp") {
+        return rounded(std::exp(wide));
+    }
+    if (name == "log") {
+        return rounded(std::log(wide));
+    }
+    if (name == "abs") {
+        return std::fabs(a);
+    }
+    if (name == "floor") {
+        return std::floor(a);
+    }
+    if (name == "ceil") {
+        return std::ceil(a);
+    }
+    if (name == "round") {
+        return std::round(a);
+    }
+    if (name == "sign") {
+        return sign_of(a);
+    }
+    unknown(name);
+}
+
+float evaluate(const Expr& expr, const Environment& environment) {
+    if (expr.kind == ExprKind::Number) {
+        return expr.number;
+    }
+    if (expr.kind == ExprKind::Name) {
+        if (const auto formal = environment.formals.find(expr.text);
+            formal != environment.formals.end()) {
+            return formal->second;
+        }
+        if (const auto constant = environment.constants->find(expr.text);
+            constant != environment.constants->end()) {
+            return constant->second;
+        }
+        unknown(expr.text);
+    }
+    if (expr.kind == ExprKind::Call && expr.text == "step") {
+        return environment.step;
+    }
+    if (expr.kind == ExprKind::Call && expr.text == "steps") {
+        return environment.steps;
+    }
+    // Every operand is evaluated, those of && and || too: a range in it takes its number.
+    std::vector<float> operands;
+    for (const Expr& part : expr.parts) {
+        operands.push_back(evaluate(part, environment));
+    }
+    if (expr.kind == ExprKind::Range) {
+        const float u = environment.draw();
+        return range_value(operands[0], operands[1], u);
+    }
+    if (expr.kind == ExprKind::Call) {
+        return apply_function(expr.text, operands);
+    }
+    return apply_operator(expr.text, operands);
+}
+
+} // namespace lsys::reference

@@ -1,0 +1,293 @@
+#include "tests/reference/features.h"
+
+#include <algorithm>
+#include <map>
+
+namespace lsys::reference {
+
+namespace {
+
+class Finder {
+public:
+    Finder(const Case& made, const Derivation& derivation) : made_(made), derivation_(derivation) {}
+
+    std::set<std::string> find() {
+        files();
+        words();
+        for (const Statement* statement : statements_in_order(made_.grammar)) {
+            look_at(*statement);
+        }
+        groups();
+        if (derivation_.error) {
+            static const std::vector<std::string> kErrors = {
+                "error: not finite", "error: bad range", "error: unmatched bracket"};
+            found_.insert(kErrors[static_cast<std::size_t>(derivation_.error->failure)]);
+        }
+        if (!made_.request.definitions.empty()) {
+            found_.insert("definition on the command line");
+        }
+        return found_;
+    }
+
+private:
+    void files() {
+        const std::vector<File>& files = made_.grammar.files;
+        if (files.size() > 1) {
+            found_.insert("include");
+        }
+        for (const File& file : files) {
+            if (file.letters) {
+                found_.insert(&file == &files[0] ? "letters" : "letters in an included file");
+            } else if (files[0].letters) {
+                found_.insert("words included by letters");
+            }
+        }
+    }
+
+    void words() {
+        const Word& last = derivation_.words.back();
+        for (const Module& module : last) {
+            for (const float value : module.values) {
+                if (value != static_cast<float>(static_cast<int>(std::clamp(value, -1e9F, 1e9F)))) {
+                    found_.insert("fractions in the word");
+                }
+            }
+        }
+        if (last.size() > 1000) {
+            found_.insert("more than 1,000 modules");
+        }
+        if (last.empty()) {
+            found_.insert("empty word");
+        }
+    }
+
+    void look_at(const Statement& statement) {
+        if (statement.kind == StatementKind::Set) {
+            found_.insert("set " + statement.name + " " + statement.text);
+        } else if (statement.kind == StatementKind::Define) {
+            expression(statement.expr, "define: ");
+        } else if (statement.kind == StatementKind::Param) {
+            expression(statement.expr, "param: ");
+        } else if (statement.kind == StatementKind::Axiom) {
+            for (const ModuleUse& use : statement.modules) {
+                for (const Expr& argument : use.arguments) {
+                    expression(argument, "axiom: ");
+                }
+            }
+        } else if (statement.kind == StatementKind::Production) {
+            production(statement.production);
+        }
+    }
+
+    void production(const Production& production) {
+        if (derivation_.applications.count(production.label) == 0) {
+            return;
+        }
+        const std::string mode = setting(made_.grammar, "rewriting").value_or("parallel");
+        if (production.left) {
+            found_.insert("left context");
+            found_.insert("context, " + mode);
+        }
+        if (production.right) {
+            found_.insert("right context");
+            brackets(*production.right);
+        }
+        if (production.left && production.right) {
+            found_.insert("both contexts");
+        }
+        if (production.predecessor.size() > 1) {
+            found_.insert("several predecessor modules, " + mode);
+        }
+        if (production.successor.empty()) {
+            found_.insert("empty successor");
+        }
+        if (production.probability) {
+            const std::string scope = setting(made_.grammar, "choice").value_or("module");
+            found_.insert("choice " + scope + ", " + mode);
+            found_.insert(production.condition ? "probability with condition"
+                                               : "probability without condition");
+        }
+        if (production.condition) {
+            expression(*production.condition, "condition: ");
+        }
+        arguments(production);
+        formals(production);
+    }
+
+    void brackets(const Pattern& pattern) {
+        for (std::size_t i = 0; i + 1 < pattern.size(); ++i) {
+            if (pattern[i].name == "[") {
+                found_.insert(pattern[i + 1].name == "]" ? "context []" : "context [ ]");
+            }
+        }
+    }
+
+    void arguments(const Production& production) {
+        ranges_ = 0;
+        for (const ModuleUse& use : production.successor) {
+            for (const Expr& argument : use.arguments) {
+                expression(argument, "successor: ");
+            }
+        }
+        if (ranges_ > 4) {
+            found_.insert("more than four ranges in a successor");
+        }
+        if (ranges_ > 0) {
+            found_.insert(production.probability ? "ranges after a choice" : "ranges, no choice");
+        }
+    }
+
+    void formals(const Production& production) {
+        for (const ModulePattern& module : production.predecessor) {
+            for (const std::string& formal : module.formals) {
+                if (derivation_.constants.count(formal) != 0) {
+                    found_.insert("formal hides a constant");
+                }
+            }
+        }
+    }
+
+    void expression(const Expr& expr, const std::string& place) {
+        if (expr.kind == ExprKind::Range) {
+            ++ranges_;
+            found_.insert(place + "range");
+        } else if (expr.kind == ExprKind::Call) {
+            found_.insert("function " + expr.text);
+        } else if (expr.kind == ExprKind::Unary || expr.kind == ExprKind::Binary) {
+            found_.insert((expr.kind == ExprKind::Unary ? "unary " : "operator ") + expr.text);
+        } else if (expr.kind == ExprKind::Number && expr.text.size() > 30) {
+            found_.insert("literal near the middle of two values");
+        }
+        for (const Expr& part : expr.parts) {
+            if (expr.kind == ExprKind::Range && part.kind == ExprKind::Range) {
+                found_.insert("range in a range");
+            }
+            expression(part, place);
+        }
+    }
+
+    // Choices between productions of which some have a condition, or among which one without `~`
+    // stands.
+    void groups() {
+        std::map<std::string, std::vector<const Production*>> groups;
+        for (const Statement* statement : statements_in_order(made_.grammar)) {
+            if (statement->kind == StatementKind::Production) {
+                groups[group_of(statement->production)].push_back(&statement->production);
+            }
+        }
+        for (const auto& [group, productions] : groups) {
+            std::size_t chosen = 0;
+            std::size_t plain = 0;
+            for (const Production* production : productions) {
+                const bool applied = derivation_.applications.count(production->label) != 0;
+                chosen += applied && production->probability ? 1U : 0U;
+                plain += applied && !production->probability ? 1U : 0U;
+            }
+            if (chosen > 1) {
+                found_.insert("several chosen in a group");
+            }
+            if (chosen > 0 && plain > 0) {
+                found_.insert("chosen and taken in a group");
+            }
+        }
+    }
+
+    const Case& made_;
+    const Derivation& derivation_;
+    std::set<std::string> found_;
+    std::size_t ranges_ = 0;
+};
+
+} // namespace
+
+std::set<std::string> features_of(const Case& made, const Derivation& derivation) {
+    return Finder(made, derivation).find();
+}
+
+const std::vector<std::string>& feature_names() {
+    static const std::vector<std::string> kNames = {"include",
+                                                    "letters",
+                                                    "letters in an included file",
+                                                    "words included by letters",
+                                                    "fractions in the word",
+                                                    "more than 1,000 modules",
+
+                                                    "definition on the command line",
+                                                    "set rewriting sequential",
+                                                    "set rewriting cyclic",
+                                                    "set choice generation",
+                                                    "set weights any",
+                                                    "define: range",
+                                                    "param: range",
+                                                    "axiom: range",
+                                                    "successor: range",
+                                                    "left context",
+                                                    "right context",
+                                                    "both contexts",
+                                                    "context, parallel",
+                                                    "context, sequential",
+                                                    "context, cyclic",
+                                                    "context []",
+                                                    "context [ ]",
+                                                    "several predecessor modules, sequential",
+                                                    "several predecessor modules, cyclic",
+                                                    "empty successor",
+                                                    "choice module, parallel",
+                                                    "choice module, sequential",
+                                                    "choice module, cyclic",
+                                                    "choice generation, parallel",
+                                                    "choice generation, sequential",
+                                                    "choice generation, cyclic",
+                                                    "probability with condition",
+                                                    "probability without condition",
+                                                    "more than four ranges in a successor",
+                                                    "ranges after a choice",
+                                                    "ranges, no choice",
+                                                    "formal hides a constant",
+                                                    "range in a range",
+                                                    "literal near the middle of two values",
+                                                    "several chosen in a group",
+                                                    "chosen and taken in a group",
+                                                    "error: not finite",
+                                                    "error: bad range",
+                                                    "error: unmatched bracket",
+                                                    "unary -",
+                                                    "unary !",
+                                                    "operator +",
+                                                    "operator -",
+                                                    "operator *",
+                                                    "operator /",
+                                                    "operator ^",
+                                                    "operator <",
+                                                    "operator <=",
+                                                    "operator >",
+                                                    "operator >=",
+                                                    "operator ==",
+                                                    "operator !=",
+                                                    "operator &&",
+                                                    "operator ||",
+                                                    "function sin",
+                                                    "function cos",
+                                                    "function tan",
+                                                    "function asin",
+                                                    "function acos",
+                                                    "function atan",
+                                                    "function atan2",
+                                                    "function sqrt",
+                                                    "function exp",
+                                                    "function log",
+                                                    "function pow",
+                                                    "function abs",
+                                                    "function floor",
+                                                    "function ceil",
+                                                    "function round",
+                                                    "function sign",
+                                                    "function min",
+                                                    "function max",
+                                                    "function mod",
+                                                    "function step",
+                                                    "function steps"};
+    return kNames;
+}
+
+} // namespace lsys::reference

@@ -1,0 +1,118 @@
+#include "tests/reference/generate.h"
+
+#include "tests/reference/features.h"
+#include "tests/reference/generate_expression.h"
+#include "tests/reference/generate_grammar.h"
+#include "tests/reference/random.h"
+
+#include <set>
+
+namespace lsys::reference {
+
+namespace {
+
+// Gives the number of generations to the command line if it has one, and to #n.
+void set_generations(Case& made, std::uint32_t generations, Random& random) {
+    const bool by_request = made.request.generations.has_value();
+    if (by_request) {
+        made.request.generations = generations;
+    }
+    for (File& file : made.grammar.files) {
+        for (Statement& statement : file.statements) {
+            if (statement.kind == StatementKind::Generations) {
+                const auto value = static_cast<float>(by_request ? random.below(9) : generations);
+                const std::size_t style = random.below(4);
+                statement.expr = style == 0   ? binary("+", number(value - 1), number(1))
+                                 : style == 1 ? binary("/", number(value * 2), number(2))
+                                              : number(value);
+                if (value == 0) {
+                    statement.expr = number(0);
+                }
+            }
+        }
+    }
+}
+
+struct Sized {
+    Case made;
+    double score = -1;
+};
+
+// How much of the grammar is exercised: a case with what is rare elsewhere is welcome.
+double score_of(const Case& made, const Derivation& derivation) {
+    static const std::set<std::string> kRare = {"context []",
+                                                "context [ ]",
+                                                "range in a range",
+                                                "more than four ranges in a successor",
+                                                "error: bad range",
+                                                "error: not finite",
+                                                "error: unmatched bracket",
+                                                "both contexts",
+                                                "chosen and taken in a group",
+                                                "choice generation, sequential",
+                                                "choice generation, cyclic",
+                                                "empty word"};
+    std::size_t productions = 0;
+    for (const Statement* statement : statements_in_order(made.grammar)) {
+        productions += statement->kind == StatementKind::Production ? 1U : 0U;
+    }
+    const auto applied = static_cast<double>(derivation.applications.size());
+    double score = productions == 0 ? 0.5 : applied / static_cast<double>(productions);
+    score += derivation.words.back().size() > 20 ? 0.2 : 0;
+    score += derivation.words.size() > 3 ? 0.2 : 0;
+    for (const std::string& feature : features_of(made, derivation)) {
+        score += kRare.count(feature) != 0 ? 0.25 : 0;
+    }
+    return score;
+}
+
+// Chooses how many generations to derive: the words stay within `cap` modules, and an error is met
+// only if `keep_error`.
+Sized size_up(Case made, std::size_t cap, std::uint32_t most, bool keep_error, Random random) {
+    std::uint32_t generations = most;
+    while (true) {
+        set_generations(made, generations, random);
+        Request limited = made.request;
+        limited.max_modules = cap;
+        const Derivation derivation = derive(made.grammar, limited);
+        if (derivation.words.empty()) {
+            return {};
+        }
+        const bool stopped = derivation.words.size() <= generations;
+        const bool is_kept = derivation.error && (keep_error || !stopped);
+        if (!stopped || is_kept) {
+            Sized sized{made, score_of(made, derivation)};
+            return sized;
+        }
+        if (generations == 0) {
+            return {};
+        }
+        generations = static_cast<std::uint32_t>(derivation.words.size()) - 1;
+    }
+}
+
+} // namespace
+
+Case generate(std::uint64_t seed) {
+    Random random(seed, 1);
+    static const std::vector<std::size_t> kCaps = {60, 150, 300, 300, 600, 600, 1000, 1000, 2500};
+    const std::size_t cap = random.percent(2) ? 20000 : random.pick(kCaps);
+    Sized best;
+    for (std::uint32_t attempt = 0; attempt < 16 || best.score < 0; ++attempt) {
+        Case made = make_case(seed, attempt);
+        const bool cyclic = setting(made.grammar, "rewriting").value_or("") == "cyclic";
+        const int longest = cyclic || cap > 5000 ? 24 : 9;
+        const auto most = static_cast<std::uint32_t>(random.between(2, longest));
+        Sized sized = size_up(made, cap, most, random.percent(45), Random(seed, 3 + attempt));
+        if (sized.score > best.score) {
+            best = sized;
+        }
+        if (best.score > 1.5) {
+            break;
+        }
+    }
+    best.made.layout_seed = seed * 2 + 1;
+    return best.made;
+}
+
+} // namespace lsys::reference

@@ -1,0 +1,27 @@
+// Random grammars with all features of the language, one for every test seed. They are legal, their
+// words stay small, and most of their productions are applied. A small share meets a run-time
+// error.
+
+#pragma once
+
+#include "tests/reference/derive.h"
+#include "tests/reference/grammar.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lsys::reference {
+
+// A grammar and the command line to derive it with.
+struct Case {
+    Grammar grammar;
+    Request request; // max_modules has no limit
+    std::uint64_t layout_seed = 0;
+};
+
+Case generate(std::uint64_t seed);
+
+} // namespace lsys::reference

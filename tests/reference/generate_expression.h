@@ -1,0 +1,64 @@
+// Random expressions of section 4 of the language reference that are legal: what is constant in
+// them is finite, no divisor is a constant zero, a constant range has its bounds in order.
+
+#pragma once
+
+#include "tests/reference/evaluate.h"
+#include "tests/reference/grammar.h"
+#include "tests/reference/random.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace lsys::reference {
+
+Expr number(float value);
+Expr name(const std::string& text);
+Expr unary(const std::string& text, Expr operand);
+Expr binary(const std::string& text, Expr left, Expr right);
+Expr call(const std::string& text, std::vector<Expr> arguments);
+Expr range(Expr low, Expr high);
+
+// What an expression at some place may use.
+struct Scope {
+    std::vector<std::string> formals;
+    bool in_production = false;  // step() and steps() are allowed
+    std::size_t ranges = 0;      // how often, in percent of the arguments
+    bool drawn_constants = true; // constants whose value a range gave
+};
+
+// The constants defined so far.
+struct Constants {
+    std::map<std::string, float> values; // the drawn ones too, with any value
+    std::set<std::string> drawn;
+};
+
+class ExpressionMaker {
+public:
+    ExpressionMaker(Random& random, const Constants& constants)
+        : random_(random), constants_(constants) {}
+
+    Expr argument(const Scope& scope);  // of a module
+    Expr condition(const Scope& scope); // often about the formals
+    Expr any(const Scope& scope, int depth);
+    Expr literal();
+
+    // Whether the value is the same for every use, without any draw.
+    [[nodiscard]] bool is_constant(const Expr& expr, const Scope& scope) const;
+    [[nodiscard]] float constant_value(const Expr& expr) const;
+
+private:
+    Expr leaf(const Scope& scope);
+    Expr trap();
+    Expr range_of(const Scope& scope, int depth);
+    Expr comparison(const Scope& scope);
+    // `expr` if it is legal, given that its parts are, else a literal.
+    Expr legal(const Expr& expr, const Scope& scope);
+
+    Random& random_;
+    const Constants& constants_;
+};
+
+} // namespace lsys::reference

@@ -1,0 +1,471 @@
+#include "tests/reference/generate_grammar.h"
+
+#include "tests/reference/generate_expression.h"
+#include "tests/reference/generate_productions.h"
+#include "tests/reference/random.h"
+#include "tests/reference/spelling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace lsys::reference {
+
+namespace {
+
+std::string to_text(std::uint64_t value) {
+    return std::to_string(value);
+}
+
+// Makes one grammar; the same seed and attempt give the same.
+class Maker {
+public:
+    Maker(std::uint64_t seed, std::uint32_t attempt)
+        : random_(seed, 0x100 + attempt), productions_(random_, plan_, constants_) {}
+
+    Case make() {
+        make_files();
+        plan_ = make_plan(some_file(true), some_file(false), random_);
+        place(choose_kinds());
+        fill_file(0);
+        finish();
+        return case_;
+    }
+
+private:
+    // One file, or several that include each other as a tree.
+    void make_files() {
+        const int count = random_.percent(60) ? 1 : random_.between(2, 4);
+        static const std::vector<std::string> kFolders = {"", "", "parts/", "parts/deep/", "more/"};
+        const bool letters = random_.percent(35);
+        for (int i = 0; i < count; ++i) {
+            File file;
+            file.path = i == 0 ? (random_.percent(85) ? "main.lsys" : "plants/main.lsys")
+                               : random_.pick(kFolders) + "part" + std::to_string(i) + ".lsys";
+            file.letters = letters && random_.percent(count == 1 ? 100 : 60);
+            case_.grammar.files.push_back(file);
+            parent_.push_back(i == 0 ? 0 : random_.below(static_cast<std::size_t>(i)));
+        }
+    }
+
+    bool some_file(bool letters) {
+        return std::any_of(case_.grammar.files.begin(), case_.grammar.files.end(),
+                           [&](const File& file) { return file.letters == letters; });
+    }
+
+    // What the statements are, in the order of the whole text.
+    std::vector<StatementKind> choose_kinds() {
+        std::vector<std::pair<int, StatementKind>> keys;
+        const auto add = [&](StatementKind kind, int from, int to, int low, int high) {
+            for (int count = random_.between(from, to); count > 0; --count) {
+                keys.emplace_back(random_.between(low, high), kind);
+            }
+        };
+        add(StatementKind::Define, 0, 3, 0, 70);
+        add(StatementKind::Param, 0, 1, 0, 70);
+        add(StatementKind::Module, 0, 2, 0, 100);
+        add(StatementKind::Object, 0, 1, 0, 100);
+        add(StatementKind::Axiom, 1, 1, 0, 100);
+        add(StatementKind::Generations, random_.percent(65) ? 1 : 0, 1, 0, 100);
+        add(StatementKind::Production, random_.percent(98) ? 2 : 0, 6, 40, 100);
+        std::stable_sort(keys.begin(), keys.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::vector<StatementKind> kinds;
+        bool generations = false;
+        for (const auto& [key, kind] : keys) {
+            if (kind != StatementKind::Generations || !generations) {
+                kinds.push_back(kind);
+            }
+            generations = generations || kind == StatementKind::Generations;
+        }
+        has_generations_ = generations;
+        return kinds;
+    }
+
+    // Spreads the statements, in order, over the files and puts the #include statements between
+    // them.
+    void place(const std::vector<StatementKind>& kinds) {
+        std::vector<File>& files = case_.grammar.files;
+        std::vector<std::size_t> order; // the files by entering them and coming back to them
+        walk(0, order);
+        std::vector<std::size_t> cuts; // how many statements stand before each next visit
+        for (std::size_t visit = 1; visit < order.size(); ++visit) {
+            cuts.push_back(random_.below(kinds.size() + 1));
+        }
+        std::sort(cuts.begin(), cuts.end());
+        cuts.push_back(kinds.size());
+        std::size_t next = 0;
+        for (std::size_t visit = 0; visit < order.size(); ++visit) {
+            File& file = files[order[visit]];
+            for (; next < cuts[visit]; ++next) {
+                Statement statement;
+                statement.kind = kinds[next];
+                file.statements.push_back(statement);
+            }
+            // The first time that a file follows, it is included here.
+            if (visit + 1 < order.size() && order[visit + 1] > order[visit]) {
+                Statement include;
+                include.kind = StatementKind::IncludeFile;
+                include.file = order[visit + 1];
+                file.statements.push_back(include);
+            }
+        }
+    }
+
+    void walk(std::size_t file, std::vector<std::size_t>& order) {
+        order.push_back(file);
+        for (std::size_t child = 1; child < parent_.size(); ++child) {
+            if (parent_[child] == file) {
+                walk(child, order);
+                order.push_back(file);
+            }
+        }
+    }
+
+    // In the order in which statements take effect, so that a constant precedes its use.
+    void fill_file(std::size_t index) {
+        for (Statement& statement : case_.grammar.files[index].statements) {
+            if (statement.kind == StatementKind::IncludeFile) {
+                fill_file(statement.file);
+            } else {
+                fill(statement, case_.grammar.files[index].letters);
+            }
+        }
+    }
+
+    std::string new_constant() {
+        static const std::vector<std::string> kNames = {
+            "K", "L", "RATE", "x", "y", "sin", "step", "A", "e", "w", "d0", "min", "angle", "_k"};
+        std::string name;
+        do {
+            name = random_.pick(kNames);
+            name += random_.percent(15) ? to_text(random_.below(20)) : "";
+        } while (constants_.values.count(name) != 0);
+        return name;
+    }
+
+    std::string new_label() {
+        static const std::vector<std::string> kNames = {
+            "p",   "rule",  "grow",   "A", "x",      "define",  "n",
+            "set", "param", "module", "K", "object", "include", "_"};
+        std::string label;
+        do {
+            label = random_.pick(kNames);
+            label += random_.percent(60) ? to_text(random_.below(40)) : "";
+        } while (!labels_.insert(label).second);
+        return label;
+    }
+
+    void fill(Statement& statement, bool letters) {
+        ExpressionMaker expressions(random_, constants_);
+        const Scope constant_scope{{}, false, random_.percent(30) ? 15U : 0U, true};
+        switch (statement.kind) {
+        case StatementKind::Define:
+            statement.name = new_constant();
+            statement.expr =
+                random_.percent(50) ? expressions.literal() : expressions.any(constant_scope, 3);
+            define(statement);
+            return;
+        case StatementKind::Param:
+            fill_param(statement, expressions);
+            return;
+        case StatementKind::Module: {
+            const Species& species = fitting(letters);
+            statement.patterns = {{species.name, {}}};
+            for (std::size_t i = 0; i < species.count; ++i) {
+                statement.patterns[0].formals.push_back("p" + to_text(i));
+            }
+            return;
+        }
+        case StatementKind::Object: {
+            static const std::vector<std::string> kObjects = {"BRANCH", "SPHERE", "HETEROCYST",
+                                                              "LEAF",   "FLOWER", "CYLINDER",
+                                                              "CONE",   "CUBE",   "DISK"};
+            do {
+                statement.name = fitting(letters).name;
+            } while (statement.name == "\"" || statement.name == ".");
+            statement.text = random_.pick(kObjects);
+            return;
+        }
+        case StatementKind::Axiom: {
+            do {
+                statement.modules =
+                    productions_.modules(random_.between(1, 7), constant_scope, letters);
+            } while (statement.modules.empty());
+            return;
+        }
+        case StatementKind::Production:
+            bundles_[&statement] = productions_.bundle(letters);
+            return;
+        default:
+            return;
+        }
+    }
+
+    const Species& fitting(bool letters) {
+        while (true) {
+            const Species& species = random_.pick(plan_.species);
+            if (fits(species.name, letters)) {
+                return species;
+            }
+        }
+    }
+
+    // The value is used by later statements, so -D is decided here.
+    void define(const Statement& statement) {
+        ExpressionMaker expressions(random_, constants_);
+        const Scope scope;
+        if (random_.percent(15)) {
+            float value = expressions.literal().number;
+            if (statement.kind == StatementKind::Param) {
+                value = expressions.constant_value(random_.percent(50) ? statement.low
+                                                                       : statement.high);
+            } else if (random_.percent(30)) {
+                value = -value;
+            }
+            case_.request.definitions.emplace_back(statement.name, value);
+            constants_.values[statement.name] = value;
+        } else if (expressions.is_constant(statement.expr, scope)) {
+            constants_.values[statement.name] = expressions.constant_value(statement.expr);
+        } else {
+            constants_.values[statement.name] = 0;
+            constants_.drawn.insert(statement.name);
+        }
+    }
+
+    void fill_param(Statement& statement, ExpressionMaker& expressions) {
+        statement.name = new_constant();
+        Scope scope;
+        scope.drawn_constants = false;
+        if (random_.percent(40)) { // a range and bounds around it
+            const float low = static_cast<float>(random_.between(-4, 4));
+            const float high = low + static_cast<float>(random_.between(0, 6)) / 2;
+            statement.expr = range(number(low), number(high));
+            statement.low = number(random_.percent(50) ? low : low - 1.5F);
+            statement.high = number(random_.percent(50) ? high : high + 1);
+        } else {
+            statement.expr =
+                random_.percent(50) ? expressions.literal() : expressions.any(scope, 2);
+            const float value = expressions.constant_value(statement.expr);
+            const bool small = std::fabs(value) < 1e6F;
+            statement.low = number(random_.percent(50) || !small ? value : value - 1);
+            statement.high = number(random_.percent(50) || !small ? value : value + 2);
+            if (random_.percent(20) && small) {
+                statement.high = binary("+", statement.high, number(2));
+            }
+        }
+        define(statement);
+    }
+
+    void add_statement(Statement statement, std::size_t file) {
+        std::vector<Statement>& statements = case_.grammar.files[file].statements;
+        const auto at = static_cast<std::ptrdiff_t>(random_.below(statements.size() + 1));
+        statements.insert(statements.begin() + at, std::move(statement));
+    }
+
+    void add_setting(const std::string& key, const std::string& value, std::size_t file) {
+        Statement statement;
+        statement.kind = StatementKind::Set;
+        statement.name = key;
+        statement.text = value;
+        add_statement(statement, file);
+    }
+
+    // Replaces the places of bundles by their productions, repairs their probabilities, adds
+    // settings and the declarations that keep names from being read split.
+    void finish() {
+        expand_bundles();
+        repair_probabilities();
+        add_ignored();
+        add_settings();
+        declare_ambiguous_names();
+    }
+
+    void add_ignored() {
+        Statement statement;
+        statement.kind = StatementKind::Ignore;
+        for (const std::string& name : plan_.ignored) {
+            statement.names.push_back(name);
+            if (random_.percent(50)) {
+                add_statement(statement, file_for(statement.names));
+                statement.names.clear();
+            }
+        }
+        if (!statement.names.empty()) {
+            add_statement(statement, file_for(statement.names));
+        }
+    }
+
+    // Some file in which all of these names can be written.
+    std::size_t file_for(const std::vector<std::string>& names) {
+        while (true) {
+            const std::size_t file = any_file();
+            const bool letters = case_.grammar.files[file].letters;
+            if (std::all_of(names.begin(), names.end(),
+                            [&](const std::string& name) { return fits(name, letters); })) {
+                return file;
+            }
+        }
+    }
+
+    void expand_bundles() {
+        for (File& file : case_.grammar.files) {
+            std::vector<Statement> statements;
+            for (Statement& statement : file.statements) {
+                if (statement.kind != StatementKind::Production) {
+                    statements.push_back(statement);
+                    continue;
+                }
+                for (const Production& production : bundles_[&statement]) {
+                    Statement one;
+                    one.kind = StatementKind::Production;
+                    one.production = production;
+                    one.production.label = new_label();
+                    statements.push_back(one);
+                }
+            }
+            file.statements = statements;
+            put_contexts_first(file);
+            mix_bundles(file);
+        }
+    }
+
+    // A production without contexts would often leave nothing to those with contexts after it.
+    void put_contexts_first(File& file) {
+        if (random_.percent(25)) {
+            return;
+        }
+        const auto is_production = [](const Statement& statement) {
+            return statement.kind == StatementKind::Production;
+        };
+        auto begin = file.statements.begin();
+        while (begin != file.statements.end()) { // no constant may come after its use
+            begin = std::find_if(begin, file.statements.end(), is_production);
+            const auto end = std::find_if_not(begin, file.statements.end(), is_production);
+            std::stable_partition(begin, end, [](const Statement& statement) {
+                return statement.production.left || statement.production.right;
+            });
+            begin = end;
+        }
+    }
+
+    // Exchanges some neighbouring productions, so that groups and rules are interleaved.
+    void mix_bundles(File& file) {
+        if (!random_.percent(40)) {
+            return;
+        }
+        for (std::size_t i = 1; i < file.statements.size(); ++i) {
+            Statement& first = file.statements[i - 1];
+            Statement& second = file.statements[i];
+            if (first.kind == StatementKind::Production &&
+                second.kind == StatementKind::Production && random_.percent(40)) {
+                std::swap(first, second);
+            }
+        }
+    }
+
+    // "If no production of such a group has a condition, its p must sum to 1 within 0.011".
+    void repair_probabilities() {
+        if (plan_.weights_any) {
+            return;
+        }
+        std::map<std::string, std::vector<Production*>> groups;
+        for (File& file : case_.grammar.files) {
+            for (Statement& statement : file.statements) {
+                if (statement.production.probability) {
+                    groups[group_of(statement.production)].push_back(&statement.production);
+                }
+            }
+        }
+        Environment environment;
+        environment.constants = &constants_.values;
+        for (auto& [group, productions] : groups) {
+            float sum = 0;
+            bool condition = false;
+            for (const Production* production : productions) {
+                sum += evaluate(*production->probability, environment);
+                condition = condition || production->condition.has_value();
+            }
+            if (!condition && std::fabs(sum - 1) > 0.0105F) {
+                productions[random_.below(productions.size())]->condition =
+                    binary(random_.percent(70) ? ">=" : "<", call("step", {}), number(1));
+            }
+        }
+    }
+
+    std::size_t any_file() { return random_.below(case_.grammar.files.size()); }
+
+    void add_settings() {
+        if (plan_.rewriting != "parallel" || random_.percent(10)) {
+            add_setting("rewriting", plan_.rewriting, any_file());
+        }
+        if (plan_.choice_generation || random_.percent(10)) {
+            add_setting("choice", plan_.choice_generation ? "generation" : "module", any_file());
+        }
+        if (plan_.weights_any || random_.percent(10)) {
+            add_setting("weights", plan_.weights_any ? "any" : "one", any_file());
+        }
+        for (std::size_t i = 0; i < case_.grammar.files.size(); ++i) {
+            if (case_.grammar.files[i].letters || random_.percent(5)) {
+                add_setting("names", case_.grammar.files[i].letters ? "letters" : "words", i);
+            }
+        }
+        std::uint64_t seed = random_.below(1000);
+        if (random_.percent(40)) {
+            seed = (seed << 54U) + (std::uint64_t{random_.word()} << 16U);
+        }
+        if (random_.percent(40)) {
+            add_setting("seed", to_text(seed), any_file());
+        }
+        if (random_.percent(70)) {
+            case_.request.seed = random_.percent(90) ? seed + 1 : ~std::uint64_t{0};
+        }
+        if (random_.percent(15)) {
+            static const std::vector<std::vector<std::string>> kOthers = {
+                {"angle", "22.5"},      {"step", "2"},      {"width", "0.05"},
+                {"turtle", "thesis"},   {"turtle", "lsys"}, {"tropism", "0 -1 0 .2"},
+                {"width_scale", "0.8"}, {"sides", "6"},     {"spring", "1e3"},
+            };
+            const std::vector<std::string>& other = random_.pick(kOthers);
+            add_setting(other[0], other[1], any_file());
+        }
+        // `generate` gives the number of generations its value.
+        if (!has_generations_ || random_.percent(20)) {
+            case_.request.generations = 0;
+        }
+    }
+
+    void declare_ambiguous_names() {
+        while (true) {
+            Random random(0, 0);
+            const std::set<std::string> names =
+                JoinedNames(case_.grammar, random).ambiguous_names();
+            if (names.empty()) {
+                return;
+            }
+            Statement statement;
+            statement.kind = StatementKind::Module;
+            statement.patterns = {{*names.begin(), {}}};
+            add_statement(statement, file_for({*names.begin()}));
+        }
+    }
+
+    Random random_;
+    Case case_;
+    Plan plan_;
+    Constants constants_;
+    ProductionMaker productions_;
+    std::vector<std::size_t> parent_;
+    std::set<std::string> labels_;
+    std::map<const Statement*, std::vector<Production>> bundles_;
+    bool has_generations_ = false;
+};
+
+} // namespace
+
+Case make_case(std::uint64_t seed, std::uint32_t attempt) {
+    return Maker(seed, attempt).make();
+}
+
+} // namespace lsys::reference

@@ -1,0 +1,15 @@
+// The statements of a random grammar: files that include each other, settings, constants, axiom and
+// productions. How many generations it is derived for is left open (generate.h).
+
+#pragma once
+
+#include "tests/reference/generate.h"
+
+#include <cstdint>
+
+namespace lsys::reference {
+
+// The same seed and attempt give the same case.
+Case make_case(std::uint64_t seed, std::uint32_t attempt);
+
+} // namespace lsys::reference

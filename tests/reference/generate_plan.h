@@ -1,0 +1,41 @@
+// How a random grammar is made, decided once: which modules it has, which features, and how often.
+
+#pragma once
+
+#include "tests/reference/random.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace lsys::reference {
+
+struct Species {
+    std::string name;
+    std::size_t count = 0; // of parameters
+};
+
+struct Plan {
+    std::string rewriting;
+    bool choice_generation = false;
+    bool weights_any = false;
+    bool brackets = false;
+    bool unbalanced = false; // some successors do not balance their brackets
+    bool polygons = false;
+    std::size_t context_percent = 0;
+    std::size_t condition_percent = 0;
+    std::size_t stochastic_percent = 0;
+    std::size_t range_percent = 0; // of the arguments of successors
+    std::vector<Species> species;  // all
+    std::vector<Species> active;   // to be rewritten
+    std::vector<std::string> ignored;
+};
+
+// Whether modules of that name can stand in a file: one of letters has no longer identifiers.
+bool fits(const std::string& name, bool letters);
+
+// `letters_files`, `words_files`: whether the grammar has files of that kind. Some active species
+// fits into every file.
+Plan make_plan(bool letters_files, bool words_files, Random& random);
+
+} // namespace lsys::reference

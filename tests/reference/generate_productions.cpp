@@ -1,0 +1,334 @@
+#include "tests/reference/generate_productions.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <optional>
+
+namespace lsys::reference {
+
+namespace {
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool can_be_rewritten(const std::string& name) {
+    return std::string("[]{}").find(name) == std::string::npos;
+}
+
+// Where `length` modules stand side by side in `names`.
+std::optional<std::size_t> place_in(const Skeleton& names, std::size_t length, Random& random) {
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i + length <= names.size(); ++i) {
+        const auto first = names.begin() + static_cast<std::ptrdiff_t>(i);
+        if (std::all_of(first, first + static_cast<std::ptrdiff_t>(length),
+                        [](const Species& one) { return can_be_rewritten(one.name); })) {
+            places.push_back(i);
+            if (i + length < names.size() && names[i + length].name == "[") {
+                places.insert(places.end(), 3, i); // a good place for a context with branches
+            }
+        }
+    }
+    if (places.empty()) {
+        return std::nullopt;
+    }
+    return random.pick(places);
+}
+
+ModulePattern pattern_of(const Species& species) {
+    return {species.name, std::vector<std::string>(species.count)};
+}
+
+// The last modules of the path that leads to `place`.
+Pattern cut_left(const Skeleton& names,
+                 std::size_t place,
+                 int length,
+                 const std::vector<std::string>& ignored) {
+    Pattern pattern;
+    int finished = 0; // branches that the path does not enter
+    for (std::size_t i = place; i-- > 0 && static_cast<int>(pattern.size()) < length;) {
+        if (names[i].name == "]") {
+            ++finished;
+        } else if (names[i].name == "[") {
+            finished -= finished > 0 ? 1 : 0;
+        } else if (finished == 0 && !contains(ignored, names[i].name)) {
+            pattern.insert(pattern.begin(), pattern_of(names[i]));
+        }
+    }
+    return pattern;
+}
+
+// Some modules of the axis that goes on at `place`, with some of its branches.
+Pattern cut_right(const Skeleton& names,
+                  std::size_t place,
+                  int length,
+                  const std::vector<std::string>& ignored,
+                  Random& random) {
+    Pattern pattern;
+    bool skipped = false; // a branch, so that the next one is not the next thing
+    std::size_t i = place;
+    for (int taken = 0; taken < length && i < names.size() && names[i].name != "]"; ++i) {
+        if (names[i].name == "[") {
+            if (!skipped && random.percent(70)) {
+                const int inner_length = random.between(0, 2);
+                pattern.push_back({"[", {}});
+                const Pattern inner = cut_right(names, i + 1, inner_length, ignored, random);
+                pattern.insert(pattern.end(), inner.begin(), inner.end());
+                pattern.push_back({"]", {}});
+                ++taken;
+            } else {
+                skipped = true;
+            }
+            for (int depth = 0; i < names.size(); ++i) {
+                depth += names[i].name == "[" ? 1 : names[i].name == "]" ? -1 : 0;
+                if (depth == 0) {
+                    break;
+                }
+            }
+        } else if (!contains(ignored, names[i].name)) {
+            pattern.push_back(pattern_of(names[i]));
+            skipped = false;
+            ++taken;
+        }
+    }
+    return pattern;
+}
+
+} // namespace
+
+const Species& ProductionMaker::any_species(bool letters) {
+    while (true) {
+        const Species& species = random_.pick(random_.percent(75) ? plan_.active : plan_.species);
+        if (fits(species.name, letters)) {
+            return species;
+        }
+    }
+}
+
+const Species& ProductionMaker::active_species(bool letters) {
+    while (true) {
+        const std::size_t turn = turn_++ % plan_.active.size();
+        const Species& species = random_.percent(70)   ? plan_.active[turn]
+                                 : random_.percent(75) ? random_.pick(plan_.active)
+                                                       : random_.pick(plan_.species);
+        if (fits(species.name, letters)) {
+            return species;
+        }
+    }
+}
+
+Pattern ProductionMaker::context(int length, bool brackets, int depth, bool letters) {
+    Pattern pattern;
+    for (int i = 0; i < length; ++i) {
+        if (brackets && random_.percent(35)) {
+            pattern.push_back({"[", {}});
+            if (depth < 2 && random_.percent(80)) {
+                for (ModulePattern& inner :
+                     context(random_.between(1, 2), true, depth + 1, letters)) {
+                    pattern.push_back(inner);
+                }
+            }
+            pattern.push_back({"]", {}});
+        } else if (brackets && plan_.polygons && random_.percent(5)) {
+            pattern.push_back({random_.percent(50) ? "{" : "}", {}});
+        } else {
+            const Species& species = any_species(letters);
+            pattern.push_back({species.name, std::vector<std::string>(species.count)});
+        }
+    }
+    return pattern;
+}
+
+void ProductionMaker::name_formals(Pattern& pattern, std::vector<std::string>& used) {
+    // Functions, settings and keywords are names like others here.
+    static const std::vector<std::string> kUsual = {"x", "y", "z", "a", "b", "s", "t",
+                                                    "u", "v", "x", "y", "z", "l", "r"};
+    static const std::vector<std::string> kOdd = {
+        "w",  "n",     "sin",    "step", "min", "A",    "_",         "x1",   "e",
+        "e1", "angle", "define", "F",    "inf", "max_", "long_name", "steps"};
+    for (ModulePattern& module : pattern) {
+        for (std::string& formal : module.formals) {
+            do {
+                if (!constants_.values.empty() && random_.percent(8)) {
+                    const std::size_t k = random_.below(constants_.values.size());
+                    auto constant = constants_.values.begin();
+                    std::advance(constant, static_cast<std::ptrdiff_t>(k));
+                    formal = constant->first;
+                } else {
+                    formal = random_.pick(random_.percent(80) ? kUsual : kOdd);
+                    formal += random_.percent(10) ? std::to_string(random_.between(1, 9)) : "";
+                }
+            } while (std::find(used.begin(), used.end(), formal) != used.end());
+            used.push_back(formal);
+        }
+    }
+}
+
+Skeleton ProductionMaker::skeleton(int length, bool letters, bool polygon) {
+    Skeleton list;
+    const auto nest = [&](const char* open, const char* close, bool in_polygon) {
+        list.push_back({open, 0});
+        const Skeleton inner = skeleton(random_.between(0, 3), letters, in_polygon);
+        list.insert(list.end(), inner.begin(), inner.end());
+        list.push_back({close, 0});
+    };
+    for (int i = 0; i < length; ++i) {
+        if (plan_.brackets && random_.percent(22)) {
+            nest("[", "]", polygon);
+        } else if (plan_.polygons && !polygon && random_.percent(12)) {
+            nest("{", "}", true);
+        } else {
+            list.push_back(any_species(letters));
+        }
+    }
+    return list;
+}
+
+const Skeleton& ProductionMaker::common_skeleton(bool letters) {
+    std::vector<Skeleton>& all = letters ? skeletons_of_letters_ : skeletons_;
+    while (all.size() < 3) {
+        all.push_back(skeleton(random_.between(3, 7), letters, false));
+    }
+    return random_.pick(all);
+}
+
+std::vector<ModuleUse> ProductionMaker::modules(int length, const Scope& scope, bool letters) {
+    const bool common = length > 2 && random_.percent(60);
+    const Skeleton names = common ? common_skeleton(letters) : skeleton(length, letters, false);
+    std::vector<ModuleUse> list;
+    for (const Species& species : names) {
+        ModuleUse use{species.name, {}};
+        for (std::size_t k = 0; k < species.count; ++k) {
+            use.arguments.push_back(expressions_.argument(scope));
+        }
+        list.push_back(use);
+    }
+    if (plan_.unbalanced && random_.percent(30)) {
+        const auto at = static_cast<std::ptrdiff_t>(random_.below(list.size() + 1));
+        list.insert(list.begin() + at, {random_.percent(60) ? "[" : "]", {}});
+    }
+    return list;
+}
+
+// `value` itself, a sum that gives nearly it, or a constant that has it.
+Expr ProductionMaker::probability(float value, const std::vector<std::string>& formals) {
+    for (const auto& [constant, known] : constants_.values) {
+        if (known == value && !contains(formals, constant) &&
+            constants_.drawn.count(constant) == 0 && random_.percent(50)) {
+            return name(constant);
+        }
+    }
+    switch (random_.below(8)) {
+    case 0:
+        return binary("-", number(1), number(1 - value));
+    case 1:
+        return binary("/", number(value), number(1));
+    case 2:
+        return binary("*", number(2), number(value / 2));
+    default:
+        return number(value);
+    }
+}
+
+// Probabilities that sum to 1, nearly.
+std::vector<float> ProductionMaker::shares(int count) {
+    static const std::vector<std::vector<std::vector<float>>> kShares = {
+        {{1}, {0.995F}},
+        {{0.5F, 0.5F},
+         {0.25F, 0.75F},
+         {0.1F, 0.9F},
+         {0.999F, 0.001F},
+         {0.34F, 0.66F},
+         {0.3F, 0.7F}},
+        {{0.33F, 0.33F, 0.34F}, {0.33F, 0.33F, 0.33F}, {0.2F, 0.3F, 0.5F}, {0.1F, 0.1F, 0.8F}},
+        {{0.25F, 0.25F, 0.25F, 0.25F}, {0.1F, 0.2F, 0.3F, 0.4F}, {0.7F, 0.1F, 0.15F, 0.06F}},
+    };
+    std::vector<float> values = random_.pick(kShares[static_cast<std::size_t>(count - 1)]);
+    random_.shuffle(values);
+    if (plan_.weights_any) {
+        static const std::vector<float> kWeights = {1, 2, 3, 0.5F, 10, 0.01F, 7.25F, 100};
+        for (float& value : values) {
+            value = random_.percent(60) ? random_.pick(kWeights) : value;
+        }
+    }
+    return values;
+}
+
+// Predecessor and contexts, cut out of a common skeleton or of any species.
+Production ProductionMaker::shape(bool letters) {
+    Production shape;
+    const bool long_ones = plan_.rewriting != "parallel";
+    const std::size_t length = long_ones && random_.percent(35) ? 2 + random_.below(2) : 1;
+    const bool in_context = random_.percent(plan_.context_percent);
+    const std::size_t sides = random_.below(10);
+    const int size = random_.percent(60) ? 1 : random_.between(2, 3);
+    const Skeleton& names = common_skeleton(letters);
+    const std::optional<std::size_t> place = place_in(names, length, random_);
+    const bool cut = place && random_.percent(in_context || length > 1 ? 85 : 25);
+    for (std::size_t i = 0; i < length; ++i) {
+        const Species& species = cut ? names[*place + i] : active_species(letters);
+        shape.predecessor.push_back({species.name, std::vector<std::string>(species.count)});
+    }
+    if (in_context && sides < 6) {
+        shape.left = cut ? cut_left(names, *place, size, plan_.ignored) : Pattern{};
+        if (shape.left->empty()) {
+            shape.left = context(size, false, 0, letters);
+        }
+    }
+    if (in_context && sides > 3) {
+        const std::size_t end = cut ? *place + length : 0;
+        shape.right = cut ? cut_right(names, end, size, plan_.ignored, random_) : Pattern{};
+        if (shape.right->empty()) {
+            shape.right = context(size, plan_.brackets, 0, letters);
+        }
+    }
+    return shape;
+}
+
+std::vector<Production> ProductionMaker::bundle(bool letters) {
+    const Production shape = this->shape(letters);
+    const int count = random_.percent(45) ? 1 : random_.between(2, 4);
+    const bool stochastic = random_.percent(plan_.stochastic_percent);
+    const bool conditional = random_.percent(plan_.condition_percent);
+    const std::vector<float> parts = shares(count);
+    std::vector<Production> bundle;
+    bool some_condition = false;
+    for (int i = 0; i < count; ++i) {
+        Production production = shape;
+        std::vector<std::string> formals;
+        for (Pattern* pattern :
+             {&production.predecessor, production.left ? &*production.left : nullptr,
+              production.right ? &*production.right : nullptr}) {
+            if (pattern != nullptr) {
+                name_formals(*pattern, formals);
+            }
+        }
+        Scope scope{formals, true, 0, true};
+        // Without probabilities, the first without a condition ends the bundle.
+        const bool last = i + 1 == count;
+        if ((conditional && random_.percent(75)) || (!stochastic && !last)) {
+            production.condition = expressions_.condition(scope);
+            some_condition = true;
+        }
+        if (stochastic) {
+            production.probability = probability(parts[static_cast<std::size_t>(i)], formals);
+        }
+        scope.ranges = plan_.range_percent;
+        static const std::vector<int> kLengths = {0, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 5, 8};
+        production.successor = modules(random_.pick(kLengths), scope, letters);
+        bundle.push_back(production);
+    }
+    if (some_condition && stochastic && random_.percent(25)) {
+        // Any probabilities will do, and a production without one may stand among them.
+        for (Production& production : bundle) {
+            production.probability = number(random_.percent(50) ? 0.5F : 0.125F);
+        }
+        if (random_.percent(50)) {
+            bundle[random_.below(bundle.size())].probability.reset();
+        }
+    }
+    return bundle;
+}
+
+} // namespace lsys::reference

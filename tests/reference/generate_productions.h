@@ -1,0 +1,51 @@
+// Random productions: bundles of them with one predecessor and one pair of contexts, whose
+// conditions and probabilities play together, and the modules of successors and of the axiom.
+
+#pragma once
+
+#include "tests/reference/generate_expression.h"
+#include "tests/reference/generate_plan.h"
+#include "tests/reference/grammar.h"
+#include "tests/reference/random.h"
+
+#include <string>
+#include <vector>
+
+namespace lsys::reference {
+
+// The names of a successor or axiom without arguments, brackets among them.
+using Skeleton = std::vector<Species>;
+
+class ProductionMaker {
+public:
+    ProductionMaker(Random& random, const Plan& plan, const Constants& constants)
+        : random_(random), plan_(plan), expressions_(random, constants), constants_(constants) {}
+
+    // `letters`: for a file with `#set names letters`. Labels are left empty.
+    std::vector<Production> bundle(bool letters);
+
+    std::vector<ModuleUse> modules(int length, const Scope& scope, bool letters);
+
+private:
+    const Species& any_species(bool letters);
+    const Species& active_species(bool letters);
+    Skeleton skeleton(int length, bool letters, bool polygon);
+    const Skeleton& common_skeleton(bool letters);
+    Production shape(bool letters);
+    Pattern context(int length, bool brackets, int depth, bool letters);
+    // Gives the modules of `pattern` names for their parameters, each only once in `used`.
+    void name_formals(Pattern& pattern, std::vector<std::string>& used);
+    Expr probability(float value, const std::vector<std::string>& formals);
+    std::vector<float> shares(int count);
+
+    Random& random_;
+    const Plan& plan_;
+    ExpressionMaker expressions_;
+    const Constants& constants_;
+    std::size_t turn_ = 0; // every active species should be rewritten by some production
+    // Successors are often made of these, and contexts cut out of them, so that contexts match.
+    std::vector<Skeleton> skeletons_;
+    std::vector<Skeleton> skeletons_of_letters_;
+};
+
+} // namespace lsys::reference

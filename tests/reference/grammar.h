@@ -1,0 +1,104 @@
+// A grammar as plain data: what a person who has read a .lsys file holds in mind. The generator of
+// random grammars and hand-written tests make it, the oracle (derive.h) reads it and the printer
+// (print.h) writes it as text. Nothing here comes from the compiler, so that both can be wrong only
+// apart. Order matters everywhere: statements stand in the order of the text, and a file that is
+// included stands where its #include stands.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys::reference {
+
+enum class ExprKind { Number, Name, Unary, Binary, Call, Range };
+
+// An expression as a tree. `text` is the name, the operator ("-", "&&"), or the function; for a
+// number it is the spelling to print, or empty if any spelling that gives `number` will do.
+struct Expr {
+    ExprKind kind = ExprKind::Number;
+    float number = 0;
+    std::string text;
+    std::vector<Expr> parts;
+};
+
+// A module of the axiom or of a successor. Brackets are modules named "[" and "]".
+struct ModuleUse {
+    std::string name;
+    std::vector<Expr> arguments;
+};
+
+// A module of a predecessor or of a context. Brackets of a right context are modules too.
+struct ModulePattern {
+    std::string name;
+    std::vector<std::string> formals;
+};
+
+using Pattern = std::vector<ModulePattern>;
+
+struct Production {
+    std::string label;
+    Pattern predecessor;
+    std::optional<Pattern> left;
+    std::optional<Pattern> right;
+    std::optional<Expr> condition; // absent: `*`, or nothing before `~`
+    std::optional<Expr> probability;
+    std::vector<ModuleUse> successor;
+};
+
+enum class StatementKind {
+    Generations,
+    Define,
+    Param,
+    Module,
+    Object,
+    IncludeFile,
+    Set,
+    Ignore,
+    Axiom,
+    Production,
+};
+
+struct Statement {
+    StatementKind kind = StatementKind::Axiom;
+    std::string name;               // Define, Param; Object: the module; Set: the key
+    std::string text;               // Object: the object; Set: the value as it is written
+    std::size_t file = 0;           // IncludeFile: index into Grammar::files
+    Expr expr;                      // Generations, Define, Param
+    Expr low;                       // Param: the bounds
+    Expr high;                      //
+    Pattern patterns;               // Module: the one declared
+    std::vector<std::string> names; // Ignore
+    std::vector<ModuleUse> modules; // Axiom
+    Production production;          // Production
+};
+
+struct File {
+    std::string path;     // relative to the folder of the test, with '/'
+    bool letters = false; // `#set names letters`; the statement itself is among `statements`
+    std::vector<Statement> statements;
+};
+
+// files[0] is the one given to the compiler.
+struct Grammar {
+    std::vector<File> files;
+};
+
+// All statements but IncludeFile in the order in which they take effect.
+std::vector<const Statement*> statements_in_order(const Grammar& grammar);
+
+// The value of `#set key` where the grammar has one.
+std::optional<std::string> setting(const Grammar& grammar, const std::string& key);
+
+// `left < predecessor > right` with names and numbers of parameters only: the productions with one
+// such text are a group (section 5).
+std::string group_of(const Production& production);
+
+// The predecessor alone with names and numbers of parameters: the productions with one such text
+// are a rule (section 5).
+std::string rule_of(const Production& production);
+
+} // namespace lsys::reference

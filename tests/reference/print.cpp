@@ -1,0 +1,348 @@
+#include "tests/reference/print.h"
+
+#include "tests/reference/random.h"
+#include "tests/reference/spelling.h"
+
+#include <cmath>
+#include <cstdint>
+
+namespace lsys::reference {
+
+namespace {
+
+struct Token {
+    std::string text;
+    bool touches = false; // a letter of a file of letters: needs no blank before it
+};
+
+bool is_wordy(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '.';
+}
+
+// Turns statements into tokens and tokens into text, for one file.
+class FilePrinter {
+public:
+    FilePrinter(const Grammar& grammar, const File& file, const JoinedNames* joined, Random* random)
+        : grammar_(grammar), file_(file), joined_(joined), random_(random) {
+        density_ = random_ == nullptr ? 0 : random_->pick(std::vector<std::size_t>{0, 3, 12, 40});
+        line_end_ = chance(20) ? "\r\n" : "\n";
+    }
+
+    std::string print() {
+        if (chance(6)) {
+            out_ += "\xEF\xBB\xBF";
+        }
+        for (const Statement& statement : file_.statements) {
+            tokens_.clear();
+            spell(statement);
+            tokens_.push_back({";", false});
+            lay_out();
+            between_statements();
+        }
+        if (chance(15)) { // no line end after the last line
+            while (!out_.empty() && (out_.back() == '\n' || out_.back() == '\r')) {
+                out_.pop_back();
+            }
+            if (chance(30)) {
+                out_ += line_end_ + "// the end";
+            }
+        }
+        return out_;
+    }
+
+private:
+    bool chance(std::size_t percent) { return random_ != nullptr && random_->percent(percent); }
+
+    void add(const std::string& text) { tokens_.push_back({text, false}); }
+
+    void add_expression(const Expr& expr) {
+        std::vector<std::string> tokens;
+        spell_expression(expr, random_, tokens);
+        for (const std::string& token : tokens) {
+            add(token);
+        }
+    }
+
+    void add_name(const std::string& name, bool joins_previous) {
+        const bool word = is_identifier(name);
+        const bool plain = (word && (!file_.letters || name.size() == 1)) || is_symbol(name);
+        const bool quotable = std::string("[]{}").find(name) == std::string::npos;
+        if (!plain || (!joins_previous && !next_joins_ && quotable && chance(4))) {
+            add("`" + name + "`");
+        } else if (joins_previous) {
+            tokens_.back().text += name;
+        } else {
+            tokens_.push_back({name, file_.letters});
+        }
+    }
+
+    void add_modules(const std::vector<ModuleUse>& modules) {
+        for (std::size_t i = 0; i < modules.size(); ++i) {
+            start_module(&modules, modules[i].name, i);
+            const std::vector<Expr>& arguments = modules[i].arguments;
+            for (std::size_t k = 0; k < arguments.size(); ++k) {
+                add(k == 0 ? "(" : ",");
+                add_expression(arguments[k]);
+            }
+            end_module(modules[i].name, arguments.empty());
+        }
+    }
+
+    void add_pattern(const Pattern& pattern) {
+        for (std::size_t i = 0; i < pattern.size(); ++i) {
+            start_module(&pattern, pattern[i].name, i);
+            const std::vector<std::string>& formals = pattern[i].formals;
+            for (std::size_t k = 0; k < formals.size(); ++k) {
+                add(k == 0 ? "(" : ",");
+                add(formals[k]);
+            }
+            end_module(pattern[i].name, formals.empty());
+        }
+    }
+
+    void start_module(const void* list, const std::string& name, std::size_t i) {
+        const bool joins_previous = next_joins_;
+        next_joins_ = joined_ != nullptr && joined_->joined(list, i);
+        add_name(name, joins_previous);
+    }
+
+    void end_module(const std::string& name, bool is_bare) {
+        if (!is_bare) {
+            add(")");
+        } else if (!next_joins_ && std::string("[]{}.|$").find(name) == std::string::npos &&
+                   chance(3)) {
+            add("(");
+            add(")");
+        }
+    }
+
+    void spell(const Statement& statement) {
+        switch (statement.kind) {
+        case StatementKind::Generations:
+            add("#n");
+            add("=");
+            add_expression(statement.expr);
+            return;
+        case StatementKind::Define:
+            add("#define");
+            add(statement.name);
+            add_expression(statement.expr);
+            return;
+        case StatementKind::Param:
+            add("#param");
+            add(statement.name);
+            add_expression(statement.expr);
+            add("{");
+            add_expression(statement.low);
+            add(",");
+            add_expression(statement.high);
+            add("}");
+            return;
+        case StatementKind::Module:
+            add("#module");
+            add_pattern(statement.patterns);
+            return;
+        case StatementKind::Object:
+            add(chance(30) ? "#include" : "#object");
+            add_name(statement.name, false);
+            tokens_.push_back({statement.text, false});
+            return;
+        case StatementKind::IncludeFile:
+            add("#include");
+            add("\"" + relative_path(grammar_.files[statement.file].path) + "\"");
+            return;
+        case StatementKind::Set:
+            add("#set");
+            add(statement.name);
+            add(statement.text);
+            return;
+        case StatementKind::Ignore:
+            add("#ignore");
+            add(":");
+            for (std::size_t i = 0; i < statement.names.size(); ++i) {
+                start_module(&statement.names, statement.names[i], i);
+            }
+            return;
+        case StatementKind::Axiom:
+            add("#w");
+            add(":");
+            add_modules(statement.modules);
+            return;
+        case StatementKind::Production:
+            spell(statement.production);
+            return;
+        }
+    }
+
+    void spell(const Production& production) {
+        add("#" + production.label);
+        add(":");
+        if (production.left) {
+            add_pattern(*production.left);
+            add("<");
+        }
+        add_pattern(production.predecessor);
+        if (production.right) {
+            add(">");
+            add_pattern(*production.right);
+        }
+        add(":");
+        if (production.condition) {
+            add_expression(*production.condition);
+        } else if (!production.probability || chance(30)) {
+            add("*");
+        }
+        if (production.probability) {
+            add("~");
+            add_expression(*production.probability);
+        }
+        add(":");
+        add_modules(production.successor);
+    }
+
+    // From the folder of this file to `path`.
+    [[nodiscard]] std::string relative_path(std::string path) const {
+        std::string folder = file_.path.substr(0, file_.path.rfind('/') + 1);
+        std::string up;
+        while (path.compare(0, folder.size(), folder) != 0) {
+            folder = folder.substr(0, folder.rfind('/', folder.size() - 2) + 1);
+            up += "../";
+        }
+        return up + path.substr(folder.size());
+    }
+
+    std::string comment() {
+        static const std::vector<std::string> kComments = {
+            "/**/",
+            "/***/",
+            "/* note */",
+            "/* #w : X; */",
+            "/* A -> B; \xE2\x80\x9Cquoted\xE2\x80\x9D \xE2\x88\xBC \xE2\x88\x92 */",
+            "/* /* */",
+            "/* // */",
+            "/* ` \" { ( [ */",
+        };
+        std::string text = random_->pick(kComments);
+        if (chance(20)) {
+            text.insert(2, line_end_);
+        }
+        return text;
+    }
+
+    std::string blank() {
+        switch (random_->below(10)) {
+        case 0:
+            return line_end_ + "    ";
+        case 1:
+            return "\t";
+        case 2:
+            return "  ";
+        case 3:
+            return " " + comment() + " ";
+        case 4:
+            return comment();
+        default:
+            return " ";
+        }
+    }
+
+    // Whether the tokens would be read as one without a blank.
+    [[nodiscard]] bool merge(const Token& previous, const Token& token) const {
+        if (previous.text == "." || token.text == ".") { // the module; a number never is this alone
+            return false;
+        }
+        if (token.touches && previous.text.front() != '#') {
+            return false;
+        }
+        return is_wordy(previous.text.back()) && is_wordy(token.text.front());
+    }
+
+    void lay_out() {
+        for (std::size_t i = 0; i < tokens_.size(); ++i) {
+            const bool must = i > 0 && merge(tokens_[i - 1], tokens_[i]);
+            if (must || (i > 0 && chance(density_))) {
+                out_ += out_.back() == '/' ? " " : ""; // or a comment would begin with it
+                out_ += random_ == nullptr ? " " : blank();
+            }
+            out_ += tokens_[i].text;
+        }
+    }
+
+    void between_statements() {
+        if (random_ == nullptr) {
+            out_ += "\n";
+            return;
+        }
+        switch (random_->below(12)) {
+        case 0:
+            return;
+        case 1:
+            out_ += " ";
+            return;
+        case 2:
+            out_ += " // a remark; #x : A : * : B;" + line_end_;
+            return;
+        case 3:
+            out_ += "//* \xE2\x80\x94 not /* a block" + line_end_;
+            return;
+        case 4:
+            out_ += comment() + line_end_;
+            return;
+        case 5:
+            out_ += line_end_ + line_end_;
+            return;
+        default:
+            out_ += line_end_;
+            return;
+        }
+    }
+
+    const Grammar& grammar_;
+    const File& file_;
+    const JoinedNames* joined_;
+    Random* random_;
+    std::size_t density_ = 0;
+    std::string line_end_;
+    bool next_joins_ = false;
+    std::vector<Token> tokens_;
+    std::string out_;
+};
+
+} // namespace
+
+std::vector<TextFile> print_grammar(const Grammar& grammar, std::uint64_t layout_seed) {
+    std::vector<TextFile> files;
+    Random random(layout_seed, 2);
+    const JoinedNames joined(grammar, random);
+    for (const File& file : grammar.files) {
+        const bool plain = layout_seed == 0;
+        FilePrinter printer(grammar, file, plain ? nullptr : &joined, plain ? nullptr : &random);
+        files.push_back({file.path, printer.print()});
+    }
+    return files;
+}
+
+std::string print_word(const Word& word, bool letters) {
+    std::string text;
+    bool after_bare_identifier = false;
+    for (const Module& module : word) {
+        const bool identifier = is_identifier(module.name) && (!letters || module.name.size() == 1);
+        if (identifier && after_bare_identifier && !letters) {
+            text += " ";
+        }
+        const bool plain = identifier || is_symbol(module.name);
+        text += plain ? module.name : "`" + module.name + "`";
+        for (std::size_t i = 0; i < module.values.size(); ++i) {
+            const bool negative = std::signbit(module.values[i]);
+            text += i == 0 ? "(" : ",";
+            text += negative ? "-" : "";
+            text += spell_number(negative ? -module.values[i] : module.values[i], nullptr);
+        }
+        text += module.values.empty() ? "" : ")";
+        after_bare_identifier = identifier && module.values.empty();
+    }
+    return text;
+}
+
+} // namespace lsys::reference
