@@ -56,6 +56,9 @@ private:
         if (last.size() > 1000) {
             found_.insert("more than 1,000 modules");
         }
+        if (derivation_.words.front().size() > 256) {
+            found_.insert("more than 256 modules in the axiom");
+        }
         if (last.empty()) {
             found_.insert("empty word");
         }
@@ -66,6 +69,12 @@ private:
             found_.insert("set " + statement.name + " " + statement.text);
         } else if (statement.kind == StatementKind::Define) {
             expression(statement.expr, "define: ");
+            for (const auto& definition : made_.request.definitions) {
+                if (definition.first == statement.name && ranges_ > 0) {
+                    found_.insert("definition replaces a range");
+                }
+            }
+            ranges_ = 0;
         } else if (statement.kind == StatementKind::Param) {
             expression(statement.expr, "param: ");
         } else if (statement.kind == StatementKind::Axiom) {
@@ -213,6 +222,8 @@ const std::vector<std::string>& feature_names() {
                                                     "more than 1,000 modules",
 
                                                     "definition on the command line",
+                                                    "definition replaces a range",
+                                                    "more than 256 modules in the axiom",
                                                     "set rewriting sequential",
                                                     "set rewriting cyclic",
                                                     "set choice generation",

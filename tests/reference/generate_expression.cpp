@@ -155,7 +155,19 @@ Expr ExpressionMaker::leaf(const Scope& scope) {
 }
 
 Expr ExpressionMaker::range_of(const Scope& scope, int depth) {
-    switch (random_.below(6)) {
+    // The width is exact, but the sum is rounded to max for many draws.
+    static const std::vector<std::pair<float, float>> kNarrow = {{16777215.0F, 16777216.0F},
+                                                                 {1.0F, 1.0000001F},
+                                                                 {-1.0F, -0.99999994F},
+                                                                 {0.0F, 1e-45F},
+                                                                 {-1e-45F, 0.0F},
+                                                                 {1e10F, 1.0000001e10F},
+                                                                 {16777212.0F, 16777216.0F}};
+    switch (random_.below(7)) {
+    case 6: {
+        const auto& [low, high] = random_.pick(kNarrow);
+        return range(number(low), number(high));
+    }
     case 0: {
         const Expr low = any(scope, depth - 1);
         return legal(range(low, binary("+", low, literal())), scope);

@@ -165,6 +165,10 @@ private:
             statement.name = new_constant();
             statement.expr =
                 random_.percent(50) ? expressions.literal() : expressions.any(constant_scope, 3);
+            if (random_.percent(15)) {
+                const Expr unit = range(number(0), number(1));
+                statement.expr = binary("+", statement.expr, unit);
+            }
             define(statement);
             return;
         case StatementKind::Param:
@@ -193,6 +197,9 @@ private:
                 statement.modules =
                     productions_.modules(random_.between(1, 7), constant_scope, letters);
             } while (statement.modules.empty());
+            if (random_.percent(3)) {
+                add_many_constants(statement.modules, letters);
+            }
             return;
         }
         case StatementKind::Production:
@@ -200,6 +207,18 @@ private:
             return;
         default:
             return;
+        }
+    }
+
+    // More modules with constant arguments than one byte can number.
+    void add_many_constants(std::vector<ModuleUse>& modules, bool letters) {
+        for (int i = 0; i < 300; ++i) {
+            const Species& species = fitting(letters);
+            ModuleUse use{species.name, {}};
+            for (std::size_t k = 0; k < species.count; ++k) {
+                use.arguments.push_back(number(static_cast<float>(i)));
+            }
+            modules.push_back(use);
         }
     }
 
@@ -414,6 +433,7 @@ private:
         std::uint64_t seed = random_.below(1000);
         if (random_.percent(40)) {
             seed = (seed << 54U) + (std::uint64_t{random_.word()} << 16U);
+            seed += random_.word();
         }
         if (random_.percent(40)) {
             add_setting("seed", to_text(seed), any_file());

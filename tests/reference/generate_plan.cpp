@@ -51,7 +51,7 @@ Plan make_plan(bool letters_files, bool words_files, Random& random) {
     for (auto* names : {&letters, &words, &symbols, &quoted}) {
         random.shuffle(*names);
     }
-    const std::size_t most = random.pick(std::vector<std::size_t>{0, 1, 1, 2, 3});
+    const std::size_t most = random.pick(std::vector<std::size_t>{0, 1, 1, 1, 2, 2, 3, 6});
     const int letter_count = random.between(2, 5);
     for (int i = 0; i < letter_count; ++i) {
         add_species(plan, letters[static_cast<std::size_t>(i)], most, random);

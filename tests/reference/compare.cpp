@@ -1,0 +1,279 @@
+#include "tests/reference/compare.h"
+
+#include "runtime/cli/lsc.h"
+#include "tests/reference/print.h"
+#include "tests/reference/spelling.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <unistd.h>
+
+namespace lsys::reference {
+
+namespace {
+
+std::string number_text(float value) {
+    char buffer[64];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
+    return std::string(buffer, end.ptr);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text = "lsc";
+    for (const std::string& word : words) {
+        text += " " + word;
+    }
+    return text;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) {
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+// The first place where two texts differ, with what is around it.
+std::string first_difference(const std::string& expected, const std::string& found) {
+    const std::vector<std::string> wanted = lines_of(expected);
+    const std::vector<std::string> given = lines_of(found);
+    for (std::size_t line = 0; line < std::max(wanted.size(), given.size()); ++line) {
+        const std::string a = line < wanted.size() ? wanted[line] : "(no such line)";
+        const std::string b = line < given.size() ? given[line] : "(no such line)";
+        if (a == b) {
+            continue;
+        }
+        std::size_t at = 0;
+        while (at < a.size() && at < b.size() && a[at] == b[at]) {
+            ++at;
+        }
+        const std::size_t from = at > 60 ? at - 60 : 0;
+        return "line " + std::to_string(line) + ", character " + std::to_string(at) +
+               "\n  oracle: " + a.substr(from, 200) + "\n  lsc:    " + b.substr(from, 200) + "\n";
+    }
+    return "only the ends of lines differ\n";
+}
+
+// An axiom is not empty, closes what it opens, and has no polygon in a polygon.
+bool can_be_an_axiom(const Word& word) {
+    int branches = 0;
+    int polygons = 0;
+    for (const Module& module : word) {
+        branches += module.name == "[" ? 1 : module.name == "]" ? -1 : 0;
+        polygons += module.name == "{" ? 1 : module.name == "}" ? -1 : 0;
+        if (branches < 0 || polygons < 0 || polygons > 1) {
+            return false;
+        }
+    }
+    return !word.empty() && polygons == 0;
+}
+
+// One case in one folder, run in several ways.
+class Comparison {
+public:
+    explicit Comparison(const Case& made)
+        : made_(made), derivation_(derive(made.grammar, made.request)),
+          expected_(all_generations(made.grammar, derivation_)),
+          file_(folder_.write(made.grammar, made.layout_seed)) {}
+
+    std::string run() {
+        const bool good = derivation_.error ? stops_alike() : derives_alike();
+        return good ? "" : report_;
+    }
+
+private:
+    std::vector<std::string> command(const std::string& name,
+                                     const std::vector<std::string>& more) const {
+        std::vector<std::string> arguments = {name, file_};
+        const std::vector<std::string> options = options_of(made_.request);
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return arguments;
+    }
+
+    // The status is `status` and standard output is `out`.
+    bool gives(const std::vector<std::string>& arguments, int status, const std::string& out) {
+        const Run run = run_lsc(arguments);
+        if (run.status == status && run.out == out) {
+            return true;
+        }
+        std::string what =
+            run.status != status ? "status " + std::to_string(run.status) + "\n" : "";
+        what += run.out != out ? first_difference(out, run.out) : "";
+        return fails(arguments, what + run.err);
+    }
+
+    bool fails(const std::vector<std::string>& arguments, const std::string& what) {
+        report_ = joined(arguments) + "\n" + what + "\n";
+        for (const TextFile& file : print_grammar(made_.grammar, made_.layout_seed)) {
+            report_ += "---- " + file.path + "\n" + file.text + "\n";
+        }
+        report_ += "---- without layout\n";
+        for (const TextFile& file : print_grammar(made_.grammar, 0)) {
+            report_ += "---- " + file.path + "\n" + file.text + "\n";
+        }
+        return false;
+    }
+
+    bool derives_alike() {
+        const std::string last = lines_of(expected_).back() + "\n";
+        const std::string count = std::to_string(derivation_.words.back().size()) + "\n";
+        return gives(command("dump", {"--all", "--threads", "1"}), 0, expected_) &&
+               gives(command("dump", {"--all", "--threads", "2"}), 0, expected_) &&
+               gives(command("dump", {}), 0, last) &&
+               gives(command("dump", {"--count"}), 0, count) && compiles_alike() &&
+               continues_alike() && reads_its_word();
+    }
+
+    // The production, the generation and the place are named, and no wrong word is printed.
+    bool stops_alike() {
+        const RunError& error = *derivation_.error;
+        const std::vector<std::string> arguments = command("dump", {"--all"});
+        const Run run = run_lsc(arguments);
+        if (run.status != 1) {
+            return fails(arguments,
+                         "status " + std::to_string(run.status) + ", expected 1\n" + run.err);
+        }
+        if (expected_.compare(0, run.out.size(), run.out) != 0) {
+            return fails(arguments, first_difference(expected_, run.out) + run.err);
+        }
+        std::vector<std::string> facts = {"generation " + std::to_string(error.generation),
+                                          std::to_string(error.position)};
+        if (!error.production.empty()) {
+            facts.push_back("`" + error.production + "`");
+        }
+        for (const std::string& fact : facts) {
+            if (run.err.find(fact) == std::string::npos) {
+                return fails(arguments, "the message does not say " + fact + ":\n" + run.err);
+            }
+        }
+        return true;
+    }
+
+    bool compiles_alike() {
+        const std::string module_file = (folder_.path() / "out.lsb").string();
+        Request definitions_only;
+        definitions_only.definitions = made_.request.definitions;
+        std::vector<std::string> compile = {"compile", file_, "-o", module_file};
+        const std::vector<std::string> options = options_of(definitions_only);
+        compile.insert(compile.end(), options.begin(), options.end());
+        Request rest = made_.request;
+        rest.definitions.clear();
+        std::vector<std::string> dump = {"dump", module_file, "--all"};
+        const std::vector<std::string> others = options_of(rest);
+        dump.insert(dump.end(), others.begin(), others.end());
+        return gives(compile, 0, "") && gives(dump, 0, expected_);
+    }
+
+    // Some generations, and the others after a rest.
+    bool continues_alike() {
+        const std::uint32_t half = derivation_.generations / 2;
+        const std::string state = (folder_.path() / "half.state").string();
+        const std::vector<std::string> lines = lines_of(expected_);
+        const std::string asked = std::to_string(derivation_.generations);
+        std::vector<std::string> first =
+            command("dump", {"--steps", std::to_string(half), "--save-state", state});
+        std::vector<std::string> second = command("dump", {"--from", state});
+        return gives(first, 0, lines[half] + "\n") && gives(second, 0, lines.back() + "\n");
+    }
+
+    // "What is printed parses again as the axiom of the same file."
+    bool reads_its_word() {
+        const Word& word = derivation_.words[derivation_.words.size() / 2];
+        if (!can_be_an_axiom(word)) {
+            return true;
+        }
+        Case again = made_;
+        again.request.generations = 0;
+        for (File& file : again.grammar.files) {
+            std::erase_if(file.statements, [](const Statement& statement) {
+                return statement.kind == StatementKind::Axiom;
+            });
+        }
+        const std::string text = print_word(word, made_.grammar.files[0].letters);
+        const std::string path = folder_.write(again.grammar, 0);
+        std::ofstream(path, std::ios::app | std::ios::binary) << "\n#w :" << text << ";\n";
+        return gives(with_file(options_of(again.request), path), 0, text + "\n");
+    }
+
+    static std::vector<std::string> with_file(std::vector<std::string> options,
+                                              const std::string& path) {
+        options.insert(options.begin(), {"dump", path});
+        return options;
+    }
+
+    const Case& made_;
+    TemporaryFolder folder_;
+    Derivation derivation_;
+    std::string expected_;
+    std::string file_;
+    std::string report_;
+};
+
+} // namespace
+
+Run run_lsc(const std::vector<std::string>& arguments) {
+    std::istringstream in;
+    std::ostringstream out;
+    std::ostringstream err;
+    Run run;
+    run.status = lsc::run(arguments, lsc::Io{in, out, err, false});
+    run.out = out.str();
+    run.err = err.str();
+    return run;
+}
+
+TemporaryFolder::TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "lsys-reference-XXXXXX").string();
+    if (::mkdtemp(name.data()) != nullptr) {
+        path_ = name;
+    }
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+std::string TemporaryFolder::write(const Grammar& grammar, std::uint64_t layout_seed) const {
+    const std::vector<TextFile> files = print_grammar(grammar, layout_seed);
+    for (const TextFile& file : files) {
+        const std::filesystem::path path = path_ / file.path;
+        std::filesystem::create_directories(path.parent_path());
+        std::ofstream(path, std::ios::binary) << file.text;
+    }
+    return (path_ / files[0].path).string();
+}
+
+std::vector<std::string> options_of(const Request& request) {
+    std::vector<std::string> options;
+    if (request.generations) {
+        options.insert(options.end(), {"-n", std::to_string(*request.generations)});
+    }
+    if (request.seed) {
+        options.insert(options.end(), {"--seed", std::to_string(*request.seed)});
+    }
+    for (const auto& [name, value] : request.definitions) {
+        options.insert(options.end(), {"-D", name + "=" + number_text(value)});
+    }
+    return options;
+}
+
+std::string all_generations(const Grammar& grammar, const Derivation& derivation) {
+    std::string text;
+    for (const Word& word : derivation.words) {
+        text += print_word(word, grammar.files[0].letters) + "\n";
+    }
+    return text;
+}
+
+std::string difference(const Case& made) {
+    return Comparison(made).run();
+}
+
+} // namespace lsys::reference

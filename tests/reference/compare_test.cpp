@@ -1,0 +1,103 @@
+// 1,000 random grammars, and some edges that chance does not meet, derived by `lsc` exactly as by
+// the oracle.
+
+#include "tests/reference/build.h"
+#include "tests/reference/compare.h"
+#include "tests/reference/generate_expression.h"
+#include "tests/reference/print.h"
+
+#include <catch2/catch.hpp>
+
+namespace lsys::reference {
+
+namespace {
+
+void compare_seeds(std::uint64_t first, std::uint64_t last) {
+    int shown = 0;
+    for (std::uint64_t seed = first; seed <= last; ++seed) {
+        const std::string text = difference(generate(seed));
+        if (!text.empty() && ++shown <= 3) {
+            FAIL_CHECK("seed " << seed << "\n" << text);
+        }
+    }
+    CHECK(shown == 0);
+}
+
+Production choice(const std::string& label, float probability, std::vector<ModuleUse> successor) {
+    Production production;
+    production.label = label;
+    production.predecessor = {{"A", {}}};
+    production.probability = number(probability);
+    production.successor = std::move(successor);
+    return production;
+}
+
+Case one_step(const Grammar& grammar, std::uint64_t seed) {
+    Case made;
+    made.grammar = grammar;
+    made.request.seed = seed;
+    made.request.generations = 1;
+    return made;
+}
+
+} // namespace
+
+TEST_CASE("random grammars 1 to 250 are derived as by the oracle") {
+    compare_seeds(1, 250);
+}
+TEST_CASE("random grammars 251 to 500 are derived as by the oracle") {
+    compare_seeds(251, 500);
+}
+TEST_CASE("random grammars 501 to 750 are derived as by the oracle") {
+    compare_seeds(501, 750);
+}
+TEST_CASE("random grammars 751 to 1000 are derived as by the oracle") {
+    compare_seeds(751, 1000);
+}
+
+// Seeds whose first draw falls between the running sum in binary32 and the one in binary64, or on
+// an end of the interval.
+TEST_CASE("choices at the edge of a weight") {
+    struct Edge {
+        std::vector<float> weights;
+        std::uint64_t seed;
+        const char* word;
+    };
+    const std::vector<Edge> edges = {
+        {{0.5F, 0.5F}, 515707, "C"},                   // u = 0.5 is not below 0.5
+        {{0.1F, 0.1F, 0.45F, 0.35F}, 13371537, "E"},   // 0.65 is less in binary32
+        {{0.1F, 0.1F, 0.7F, 0.1F}, 5427075, "E"},      // 0.9 is less
+        {{0.1F, 0.3F, 0.15F, 0.45F}, 1593363, "E"},    // 0.55 is u itself
+        {{0.1F, 0.6F, 0.1F, 0.2F}, 16390493, "E"},     // the sum is below the largest u
+        {{0.25F, 0.25F, 0.25F, 0.25F}, 12121362, "B"}, // u = 0
+    };
+    for (const Edge& edge : edges) {
+        Grammar grammar;
+        add_axiom(grammar, letters("A"));
+        const std::string names = "BCDE";
+        for (std::size_t i = 0; i < edge.weights.size(); ++i) {
+            const std::string name(1, names[i]);
+            add_production(grammar, choice("p" + name, edge.weights[i], letters(name)));
+        }
+        CHECK(print_word(derive(grammar, one_step(grammar, edge.seed).request).words[1], true) ==
+              edge.word);
+        CHECK(difference(one_step(grammar, edge.seed)) == "");
+    }
+}
+
+TEST_CASE("words that become empty stay empty") {
+    Grammar grammar = letter_system("AB", {"A=", "B=A"});
+    Case made = one_step(grammar, 0);
+    made.request.generations = 4;
+    CHECK(difference(made) == "");
+}
+
+TEST_CASE("every mode without productions keeps the axiom") {
+    for (const char* mode : {"parallel", "sequential", "cyclic"}) {
+        Grammar grammar = letter_system("A[B]", {});
+        add_setting(grammar, "rewriting", mode);
+        CHECK(difference(one_step(grammar, 0)) == "");
+    }
+}
+
+} // namespace lsys::reference
