@@ -1,7 +1,10 @@
 // Program: the checked system. Names are resolved to symbols, constants are values, conditions and
-// probabilities are apart, name splitting is done. Made by check/ from an Ast without errors,
-// changed by passes/, lowered to Bytecode by lower/. Holds no text but names and no pointer into
-// the Ast.
+// probabilities are apart, name splitting is done. Made by check/ from an Ast, changed by passes/,
+// lowered to Bytecode by lower/. Holds no text but names and no pointer into the Ast.
+//
+// A Program of a grammar with errors serves further checks only (`complete` is false). What it
+// holds is well-formed: productions whose head or names could not be resolved are left out, and an
+// expression in error is kPoison.
 #pragma once
 
 #include "compiler/bytecode.h"
@@ -20,9 +23,13 @@ namespace lsys {
 
 enum class ValueId : std::uint32_t {};
 inline constexpr ValueId kNoValue{0xFFFFFFFFu};
+/// Program::values[0]: a literal that is not a number, in place of an expression in error. Checks
+/// keep quiet about it. No other literal of a complete program has this id.
+inline constexpr ValueId kPoison{0};
 
-/// A node of an expression: an instruction and the values it takes. Constants are folded and
-/// shared: equal literals are one node. Children come before parents.
+/// A node of an expression: an instruction and the values it takes. Constants are folded: a node
+/// whose children are literals is a literal. Literals are shared, and `span` is the place of one of
+/// them; every other node is a place of its own. Children come before parents.
 struct Value {
     Opcode opcode = Opcode::Literal;
     SourceSpan span;
@@ -59,9 +66,19 @@ struct ProgramWord {
     SourceSpan span;
 };
 
+/// One element of a context or predecessor, as PatternItem, with its bytes in the production's
+/// file.
+struct ProgramPatternItem {
+    PatternKind kind = PatternKind::Module;
+    SymbolId symbol = kNoSymbol;
+    std::uint32_t first_formal = 0;
+    std::uint32_t begin = 0; // with the arguments
+    std::uint32_t end = 0;
+};
+
 /// A context or predecessor.
 struct ProgramPattern {
-    std::vector<PatternItem> items;
+    std::vector<ProgramPatternItem> items;
     SourceSpan span;
 };
 
@@ -77,6 +94,7 @@ struct Production {
     ProgramPattern predecessor;
     ProgramPattern right;
     std::vector<NameId> formals; // left, predecessor, right
+    std::vector<SourceSpan> formal_spans;
     ValueId condition = kNoValue;
     SourceSpan condition_span;
     bool stochastic = false;
@@ -103,19 +121,47 @@ struct Constant {
     SourceSpan span;
     bool is_param = false;
     bool is_drawn = false; // then `global` names it, else `value` is it
+    bool is_used = false;
     float value = 0.0F;
     std::uint32_t global = kNone;
     float minimum = 0.0F;
     float maximum = 0.0F;
 };
 
+/// `#module NAME(formals);`
+struct ModuleDeclaration {
+    SymbolId symbol = kNoSymbol;
+    SourceSpan span; // of the module
+};
+
+/// `#object NAME OBJECT;`: modules NAME of any count draw it.
+struct ObjectBinding {
+    NameId name = kNoName;
+    SourceSpan name_span;
+    SourceSpan object_span;
+    TurtleOperation object = TurtleOperation::Nothing;
+    std::string mesh_file;
+};
+
+/// A name of an `#ignore`.
+struct IgnoredName {
+    NameId name = kNoName;
+    SourceSpan span;
+};
+
 struct Program {
+    /// No error was found while the program was made. Else something may be missing, and checks
+    /// that need the whole keep quiet.
+    bool complete = false;
     Settings settings;
     std::optional<std::uint32_t> generations;
-    SourceSpan generations_span;
+    SourceSpan generations_span;    // of the number
     std::vector<std::string> files; // paths by FileId
 
     std::vector<Symbol> symbols;
+    std::vector<ModuleDeclaration> declarations;
+    std::vector<ObjectBinding> objects;
+    std::vector<IgnoredName> ignored;
     std::vector<Constant> constants;
     std::vector<Global> globals;
     std::vector<Production> productions;

@@ -1,0 +1,142 @@
+#include "compiler/lower/lower.h"
+
+#include "compiler/lower/code_emitter.h"
+#include "compiler/lower/module_folder.h"
+#include "grammar/contract.h"
+
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+class Lowerer {
+public:
+    Lowerer(const Program& program, const Names& names, const SourceMap& sources)
+        : program_(program), names_(names), emitter_(program, sources, bytecode_),
+          folder_(program, bytecode_) {}
+
+    std::optional<Bytecode> run() {
+        bytecode_.settings = program_.settings;
+        bytecode_.generations = program_.generations;
+        bytecode_.files = program_.files;
+        bytecode_.rule_count = program_.rule_count;
+        bytecode_.group_count = program_.group_count;
+        symbols();
+        globals();
+        bytecode_.axiom = word(program_.axiom);
+        bytecode_.axiom_site = emitter_.add_site(program_.axiom.span);
+        bytecode_.axiom_draw_position = program_.axiom_draw_position;
+        bytecode_.productions.reserve(program_.productions.size());
+        for (const Production& production : program_.productions) {
+            bytecode_.productions.push_back(lowered(production));
+        }
+        if (emitter_.overflowed()) {
+            return std::nullopt;
+        }
+        return std::move(bytecode_);
+    }
+
+private:
+    void symbols() {
+        bytecode_.symbols.reserve(program_.symbols.size());
+        for (const Symbol& symbol : program_.symbols) {
+            BytecodeSymbol& lowered = bytecode_.symbols.emplace_back();
+            lowered.name = names_.text(symbol.name);
+            lowered.parameter_count = symbol.parameter_count;
+            lowered.kind = symbol.kind;
+            lowered.ignored = symbol.ignored;
+            lowered.turtle = symbol.turtle;
+            lowered.mesh_file = symbol.mesh_file;
+        }
+    }
+
+    void globals() {
+        for (const Global& global : program_.globals) {
+            BytecodeGlobal& lowered = bytecode_.globals.emplace_back();
+            lowered.name = names_.text(global.name);
+            lowered.instruction = emitter_.arguments({&global.value, 1});
+            lowered.draw_position = global.draw_position;
+            lowered.draw_count = global.draw_count;
+            lowered.has_bounds = global.has_bounds;
+            lowered.minimum = global.minimum;
+            lowered.maximum = global.maximum;
+            lowered.site = emitter_.add_site(global.span);
+        }
+    }
+
+    WordTemplate word(const ProgramWord& word) {
+        WordTemplate made;
+        made.codes.first = static_cast<std::uint32_t>(bytecode_.template_codes.size());
+        made.codes.count = word.module_count;
+        made.draw_count = word.draw_count;
+        stored_.clear();
+        std::size_t argument = word.first_argument;
+        for (std::uint32_t i = 0; i < word.module_count; ++i) {
+            const SymbolId symbol = program_.modules[word.first_module + i].symbol;
+            const std::uint32_t count = program_.symbol(symbol).parameter_count;
+            const Code code =
+                count == 0 ? static_cast<Code>(symbol) : folder_.code(symbol, argument);
+            if (code == static_cast<Code>(symbol)) {
+                for (std::uint32_t k = 0; k < count; ++k) {
+                    stored_.push_back(program_.arguments[argument + k]);
+                }
+            }
+            argument += count;
+            bytecode_.template_codes.push_back(code);
+        }
+        made.parameter_count = static_cast<std::uint32_t>(stored_.size());
+        if (!stored_.empty()) {
+            made.arguments = emitter_.arguments(stored_);
+        }
+        return made;
+    }
+
+    TableRange pattern(const ProgramPattern& pattern) {
+        TableRange range;
+        range.first = static_cast<std::uint32_t>(bytecode_.patterns.size());
+        range.count = static_cast<std::uint32_t>(pattern.items.size());
+        for (const ProgramPatternItem& item : pattern.items) {
+            bytecode_.patterns.push_back({item.kind, item.symbol, item.first_formal});
+        }
+        return range;
+    }
+
+    BytecodeProduction lowered(const Production& production) {
+        BytecodeProduction made;
+        made.name = names_.text(production.name);
+        made.name_site = emitter_.add_site(production.name_span);
+        made.rule = production.rule;
+        made.group = production.group;
+        made.has_left = production.has_left;
+        made.has_right = production.has_right;
+        made.left = pattern(production.left);
+        made.predecessor = pattern(production.predecessor);
+        made.right = pattern(production.right);
+        made.formal_count = static_cast<std::uint32_t>(production.formals.size());
+        if (production.condition != kNoValue) {
+            made.condition = emitter_.condition(production.condition, production.condition_span);
+        }
+        made.stochastic = production.stochastic;
+        made.weight = production.stochastic ? production.weight : 0.0F;
+        made.successor = word(production.successor);
+        return made;
+    }
+
+    const Program& program_;
+    const Names& names_;
+    Bytecode bytecode_;
+    CodeEmitter emitter_;
+    ModuleFolder folder_;
+    std::vector<ValueId> stored_; // of the word in work
+};
+
+} // namespace
+
+std::optional<Bytecode>
+lower(const Program& program, const Names& names, const SourceMap& sources) {
+    LSYS_CHECK(program.complete);
+    return Lowerer(program, names, sources).run();
+}
+
+} // namespace lsys

@@ -1,0 +1,19 @@
+// Program to Bytecode: symbols and constant modules become codes, words become templates,
+// expressions become instructions. The order of the tables is the one that bytecode.h promises.
+#pragma once
+
+#include "compiler/bytecode.h"
+#include "compiler/program.h"
+#include "grammar/names.h"
+#include "grammar/source.h"
+
+#include <optional>
+
+namespace lsys {
+
+/// Precondition: program.complete. Nothing only where a number (formals, ranges, globals) is beyond
+/// what an operand can hold.
+[[nodiscard]] std::optional<Bytecode>
+lower(const Program& program, const Names& names, const SourceMap& sources);
+
+} // namespace lsys
