@@ -330,6 +330,7 @@ std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
         cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
         GridAxis axis;
         axis.parameter = parameter;
+        axis.compared = compared;
         std::int32_t first = -kLargest;
         const auto close = [&](std::int32_t last) {
             const auto cell = static_cast<std::uint32_t>(axis.cells.size());

@@ -35,6 +35,7 @@ struct GridSample {
 /// One parameter that the conditions depend on.
 struct GridAxis {
     std::uint32_t parameter = 0;
+    bool compared = false;       // with another parameter
     std::vector<GridCell> cells; // ascending, without gaps
     std::vector<GridSample>
         samples; // ascending; one a cell, up to three where parameters are compared

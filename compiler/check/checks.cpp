@@ -1,4 +1,5 @@
 #include "compiler/check/check.h"
+#include "compiler/check/lints.h"
 
 namespace lsys {
 
@@ -11,14 +12,17 @@ struct ListedCheck {
 
 // The order is that of the messages about one place.
 constexpr ListedCheck kChecks[] = {
-    {nullptr, true},
+    {check_branches, false},    {check_polygons, false},     {check_turtle_arguments, false},
+    {check_unused_names, true}, {check_module_use, true},    {check_reachable_productions, true},
+    {check_conditions, true},   {check_probabilities, true}, {check_computed_equality, true},
+    {check_branch_depth, true}, {check_drawing, true},       {check_growth, true},
 };
 
 } // namespace
 
 void run_checks(const CheckInput& input, Diagnostics& diagnostics) {
     for (const ListedCheck& listed : kChecks) {
-        if (listed.check != nullptr && (input.program.complete || !listed.needs_complete)) {
+        if (input.program.complete || !listed.needs_complete) {
             listed.check(input, diagnostics);
         }
     }

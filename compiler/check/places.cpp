@@ -1,0 +1,119 @@
+#include "compiler/check/places.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+
+namespace lsys {
+
+namespace {
+
+/// Past blanks and comments.
+std::size_t skip_blanks(std::string_view text, std::size_t at) {
+    while (at < text.size()) {
+        const char c = text[at];
+        if (c == ' ' || c == '\t' || c == '\n' || c == '\r') {
+            ++at;
+        } else if (text.substr(at, 2) == "/*") {
+            const std::size_t end = text.find("*/", at + 2);
+            at = end == std::string_view::npos ? text.size() : end + 2;
+        } else {
+            break;
+        }
+    }
+    return at;
+}
+
+struct Call {
+    std::size_t end; // one past the `)`
+    std::vector<SourceSpan> arguments;
+};
+
+/// The parenthesis that begins at `open`.
+Call read_call(std::string_view text, FileId file, std::size_t open) {
+    Call call{open, {}};
+    std::uint32_t depth = 0;
+    std::size_t first = open + 1;
+    const auto close_argument = [&](std::size_t end) {
+        std::size_t begin = skip_blanks(text, first);
+        while (end > begin && (text[end - 1] == ' ' || text[end - 1] == '\t' ||
+                               text[end - 1] == '\n' || text[end - 1] == '\r')) {
+            --end;
+        }
+        if (begin < end) {
+            call.arguments.push_back(
+                {file, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)});
+        }
+        first = end + 1;
+    };
+    for (std::size_t at = open; at < text.size();) {
+        const std::size_t next = skip_blanks(text, at);
+        if (next != at) {
+            at = next;
+            continue;
+        }
+        const char c = text[at];
+        if (c == '(' || c == '{') {
+            ++depth;
+        } else if (c == ')' || c == '}') {
+            if (--depth == 0) {
+                close_argument(at);
+                call.end = at + 1;
+                return call;
+            }
+        } else if (c == ',' && depth == 1) {
+            close_argument(at);
+            first = at + 1;
+        } else if (c == ';') {
+            break;
+        }
+        ++at;
+    }
+    return call;
+}
+
+} // namespace
+
+SourceSpan module_span(const CheckInput& input, const ProgramWord& word, std::size_t index) {
+    SourceSpan span = module_name_span(input, word, index);
+    const std::string_view text = input.sources.file(word.file).text();
+    const std::size_t open = skip_blanks(text, span.end);
+    const Symbol& symbol = input.program.symbol(input.program.modules[index].symbol);
+    if (symbol.parameter_count != 0 && open < text.size() && text[open] == '(') {
+        span.end = static_cast<std::uint32_t>(read_call(text, word.file, open).end);
+    }
+    return span;
+}
+
+std::vector<SourceSpan>
+argument_spans(const CheckInput& input, const ProgramWord& word, std::size_t index) {
+    const std::string_view text = input.sources.file(word.file).text();
+    const std::size_t open = skip_blanks(text, module_name_span(input, word, index).end);
+    if (open >= text.size() || text[open] != '(') {
+        return {};
+    }
+    return read_call(text, word.file, open).arguments;
+}
+
+SourceSpan item_span(const Production& production, const ProgramPatternItem& item) {
+    return {production.predecessor.span.file, item.begin, item.end};
+}
+
+std::string parameters_text(std::uint32_t count) {
+    return count == 0   ? std::string("no parameters")
+           : count == 1 ? std::string("1 parameter")
+                        : fmt::format("{} parameters", count);
+}
+
+std::string quoted(std::string_view name) {
+    return fmt::format("`{}`", name);
+}
+
+std::string number_text(float value) {
+    std::array<char, 32> buffer{};
+    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+    return {buffer.data(), result.ptr};
+}
+
+} // namespace lsys
