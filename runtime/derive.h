@@ -21,7 +21,7 @@ enum class RuntimeErrorKind : std::uint8_t {
     RangeReversed, // {min, max} with min > max
     RangeTooWide,  // a bound or the width is not finite
     OutOfBounds,   // a #param outside its bounds
-    Unbalanced,    // a `]` without its `[` in the last word
+    Unbalanced,    // a `]` without its `[` in the last word, which is of age `generation`
 };
 
 /// What went wrong at run time, as facts; runtime_diagnostic() words it.
@@ -35,6 +35,8 @@ struct RuntimeError {
     std::vector<float> parameters; // its parameters
     float value = 0.0F;            // the value, or min
     float second = 0.0F;           // max
+    std::uint32_t global = kNone;  // of OutOfBounds and errors while globals are drawn
+    bool in_condition = false;     // not in an argument
 };
 
 struct DeriveOptions {
@@ -70,7 +72,7 @@ public:
     /// Steps until the age is `age` or something ends it.
     [[nodiscard]] DeriveStatus run_to(std::uint32_t age);
     /// Checks that every `]` of the word has its `[`; commands that derive call it on the last
-    /// word.
+    /// word. Error names the production that wrote it if only one can have.
     [[nodiscard]] DeriveStatus check_brackets();
 
     [[nodiscard]] const Word& word() const;

@@ -16,11 +16,12 @@ enum class LimitKind : std::uint8_t { Modules, Memory };
 /// Where a derivation stopped for a limit.
 struct LimitReport {
     LimitKind kind = LimitKind::Modules;
-    std::uint32_t generation = 0; // the last complete word's age
-    std::uint64_t modules = 0;    // of that word
-    std::uint64_t predicted_modules =
-        0; // of the word that did not fit (exact where counted, else at least)
-    std::uint64_t predicted_bytes = 0;
+    std::uint32_t generation = 0;           // the last complete word's age
+    std::uint64_t modules = 0;              // of that word
+    std::uint64_t predicted_modules = 0;    // of the word that did not fit
+    std::uint64_t predicted_bytes = 0;      // of all that would be held
+    bool exact = true;                      // else the predictions are lower bounds
+    bool streamed = false;                  // then `generation` is the one that is handed out
     std::uint32_t production = 0xFFFFFFFFu; // the one that adds most modules in that step, or none
 };
 

@@ -11,10 +11,42 @@ namespace lsys {
 using PhiloxBlock = std::array<std::uint32_t, 4>;
 
 /// Ten rounds of Philox4x32.
-[[nodiscard]] PhiloxBlock philox4x32(PhiloxBlock counter, std::array<std::uint32_t, 2> key);
+[[nodiscard]] constexpr PhiloxBlock philox4x32(PhiloxBlock counter,
+                                               std::array<std::uint32_t, 2> key) {
+    constexpr std::uint64_t kMultiplier0 = 0xD2511F53; // figure 2 of the paper
+    constexpr std::uint64_t kMultiplier1 = 0xCD9E8D57;
+    constexpr std::uint32_t kWeyl0 = 0x9E3779B9;
+    constexpr std::uint32_t kWeyl1 = 0xBB67AE85;
+    for (int round = 0; round < 10; ++round) {
+        const std::uint64_t product0 = kMultiplier0 * counter[0];
+        const std::uint64_t product1 = kMultiplier1 * counter[2];
+        counter = {static_cast<std::uint32_t>(product1 >> 32) ^ counter[1] ^ key[0],
+                   static_cast<std::uint32_t>(product1),
+                   static_cast<std::uint32_t>(product0 >> 32) ^ counter[3] ^ key[1],
+                   static_cast<std::uint32_t>(product0)};
+        key[0] += kWeyl0;
+        key[1] += kWeyl1;
+    }
+    return counter;
+}
 
 /// Generation number of draws that happen once, when a derivation starts.
 inline constexpr std::uint32_t kStartGeneration = 0xFFFFFFFFu;
+
+/// A random word as u in [0, 1): its high 24 bits times 2^-24.
+[[nodiscard]] constexpr float unit_interval(std::uint32_t word) {
+    return static_cast<float>(word >> 8) * 0x1p-24F;
+}
+
+/// Block `block` of the draws at one position.
+[[nodiscard]] constexpr PhiloxBlock draw_block(std::uint64_t seed,
+                                               std::uint32_t generation,
+                                               std::uint64_t position,
+                                               std::uint32_t block) {
+    return philox4x32({static_cast<std::uint32_t>(position),
+                       static_cast<std::uint32_t>(position >> 32), generation, block},
+                      {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
+}
 
 /// The draws of one rewritten module.
 class DrawSource {
@@ -22,8 +54,7 @@ public:
     DrawSource(std::uint64_t seed, std::uint32_t generation, std::uint64_t position)
         : seed_(seed), position_(position), generation_(generation) {}
 
-    /// Draw `number` as u in [0, 1): word number mod 4 of block number / 4, its high 24 bits times
-    /// 2^-24.
+    /// Draw `number` as u in [0, 1): word number mod 4 of block number / 4.
     [[nodiscard]] float draw(std::uint64_t number);
 
 private:
@@ -35,11 +66,6 @@ private:
     std::uint32_t generation_;
     PhiloxBlock words_{};
 };
-
-/// A random word as u in [0, 1): its high 24 bits times 2^-24.
-[[nodiscard]] constexpr float unit_interval(std::uint32_t word) {
-    return static_cast<float>(word >> 8) * 0x1p-24F;
-}
 
 /// `{minimum, maximum}` at u (LANGUAGE.md section 4). Precondition: minimum <= maximum, finite
 /// width.

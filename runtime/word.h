@@ -12,7 +12,9 @@
 
 namespace lsys {
 
-/// Anonymous memory that grows without keeping what it holds. Move only.
+/// Anonymous memory that grows without keeping what it holds. Move only. It takes more addresses
+/// than it is asked for, so that a word that grows a little each generation stays where it is;
+/// pages that nobody writes cost nothing.
 class Arena {
 public:
     Arena() = default;
@@ -25,16 +27,21 @@ public:
     /// Makes room for at least `bytes`; contents are lost if it grows. False: the system has no
     /// memory.
     [[nodiscard]] bool reserve(std::size_t bytes);
+    void release();
     [[nodiscard]] std::byte* data() { return data_; }
     [[nodiscard]] const std::byte* data() const { return data_; }
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
+    /// Bytes that were ever asked for here: what may be held from the system.
+    [[nodiscard]] std::size_t used() const { return used_; }
 
 private:
     std::byte* data_ = nullptr;
     std::size_t capacity_ = 0;
+    std::size_t used_ = 0;
 };
 
-/// Bytes past the last code and parameter that writers may touch with wide stores.
+/// Bytes past the last code and parameter that writers may touch with wide stores. Those past the
+/// parameters hold finite numbers, so that wide loads may read them.
 inline constexpr std::size_t kWordSlack = 64;
 
 class Word {
@@ -42,7 +49,8 @@ public:
     Word() = default;
     explicit Word(std::uint32_t code_width) : code_width_(code_width) {}
 
-    /// Makes room for a word of exactly these sizes and takes them as its own. False: no memory.
+    /// Makes room for a word of exactly these sizes and takes them as its own; the contents are
+    /// lost. False: no memory, and the word is empty.
     [[nodiscard]] bool resize(std::uint64_t module_count, std::uint64_t parameter_count);
 
     [[nodiscard]] std::uint64_t module_count() const { return module_count_; }
@@ -53,9 +61,10 @@ public:
         return module_count_ * code_width_ + parameter_count_ * sizeof(float);
     }
     /// Bytes held from the system.
-    [[nodiscard]] std::uint64_t capacity() const {
-        return codes_.capacity() + parameters_.capacity();
-    }
+    [[nodiscard]] std::uint64_t held_bytes() const { return codes_.used() + parameters_.used(); }
+    /// What held_bytes() would be after resize() to these sizes; saturates.
+    [[nodiscard]] std::uint64_t held_bytes_after(std::uint64_t module_count,
+                                                 std::uint64_t parameter_count) const;
 
     /// The codes as integers of the word's width; precondition: sizeof(T) == code_width().
     template <typename T>

@@ -5,6 +5,8 @@
 #include "compiler/bytecode.h"
 #include "runtime/word.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -14,24 +16,41 @@
 
 namespace lsys {
 
+/// A name as it is written in a list of modules: back quotes where it is no symbol of the
+/// language, or, with `names letters`, no single letter.
+[[nodiscard]] std::string spelled_name(std::string_view name, bool letters);
+/// A number as a word shows it.
+void append_number(float value, std::string& out);
+
 /// Prints modules of one word in order; may be fed in pieces.
 class WordPrinter {
 public:
     explicit WordPrinter(const Bytecode& bytecode);
     /// Appends the text of `codes`; `parameters` holds exactly what they store.
     void append(std::span<const Code> codes, std::span<const float> parameters, std::string& out);
-    /// Appends a whole word, handing text to `flush` in pieces; false as soon as flush returns
-    /// false.
+    /// Hands the text of a whole word to `flush` in pieces; false as soon as flush returns false.
     [[nodiscard]] bool print(const Word& word, const std::function<bool(std::string_view)>& flush);
 
 private:
+    static constexpr std::size_t kShort = 16;
+
     struct Spelling {
-        std::string text; // folded arguments included
+        std::array<char, kShort> head{}; // the text, if it is short
+        std::uint32_t length = 0;
+        std::uint32_t long_text = 0; // otherwise, in long_texts_
+        std::uint32_t parameter_count = 0;
         bool starts_identifier = false;
         bool ends_identifier = false; // an identifier without parameters
-        std::uint32_t parameter_count = 0;
     };
-    std::vector<Spelling> spellings_; // by code
+    using Sink = std::function<bool(std::string_view)>;
+
+    template <typename C>
+    [[nodiscard]] bool
+    write(const C* codes, std::size_t count, const float* parameters, const Sink& sink);
+
+    std::vector<Spelling> spellings_; // by code; folded arguments included
+    std::vector<std::string> long_texts_;
+    std::vector<char> buffer_;
     bool after_identifier_ = false;
 };
 

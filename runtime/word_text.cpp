@@ -1,0 +1,140 @@
+#include "runtime/word_text.h"
+
+#include "grammar/names.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::string_view kSymbols = "+-/\\^&|$!\"'.[]{}%";
+constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
+/// The longest binary32 in text, and a comma or parenthesis.
+constexpr std::size_t kNumberBytes = 24;
+
+char* put_number(char* at, float value) {
+    return std::to_chars(at, at + kNumberBytes, value).ptr;
+}
+
+} // namespace
+
+std::string spelled_name(std::string_view name, bool letters) {
+    const bool symbol = name.size() == 1 && kSymbols.find(name[0]) != std::string_view::npos;
+    const bool letter = name.size() == 1 && is_identifier(name) && name[0] != '_';
+    if (symbol || (letters ? letter : is_identifier(name))) {
+        return std::string(name);
+    }
+    return '`' + std::string(name) + '`';
+}
+
+void append_number(float value, std::string& out) {
+    std::array<char, kNumberBytes> text{};
+    out.append(text.data(), put_number(text.data(), value));
+}
+
+WordPrinter::WordPrinter(const Bytecode& bytecode) {
+    const bool letters = bytecode.settings.print_letters;
+    spellings_.resize(bytecode.code_count());
+    for (Code code = 0; code < bytecode.code_count(); ++code) {
+        const BytecodeSymbol& symbol = bytecode.symbol(bytecode.symbol_of(code));
+        Spelling& spelling = spellings_[code];
+        std::string text = spelled_name(symbol.name, letters);
+        const bool identifier = !letters && is_identifier(text);
+        spelling.starts_identifier = identifier;
+        spelling.ends_identifier = identifier && symbol.parameter_count == 0;
+        if (code < bytecode.symbols.size()) {
+            spelling.parameter_count = symbol.parameter_count;
+        } else {
+            const std::uint32_t first =
+                bytecode.folded[code - bytecode.symbols.size()].first_constant;
+            for (std::uint32_t i = 0; i < symbol.parameter_count; ++i) {
+                text += i == 0 ? '(' : ',';
+                append_number(bytecode.constants[first + i], text);
+            }
+            text += ')';
+        }
+        spelling.length = static_cast<std::uint32_t>(text.size());
+        if (text.size() <= kShort) {
+            std::copy(text.begin(), text.end(), spelling.head.begin());
+        } else {
+            spelling.long_text = static_cast<std::uint32_t>(long_texts_.size());
+            long_texts_.push_back(std::move(text));
+        }
+    }
+    buffer_.resize(kBufferBytes);
+}
+
+template <typename C>
+bool WordPrinter::write(const C* codes,
+                        std::size_t count,
+                        const float* parameters,
+                        const Sink& sink) {
+    char* const begin = buffer_.data();
+    char* const full = begin + buffer_.size() - 2 * kShort - kNumberBytes;
+    char* at = begin;
+    bool after_identifier = after_identifier_;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (at >= full) {
+            if (!sink({begin, static_cast<std::size_t>(at - begin)})) {
+                return false;
+            }
+            at = begin;
+        }
+        const Spelling& spelling = spellings_[codes[i]];
+        *at = ' ';
+        at += after_identifier && spelling.starts_identifier ? 1 : 0;
+        after_identifier = spelling.ends_identifier;
+        if (spelling.length <= kShort) {
+            std::memcpy(at, spelling.head.data(), kShort);
+            at += spelling.length;
+        } else {
+            if (!sink({begin, static_cast<std::size_t>(at - begin)}) ||
+                !sink(long_texts_[spelling.long_text])) {
+                return false;
+            }
+            at = begin;
+        }
+        for (std::uint32_t p = 0; p < spelling.parameter_count; ++p) {
+            if (at >= full) {
+                if (!sink({begin, static_cast<std::size_t>(at - begin)})) {
+                    return false;
+                }
+                at = begin;
+            }
+            *at++ = p == 0 ? '(' : ',';
+            at = put_number(at, *parameters++);
+        }
+        *at = ')';
+        at += spelling.parameter_count != 0 ? 1 : 0;
+    }
+    after_identifier_ = after_identifier;
+    return at == begin || sink({begin, static_cast<std::size_t>(at - begin)});
+}
+
+void WordPrinter::append(std::span<const Code> codes,
+                         std::span<const float> parameters,
+                         std::string& out) {
+    static_cast<void>(
+        write(codes.data(), codes.size(), parameters.data(), [&out](std::string_view text) {
+            out += text;
+            return true;
+        }));
+}
+
+bool WordPrinter::print(const Word& word, const Sink& flush) {
+    after_identifier_ = false;
+    const float* const parameters = word.parameters().data();
+    switch (word.code_width()) {
+    case 1:
+        return write(word.codes<std::uint8_t>().data(), word.module_count(), parameters, flush);
+    case 2:
+        return write(word.codes<std::uint16_t>().data(), word.module_count(), parameters, flush);
+    default:
+        return write(word.codes<std::uint32_t>().data(), word.module_count(), parameters, flush);
+    }
+}
+
+} // namespace lsys

@@ -1,0 +1,50 @@
+// Bytecode from short texts, without the front end and the compiler: tests of the runtime depend on
+// neither. Modules, expressions and productions look as in the language; names are identifiers or
+// single characters, blanks separate, and only what tests need is understood.
+#pragma once
+
+#include "compiler/bytecode.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys::test {
+
+class BytecodeBuilder {
+public:
+    Settings settings;
+    bool fold = true; // constant arguments become codes of their own
+
+    /// "F(1)[+(30)A]"
+    BytecodeBuilder& axiom(std::string text);
+    /// "p : A(x) < B > C [ D ] : x > 0 ~ 0.5 : F(x, {1, 2}) B"
+    BytecodeBuilder& production(std::string text);
+    /// "+ -": modules of any count.
+    BytecodeBuilder& ignore(std::string names);
+    /// A constant that is drawn at the start.
+    BytecodeBuilder& global(std::string name, std::string value);
+    BytecodeBuilder& parameter(std::string name, std::string value, float minimum, float maximum);
+    /// Declares symbols nobody uses, so that codes need two or four bytes.
+    BytecodeBuilder& unused_symbols(std::uint32_t count);
+
+    /// Verified; a mistake in a text ends the test program.
+    [[nodiscard]] Bytecode build() const;
+
+private:
+    struct GlobalText {
+        std::string name;
+        std::string value;
+        bool has_bounds = false;
+        float minimum = 0.0F;
+        float maximum = 0.0F;
+    };
+    std::string axiom_;
+    std::vector<std::string> productions_;
+    std::vector<std::string> ignored_;
+    std::vector<GlobalText> globals_;
+    std::uint32_t unused_ = 0;
+};
+
+} // namespace lsys::test
