@@ -1,0 +1,428 @@
+#include "runtime/derive/pass.h"
+
+#include "grammar/contract.h"
+#include "runtime/derive/count.h"
+#include "runtime/derive/faults.h"
+#include "runtime/derive/write.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
+/// Programs of more codes are counted module by module.
+constexpr Code kCensusCodes = 4096;
+/// Modules between two reports of progress.
+constexpr std::uint64_t kProgressStride = std::uint64_t{1} << 24;
+
+std::uint64_t saturating_add(std::uint64_t a, std::uint64_t b) {
+    return a > kMax - b ? kMax : a + b;
+}
+std::uint64_t saturating_multiply(std::uint64_t a, std::uint64_t b) {
+    return b != 0 && a > kMax / b ? kMax : a * b;
+}
+
+/// Whether moving blocks pays: 7 of 8 modules are copied.
+bool mostly(std::uint64_t copies, std::uint64_t modules) {
+    return copies >= modules - modules / 8;
+}
+
+template <typename C>
+WordView<C> view(const Word& word) {
+    return {word.codes<C>().data(), word.parameters().data(), word.module_count(), 0};
+}
+
+} // namespace
+
+Passes::Passes(const Plan& plan, const DeriveOptions& options)
+    : plan_(plan), options_(options), workers_(options.threads), contexts_(plan) {}
+
+std::uint64_t Passes::held_bytes() const {
+    return contexts_.held_bytes() + records_.used() + chunks_.capacity() * sizeof(Chunk) +
+           census_.capacity() * sizeof(std::uint64_t);
+}
+
+bool Passes::cancelled() const {
+    return options_.cancelled != nullptr && options_.cancelled->load(std::memory_order_relaxed);
+}
+
+void Passes::report_progress(std::uint32_t generation, std::uint64_t modules) {
+    const std::uint64_t before = written_.fetch_add(modules, std::memory_order_relaxed);
+    if (!options_.progress || before / kProgressStride == (before + modules) / kProgressStride) {
+        return;
+    }
+    const std::unique_lock<std::mutex> only_one(progress_, std::try_to_lock);
+    if (only_one.owns_lock()) {
+        options_.progress(generation + 1, before + modules);
+    }
+}
+
+namespace {
+
+template <typename C>
+bool any_rewritten(const Plan& plan, const Word& word) {
+    const std::span<const C> codes = word.codes<C>();
+    return std::any_of(codes.begin(), codes.end(),
+                       [&plan](C code) { return !plan.row(code).copies; });
+}
+
+} // namespace
+
+bool Passes::concerns(const Word& word) const {
+    switch (word.code_width()) {
+    case 1:
+        return any_rewritten<std::uint8_t>(plan_, word);
+    case 2:
+        return any_rewritten<std::uint16_t>(plan_, word);
+    default:
+        return any_rewritten<std::uint32_t>(plan_, word);
+    }
+}
+
+DeriveStatus
+Passes::run(const Word& in, Word& out, const PassKeys& keys, std::uint64_t other_bytes) {
+    other_bytes_ = other_bytes;
+    written_.store(0, std::memory_order_relaxed);
+    limit_ = {};
+    limit_.generation = keys.generation;
+    limit_.modules = in.module_count();
+    switch (in.code_width()) {
+    case 1:
+        return run_typed<std::uint8_t>(in, out, keys);
+    case 2:
+        return run_typed<std::uint16_t>(in, out, keys);
+    default:
+        return run_typed<std::uint32_t>(in, out, keys);
+    }
+}
+
+template <typename C>
+DeriveStatus Passes::run_typed(const Word& in, Word& out, const PassKeys& keys) {
+    return plan_.record_width() == 1 ? run_recorded<C, std::uint8_t>(in, out, keys)
+                                     : run_recorded<C, std::uint32_t>(in, out, keys);
+}
+
+DeriveStatus Passes::no_memory(const Word& in, std::uint64_t bytes) {
+    census_known_ = false;
+    limit_.kind = LimitKind::Memory;
+    limit_.predicted_modules = std::max(modules_, in.module_count());
+    limit_.predicted_bytes = bytes;
+    limit_.exact = false;
+    return DeriveStatus::OutOfMemory;
+}
+
+template <typename C, typename R>
+DeriveStatus Passes::run_recorded(const Word& in, Word& out, const PassKeys& keys) {
+    const WordView<C> word = view<C>(in);
+    modules_ = 0;
+    parameters_ = 0;
+    const bool dynamic = !plan_.all_fixed();
+    const std::uint64_t record_bytes = dynamic ? word.count * sizeof(R) : 0;
+    const bool contexts = dynamic && plan_.needs_contexts();
+    const std::uint64_t tables = contexts ? contexts_.held_bytes_after(in) : 0;
+    const std::uint64_t before =
+        other_bytes_ + in.held_bytes() + out.held_bytes() + saturating_add(record_bytes, tables);
+    if (before > options_.limits.max_bytes) {
+        limit_.kind = LimitKind::Memory;
+        limit_.predicted_modules = word.count;
+        limit_.predicted_bytes = before;
+        limit_.exact = false;
+        return DeriveStatus::Limit;
+    }
+    if (!records_.reserve(record_bytes + sizeof(R)) ||
+        (contexts && !contexts_.prepare(plan_, in))) {
+        return no_memory(in, before);
+    }
+    cut(word);
+
+    const bool by_census = !dynamic && (workers_.count() == 1 || chunks_.size() <= 1) &&
+                           plan_.rows().size() <= kCensusCodes;
+    if (by_census) {
+        take_census(word);
+    } else {
+        census_known_ = false;
+        const DeriveStatus status = count<C, R>(word, keys);
+        if (status != DeriveStatus::Ok) {
+            return status;
+        }
+    }
+    DeriveStatus status = check_limits(in, out, keys);
+    if (status == DeriveStatus::Limit) {
+        limit_.production = dominant_production<C, R>(word);
+    }
+    if (status != DeriveStatus::Ok) {
+        return status;
+    }
+    if (!out.resize(modules_, parameters_)) {
+        return no_memory(in, limit_.predicted_bytes);
+    }
+    status = write<C, R>(word, out, keys);
+    if (status != DeriveStatus::Ok) {
+        census_known_ = false;
+        return status;
+    }
+    if (by_census) {
+        advance_census();
+    }
+    return DeriveStatus::Ok;
+}
+
+/// Chunks of the size asked for; for more than one thread also where the parameters of each begin.
+template <typename C>
+void Passes::cut(const WordView<C>& word) {
+    const std::uint64_t size = std::max(options_.chunk_modules, 1U);
+    chunks_.assign((word.count + size - 1) / size, {});
+    for (std::uint64_t i = 0; i < chunks_.size(); ++i) {
+        chunks_[i].begin.index = i * size;
+        chunks_[i].end = std::min(word.count, (i + 1) * size);
+    }
+    if (!plan_.has_parameters() || workers_.count() == 1 || chunks_.size() == 1) {
+        return;
+    }
+    const Row* const rows = plan_.rows().data();
+    workers_.for_each(chunks_.size(), [&](std::uint64_t index) {
+        Chunk& chunk = chunks_[index];
+        std::uint64_t stored = 0;
+        for (std::uint64_t i = chunk.begin.index; i < chunk.end; ++i) {
+            stored += rows[word.codes[i]].stored;
+        }
+        chunk.parameters = stored;
+    });
+    std::uint64_t before = 0;
+    for (Chunk& chunk : chunks_) {
+        chunk.begin.parameter = before;
+        before += std::exchange(chunk.parameters, 0);
+    }
+}
+
+template <typename C, typename R>
+DeriveStatus Passes::count(const WordView<C>& word, const PassKeys& keys) {
+    // A match of several modules may reach into the next chunk, which then begins after it.
+    const bool in_order = workers_.count() == 1 || plan_.predecessor_count() > 1;
+    const auto count_chunk = [&](std::uint64_t index) {
+        if (cancelled()) {
+            return;
+        }
+        Chunk& chunk = chunks_[index];
+        Chooser<C> chooser(plan_, keys, word, plan_.needs_contexts() ? &contexts_ : nullptr);
+        CountRequest request;
+        request.begin = chunk.begin;
+        request.end = chunk.end;
+        const CountResult result =
+            count_modules(plan_, chooser, word, request, records_at<R>(chunk.begin.index));
+        chunk.modules = result.modules;
+        chunk.parameters = result.parameters;
+        chunk.mostly_copies = mostly(result.copies, chunk.end - chunk.begin.index);
+        chunk.fault = result.fault;
+        chunk.fault_index = result.end.index;
+        chunk.end = result.end.index;
+        if (in_order && index + 1 < chunks_.size()) {
+            chunks_[index + 1].begin = result.end;
+        }
+    };
+    if (in_order) {
+        for (std::uint64_t i = 0; i < chunks_.size(); ++i) {
+            count_chunk(i);
+            if (chunks_[i].fault) {
+                break;
+            }
+        }
+    } else {
+        workers_.for_each(chunks_.size(), count_chunk);
+    }
+    if (cancelled()) {
+        return DeriveStatus::Cancelled;
+    }
+    for (const Chunk& chunk : chunks_) {
+        if (chunk.fault) {
+            return report_fault(word, keys, {}, chunk.fault_index + 1);
+        }
+    }
+    for (Chunk& chunk : chunks_) {
+        chunk.out_module = modules_;
+        chunk.out_parameter = parameters_;
+        modules_ = saturating_add(modules_, chunk.modules);
+        parameters_ = saturating_add(parameters_, chunk.parameters);
+    }
+    return DeriveStatus::Ok;
+}
+
+template <typename C, typename R>
+DeriveStatus Passes::write(const WordView<C>& word, Word& out, const PassKeys& keys) {
+    C* const codes = out.codes<C>().data();
+    float* const parameters = out.parameters().data();
+    const bool in_order = workers_.count() == 1 || chunks_.size() == 1;
+    C* const codes_end = codes + modules_ + kWordSlack / sizeof(C);
+    float* const parameters_end = parameters + parameters_ + kWordSlack / sizeof(float);
+    WriteRequest<C> next; // in order: where the chunk before ended
+    next.codes = codes;
+    next.parameters = parameters;
+    const bool by_census = census_known_;
+    std::uint64_t census_copies = 0;
+    if (by_census) {
+        for (Code code = 0; code < census_.size(); ++code) {
+            census_copies += plan_.row(code).copies ? census_[code] : 0;
+        }
+    }
+    const auto write_chunk = [&](std::uint64_t index) {
+        if (cancelled()) {
+            return;
+        }
+        Chunk& chunk = chunks_[index];
+        WriteRequest<C> request;
+        request.begin = chunk.begin;
+        request.codes = codes + chunk.out_module;
+        request.parameters = parameters + chunk.out_parameter;
+        request.mostly_copies = chunk.mostly_copies;
+        const bool last = index + 1 == chunks_.size();
+        request.codes_limit = in_order || last ? codes_end : request.codes + chunk.modules;
+        request.parameters_limit =
+            in_order || last ? parameters_end : request.parameters + chunk.parameters;
+        if (by_census) {
+            request.begin = next.begin;
+            request.codes = next.codes;
+            request.parameters = next.parameters;
+            request.mostly_copies = mostly(census_copies, word.count);
+        }
+        request.end = chunk.end;
+        const C* const begin = request.codes;
+        chunk.begin = request.begin;
+        Matcher<C> matcher(plan_, word, plan_.needs_contexts() ? &contexts_ : nullptr);
+        chunk.fault = !write_modules(plan_, keys, matcher, word, request,
+                                     static_cast<const R*>(records_at<R>(chunk.begin.index)));
+        if (in_order) {
+            next = request;
+        }
+        report_progress(keys.generation, static_cast<std::uint64_t>(request.codes - begin));
+    };
+    if (in_order) {
+        for (std::uint64_t i = 0; i < chunks_.size() && !(i > 0 && chunks_[i - 1].fault); ++i) {
+            write_chunk(i);
+        }
+    } else {
+        workers_.for_each(chunks_.size(), write_chunk);
+    }
+    if (cancelled()) {
+        return DeriveStatus::Cancelled;
+    }
+    for (const Chunk& chunk : chunks_) {
+        if (chunk.fault) {
+            return report_fault(word, keys, chunk.begin, chunk.end);
+        }
+    }
+    return DeriveStatus::Ok;
+}
+
+template <typename C>
+DeriveStatus Passes::report_fault(const WordView<C>& word,
+                                  const PassKeys& keys,
+                                  ModulePlace begin,
+                                  std::uint64_t end) {
+    const ContextTables* const contexts = plan_.needs_contexts() ? &contexts_ : nullptr;
+    std::optional<RuntimeError> error = find_fault(plan_, keys, word, contexts, begin, end);
+    LSYS_CHECK(error.has_value(), begin.index, end);
+    error_ = std::move(*error);
+    return DeriveStatus::Error;
+}
+
+DeriveStatus Passes::check_limits(const Word& in, const Word& out, const PassKeys& keys) {
+    const std::uint64_t held = saturating_add(other_bytes_ + held_bytes() + in.held_bytes(),
+                                              out.held_bytes_after(modules_, parameters_));
+    limit_.generation = keys.generation;
+    limit_.predicted_modules = modules_;
+    limit_.predicted_bytes = held;
+    if (modules_ > options_.limits.max_modules) {
+        limit_.kind = LimitKind::Modules;
+        return DeriveStatus::Limit;
+    }
+    if (held > options_.limits.max_bytes) {
+        limit_.kind = LimitKind::Memory;
+        return DeriveStatus::Limit;
+    }
+    return DeriveStatus::Ok;
+}
+
+/// The production whose applications make the word longer by most modules.
+template <typename C, typename R>
+std::uint32_t Passes::dominant_production(const WordView<C>& word) const {
+    std::vector<std::uint64_t> uses(plan_.entries().size(), 0);
+    if (census_known_) {
+        std::copy(census_.begin(), census_.end(), uses.begin());
+    } else {
+        const R* const all = reinterpret_cast<const R*>(records_.data());
+        for (const Chunk& chunk : chunks_) {
+            const R* records = all + chunk.begin.index;
+            for (std::uint64_t i = chunk.begin.index; i < chunk.end; ++i) {
+                const C code = word.codes[i];
+                const Row& row = plan_.row(code);
+                const std::uint32_t record = row.kind == RowKind::Fixed ? 0 : *records++;
+                ++uses[record == 0 ? code : row.base + record];
+                i += record != 0 ? plan_.predecessor_count() - 1 : 0;
+            }
+        }
+    }
+    std::vector<std::uint64_t> added(plan_.bytecode().productions.size(), 0);
+    std::uint32_t dominant = kNone;
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        const Entry& entry = plan_.entries()[i];
+        if (entry.candidate == kNone || entry.code_count <= plan_.predecessor_count()) {
+            continue;
+        }
+        const std::uint32_t production = plan_.candidate(entry.candidate).production;
+        added[production] = saturating_add(
+            added[production],
+            saturating_multiply(uses[i], entry.code_count - plan_.predecessor_count()));
+    }
+    for (std::uint32_t production = 0; production < added.size(); ++production) {
+        if (added[production] > (dominant == kNone ? 0 : added[dominant])) {
+            dominant = production;
+        }
+    }
+    return dominant;
+}
+
+/// Makes sure of the census and takes the sizes of the next word from it.
+template <typename C>
+void Passes::take_census(const WordView<C>& word) {
+    if (!census_known_) {
+        census_.assign(plan_.rows().size(), 0);
+        for (std::uint64_t i = 0; i < word.count; ++i) {
+            ++census_[word.codes[i]];
+        }
+        census_known_ = true;
+    }
+    for (Code code = 0; code < census_.size(); ++code) {
+        const Row& row = plan_.row(code);
+        modules_ = saturating_add(modules_, saturating_multiply(census_[code], row.code_count));
+        parameters_ =
+            saturating_add(parameters_, saturating_multiply(census_[code], row.parameter_count));
+    }
+}
+
+/// The census of the word that was written, by the growth matrix.
+void Passes::advance_census() {
+    const Bytecode& bytecode = plan_.bytecode();
+    std::vector<std::uint64_t> next(census_.size(), 0);
+    for (Code code = 0; code < census_.size(); ++code) {
+        if (census_[code] == 0) {
+            continue;
+        }
+        const Entry& entry = plan_.entries()[code];
+        if (entry.candidate == kNone) {
+            next[code] += census_[code];
+            continue;
+        }
+        for (std::uint32_t i = 0; i < entry.code_count; ++i) {
+            next[bytecode.template_codes[entry.first_code + i]] += census_[code];
+        }
+    }
+    census_ = std::move(next);
+}
+
+} // namespace lsys

@@ -1,0 +1,310 @@
+#include "runtime/derive/plan.h"
+
+#include "grammar/contract.h"
+#include "runtime/random.h"
+#include "runtime/word.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace lsys {
+
+namespace {
+
+template <typename C>
+void fill_pool(std::byte* out, const Bytecode& bytecode) {
+    for (const Code code : bytecode.template_codes) {
+        const C narrow = static_cast<C>(code);
+        std::memcpy(out, &narrow, sizeof narrow);
+        out += sizeof narrow;
+    }
+    for (Code code = 0; code < bytecode.code_count(); ++code) {
+        const C narrow = static_cast<C>(code);
+        std::memcpy(out, &narrow, sizeof narrow);
+        out += sizeof narrow;
+    }
+}
+
+/// Whether the expression at `first` (kNone: none) uses a formal outside [begin, end).
+bool uses_formal_outside(const Bytecode& bytecode,
+                         std::uint32_t first,
+                         std::uint32_t begin,
+                         std::uint32_t end) {
+    if (first == kNone) {
+        return false;
+    }
+    for (const std::uint32_t* at = bytecode.instructions.data() + first;; ++at) {
+        const auto opcode = static_cast<Opcode>(*at & 0xFF);
+        const std::uint32_t operand = *at >> 8;
+        if (opcode == Opcode::Formal && (operand < begin || operand >= end)) {
+            return true;
+        }
+        if (opcode == Opcode::End) {
+            return false;
+        }
+        if (opcode == Opcode::Literal) {
+            ++at;
+        }
+    }
+}
+
+bool uses_step(const Bytecode& bytecode, std::uint32_t first) {
+    return first != kNone && contains(bytecode, first, Opcode::Step);
+}
+
+template <typename T>
+std::uint64_t bytes_of(const std::vector<T>& values) {
+    return values.capacity() * sizeof(T);
+}
+
+} // namespace
+
+Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generation)
+    : bytecode_(bytecode), inputs_(inputs), each_generation_(each_generation) {
+    make_codes();
+    make_families();
+    make_entries();
+    if (bytecode_.settings.rewriting == RewritingMode::Parallel) {
+        for (std::uint32_t i = 0; i < families_.size(); ++i) {
+            put_in_force(i);
+        }
+    }
+}
+
+void Plan::make_codes() {
+    const Code count = bytecode_.code_count();
+    code_width_ = lsys::code_width(count);
+    identity_first_ = static_cast<std::uint32_t>(bytecode_.template_codes.size());
+    pool_.resize((std::size_t{identity_first_} + count) * code_width_ + kWordSlack);
+    switch (code_width_) {
+    case 1:
+        fill_pool<std::uint8_t>(pool_.data(), bytecode_);
+        break;
+    case 2:
+        fill_pool<std::uint16_t>(pool_.data(), bytecode_);
+        break;
+    default:
+        fill_pool<std::uint32_t>(pool_.data(), bytecode_);
+        break;
+    }
+
+    std::uint32_t most_stored = 0;
+    for (const BytecodeSymbol& symbol : bytecode_.symbols) {
+        most_stored = std::max(most_stored, symbol.parameter_count);
+        has_structure_ = has_structure_ || symbol.ignored ||
+                         symbol.kind == SymbolKind::BranchOpen ||
+                         symbol.kind == SymbolKind::BranchClose;
+    }
+    has_parameters_ = most_stored != 0;
+    mixes_inputs_ = most_stored > 1;
+    for (const BytecodeProduction& production : bytecode_.productions) {
+        if (std::uint64_t{production.successor.codes.count} * code_width_ > wide_bytes_) {
+            wide_bytes_ = 32;
+        }
+    }
+    lanes_.resize(most_stored); // of every module that is copied
+    for (std::uint32_t i = 0; i < most_stored; ++i) {
+        lanes_[i].input = i;
+    }
+
+    const std::size_t symbols = bytecode_.symbols.size();
+    codes_of_first_.assign(symbols + 1, 0);
+    for (Code code = 0; code < count; ++code) {
+        ++codes_of_first_[static_cast<std::size_t>(bytecode_.symbol_of(code)) + 1];
+    }
+    for (std::size_t i = 0; i < symbols; ++i) {
+        codes_of_first_[i + 1] += codes_of_first_[i];
+    }
+    codes_of_.resize(count);
+    std::vector<std::uint32_t> next(codes_of_first_.begin(), codes_of_first_.end() - 1);
+    for (Code code = 0; code < count; ++code) {
+        codes_of_[next[static_cast<std::size_t>(bytecode_.symbol_of(code))]++] = code;
+    }
+}
+
+std::span<const Code> Plan::codes_of(SymbolId symbol) const {
+    const auto index = static_cast<std::size_t>(symbol);
+    return {codes_of_.data() + codes_of_first_[index],
+            codes_of_first_[index + 1] - codes_of_first_[index]};
+}
+
+SymbolId Plan::first_symbol(std::uint32_t rule) const {
+    const Candidate& candidate = candidates_[families_[rule].first];
+    return bytecode_.patterns[bytecode_.productions[candidate.production].predecessor.first].symbol;
+}
+
+void Plan::make_families() {
+    const bool parallel = bytecode_.settings.rewriting == RewritingMode::Parallel;
+    const bool one_choice = bytecode_.settings.choice == ChoiceScope::Generation;
+    std::vector<std::uint32_t> family_of_production;
+    family_of_production.reserve(bytecode_.productions.size());
+    std::vector<std::uint32_t> family_of_symbol(parallel ? bytecode_.symbols.size() : 0, kNone);
+    for (const BytecodeProduction& production : bytecode_.productions) {
+        std::uint32_t index = production.rule;
+        if (parallel) {
+            const SymbolId symbol = bytecode_.patterns[production.predecessor.first].symbol;
+            std::uint32_t& known = family_of_symbol[static_cast<std::size_t>(symbol)];
+            if (known == kNone) {
+                known = static_cast<std::uint32_t>(families_.size());
+            }
+            index = known;
+        }
+        if (index >= families_.size()) {
+            families_.resize(std::size_t{index} + 1);
+        }
+        ++families_[index].count;
+        family_of_production.push_back(index);
+    }
+    std::uint32_t first = 0;
+    std::uint32_t largest = 0;
+    for (Family& family : families_) {
+        family.first = first;
+        first += family.count;
+        largest = std::max(largest, family.count);
+    }
+    record_width_ = largest <= 0xFF ? 1 : 4;
+
+    candidates_.resize(bytecode_.productions.size());
+    std::vector<std::uint32_t> filled(families_.size(), 0);
+    for (std::uint32_t p = 0; p < bytecode_.productions.size(); ++p) {
+        const BytecodeProduction& production = bytecode_.productions[p];
+        const std::uint32_t index = family_of_production[p];
+        Family& family = families_[index];
+        Candidate& candidate = candidates_[family.first + filled[index]++];
+        const PatternItem& item = bytecode_.patterns[production.predecessor.first];
+        std::uint32_t own_count = 0; // of all predecessor modules
+        for (std::uint32_t i = 0; i < production.predecessor.count; ++i) {
+            own_count +=
+                bytecode_.symbol(bytecode_.patterns[production.predecessor.first + i].symbol)
+                    .parameter_count;
+        }
+        const std::uint32_t own_end = item.first_formal + own_count;
+        candidate.production = p;
+        candidate.group = production.group;
+        candidate.own_first = item.first_formal;
+        candidate.weight = production.weight;
+        candidate.stochastic = production.stochastic;
+        candidate.has_context = production.has_left || production.has_right;
+        candidate.reads_context =
+            uses_formal_outside(bytecode_, production.condition, item.first_formal, own_end) ||
+            uses_formal_outside(bytecode_, production.successor.arguments, item.first_formal,
+                                own_end);
+        candidate.gathers = candidate.reads_context || item.first_formal != 0 ||
+                            (production.predecessor.count > 1 && own_count > 0);
+        family.has_context = family.has_context || candidate.has_context;
+        family.reads_context = family.reads_context || candidate.reads_context;
+        family.varies = family.varies || (one_choice && production.stochastic) ||
+                        uses_step(bytecode_, production.condition) ||
+                        uses_step(bytecode_, production.successor.arguments);
+    }
+    for (std::uint32_t i = 0; i < families_.size(); ++i) {
+        if (families_[i].varies) {
+            varying_families_.push_back(i);
+        }
+    }
+}
+
+void Plan::make_entries() {
+    const Code count = bytecode_.code_count();
+    rows_.resize(count);
+    choice_of_code_.assign(count, kNone);
+    entries_.resize(std::size_t{count} + candidates_.size());
+    for (Code code = 0; code < count; ++code) {
+        Row& row = rows_[code];
+        row.stored = bytecode_.stored_parameters(code);
+        if (code >= bytecode_.symbols.size()) {
+            row.constants = bytecode_.folded[code - bytecode_.symbols.size()].first_constant;
+        }
+        reset_row(code);
+    }
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+        const WordTemplate& successor = bytecode_.productions[candidates_[i].production].successor;
+        Entry& entry = entries_[count + i];
+        entry.candidate = static_cast<std::uint32_t>(i);
+        entry.first_code = successor.codes.first;
+        entry.code_count = successor.codes.count;
+        entry.parameter_count = successor.parameter_count;
+        if (entry.parameter_count > kEntryLanes) {
+            entry.first_lane = static_cast<std::uint32_t>(lanes_.size());
+            lanes_.resize(lanes_.size() + entry.parameter_count);
+        }
+    }
+}
+
+Entry Plan::identity_entry(Code code) const {
+    Entry entry;
+    entry.first_code = identity_first_ + code;
+    entry.code_count = 1;
+    entry.parameter_count = rows_[code].stored;
+    for (std::uint32_t lane = 0; lane < kEntryLanes && lane < entry.parameter_count; ++lane) {
+        entry.scale[lane] = 1.0F;
+        entry.offset[lane] = -0.0F;
+        entry.input[lane] = static_cast<std::uint8_t>(lane);
+    }
+    entry.reads_own = entry.parameter_count != 0;
+    entry.special = entry.parameter_count > kEntryLanes;
+    return entry;
+}
+
+void Plan::finish(Entry& entry) {
+    entry.special = entry.general || entry.parameter_count > kEntryLanes ||
+                    std::uint64_t{entry.code_count} * code_width_ > wide_bytes_;
+}
+
+void Plan::set_kind(Code code, RowKind kind) {
+    Row& row = rows_[code];
+    dynamic_rows_ -= row.kind != RowKind::Fixed ? 1 : 0;
+    dynamic_rows_ += kind != RowKind::Fixed ? 1 : 0;
+    row.kind = kind;
+    row.copies = row.copies && kind == RowKind::Fixed;
+}
+
+void Plan::reset_row(Code code) {
+    set_kind(code, RowKind::Fixed);
+    Row& row = rows_[code];
+    row.slow = false;
+    row.copies = true;
+    row.code_count = 1;
+    row.parameter_count = row.stored;
+    entries_[code] = identity_entry(code);
+}
+
+void Plan::prepare(std::uint32_t generation) {
+    LSYS_CHECK(each_generation_);
+    generation_ = generation;
+    for (const std::uint32_t index : varying_families_) {
+        families_[index].current = false;
+        if (bytecode_.settings.rewriting == RewritingMode::Parallel) {
+            put_in_force(index);
+        }
+    }
+}
+
+void Plan::select_rule(std::uint32_t rule) {
+    if (selected_rule_ != kNone) {
+        for (const Code code : codes_of(first_symbol(selected_rule_))) {
+            reset_row(code);
+        }
+    }
+    needs_contexts_ = false;
+    reads_contexts_ = false;
+    selected_rule_ = rule;
+    predecessor_count_ =
+        bytecode_.productions[candidates_[families_[rule].first].production].predecessor.count;
+    put_in_force(rule);
+}
+
+float Plan::rule_draw(std::uint32_t rule, std::uint32_t generation) const {
+    const std::uint64_t position = ~std::uint64_t{0} - rule;
+    return unit_interval(draw_block(inputs_.seed, generation, position, 0)[0]);
+}
+
+std::uint64_t Plan::held_bytes() const {
+    return bytes_of(rows_) + bytes_of(entries_) + bytes_of(lanes_) + bytes_of(families_) +
+           bytes_of(candidates_) + bytes_of(comparisons_) + bytes_of(choices_) +
+           bytes_of(thresholds_) + bytes_of(choice_records_) + bytes_of(pool_) +
+           bytes_of(codes_of_first_) + bytes_of(codes_of_) + bytes_of(choice_of_code_) +
+           bytes_of(varying_families_);
+}
+
+} // namespace lsys

@@ -1,0 +1,304 @@
+#include "runtime/derive/write.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+/// Four binary32 values that are computed together: GCC's and Clang's vectors, on any machine.
+using Float4 = float __attribute__((vector_size(16)));
+
+/// Where the lanes of one entry find their inputs.
+enum class LaneInputs : std::uint8_t {
+    None,  // the program stores no parameters
+    First, // no module stores more than one
+    Any,
+};
+
+bool all_finite(const float* values, std::size_t count) {
+    constexpr std::uint32_t kExponent = 0x7F800000;
+    std::uint32_t found = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        found |= (std::bit_cast<std::uint32_t>(values[i]) & kExponent) == kExponent ? 1U : 0U;
+    }
+    return found == 0;
+}
+
+template <typename C, typename R>
+class Writer {
+public:
+    Writer(const Plan& plan,
+           const PassKeys& keys,
+           Matcher<C>& matcher,
+           const WordView<C>& word,
+           WriteRequest<C>& request,
+           const R* records)
+        : plan_(plan), keys_(keys), matcher_(matcher), word_(word), request_(request),
+          rows_(plan.rows().data()), entries_(plan.entries().data()),
+          pool_(reinterpret_cast<const C*>(plan.pool())), records_(records), place_(request.begin),
+          codes_(request.codes), parameters_(request.parameters) {}
+
+    bool run() {
+        bool fine = true;
+        if (plan_.predecessor_count() > 1) {
+            fine = run_exactly(request_.end);
+        } else if (request_.mostly_copies) {
+            fine = run_blocks();
+        } else if (!plan_.has_parameters()) {
+            fine = run_wide<LaneInputs::None>();
+        } else if (!plan_.mixes_inputs()) {
+            fine = run_wide<LaneInputs::First>();
+        } else {
+            fine = run_wide<LaneInputs::Any>();
+        }
+        const float* const written = std::exchange(request_.parameters, parameters_);
+        request_.begin = place_;
+        request_.codes = codes_;
+        return fine && all_finite(written, static_cast<std::size_t>(parameters_ - written));
+    }
+
+private:
+    template <LaneInputs kInputs>
+    bool run_wide() {
+        if (plan_.all_fixed()) {
+            return plan_.wide_bytes() == 16 ? run_wide<kInputs, false, 16>()
+                                            : run_wide<kInputs, false, 32>();
+        }
+        return plan_.wide_bytes() == 16 ? run_wide<kInputs, true, 16>()
+                                        : run_wide<kInputs, true, 32>();
+    }
+
+    /// Batches that cannot pass the limits, without asking for each module; what is near a limit
+    /// or special is written exactly.
+    template <LaneInputs kInputs, bool kRecords, std::size_t kBytes>
+    bool run_wide() {
+        while (place_.index < request_.end) {
+            const auto code_room = static_cast<std::uint64_t>(request_.codes_limit - codes_);
+            const auto parameter_room =
+                static_cast<std::uint64_t>(request_.parameters_limit - parameters_);
+            std::uint64_t batch =
+                std::min(request_.end - place_.index, code_room / (kBytes / sizeof(C)));
+            if constexpr (kInputs != LaneInputs::None) {
+                batch = std::min(batch, parameter_room / kEntryLanes);
+            }
+            if (batch != 0 && run_batch<kInputs, kRecords, kBytes>(batch) == batch) {
+                continue;
+            }
+            if (!run_exactly(place_.index + 1)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// Up to `batch` modules; returns how many, which are fewer if a special one comes next.
+    template <LaneInputs kInputs, bool kRecords, std::size_t kBytes>
+    std::uint64_t run_batch(std::uint64_t batch) {
+        const C* in = word_.codes + place_.index;
+        const C* const begin = in;
+        const C* const end = in + batch;
+        const float* own = word_.parameters + place_.parameter;
+        const float* const first_own = own;
+        const Row* const rows = rows_;
+        const Entry* const entries = entries_;
+        const C* const pool = pool_;
+        const R* records = records_;
+        C* codes = codes_;
+        float* parameters = parameters_;
+        for (; in != end; ++in) {
+            const C code = *in;
+            const Entry* entry = entries + code;
+            [[maybe_unused]] const Row* row = rows + code;
+            if constexpr (kRecords) {
+                if (row->kind != RowKind::Fixed) {
+                    const std::uint32_t record = *records;
+                    entry = record == 0 ? entry : entries + row->base + record;
+                    if (entry->special || row->slow) {
+                        break;
+                    }
+                    ++records;
+                } else if (entry->special) {
+                    break;
+                }
+            } else if (entry->special) {
+                break;
+            }
+            std::memcpy(codes, pool + entry->first_code, kBytes);
+            codes += entry->code_count;
+            if constexpr (kInputs != LaneInputs::None) {
+                Float4 scale;
+                Float4 offset;
+                std::memcpy(&scale, entry->scale.data(), sizeof scale);
+                std::memcpy(&offset, entry->offset.data(), sizeof offset);
+                Float4 input;
+                if constexpr (kInputs == LaneInputs::First) {
+                    input = Float4{own[0], own[0], own[0], own[0]};
+                } else {
+                    input = Float4{own[entry->input[0]], own[entry->input[1]], own[entry->input[2]],
+                                   own[entry->input[3]]};
+                }
+                const Float4 values = input * scale + offset;
+                std::memcpy(parameters, &values, sizeof values);
+                parameters += entry->parameter_count;
+                own += row->stored;
+            }
+        }
+        const auto done = static_cast<std::uint64_t>(in - begin);
+        records_ = records;
+        codes_ = codes;
+        parameters_ = parameters;
+        place_.index += done;
+        place_.parameter += static_cast<std::uint64_t>(own - first_own);
+        return done;
+    }
+
+    /// Runs of modules that are copied are moved as blocks, the others written exactly.
+    bool run_blocks() {
+        while (place_.index < request_.end) {
+            const C* const begin = word_.codes + place_.index;
+            const C* const end = word_.codes + request_.end;
+            const C* in = begin;
+            std::uint64_t stored = 0;
+            while (in != end && rows_[*in].copies) {
+                stored += rows_[*in].stored;
+                ++in;
+            }
+            const auto count = static_cast<std::uint64_t>(in - begin);
+            codes_ = std::copy(begin, in, codes_);
+            const float* const own = word_.parameters + place_.parameter;
+            parameters_ = std::copy(own, own + stored, parameters_);
+            place_.index += count;
+            place_.parameter += stored;
+            while (place_.index < request_.end && !rows_[word_.codes[place_.index]].copies) {
+                if (!run_exactly(place_.index + 1)) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+
+    /// Modules up to `end`, without writing anything but what they become.
+    bool run_exactly(std::uint64_t end) {
+        while (place_.index < end) {
+            const C code = word_.codes[place_.index];
+            const Row& row = rows_[code];
+            const Entry* entry = entries_ + code;
+            std::uint32_t modules = 1;
+            if (row.kind != RowKind::Fixed) {
+                const std::uint32_t record = *records_++;
+                if (record != 0) {
+                    entry = entries_ + row.base + record;
+                    modules = plan_.predecessor_count();
+                }
+            }
+            codes_ = std::copy_n(pool_ + entry->first_code, entry->code_count, codes_);
+            if (!write_parameters(*entry)) {
+                return false;
+            }
+            parameters_ += entry->parameter_count;
+            for (; modules != 0; --modules, ++place_.index) {
+                place_.parameter += rows_[word_.codes[place_.index]].stored;
+            }
+        }
+        return true;
+    }
+
+    bool write_parameters(const Entry& entry) {
+        if (entry.parameter_count == 0) {
+            return true;
+        }
+        if (entry.general) {
+            EvalFault fault;
+            return evaluate_entry(plan_, keys_, matcher_, word_.first_position + place_.index,
+                                  place_, entry, parameters_, fault);
+        }
+        const float* const own = matcher_.own(place_);
+        if (entry.parameter_count > kEntryLanes) {
+            const Lane* const lanes = plan_.lanes().data() + entry.first_lane;
+            for (std::uint32_t i = 0; i < entry.parameter_count; ++i) {
+                parameters_[i] = value_of(lanes[i], own);
+            }
+            return true;
+        }
+        for (std::uint32_t i = 0; i < entry.parameter_count; ++i) {
+            parameters_[i] = own[entry.input[i]] * entry.scale[i] + entry.offset[i];
+        }
+        return true;
+    }
+
+    const Plan& plan_;
+    const PassKeys& keys_;
+    Matcher<C>& matcher_;
+    const WordView<C>& word_;
+    WriteRequest<C>& request_;
+    const Row* rows_;
+    const Entry* entries_;
+    const C* pool_;
+    const R* records_;
+    ModulePlace place_;
+    C* codes_;
+    float* parameters_;
+};
+
+} // namespace
+
+template <typename C, typename R>
+bool write_modules(const Plan& plan,
+                   const PassKeys& keys,
+                   Matcher<C>& matcher,
+                   const WordView<C>& word,
+                   WriteRequest<C>& request,
+                   const R* records) {
+    return Writer<C, R>(plan, keys, matcher, word, request, records).run();
+}
+
+template <typename C>
+bool evaluate_entry(const Plan& plan,
+                    const PassKeys& keys,
+                    Matcher<C>& matcher,
+                    std::uint64_t position,
+                    ModulePlace place,
+                    const Entry& entry,
+                    float* out,
+                    EvalFault& fault) {
+    const Bytecode& bytecode = plan.bytecode();
+    const Candidate& candidate = plan.candidate(entry.candidate);
+    const BytecodeProduction& production = bytecode.productions[candidate.production];
+    if (production.successor.arguments == kNone) {
+        return true;
+    }
+    const PlanInputs& inputs = plan.inputs();
+    const EvalFrame frame{matcher.formals_again(candidate, place), inputs.globals,
+                          static_cast<float>(keys.generation), inputs.steps};
+    const bool draws_choice =
+        candidate.stochastic && bytecode.settings.choice == ChoiceScope::Module;
+    RangeDraws draws = RangeDraws::of_module(keys.seed, keys.generation, position,
+                                             keys.first_draw + (draws_choice ? 1 : 0));
+    return evaluate(bytecode, production.successor.arguments, frame, &draws, out, fault);
+}
+
+#define LSYS_WRITE(C, R)                                                                           \
+    template bool write_modules<C, R>(const Plan&, const PassKeys&, Matcher<C>&,                   \
+                                      const WordView<C>&, WriteRequest<C>&, const R*);
+LSYS_WRITE(std::uint8_t, std::uint8_t)
+LSYS_WRITE(std::uint8_t, std::uint32_t)
+LSYS_WRITE(std::uint16_t, std::uint8_t)
+LSYS_WRITE(std::uint16_t, std::uint32_t)
+LSYS_WRITE(std::uint32_t, std::uint8_t)
+LSYS_WRITE(std::uint32_t, std::uint32_t)
+#undef LSYS_WRITE
+#define LSYS_EVALUATE(C)                                                                           \
+    template bool evaluate_entry<C>(const Plan&, const PassKeys&, Matcher<C>&, std::uint64_t,      \
+                                    ModulePlace, const Entry&, float*, EvalFault&);
+LSYS_EVALUATE(std::uint8_t)
+LSYS_EVALUATE(std::uint16_t)
+LSYS_EVALUATE(std::uint32_t)
+#undef LSYS_EVALUATE
+
+} // namespace lsys

@@ -1,0 +1,121 @@
+#include "tests/support/derived.h"
+
+#include "runtime/stream.h"
+#include "runtime/word_text.h"
+
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+namespace lsys::test {
+
+namespace {
+
+constexpr std::array<std::uint32_t, 3> kThreads{1, 2, 3};
+constexpr std::array<std::uint32_t, 5> kChunks{1, 2, 7, 64, 1U << 16};
+
+DeriveOptions options_for(std::uint32_t generations,
+                          std::uint64_t seed,
+                          std::uint32_t threads,
+                          std::uint32_t chunk_modules) {
+    DeriveOptions options;
+    options.generations = generations;
+    options.seed = seed;
+    options.threads = threads;
+    options.chunk_modules = chunk_modules;
+    return options;
+}
+
+std::string derived_with(const Bytecode& bytecode, const DeriveOptions& options) {
+    Derivation derivation(bytecode, options);
+    REQUIRE(derivation.start() == DeriveStatus::Ok);
+    REQUIRE(derivation.run_to(options.generations) == DeriveStatus::Ok);
+    REQUIRE(derivation.age() == options.generations);
+    return text_of(bytecode, derivation.word());
+}
+
+std::string streamed(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t seed) {
+    WordPrinter printer(bytecode);
+    std::string text;
+    std::uint64_t modules = 0;
+    const StreamOutcome outcome = derive_streamed(
+        bytecode, options_for(generations, seed, 1, 64), [&](const StreamChunk& chunk) {
+            printer.append(chunk.codes, chunk.parameters, text);
+            modules += chunk.codes.size();
+            return true;
+        });
+    REQUIRE(outcome.status == DeriveStatus::Ok);
+    CHECK(outcome.modules == modules);
+    return text;
+}
+
+bool same(const RuntimeError& a, const RuntimeError& b) {
+    return a.kind == b.kind && a.production == b.production && a.site == b.site &&
+           a.generation == b.generation && a.position == b.position && a.symbol == b.symbol &&
+           a.parameters == b.parameters && a.in_condition == b.in_condition;
+}
+
+} // namespace
+
+std::string text_of(const Bytecode& bytecode, const Word& word) {
+    std::uint64_t stored = 0;
+    for (std::uint64_t i = 0; i < word.module_count(); ++i) {
+        REQUIRE(word.code(i) < bytecode.code_count());
+        stored += bytecode.stored_parameters(word.code(i));
+    }
+    REQUIRE(stored == word.parameter_count());
+    std::string text;
+    WordPrinter printer(bytecode);
+    REQUIRE(printer.print(word, [&text](std::string_view piece) {
+        text += piece;
+        return true;
+    }));
+    return text;
+}
+
+std::string derived(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t seed) {
+    return derived_with(bytecode, options_for(generations, seed, 1, 1U << 16));
+}
+
+std::string
+derived_every_way(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t seed) {
+    const std::string expected = derived(bytecode, generations, seed);
+    for (const std::uint32_t threads : kThreads) {
+        for (const std::uint32_t chunk : kChunks) {
+            INFO(threads << " threads, chunks of " << chunk);
+            CHECK(derived_with(bytecode, options_for(generations, seed, threads, chunk)) ==
+                  expected);
+        }
+    }
+    if (!why_not_streamable(bytecode)) {
+        CHECK(streamed(bytecode, generations, seed) == expected);
+    }
+    return expected;
+}
+
+RuntimeError
+error_every_way(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t seed) {
+    RuntimeError expected;
+    bool first = true;
+    for (const std::uint32_t threads : kThreads) {
+        for (const std::uint32_t chunk : kChunks) {
+            INFO(threads << " threads, chunks of " << chunk);
+            Derivation derivation(bytecode, options_for(generations, seed, threads, chunk));
+            DeriveStatus status = derivation.start();
+            if (status == DeriveStatus::Ok) {
+                status = derivation.run_to(generations);
+            }
+            REQUIRE(status == DeriveStatus::Error);
+            if (first) {
+                expected = derivation.error();
+                first = false;
+            }
+            CHECK(same(derivation.error(), expected));
+        }
+    }
+    return expected;
+}
+
+} // namespace lsys::test
