@@ -8,8 +8,25 @@
 #include <atomic>
 #include <optional>
 #include <thread>
+#include <vector>
 
 namespace lsys {
+
+namespace {
+
+#if defined(__SANITIZE_THREAD__)
+constexpr bool kThreadSanitizer = true;
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+constexpr bool kThreadSanitizer = true;
+#else
+constexpr bool kThreadSanitizer = false;
+#endif
+#else
+constexpr bool kThreadSanitizer = false;
+#endif
+
+} // namespace
 
 struct Workers::Arena {
     explicit Arena(std::uint32_t threads) {
@@ -19,6 +36,15 @@ struct Workers::Arena {
         }
         tasks.initialize(static_cast<int>(threads));
     }
+
+    void run(std::uint32_t count, const std::function<void()>& task) {
+        tasks.execute([&] {
+            oneapi::tbb::parallel_for(
+                std::uint32_t{0}, count, [&task](std::uint32_t) { task(); },
+                oneapi::tbb::simple_partitioner());
+        });
+    }
+
     std::optional<oneapi::tbb::global_control> more;
     oneapi::tbb::task_arena tasks;
 };
@@ -36,27 +62,31 @@ void Workers::for_each(std::uint64_t pieces, const std::function<void(std::uint6
         }
         return;
     }
+    // Each task takes the next piece until none is left, so that neighbours are done at about the
+    // same time.
+    std::atomic<std::uint64_t> next{0};
+    const std::function<void()> task = [&] {
+        for (std::uint64_t i = next.fetch_add(1); i < pieces; i = next.fetch_add(1)) {
+            piece(i);
+        }
+    };
+    const auto tasks = static_cast<std::uint32_t>(std::min<std::uint64_t>(count_, pieces));
+    if (kThreadSanitizer) {
+        // it cannot see how TBB's library orders its tasks, and would report every one of them
+        std::vector<std::thread> threads;
+        for (std::uint32_t i = 1; i < tasks; ++i) {
+            threads.emplace_back(task);
+        }
+        task();
+        for (std::thread& thread : threads) {
+            thread.join();
+        }
+        return;
+    }
     if (!arena_) {
         arena_ = std::make_unique<Arena>(count_);
     }
-    // Each task takes the next piece until none is left, so that neighbours are done at about the
-    // same time. The counters order what pieces write before what follows, for every reader.
-    std::atomic<std::uint64_t> next{0};
-    std::atomic<std::uint32_t> finished{0};
-    const auto tasks = static_cast<std::uint32_t>(std::min<std::uint64_t>(count_, pieces));
-    arena_->tasks.execute([&] {
-        oneapi::tbb::parallel_for(
-            std::uint32_t{0}, tasks,
-            [&](std::uint32_t) {
-                for (std::uint64_t i = next.fetch_add(1, std::memory_order_acq_rel); i < pieces;
-                     i = next.fetch_add(1, std::memory_order_acq_rel)) {
-                    piece(i);
-                }
-                finished.fetch_add(1, std::memory_order_acq_rel);
-            },
-            oneapi::tbb::simple_partitioner());
-    });
-    static_cast<void>(finished.load(std::memory_order_acquire));
+    arena_->run(tasks, task);
 }
 
 } // namespace lsys
