@@ -17,7 +17,7 @@ using analysis::GrowthWalk;
 using analysis::ModuleClasses;
 using analysis::same;
 
-constexpr std::uint64_t kMaxListWork = 30'000'000; // terms, and classes of each generation
+constexpr std::uint64_t kMaxListWork = 5'000'000; // terms, and classes of each generation
 
 /// The sizes of generations 0, 1, ..., as far as they were followed; `walk` stands at the last.
 struct Listing {

@@ -1,5 +1,6 @@
 #include "compiler/analysis/growth_powers.h"
 
+#include "compiler/analysis/count_math.h"
 #include "grammar/contract.h"
 
 #include <algorithm>
@@ -8,10 +9,6 @@
 namespace lsys::analysis {
 
 namespace {
-
-bool is_zero(const Count& count) {
-    return !count.exceeds && count.value == 0;
-}
 
 std::vector<Count>
 product(const std::vector<Count>& a, const std::vector<Count>& b, std::size_t size) {

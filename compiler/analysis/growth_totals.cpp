@@ -1,5 +1,6 @@
 #include "compiler/analysis/growth_totals.h"
 
+#include "compiler/analysis/count_math.h"
 #include "compiler/analysis/growth_walk.h"
 
 #include <algorithm>
@@ -9,7 +10,8 @@ namespace lsys::analysis {
 
 namespace {
 
-constexpr std::uint64_t kMaxWork = 20'000'000; // terms
+constexpr std::uint64_t kMaxWork = 5'000'000; // terms
+constexpr std::size_t kMaxClasses = 100'000;
 
 struct Bounds {
     GenerationSize low;
@@ -33,9 +35,8 @@ Bounds sum(const Terms& terms, const std::vector<Bounds>& values) {
     Bounds total;
     for (const ClassTerm& term : terms) {
         const Bounds& value = values[static_cast<std::size_t>(term.target)];
-        const Count times{term.count, false, 0.0};
-        total.low = add_times(total.low, value.low, times);
-        total.high = add_times(total.high, value.high, times);
+        add_times(total.low, value.low, term.count);
+        add_times(total.high, value.high, term.count);
     }
     return total;
 }
@@ -135,6 +136,9 @@ SizeBounds bound_totals(ModuleClasses& classes, std::uint32_t generations) {
         return {};
     }
     const std::vector<ClassTerm> axiom = classes.axiom();
+    if (classes.count() > kMaxClasses) {
+        return {};
+    }
     TotalsTable table(classes);
     const std::uint64_t work = axiom.size() + classes.count() + table.terms();
     if (work * (std::uint64_t{generations} + 1) > kMaxWork) {

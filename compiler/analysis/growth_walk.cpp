@@ -1,5 +1,6 @@
 #include "compiler/analysis/growth_walk.h"
 
+#include "compiler/analysis/count_math.h"
 #include "grammar/contract.h"
 
 #include <algorithm>
@@ -11,12 +12,12 @@ namespace lsys::analysis {
 
 namespace {
 
-Count count_of(std::uint64_t value) {
-    return {value, false, 0.0};
+std::uint64_t small(const Count& count) {
+    return static_cast<std::uint64_t>(count.value);
 }
 
-bool is_zero(const Count& count) {
-    return !count.exceeds && count.value == 0;
+Count count_of(std::uint64_t value) {
+    return {value, false, 0.0};
 }
 
 /// a - b, not below 0; the least it can be where logarithms hide the difference.
@@ -60,17 +61,14 @@ GenerationSize size_of(const Bytecode& bytecode, Code code) {
             count_of(code_width(bytecode.code_count()) + 4ULL * stored)};
 }
 
-GenerationSize
-add_times(const GenerationSize& sum, const GenerationSize& size, const Count& times) {
-    return {sum.modules + times * size.modules, sum.parameters + times * size.parameters,
-            sum.segments + times * size.segments, sum.bytes + times * size.bytes};
-}
-
 GrowthWalk::GrowthWalk(ModuleClasses& classes) : classes_(&classes) {
     const std::vector<ClassTerm> axiom = classes.axiom();
     reserve();
     for (const ClassTerm& term : axiom) {
-        add(term.target, count_of(term.count), count_of(term.count), term.count);
+        const auto i = static_cast<std::size_t>(term.target);
+        meet(term.target);
+        low_[i] = high_[i] = count_of(term.count);
+        expected_[i] = term.count;
     }
     if (classes.bytecode().settings.rewriting != RewritingMode::Parallel) {
         list_rules();
@@ -120,7 +118,7 @@ void GrowthWalk::reserve() {
     }
 }
 
-void GrowthWalk::add(ClassId id, const Count& low, const Count& high, double expected) {
+void GrowthWalk::meet(ClassId id) {
     const auto i = static_cast<std::size_t>(id);
     if (!is_present_[i]) {
         is_present_[i] = true;
@@ -129,9 +127,6 @@ void GrowthWalk::add(ClassId id, const Count& low, const Count& high, double exp
             by_symbol_[static_cast<std::uint32_t>(classes_->symbol(id))].push_back(id);
         }
     }
-    low_[i] = low_[i] + low;
-    high_[i] = high_[i] + high;
-    expected_[i] += expected;
 }
 
 /// Takes all modules of these classes out of the word and puts in what becomes of them.
@@ -157,11 +152,12 @@ void GrowthWalk::rewrite(std::span<const ClassId> ids) {
         const std::span<const ClassTerm> high = classes_->terms(expansion.high);
         const std::span<const ClassTerm> low = classes_->terms(expansion.low);
         for (const ClassTerm& term : high) {
-            add(term.target, {}, t.high * count_of(term.count), 0.0);
+            meet(term.target);
+            add_times(high_[static_cast<std::size_t>(term.target)], t.high, term.count);
         }
         if (!is_zero(t.low)) {
             for (const ClassTerm& term : low) {
-                add(term.target, t.low * count_of(term.count), {}, 0.0);
+                add_times(low_[static_cast<std::size_t>(term.target)], t.low, term.count);
             }
         }
         work_ += high.size() + low.size();
@@ -214,7 +210,8 @@ void GrowthWalk::rewrite_sequences(SequenceRule& rule) {
     }
     reserve();
     for (const ClassTerm& term : rule.most) {
-        add(term.target, {}, matches * count_of(term.count), 0.0);
+        meet(term.target);
+        add_times(high_[static_cast<std::size_t>(term.target)], matches, term.count);
     }
     work_ += rule.most.size();
 }
@@ -284,7 +281,12 @@ GenerationSize GrowthWalk::total(const std::vector<Count>& counts, bool least) c
             size.parameters = {};
             size.bytes = count_of(code_width(bytecode.code_count()));
         }
-        sum = add_times(sum, size, counts[static_cast<std::size_t>(id)]);
+        // The sizes of one module are small numbers.
+        const Count& times = counts[static_cast<std::size_t>(id)];
+        add_times(sum.modules, times, 1);
+        add_times(sum.parameters, times, small(size.parameters));
+        add_times(sum.segments, times, small(size.segments));
+        add_times(sum.bytes, times, small(size.bytes));
     }
     return sum;
 }
@@ -367,7 +369,9 @@ void GrowthWalk::load(std::uint32_t age, std::span<const Count> low, std::span<c
     age_ = age;
     for (std::size_t i = 0; i < high.size(); ++i) {
         if (!is_zero(high[i]) || !is_zero(low[i])) {
-            add(static_cast<ClassId>(i), low[i], high[i], 0.0);
+            meet(static_cast<ClassId>(i));
+            low_[i] = low[i];
+            high_[i] = high[i];
         }
     }
 }

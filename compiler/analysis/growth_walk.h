@@ -19,8 +19,6 @@ namespace lsys::analysis {
 [[nodiscard]] bool less(const Count& a, const Count& b);
 /// What one module of a code takes.
 [[nodiscard]] GenerationSize size_of(const Bytecode& bytecode, Code code);
-[[nodiscard]] GenerationSize
-add_times(const GenerationSize& sum, const GenerationSize& size, const Count& times);
 
 class GrowthWalk {
 public:
@@ -72,7 +70,7 @@ private:
     void rewrite(std::span<const ClassId> ids);
     void rewrite_sequences(SequenceRule& rule);
     [[nodiscard]] Count most_matches(const SequenceRule& rule) const;
-    void add(ClassId id, const Count& low, const Count& high, double expected);
+    void meet(ClassId id);
     void reserve();
     void index_by_symbol();
     void drop_absent();

@@ -40,13 +40,29 @@ ClassId ModuleClasses::fixed_class(Code code) {
     return static_cast<ClassId>(fixed_ids_[code]);
 }
 
+/// The class of a code of whose parameters nothing is known.
 ClassId ModuleClasses::unknown_class(Code code) {
-    const std::vector<KnownValue> nothing(index_.relevant_count(bytecode_->symbol_of(code)));
-    return bytecode_->stored_parameters(code) == 0 || nothing.empty() ? fixed_class(code)
-                                                                      : valued_class(code, nothing);
+    const SymbolId symbol = bytecode_->symbol_of(code);
+    const std::uint32_t values =
+        bytecode_->stored_parameters(code) == 0 ? 0 : index_.relevant_count(symbol);
+    if (values == 0) {
+        return fixed_class(code);
+    }
+    if (unknown_ids_.empty()) {
+        unknown_ids_.assign(bytecode_->code_count(), kNone);
+    }
+    if (unknown_ids_[code] == kNone) {
+        const auto first = static_cast<std::uint32_t>(values_.size());
+        values_.insert(values_.end(), values, KnownValue{});
+        unknown_ids_[code] = static_cast<std::uint32_t>(add_class(code, first));
+    }
+    return static_cast<ClassId>(unknown_ids_[code]);
 }
 
 ClassId ModuleClasses::valued_class(Code code, std::span<const KnownValue> values) {
+    if (exhausted()) {
+        return unknown_class(code);
+    }
     std::vector<std::uint32_t> key{code};
     bool any_known = false;
     for (const KnownValue& value : values) {
@@ -54,10 +70,13 @@ ClassId ModuleClasses::valued_class(Code code, std::span<const KnownValue> value
         any_known = any_known || usable;
         key.push_back(usable ? std::bit_cast<std::uint32_t>(value.value) : kUnknownBits);
     }
+    if (!any_known) {
+        return unknown_class(code);
+    }
     if (const auto found = valued_ids_.find(key); found != valued_ids_.end()) {
         return found->second;
     }
-    if (any_known && (valued_ids_.size() >= kMaxValuedClasses || exhausted())) {
+    if (valued_ids_.size() >= kMaxValuedClasses) {
         return unknown_class(code);
     }
     const auto first = static_cast<std::uint32_t>(values_.size());
@@ -176,11 +195,8 @@ std::vector<ClassTerm> ModuleClasses::axiom() {
 }
 
 std::vector<ClassTerm> ModuleClasses::successor(ProductionId production) {
-    const auto p = static_cast<std::uint32_t>(production);
-    CountedWord& word = words_[p];
-    if (!word.made) {
-        count_word(bytecode_->productions[p].successor, word);
-    }
+    CountedWord word;
+    count_word(bytecode_->productions[static_cast<std::size_t>(production)].successor, word);
     const TableRange range = instantiate(word, {});
     const std::span<const ClassTerm> made = terms(range);
     return {made.begin(), made.end()};
@@ -261,6 +277,12 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
 ModuleClasses::Matches ModuleClasses::match_everywhere(SymbolId symbol,
                                                        std::span<const KnownValue> parameters) {
     const std::span<const std::uint32_t> productions = index_.productions_of(symbol);
+    const bool all_known = std::all_of(parameters.begin(), parameters.end(),
+                                       [](const KnownValue& v) { return v.known; });
+    const std::uint64_t max_points = kMaxGridWork / std::max<std::uint64_t>(1, productions.size());
+    if (all_known || max_points < 2) {
+        return match(symbol, parameters, parameters);
+    }
     std::vector<ConditionView> conditions;
     for (const std::uint32_t p : productions) {
         const BytecodeProduction& production = bytecode_->productions[p];
@@ -269,10 +291,7 @@ ModuleClasses::Matches ModuleClasses::match_everywhere(SymbolId symbol,
                 {production.condition, index_.first_formal(p), production.formal_count});
         }
     }
-    const bool all_known = std::all_of(parameters.begin(), parameters.end(),
-                                       [](const KnownValue& v) { return v.known; });
-    const std::uint64_t max_points = kMaxGridWork / std::max<std::uint64_t>(1, productions.size());
-    if (conditions.empty() || all_known || max_points < 2) {
+    if (conditions.empty()) {
         return match(symbol, parameters, parameters);
     }
     work_ += 256 * conditions.size();
@@ -352,7 +371,9 @@ ClassExpansion ModuleClasses::expand_matches(const Matches& matches,
             outcome.production = static_cast<ProductionId>(m.production);
             formals.assign(index_.first_formal(m.production), KnownValue{});
             formals.insert(formals.end(), parameters.begin(), parameters.end());
-            CountedWord& word = words_[m.production];
+            // Without values a successor is looked at once and need not be kept.
+            CountedWord once;
+            CountedWord& word = index_.any_relevant() ? words_[m.production] : once;
             if (!word.made) {
                 count_word(bytecode_->productions[m.production].successor, word);
             }

@@ -144,8 +144,9 @@ private:
 
     std::vector<Class> classes_;
     std::vector<KnownValue> values_;
-    std::vector<std::uint32_t> fixed_ids_; // by code; kNone while there is none
-    std::map<std::vector<std::uint32_t>, ClassId> valued_ids_;
+    std::vector<std::uint32_t> fixed_ids_;   // by code; kNone while there is none
+    std::vector<std::uint32_t> unknown_ids_; // by code: nothing is known of its relevant parameters
+    std::map<std::vector<std::uint32_t>, ClassId> valued_ids_; // with some known value
     std::vector<ClassExpansion> expansions_;
     std::unordered_map<std::uint32_t, ClassExpansion> shared_; // by symbol: nothing is known
     std::vector<ClassOutcome> outcomes_;

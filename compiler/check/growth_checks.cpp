@@ -8,6 +8,12 @@
 
 namespace lsys {
 
+namespace {
+
+constexpr std::size_t kMaxProductions = 10'000;
+
+} // namespace
+
 void check_growth(const CheckInput& input, Diagnostics& diagnostics) {
     const Program& program = input.program;
     const std::uint32_t generations =
@@ -51,8 +57,12 @@ void check_growth(const CheckInput& input, Diagnostics& diagnostics) {
         }
         return;
     }
+    // Not worth a second look at a very large program.
+    if (!written || program.productions.size() > kMaxProductions) {
+        return;
+    }
     const GrowthPrediction prediction = predict_growth(*input.bytecode, generations);
-    if (written && prediction.unchanged_from && *prediction.unchanged_from < generations) {
+    if (prediction.unchanged_from && *prediction.unchanged_from < generations) {
         Diagnostic& diagnostic =
             diagnostics.add(DiagnosticCode::FixedPoint, place,
                             fmt::format("from generation {} on the word stays the same",
