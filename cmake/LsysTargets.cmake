@@ -21,7 +21,7 @@ target_compile_options(lsys_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
   -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wformat=2 -Wimplicit-fallthrough
   -Wdouble-promotion
-  # -Wrestrict: g++ 12 sees overlaps in std::string's operator+ that cannot be. -Wnull-dereference is not
+  # -Wrestrict: g++ 12 sees overlaps in std::string's operator+ that cannot be. is not
   # in the set: at -O3 it sees null pointers in the standard containers.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wduplicated-cond -Wlogical-op -Wuseless-cast>
   $<$<BOOL:${LSYS_WERROR}>:-Werror>)
