@@ -21,15 +21,10 @@ target_compile_options(lsys_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
   -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wformat=2 -Wimplicit-fallthrough
   -Wdouble-promotion
-  # -Wrestrict: g++ 12 sees overlaps in std::string's operator+ that cannot be. is not
-  # in the set: at -O3 it sees null pointers in the standard containers.
+  # -Wrestrict: g++ 12 sees overlaps in std::string's operator+ that cannot be. A warning of null
+  # dereferences is not in the set: with optimisation or sanitizers it sees them in the containers.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wduplicated-cond -Wlogical-op -Wuseless-cast>
   $<$<BOOL:${LSYS_WERROR}>:-Werror>)
-
-# A sanitizer's checks hide from GCC that a pointer was tested, and it then warns of every std::get_if.
-if(NOT LSYS_SANITIZE)
-  target_compile_options(lsys_warnings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wnull-dereference>)
-endif()
 
 # lsys_library(NAME SOURCES... ) : a static library of ours.
 function(lsys_library name)
