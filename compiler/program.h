@@ -98,7 +98,7 @@ struct Production {
     ValueId condition = kNoValue;
     SourceSpan condition_span;
     bool stochastic = false;
-    float weight = 0.0F;
+    float weight = 0.0F; // not a number if the probability is in error
     SourceSpan weight_span;
     ProgramWord successor;
 };

@@ -81,6 +81,12 @@ public:
         LSYS_CHECK(size <= size_, size, size_);
         size_ = size;
     }
+    /// Gives back memory of elements before `index`, which are not looked at any more.
+    void release_before(std::size_t index) {
+        for (; (released_ + 1) * kBlock <= index && released_ < blocks_.size(); ++released_) {
+            blocks_[released_].reset();
+        }
+    }
 
 private:
     /// A power of two, at most 128 KiB of elements: small trees stay cheap.
@@ -88,6 +94,7 @@ private:
         std::bit_floor(std::max<std::size_t>(1, (std::size_t{1} << 17) / sizeof(T)));
     std::vector<std::unique_ptr<T[]>> blocks_;
     std::size_t size_ = 0;
+    std::size_t released_ = 0; // blocks
 };
 
 } // namespace lsys

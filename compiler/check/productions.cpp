@@ -1,0 +1,154 @@
+#include "compiler/check/productions.h"
+
+#include "compiler/check/definitions.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+void append_number(std::string& key, std::uint32_t number) {
+    for (int shift = 0; shift < 32; shift += 8) {
+        key.push_back(static_cast<char>((number >> shift) & 0xFF));
+    }
+}
+
+/// Names, counts and brackets of a pattern as bytes. Brackets are numbers that no symbol has.
+void append_key(std::string& key, const ProgramPattern& pattern) {
+    constexpr std::uint32_t kOpenKey = 0xFFFFFFFE;
+    constexpr std::uint32_t kCloseKey = 0xFFFFFFFD;
+    for (const ProgramPatternItem& item : pattern.items) {
+        append_number(key,
+                      item.kind == PatternKind::Module ? static_cast<std::uint32_t>(item.symbol)
+                      : item.kind == PatternKind::Open ? kOpenKey
+                                                       : kCloseKey);
+    }
+}
+
+} // namespace
+
+ProductionResolver::ProductionResolver(ModuleReading& reading, ConstantTable& constants)
+    : reading_(reading), resolution_(reading.resolution), heads_(reading, constants),
+      first_of_name_(reading.resolution.names.count(), kNone) {
+    resolution_.program.productions.reserve(resolution_.ast.productions.size());
+}
+
+bool ProductionResolver::is_first_of_name(std::uint32_t index, const ProductionNode& node) {
+    std::uint32_t& first = first_of_name_[index_of(node.name)];
+    if (first == kNone) {
+        first = index;
+        return true;
+    }
+    report_duplicate(resolution_,
+                     node.name_span,
+                     resolution_.ast.productions[first].name_span,
+                     fmt::format("production {}", quoted(resolution_.text(node.name))));
+    return false;
+}
+
+void ProductionResolver::resolve(std::uint32_t index,
+                                 const ProductionNode& node,
+                                 SourceSpan statement) {
+    bool fine = is_first_of_name(index, node);
+    Production production;
+    production.name = node.name;
+    production.name_span = node.name_span;
+    production.span = statement;
+    reading_.expressions.begin_statement();
+    if (!heads_.resolve(node, production)) {
+        reading_.expressions.set_formals_incomplete();
+        fine = false;
+    }
+    resolve_condition(node.condition, production);
+    production.successor =
+        resolve_word(reading_, node.successor, ExpressionPlace::Successor);
+    check_draws(production.successor);
+    reading_.splits.finish();
+    if (!fine) {
+        resolution_.program.has_all_statements = false;
+        return;
+    }
+    classify(production);
+    resolution_.program.productions.push_back(std::move(production));
+}
+
+void ProductionResolver::resolve_condition(const ConditionNode& node, Production& production) {
+    production.condition_span = node.span;
+    if (node.condition != kNoExpression) {
+        production.condition =
+            reading_.expressions.resolve(node.condition, ExpressionPlace::Condition);
+        production.condition_span = resolution_.ast.expression(node.condition).span();
+    }
+    if (node.probability != kNoExpression) {
+        production.stochastic = true;
+        production.weight = weight_of(node.probability);
+        production.weight_span = resolution_.ast.expression(node.probability).span();
+    }
+}
+
+/// The probability, or not a number after an error.
+float ProductionResolver::weight_of(ExpressionId probability) {
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+    const ValueId value =
+        reading_.expressions.resolve(probability, ExpressionPlace::Probability);
+    const std::optional<float> weight = reading_.expressions.constant_value(value);
+    if (!weight) {
+        return kNone;
+    }
+    const bool any = resolution_.program.settings.weights == WeightRule::Any;
+    if (std::isfinite(*weight) && *weight > 0.0F && (*weight <= 1.0F || any)) {
+        return *weight;
+    }
+    Diagnostic& error =
+        resolution_.diagnostics.add(DiagnosticCode::BadProbability,
+                                    resolution_.ast.expression(probability).span(),
+                                    fmt::format("{} is not a probability", *weight));
+    if (*weight > 1.0F && std::isfinite(*weight)) {
+        error.help.emplace_back("probabilities lie above 0 and go up to 1; for weights that are "
+                                "normalised, write `#set weights any;`");
+    } else {
+        error.help.emplace_back(any ? "weights lie above 0"
+                                    : "probabilities lie above 0 and go up to 1");
+    }
+    return kNone;
+}
+
+void ProductionResolver::check_draws(const ProgramWord& successor) {
+    const bool by_pass = resolution_.program.settings.rewriting == RewritingMode::Sequential;
+    const std::uint32_t most = by_pass ? kMaxSequentialDraws : kMaxOperand;
+    if (successor.draw_count > most) {
+        resolution_.diagnostics.add(
+            DiagnosticCode::TooManyRanges,
+            successor.span,
+            fmt::format("{} random ranges in one successor; {} are possible{}",
+                        successor.draw_count,
+                        most,
+                        by_pass ? " in sequential rewriting" : ""));
+    }
+}
+
+/// Gives the production its rule and its group, numbered by first appearance.
+void ProductionResolver::classify(Production& production) {
+    Program& program = resolution_.program;
+    std::string key;
+    append_key(key, production.predecessor);
+    const auto [rule, new_rule] = rules_.try_emplace(key, program.rule_count);
+    program.rule_count += new_rule ? 1U : 0U;
+    production.rule = rule->second;
+    append_number(key, production.has_left ? 1 : 0);
+    append_number(key, static_cast<std::uint32_t>(production.left.items.size()));
+    append_key(key, production.left);
+    append_number(key, production.has_right ? 1 : 0);
+    append_key(key, production.right);
+    append_number(key, static_cast<std::uint32_t>(production.predecessor.items.size()));
+    const auto [group, new_group] = groups_.try_emplace(std::move(key), program.group_count);
+    program.group_count += new_group ? 1U : 0U;
+    production.group = group->second;
+}
+
+} // namespace lsys

@@ -1,0 +1,175 @@
+#include "compiler/check/profiles.h"
+
+#include "grammar/contract.h"
+
+#include <array>
+
+namespace lsys {
+
+namespace {
+
+using enum TurtleOperation;
+
+constexpr TurtleCommand kSave{"[", Save, 0, ""};
+constexpr TurtleCommand kRestore{"]", Restore, 0, ""};
+constexpr TurtleCommand kPolygonBegin{"{", PolygonBegin, 0, ""};
+constexpr TurtleCommand kPolygonVertex{".", PolygonVertex, 0, ""};
+constexpr TurtleCommand kPolygonEnd{"}", PolygonEnd, 0, ""};
+constexpr TurtleCommand kTurnAround{"|", TurnAround, 0, ""};
+constexpr TurtleCommand kUpright{"$", RollUpright, 0, ""};
+constexpr TurtleCommand kCut{"%", Cut, 0, ""};
+constexpr TurtleCommand kForward{"F", Forward, 3, "length, spring constant, mass"};
+constexpr TurtleCommand kMove{"f", Move, 2, "length, spring constant"};
+constexpr TurtleCommand kSetWidth{"!", SetWidth, 2, "width, sides"};
+constexpr TurtleCommand kScaleStep{"\"", ScaleStep, 1, "factor of the step"};
+constexpr TurtleCommand kSetColour{"'", SetColour, 1, "index of a colour"};
+
+constexpr TurtleCommand turn(std::string_view name, TurtleOperation operation) {
+    return {name, operation, 1, "angle"};
+}
+constexpr TurtleCommand length(std::string_view name, TurtleOperation operation) {
+    return {name, operation, 1, "length"};
+}
+
+constexpr std::array kLsys{
+    kForward,        kMove,          turn("+", YawRight),   turn("-", YawLeft),
+    turn("&", PitchDown), turn("^", PitchUp), turn("\\", RollLeft), turn("/", RollRight),
+    kTurnAround,     kUpright,       kSetWidth,             kScaleStep,
+    kSetColour,      kSave,          kRestore,              kPolygonBegin,
+    kPolygonVertex,  kPolygonEnd,    kCut,
+};
+
+// Crankshaw 2019, table 5.1.
+constexpr std::array kThesis{
+    kForward,        kMove,          turn("+", YawRight),   turn("-", YawLeft),
+    turn("/", PitchUp), turn("\\", PitchDown), turn("^", RollRight), turn("&", RollLeft),
+    kSetWidth,       kSave,          kRestore,              kPolygonBegin,
+    kPolygonVertex,  kPolygonEnd,    kCut,
+};
+
+constexpr std::array kAbop{
+    kForward,        kMove,          turn("+", YawLeft),    turn("-", YawRight),
+    turn("&", PitchDown), turn("^", PitchUp), turn("\\", RollLeft), turn("/", RollRight),
+    kTurnAround,     kUpright,       kSetWidth,             kScaleStep,
+    kSetColour,      kSave,          kRestore,              kPolygonBegin,
+    kPolygonVertex,  kPolygonEnd,    kCut,
+};
+
+// Carey 2019, appendix, and what else Houdini has of the same kind.
+constexpr std::array kHoudini{
+    length("F", Forward), length("f", Move), length("H", HalfForward), length("h", HalfMove),
+    length("G", Move), turn("+", YawRight), turn("-", YawLeft), turn("&", PitchUp),
+    turn("^", PitchDown), turn("\\", RollLeft), turn("/", RollRight), kTurnAround,
+    TurtleCommand{"*", RollAround, 0, ""}, kUpright,
+    TurtleCommand{"!", ScaleWidth, 1, "factor of the width"}, kScaleStep,
+    TurtleCommand{";", ScaleAngle, 1, "factor of the angle"}, kSetColour,
+    TurtleCommand{"J", Leaf, 1, "size"}, TurtleCommand{"K", Leaf, 1, "size"},
+    TurtleCommand{"M", Leaf, 1, "size"}, kSave, kRestore, kPolygonBegin, kPolygonVertex,
+    kPolygonEnd, kCut,
+};
+
+constexpr std::array kL3d{
+    length("F", Forward), length("f", Forward), length("g", Move), turn("+", YawLeft),
+    turn("-", YawRight), turn("&", PitchDown), turn("^", PitchUp), turn("\\", RollLeft),
+    turn("/", RollRight), turn("<", RollLeft),
+    turn(">", RollRight), kTurnAround, kSave, kRestore, kPolygonBegin,
+    kPolygonVertex, kPolygonEnd, kCut,
+};
+
+constexpr std::array kLplus{
+    length("F", Forward), length("f", Forward), length("g", Move), length("G", Move),
+    turn("+", YawLeft), turn("-", YawRight), turn("&", PitchDown), turn("^", PitchUp),
+    turn("\\", RollLeft), turn("/", RollRight),
+    TurtleCommand{"<", ThickenWidth, 1, "percent"}, TurtleCommand{">", ThinWidth, 1, "percent"},
+    TurtleCommand{"=", SetRelativeWidth, 1, "percent of the length"},
+    TurtleCommand{"%", SetTaper, 1, "percent"}, TurtleCommand{"*", Leaf, 1, "size"}, kTurnAround,
+    kSave, kRestore, kPolygonBegin, kPolygonVertex, kPolygonEnd,
+};
+
+constexpr std::array kSys{
+    TurtleCommand{"F", TaperedForward, 3, "length, base width, tip width"},
+    turn("<", YawRight), turn(">", YawLeft), turn("&", PitchDown), turn("@", PitchUp),
+    turn("%", RollRight), turn("#", RollLeft), kTurnAround, kSave, kRestore, kPolygonBegin,
+    kPolygonVertex, kPolygonEnd,
+};
+
+constexpr std::array<TurtleObject, 9> kObjects{{
+    {"BRANCH", Branch},
+    {"SPHERE", Sphere},
+    {"HETEROCYST", Heterocyst},
+    {"LEAF", Leaf},
+    {"FLOWER", Flower},
+    {"CYLINDER", Cylinder},
+    {"CONE", Cone},
+    {"CUBE", Cube},
+    {"DISK", Disk},
+}};
+
+} // namespace
+
+std::span<const TurtleCommand> turtle_commands(TurtleProfile profile) {
+    switch (profile) {
+    case TurtleProfile::Lsys:
+        return kLsys;
+    case TurtleProfile::Thesis:
+        return kThesis;
+    case TurtleProfile::Abop:
+        return kAbop;
+    case TurtleProfile::Houdini:
+        return kHoudini;
+    case TurtleProfile::L3d:
+        return kL3d;
+    case TurtleProfile::Lplus:
+        return kLplus;
+    case TurtleProfile::Sys:
+        return kSys;
+    }
+    LSYS_CHECK(false, static_cast<int>(profile));
+    return {};
+}
+
+const TurtleCommand* find_turtle_command(TurtleProfile profile, std::string_view name) {
+    for (const TurtleCommand& command : turtle_commands(profile)) {
+        if (command.name == name) {
+            return &command;
+        }
+    }
+    return nullptr;
+}
+
+bool is_structural(std::string_view name) {
+    return name.size() == 1 && std::string_view("[]{}.").find(name) != std::string_view::npos;
+}
+
+bool takes_no_parameters(std::string_view name) {
+    return name.size() == 1 && std::string_view("[]{}.|$").find(name) != std::string_view::npos;
+}
+
+SymbolKind kind_of(std::string_view name) {
+    if (name == "[") {
+        return SymbolKind::BranchOpen;
+    }
+    if (name == "]") {
+        return SymbolKind::BranchClose;
+    }
+    if (name == "{") {
+        return SymbolKind::PolygonOpen;
+    }
+    if (name == "}") {
+        return SymbolKind::PolygonClose;
+    }
+    return SymbolKind::Plain;
+}
+
+std::span<const TurtleObject> turtle_objects() { return kObjects; }
+
+std::optional<TurtleOperation> find_turtle_object(std::string_view name) {
+    for (const TurtleObject& object : kObjects) {
+        if (object.name == name) {
+            return object.operation;
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace lsys

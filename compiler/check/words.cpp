@@ -1,0 +1,89 @@
+#include "compiler/check/words.h"
+
+#include "compiler/check/profiles.h"
+
+#include <fmt/format.h>
+
+namespace lsys {
+
+bool check_module(ModuleReading& reading, const ModuleView& module) {
+    const Resolution& resolution = reading.resolution;
+    const std::string_view name = resolution.text(module.name);
+    if (name == "%") {
+        const TurtleCommand* command =
+            find_turtle_command(resolution.program.settings.turtle, name);
+        if (!module.quoted || (command != nullptr && command->operation == TurtleOperation::Cut)) {
+            Diagnostic& error = reading.resolution.diagnostics.add(
+                DiagnosticCode::CutNotSupported, module.name_span, "`%` cannot be used yet");
+            error.notes.emplace_back("it will cut off the rest of its branch");
+            return false;
+        }
+    }
+    if (module.arguments.count != 0 && takes_no_parameters(name)) {
+        const SourceSpan parentheses{
+            module.span.file, module.name_span.end, module.span.end};
+        Diagnostic& error =
+            reading.resolution.diagnostics.add(DiagnosticCode::UnexpectedParameters,
+                                               parentheses,
+                                               fmt::format("`{}` takes no parameters", name));
+        error.fixes.push_back({"remove them", {{parentheses, ""}}, false});
+        return false;
+    }
+    return true;
+}
+
+namespace {
+
+/// Appends a module, or the modules that its name is read as; arguments belong to the last.
+void append_module(ModuleReading& reading, const ModuleView& module) {
+    Program& program = reading.resolution.program;
+    const std::uint32_t count = module.arguments.count;
+    const std::uint32_t begin = module.name_span.begin;
+    const std::span<const NamePart> parts =
+        module.quoted ? std::span<const NamePart>{}
+                      : reading.splitter.parts(module.name, count, module.span.file);
+    if (parts.empty()) {
+        program.modules.push_back({reading.symbols.get(module.name, count), begin});
+        return;
+    }
+    reading.splits.add(module.name_span, module.span, parts);
+    for (const NamePart& part : parts) {
+        const bool is_last = &part == &parts.back();
+        program.modules.push_back(
+            {reading.symbols.get(part.name, is_last ? count : 0), begin + part.offset});
+    }
+}
+
+} // namespace
+
+ProgramWord resolve_word(ModuleReading& reading, ModuleList list, ExpressionPlace place) {
+    Resolution& resolution = reading.resolution;
+    Program& program = resolution.program;
+    ProgramWord word;
+    word.file = list.span.file;
+    word.span = list.span;
+    word.first_module = static_cast<std::uint32_t>(program.modules.size());
+    word.first_argument = static_cast<std::uint32_t>(program.arguments.size());
+    ModuleCursor cursor(resolution.ast, resolution.names, resolution.sources, list);
+    for (std::uint32_t index = list.first; !cursor.done(); cursor.next(), ++index) {
+        const ModuleView module = cursor.view();
+        const std::string_view name = resolution.text(module.name);
+        const std::uint32_t count = module.arguments.count;
+        const bool is_special = name.size() == 1 && (count != 0 || name == "%");
+        if (is_special && !check_module(reading, module)) {
+            continue;
+        }
+        append_module(reading, module);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const ExpressionId argument =
+                resolution.ast.expression_lists[module.arguments.first + i];
+            program.arguments.push_back(reading.expressions.resolve(argument, place));
+        }
+        resolution.ast.modules.release_before(index);
+    }
+    word.module_count = static_cast<std::uint32_t>(program.modules.size()) - word.first_module;
+    word.draw_count = reading.expressions.draw_count();
+    return word;
+}
+
+} // namespace lsys

@@ -1,0 +1,29 @@
+// Module lists of axioms and successors to words of the Program.
+#pragma once
+
+#include "compiler/check/expressions.h"
+#include "compiler/check/resolution.h"
+#include "compiler/check/split_report.h"
+#include "compiler/check/splitting.h"
+#include "compiler/check/symbols.h"
+
+namespace lsys {
+
+/// What the parts of a resolution that read module lists share.
+struct ModuleReading {
+    Resolution& resolution;
+    SymbolTable& symbols;
+    NameSplitter& splitter;
+    ExpressionResolver& expressions;
+    SplitReport splits;
+};
+
+/// Reports parameters of a module that takes none, and the cut module. False: the module is wrong.
+[[nodiscard]] bool check_module(ModuleReading& reading, const ModuleView& module);
+
+/// Resolves the modules of a list and appends them to the Program. Ranges of its arguments are
+/// numbered from 0.
+[[nodiscard]] ProgramWord
+resolve_word(ModuleReading& reading, ModuleList list, ExpressionPlace place);
+
+} // namespace lsys
