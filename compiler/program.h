@@ -153,6 +153,8 @@ struct Program {
     /// No error was found while the program was made. Else something may be missing, and checks
     /// that need the whole keep quiet.
     bool complete = false;
+    /// No statement was left out: what is missing here is missing in the grammar, errors or not.
+    bool has_all_statements = false;
     Settings settings;
     std::optional<std::uint32_t> generations;
     SourceSpan generations_span;    // of the number

@@ -10,8 +10,9 @@ namespace {
 std::string_view leading_identifier(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
     std::size_t length = 0;
-    while (length < text.size() && is_identifier(text.substr(0, 1)) &&
-           (is_identifier(text.substr(length, 1)) || (text[length] >= '0' && text[length] <= '9'))) {
+    while (
+        length < text.size() && is_identifier(text.substr(0, 1)) &&
+        (is_identifier(text.substr(length, 1)) || (text[length] >= '0' && text[length] <= '9'))) {
         ++length;
     }
     return text.substr(0, length);
@@ -34,7 +35,8 @@ void AttemptedStatements::read(std::string_view text) {
         const std::string_view keyword = leading_identifier(text.substr(at, 16));
         if (keyword == "define" || keyword == "param") {
             const std::string_view rest = text.substr(at);
-            const auto end = static_cast<std::size_t>(keyword.data() + keyword.size() - rest.data());
+            const auto end =
+                static_cast<std::size_t>(keyword.data() + keyword.size() - rest.data());
             constants_.emplace(leading_identifier(rest.substr(end)));
         } else if (keyword == "w" || keyword == "n") {
             keywords_.emplace(keyword);

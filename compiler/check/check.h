@@ -36,6 +36,13 @@ using Check = void (*)(const CheckInput& input, Diagnostics& diagnostics);
 /// word or statement at a time.
 void run_checks(const CheckInput& input, Diagnostics& diagnostics);
 
+// Rules of LANGUAGE.md that need the whole program; each in a file of its own. lints.h has the
+// rest.
+void check_probability_sums(const CheckInput& input, Diagnostics& diagnostics);
+void check_formal_names(const CheckInput& input, Diagnostics& diagnostics);
+void check_ignored_contexts(const CheckInput& input, Diagnostics& diagnostics);
+void check_extra_parameters(const CheckInput& input, Diagnostics& diagnostics);
+
 /// The bytes of the name of module `index` of Program::modules, which stands in `word`; with its
 /// back quotes, if it is written in them.
 [[nodiscard]] SourceSpan

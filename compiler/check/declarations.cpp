@@ -15,9 +15,7 @@ void DeclarationResolver::bad(SourceSpan span, std::string message) {
 }
 
 /// With `names letters` the letters of one word are modules of their own; else one is wanted.
-bool DeclarationResolver::is_one_name(ModuleList list,
-                                      SourceSpan statement,
-                                      const char* keyword) {
+bool DeclarationResolver::is_one_name(ModuleList list, SourceSpan statement, const char* keyword) {
     if (list.count == 0) {
         bad(statement, fmt::format("`{}` names no module", keyword));
         return false;
@@ -38,8 +36,7 @@ bool DeclarationResolver::check_bare(const ModuleView& module, const char* state
     }
     const SourceSpan parentheses{module.span.file, module.name_span.end, module.span.end};
     Diagnostic& error = resolution_.diagnostics.add(
-        DiagnosticCode::BadDeclaration,
-        parentheses,
+        DiagnosticCode::BadDeclaration, parentheses,
         fmt::format("`{}` is about modules with any number of parameters", statement));
     error.fixes.push_back({"leave the parentheses out", {{parentheses, ""}}, true});
     return false;
@@ -70,8 +67,8 @@ std::optional<ObjectBinding> DeclarationResolver::object_of(const ObjectNode& no
     binding.object_span = node.object_span;
     if (node.is_file) {
         if (node.object.empty()) {
-            resolution_.diagnostics.add(
-                DiagnosticCode::UnknownObject, node.object_span, "a file without a name");
+            resolution_.diagnostics.add(DiagnosticCode::UnknownObject, node.object_span,
+                                        "a file without a name");
             return std::nullopt;
         }
         binding.object = TurtleOperation::MeshFile;
@@ -86,16 +83,15 @@ std::optional<ObjectBinding> DeclarationResolver::object_of(const ObjectNode& no
     for (const TurtleObject& object : turtle_objects()) {
         objects.push_back(object.name);
     }
-    Diagnostic& error = resolution_.diagnostics.add(
-        DiagnosticCode::UnknownObject,
-        node.object_span,
-        fmt::format("there is no object {}", quoted(node.object)));
+    Diagnostic& error =
+        resolution_.diagnostics.add(DiagnosticCode::UnknownObject, node.object_span,
+                                    fmt::format("there is no object {}", quoted(node.object)));
     const std::string nearest = suggestions_.nearest(node.object, objects);
     if (!nearest.empty()) {
         suggest(error, node.object_span, nearest);
     }
-    error.notes.push_back(
-        fmt::format("the objects are `{}` and names of files in quotes", fmt::join(objects, "`, `")));
+    error.notes.push_back(fmt::format("the objects are `{}` and names of files in quotes",
+                                      fmt::join(objects, "`, `")));
     return std::nullopt;
 }
 
@@ -105,9 +101,7 @@ void DeclarationResolver::bind(const ModuleView& module, ObjectBinding binding) 
     if (!is_new) {
         const ObjectBinding& first = objects[at->second];
         if (first.object != binding.object || first.mesh_file != binding.mesh_file) {
-            report_duplicate(resolution_,
-                             module.name_span,
-                             first.name_span,
+            report_duplicate(resolution_, module.name_span, first.name_span,
                              fmt::format("object for {}", quoted(resolution_.text(module.name))));
         }
         return;
@@ -142,9 +136,9 @@ void DeclarationResolver::ignore_module(const ModuleView& module,
         symbols_.ignore(name);
         resolution_.program.ignored.push_back({name, span});
     };
-    const std::span<const NamePart> parts =
-        module.quoted ? std::span<const NamePart>{}
-                      : splitter.parts(module.name, 0, module.span.file);
+    const std::span<const NamePart> parts = module.quoted
+                                                ? std::span<const NamePart>{}
+                                                : splitter.parts(module.name, 0, module.span.file);
     if (parts.empty()) {
         add(module.name, module.name_span);
         return;
@@ -176,15 +170,13 @@ void DeclarationResolver::module(const ModuleDeclarationNode& node,
             if (formal.kind == ExpressionKind::Name) {
                 if (!reading.expressions.add_formal(formal.name, formal.span())) {
                     Diagnostic& error = resolution_.diagnostics.add(
-                        DiagnosticCode::DuplicateFormal,
-                        formal.span(),
+                        DiagnosticCode::DuplicateFormal, formal.span(),
                         fmt::format("a second parameter `{}`", resolution_.text(formal.name)));
-                    error.labels.push_back({reading.expressions.formal_span(formal.name),
-                                            "the first is here"});
+                    error.labels.push_back(
+                        {reading.expressions.formal_span(formal.name), "the first is here"});
                 }
             } else if (formal.kind != ExpressionKind::Error) {
-                resolution_.diagnostics.add(DiagnosticCode::ExpressionInHead,
-                                            formal.span(),
+                resolution_.diagnostics.add(DiagnosticCode::ExpressionInHead, formal.span(),
                                             "a parameter is a name here, not a value");
             }
         }

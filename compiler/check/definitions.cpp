@@ -11,8 +11,8 @@ void report_duplicate(Resolution& resolution,
                       SourceSpan second,
                       SourceSpan first,
                       const std::string& what) {
-    Diagnostic& error = resolution.diagnostics.add(
-        DiagnosticCode::DuplicateStatement, second, fmt::format("a second {}", what));
+    Diagnostic& error = resolution.diagnostics.add(DiagnosticCode::DuplicateStatement, second,
+                                                   fmt::format("a second {}", what));
     error.labels.push_back({first, "the first is here"});
 }
 
@@ -60,8 +60,7 @@ void DefinitionResolver::generations(const GenerationsNode& node, SourceSpan sta
     }
     if (!count || *count > kMost) {
         Diagnostic& error = resolution_.diagnostics.add(
-            DiagnosticCode::BadGenerations,
-            span,
+            DiagnosticCode::BadGenerations, span,
             count || number >= 0x1p32F
                 ? fmt::format("more than {} generations cannot be counted", kMost)
                 : fmt::format("{} is not a number of generations", number));
@@ -69,8 +68,7 @@ void DefinitionResolver::generations(const GenerationsNode& node, SourceSpan sta
         return;
     }
     if (*count == 0) {
-        resolution_.diagnostics.add(DiagnosticCode::ZeroGenerations,
-                                    span,
+        resolution_.diagnostics.add(DiagnosticCode::ZeroGenerations, span,
                                     "no generation is derived: the word is the axiom");
     }
     resolution_.program.generations = static_cast<std::uint32_t>(*count);
@@ -82,9 +80,7 @@ bool DefinitionResolver::is_first(NameId name, SourceSpan span) {
     if (first == span) {
         return true;
     }
-    report_duplicate(resolution_,
-                     span,
-                     first,
+    report_duplicate(resolution_, span, first,
                      fmt::format("definition of {}", quoted(resolution_.text(name))));
     return false;
 }
@@ -122,8 +118,7 @@ void DefinitionResolver::param(const ParamNode& node) {
                 constant.minimum > constant.maximum) {
                 Diagnostic& error =
                     resolution_.diagnostics.add(DiagnosticCode::BadParameterBounds,
-                                                node.bounds_span,
-                                                "these bounds hold no value");
+                                                node.bounds_span, "these bounds hold no value");
                 error.help.emplace_back("write the smaller number first: `{0, 1}`");
                 constants_.fail(node.name);
             } else {
@@ -178,16 +173,12 @@ void DefinitionResolver::check_bounds(const ParamNode& node, const Constant& con
     if (made.is_drawn || (made.value >= constant.minimum && made.value <= constant.maximum)) {
         return;
     }
-    const bool replaced =
-        replacements_.contains(std::string(resolution_.text(constant.name)));
+    const bool replaced = replacements_.contains(std::string(resolution_.text(constant.name)));
     Diagnostic& error = resolution_.diagnostics.add(
         DiagnosticCode::BadParameterBounds,
         replaced ? node.name_span : resolution_.ast.expression(node.value).span(),
-        fmt::format("{}{} is outside the bounds {} to {} of `{}`",
-                    made.value,
-                    replaced ? ", given by -D," : "",
-                    constant.minimum,
-                    constant.maximum,
+        fmt::format("{}{} is outside the bounds {} to {} of `{}`", made.value,
+                    replaced ? ", given by -D," : "", constant.minimum, constant.maximum,
                     resolution_.text(node.name)));
     error.labels.push_back({node.bounds_span, "the bounds"});
 }

@@ -21,8 +21,8 @@ void report_duplicate(Resolution& resolution,
 
 /// The value of a literal as it is written, if it is nothing but digits and fits: binary32 has no
 /// 16,777,217.
-[[nodiscard]] std::optional<std::uint64_t>
-exact_whole_number(const Resolution& resolution, ExpressionId expression);
+[[nodiscard]] std::optional<std::uint64_t> exact_whole_number(const Resolution& resolution,
+                                                              ExpressionId expression);
 
 class DefinitionResolver {
 public:

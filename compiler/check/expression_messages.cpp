@@ -47,8 +47,7 @@ void ExpressionResolver::report_unknown_name(const Expression& expression) {
     }
     if (state == ConstantState::Later) {
         Diagnostic& error =
-            resolution_.diagnostics.add(DiagnosticCode::UsedBeforeDefinition,
-                                        expression.span(),
+            resolution_.diagnostics.add(DiagnosticCode::UsedBeforeDefinition, expression.span(),
                                         fmt::format("`{}` is used before its definition", text));
         error.labels.push_back({constants_.definition_span(name), "it is defined here"});
         error.help.emplace_back("move the definition above this statement");
@@ -57,13 +56,12 @@ void ExpressionResolver::report_unknown_name(const Expression& expression) {
     if (formals_incomplete_ || files_missing_ || attempted_.defines(text)) {
         return;
     }
-    Diagnostic& error = resolution_.diagnostics.add(
-        DiagnosticCode::UnknownName, expression.span(), fmt::format("unknown name `{}`", text));
+    Diagnostic& error = resolution_.diagnostics.add(DiagnosticCode::UnknownName, expression.span(),
+                                                    fmt::format("unknown name `{}`", text));
     error.label = formals_.empty() ? "no constant of this name is defined"
                                    : "neither a parameter of this production nor a constant";
     if (functions_.contains(name)) {
-        error.help.push_back(fmt::format("functions take parentheses: `{}({})`",
-                                         text,
+        error.help.push_back(fmt::format("functions take parentheses: `{}({})`", text,
                                          functions_.at(name).argument_count == 0 ? "" : "x"));
         return;
     }
@@ -95,11 +93,10 @@ void ExpressionResolver::report_unknown_name(const Expression& expression) {
 
 void ExpressionResolver::report_unknown_function(const Expression& expression, NameId function) {
     const std::string_view text = resolution_.text(function);
-    const SourceSpan name{expression.file,
-                          expression.begin,
+    const SourceSpan name{expression.file, expression.begin,
                           expression.begin + static_cast<std::uint32_t>(text.size())};
-    Diagnostic& error = resolution_.diagnostics.add(
-        DiagnosticCode::UnknownFunction, name, fmt::format("unknown function `{}`", text));
+    Diagnostic& error = resolution_.diagnostics.add(DiagnosticCode::UnknownFunction, name,
+                                                    fmt::format("unknown function `{}`", text));
     if (formal_of_[index_of(function)] != kNone ||
         constants_.state(function) == ConstantState::Known) {
         error.help.push_back(
@@ -136,12 +133,10 @@ void ExpressionResolver::report_not_allowed(const Expression& expression,
         break;
     }
     Diagnostic& error = resolution_.diagnostics.add(
-        DiagnosticCode::RangeNotAllowed,
-        expression.span(),
+        DiagnosticCode::RangeNotAllowed, expression.span(),
         is_range ? fmt::format("a random range cannot stand {}", where)
                  : fmt::format("`{}` is drawn at random, so it cannot stand {}",
-                               resolution_.text(expression.name),
-                               where));
+                               resolution_.text(expression.name), where));
     if (!is_range) {
         error.labels.push_back({constants_.definition_span(expression.name), "it is drawn here"});
     } else if (place == ExpressionPlace::Condition) {
@@ -161,8 +156,7 @@ bool ExpressionResolver::check_range(const Expression& expression,
         const SourceSpan first = resolution_.ast.expression(expression.left).span();
         const SourceSpan second = resolution_.ast.expression(expression.right).span();
         Diagnostic& error = resolution_.diagnostics.add(
-            DiagnosticCode::BadRangeBounds,
-            expression.span(),
+            DiagnosticCode::BadRangeBounds, expression.span(),
             fmt::format("the minimum {} of this range lies above its maximum {}", *low, *high));
         error.fixes.push_back({"exchange them",
                                {{first, std::string(resolution_.sources.text(second))},
@@ -177,10 +171,9 @@ bool ExpressionResolver::check_range(const Expression& expression,
         return false;
     }
     if (*low == *high) {
-        Diagnostic& note = resolution_.diagnostics.add(
-            DiagnosticCode::ConstantRange,
-            expression.span(),
-            fmt::format("this range always yields {}", *low));
+        Diagnostic& note =
+            resolution_.diagnostics.add(DiagnosticCode::ConstantRange, expression.span(),
+                                        fmt::format("this range always yields {}", *low));
         note.help.push_back(fmt::format("write `{}`", *low));
     }
     return true;
@@ -196,10 +189,8 @@ void ExpressionResolver::check_finite(ValueId value, ExpressionId root, Expressi
             const Culprit culprit = culprit_.value_or(
                 Culprit{resolution_.ast.expression(root).span(), "", std::nullopt});
             Diagnostic& error = resolution_.diagnostics.add(
-                DiagnosticCode::NotFinite,
-                culprit.span,
-                fmt::format(
-                    "{} is {}", what, std::isnan(*constant) ? "not a number" : "infinite"));
+                DiagnosticCode::NotFinite, culprit.span,
+                fmt::format("{} is {}", what, std::isnan(*constant) ? "not a number" : "infinite"));
             error.label = culprit.reason;
             if (culprit.definition) {
                 error.labels.push_back({*culprit.definition, "it is defined here"});
@@ -210,16 +201,14 @@ void ExpressionResolver::check_finite(ValueId value, ExpressionId root, Expressi
         if (value != kPoison && (node.opcode == Opcode::Divide || node.opcode == Opcode::Mod) &&
             constant_value(node.right) == 0.0F) {
             Diagnostic& error =
-                resolution_.diagnostics.add(DiagnosticCode::NotFinite,
-                                            zero_divisors_.back(),
+                resolution_.diagnostics.add(DiagnosticCode::NotFinite, zero_divisors_.back(),
                                             fmt::format("{} is never finite", what));
             error.label = "division by zero";
             return;
         }
     }
     for (const SourceSpan divisor : zero_divisors_) {
-        resolution_.diagnostics.add(
-            DiagnosticCode::DivisionByZero, divisor, "division by zero");
+        resolution_.diagnostics.add(DiagnosticCode::DivisionByZero, divisor, "division by zero");
     }
 }
 

@@ -226,8 +226,7 @@ void ExpressionResolver::combine(const Expression& expression, ExpressionPlace p
     case ExpressionKind::Grouping:
         return;
     case ExpressionKind::Unary:
-        operands_.push_back(
-            apply(opcode_of(expression.unary()), pop(), kNoValue, expression));
+        operands_.push_back(apply(opcode_of(expression.unary()), pop(), kNoValue, expression));
         return;
     case ExpressionKind::Binary: {
         const ValueId right = pop();
@@ -252,14 +251,14 @@ ValueId ExpressionResolver::apply(Opcode opcode,
     const auto y = constant_value(right);
     const ValueId result = values_.operation(opcode, left, right, expression.span());
     if ((opcode == Opcode::Divide || opcode == Opcode::Mod) && y == 0.0F && result != kPoison) {
-        const SourceSpan divisor =
-            resolution_.ast.expression(operand(expression, 1)).span();
+        const SourceSpan divisor = resolution_.ast.expression(operand(expression, 1)).span();
         zero_divisors_.push_back(divisor);
     }
-    if (const auto folded = constant_value(result); folded && !std::isfinite(*folded) && !culprit_) {
-        culprit_ = Culprit{expression.span(),
-                           reason_for_fault(opcode, x.value_or(0.0F), y.value_or(0.0F)),
-                           std::nullopt};
+    if (const auto folded = constant_value(result);
+        folded && !std::isfinite(*folded) && !culprit_) {
+        culprit_ =
+            Culprit{expression.span(), reason_for_fault(opcode, x.value_or(0.0F), y.value_or(0.0F)),
+                    std::nullopt};
     }
     return result;
 }
@@ -268,8 +267,7 @@ ValueId ExpressionResolver::name_value(const Expression& expression, ExpressionP
     if (const std::uint32_t formal = formal_of_[index_of(expression.name)]; formal != kNone) {
         if (place == ExpressionPlace::Probability) {
             Diagnostic& error = resolution_.diagnostics.add(
-                DiagnosticCode::BadProbability,
-                expression.span(),
+                DiagnosticCode::BadProbability, expression.span(),
                 fmt::format("a probability cannot depend on the parameter `{}`",
                             resolution_.text(expression.name)));
             error.help.emplace_back("write productions with conditions for the cases");
@@ -318,8 +316,7 @@ ValueId ExpressionResolver::range_value(const Expression& expression, Expression
     if (place != ExpressionPlace::Successor && !drawn_once_noted_) {
         drawn_once_noted_ = true;
         Diagnostic& note =
-            resolution_.diagnostics.add(DiagnosticCode::DrawnOnce,
-                                        expression.span(),
+            resolution_.diagnostics.add(DiagnosticCode::DrawnOnce, expression.span(),
                                         "this range is drawn once, when the derivation starts");
         note.notes.emplace_back("in a successor it would be drawn each time a module is rewritten");
     }
@@ -341,10 +338,8 @@ ValueId ExpressionResolver::call_value(const Expression& expression, ExpressionP
     const Function function = found->second;
     const std::string_view name = resolution_.text(expression.name);
     if (count != function.argument_count) {
-        resolution_.diagnostics.add(DiagnosticCode::WrongArgumentCount,
-                                    expression.span(),
-                                    fmt::format("`{}` takes {}, not {}",
-                                                name,
+        resolution_.diagnostics.add(DiagnosticCode::WrongArgumentCount, expression.span(),
+                                    fmt::format("`{}` takes {}, not {}", name,
                                                 function.argument_count == 0   ? "no arguments"
                                                 : function.argument_count == 1 ? "one argument"
                                                                                : "two arguments",
@@ -353,10 +348,9 @@ ValueId ExpressionResolver::call_value(const Expression& expression, ExpressionP
     }
     if (count == 0) {
         if (!in_production(place)) {
-            Diagnostic& error = resolution_.diagnostics.add(
-                DiagnosticCode::StepNotAllowed,
-                expression.span(),
-                fmt::format("`{}()` has no value here", name));
+            Diagnostic& error =
+                resolution_.diagnostics.add(DiagnosticCode::StepNotAllowed, expression.span(),
+                                            fmt::format("`{}()` has no value here", name));
             error.notes.emplace_back("it changes while words are rewritten, so it may stand in the "
                                      "conditions and successors of productions only");
             return kPoison;

@@ -1,6 +1,6 @@
 // Expressions of the Ast to values of the Program: names to formals and constants, functions to
-// instructions, constants folded, ranges numbered. Every place in the language allows something else
-// in its expressions; ExpressionPlace says what.
+// instructions, constants folded, ranges numbered. Every place in the language allows something
+// else in its expressions; ExpressionPlace says what.
 #pragma once
 
 #include "compiler/check/attempts.h"

@@ -37,16 +37,14 @@ bool HeadResolver::check_shape(const ProductionNode& node) {
         empty_context(node.greater_span, "right");
     }
     if (node.predecessor.count == 0) {
-        resolution_.diagnostics.add(DiagnosticCode::EmptyPredecessor,
-                                    node.predecessor.span,
+        resolution_.diagnostics.add(DiagnosticCode::EmptyPredecessor, node.predecessor.span,
                                     "this production names no module to rewrite");
         return false;
     }
     if (node.predecessor.count > 1 &&
         resolution_.program.settings.rewriting == RewritingMode::Parallel) {
         Diagnostic& error = resolution_.diagnostics.add(
-            DiagnosticCode::SeveralPredecessors,
-            node.predecessor.span,
+            DiagnosticCode::SeveralPredecessors, node.predecessor.span,
             fmt::format("{} modules are to be rewritten as one", node.predecessor.count));
         error.notes.emplace_back("in parallel rewriting every module is rewritten by itself");
         error.help.emplace_back("write the neighbours as contexts (`A < B > C`), or use "
@@ -78,8 +76,8 @@ bool HeadResolver::pattern(ModuleList list, Part part, ProgramPattern& out) {
         append(module, first_formal, out);
     }
     for (const SourceSpan open : open_) {
-        resolution_.diagnostics.add(
-            DiagnosticCode::BracketInHead, open, "this `[` of the context is never closed");
+        resolution_.diagnostics.add(DiagnosticCode::BracketInHead, open,
+                                    "this `[` of the context is never closed");
         fine = false;
     }
     return fine;
@@ -88,11 +86,10 @@ bool HeadResolver::pattern(ModuleList list, Part part, ProgramPattern& out) {
 bool HeadResolver::bracket(const ModuleView& module, Part part, ProgramPattern& out) {
     const bool opens = kind_of(resolution_.text(module.name)) == SymbolKind::BranchOpen;
     if (part != Part::Right) {
-        Diagnostic& error = resolution_.diagnostics.add(
-            DiagnosticCode::BracketInHead,
-            module.span,
-            part == Part::Left ? "a left context cannot hold brackets"
-                               : "brackets cannot be rewritten");
+        Diagnostic& error =
+            resolution_.diagnostics.add(DiagnosticCode::BracketInHead, module.span,
+                                        part == Part::Left ? "a left context cannot hold brackets"
+                                                           : "brackets cannot be rewritten");
         if (part == Part::Left) {
             error.notes.emplace_back("it is the path to the root, which leaves branches without a "
                                      "sign");
@@ -102,18 +99,14 @@ bool HeadResolver::bracket(const ModuleView& module, Part part, ProgramPattern& 
     if (opens) {
         open_.push_back(module.span);
     } else if (open_.empty()) {
-        resolution_.diagnostics.add(DiagnosticCode::BracketInHead,
-                                    module.span,
+        resolution_.diagnostics.add(DiagnosticCode::BracketInHead, module.span,
                                     "this `]` of the context closes nothing");
         return false;
     } else {
         open_.pop_back();
     }
-    out.items.push_back({opens ? PatternKind::Open : PatternKind::Close,
-                         kNoSymbol,
-                         0,
-                         module.span.begin,
-                         module.span.end});
+    out.items.push_back({opens ? PatternKind::Open : PatternKind::Close, kNoSymbol, 0,
+                         module.span.begin, module.span.end});
     return true;
 }
 
@@ -126,11 +119,8 @@ void HeadResolver::append(const ModuleView& module,
         may_split ? reading_.splitter.parts(module.name, count, module.span.file)
                   : std::span<const NamePart>{};
     if (parts.empty()) {
-        out.items.push_back({PatternKind::Module,
-                             reading_.symbols.get(module.name, count),
-                             first_formal,
-                             module.span.begin,
-                             module.span.end});
+        out.items.push_back({PatternKind::Module, reading_.symbols.get(module.name, count),
+                             first_formal, module.span.begin, module.span.end});
         return;
     }
     reading_.splits.add(module.name_span, module.span, parts);
@@ -139,18 +129,15 @@ void HeadResolver::append(const ModuleView& module,
         const std::uint32_t end =
             is_last ? module.span.end : module.name_span.begin + parts[i + 1].offset;
         out.items.push_back({PatternKind::Module,
-                             reading_.symbols.get(parts[i].name, is_last ? count : 0),
-                             first_formal,
-                             module.name_span.begin + parts[i].offset,
-                             end});
+                             reading_.symbols.get(parts[i].name, is_last ? count : 0), first_formal,
+                             module.name_span.begin + parts[i].offset, end});
     }
 }
 
 bool HeadResolver::formals(const ModuleView& module) {
     bool fine = true;
     for (std::uint32_t i = 0; i < module.arguments.count; ++i) {
-        const ExpressionId argument =
-            resolution_.ast.expression_lists[module.arguments.first + i];
+        const ExpressionId argument = resolution_.ast.expression_lists[module.arguments.first + i];
         fine = formal(resolution_.ast.expression(argument)) && fine;
     }
     return fine;
@@ -166,10 +153,8 @@ bool HeadResolver::formal(const Expression& argument) {
     }
     const std::string_view text = resolution_.text(argument.name);
     if (!reading_.expressions.add_formal(argument.name, span)) {
-        Diagnostic& error =
-            resolution_.diagnostics.add(DiagnosticCode::DuplicateFormal,
-                                        span,
-                                        fmt::format("a second parameter `{}`", text));
+        Diagnostic& error = resolution_.diagnostics.add(
+            DiagnosticCode::DuplicateFormal, span, fmt::format("a second parameter `{}`", text));
         error.labels.push_back(
             {reading_.expressions.formal_span(argument.name), "the first is here"});
         error.help.emplace_back("each parameter of a production needs a name of its own; to ask "
@@ -180,12 +165,10 @@ bool HeadResolver::formal(const Expression& argument) {
     production_->formal_spans.push_back(span);
     if (constants_.state(argument.name) == ConstantState::Known) {
         Diagnostic& warning = resolution_.diagnostics.add(
-            DiagnosticCode::HiddenConstant,
-            span,
+            DiagnosticCode::HiddenConstant, span,
             fmt::format("the parameter `{}` hides a constant of that name", text));
         warning.labels.push_back({constants_.definition_span(argument.name), "the constant"});
-        warning.notes.push_back(
-            fmt::format("in this production `{}` is the parameter", text));
+        warning.notes.push_back(fmt::format("in this production `{}` is the parameter", text));
     }
     return true;
 }
@@ -193,15 +176,15 @@ bool HeadResolver::formal(const Expression& argument) {
 /// A number or expression where a parameter is named: `A(2)` for `A(x) : x == 2`.
 void HeadResolver::report_argument(const Expression& argument) {
     const std::string_view written = resolution_.sources.text(argument.span());
-    Diagnostic& error = resolution_.diagnostics.add(DiagnosticCode::ExpressionInHead,
-                                                    argument.span(),
-                                                    "a parameter is a name here, not a value");
+    Diagnostic& error =
+        resolution_.diagnostics.add(DiagnosticCode::ExpressionInHead, argument.span(),
+                                    "a parameter is a name here, not a value");
     std::string name;
     for (const char* const candidate : {"x", "y", "z", "u", "v"}) {
         const NameId id = resolution_.names.find(candidate);
         const std::vector<NameId>& formals = production_->formals;
-        const bool is_free = id == kNoName ||
-                             (constants_.state(id) == ConstantState::Unknown &&
+        const bool is_free =
+            id == kNoName || (constants_.state(id) == ConstantState::Unknown &&
                               std::find(formals.begin(), formals.end(), id) == formals.end());
         if (name.empty() && is_free) {
             name = candidate;

@@ -23,10 +23,10 @@ void append_key(std::string& key, const ProgramPattern& pattern) {
     constexpr std::uint32_t kOpenKey = 0xFFFFFFFE;
     constexpr std::uint32_t kCloseKey = 0xFFFFFFFD;
     for (const ProgramPatternItem& item : pattern.items) {
-        append_number(key,
-                      item.kind == PatternKind::Module ? static_cast<std::uint32_t>(item.symbol)
-                      : item.kind == PatternKind::Open ? kOpenKey
-                                                       : kCloseKey);
+        append_number(key, item.kind == PatternKind::Module
+                               ? static_cast<std::uint32_t>(item.symbol)
+                           : item.kind == PatternKind::Open ? kOpenKey
+                                                            : kCloseKey);
     }
 }
 
@@ -44,9 +44,7 @@ bool ProductionResolver::is_first_of_name(std::uint32_t index, const ProductionN
         first = index;
         return true;
     }
-    report_duplicate(resolution_,
-                     node.name_span,
-                     resolution_.ast.productions[first].name_span,
+    report_duplicate(resolution_, node.name_span, resolution_.ast.productions[first].name_span,
                      fmt::format("production {}", quoted(resolution_.text(node.name))));
     return false;
 }
@@ -65,8 +63,7 @@ void ProductionResolver::resolve(std::uint32_t index,
         fine = false;
     }
     resolve_condition(node.condition, production);
-    production.successor =
-        resolve_word(reading_, node.successor, ExpressionPlace::Successor);
+    production.successor = resolve_word(reading_, node.successor, ExpressionPlace::Successor);
     check_draws(production.successor);
     reading_.splits.finish();
     if (!fine) {
@@ -93,21 +90,19 @@ void ProductionResolver::resolve_condition(const ConditionNode& node, Production
 
 /// The probability, or not a number after an error.
 float ProductionResolver::weight_of(ExpressionId probability) {
-    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-    const ValueId value =
-        reading_.expressions.resolve(probability, ExpressionPlace::Probability);
+    constexpr float kInError = std::numeric_limits<float>::quiet_NaN();
+    const ValueId value = reading_.expressions.resolve(probability, ExpressionPlace::Probability);
     const std::optional<float> weight = reading_.expressions.constant_value(value);
     if (!weight) {
-        return kNone;
+        return kInError;
     }
     const bool any = resolution_.program.settings.weights == WeightRule::Any;
     if (std::isfinite(*weight) && *weight > 0.0F && (*weight <= 1.0F || any)) {
         return *weight;
     }
-    Diagnostic& error =
-        resolution_.diagnostics.add(DiagnosticCode::BadProbability,
-                                    resolution_.ast.expression(probability).span(),
-                                    fmt::format("{} is not a probability", *weight));
+    Diagnostic& error = resolution_.diagnostics.add(
+        DiagnosticCode::BadProbability, resolution_.ast.expression(probability).span(),
+        fmt::format("{} is not a probability", *weight));
     if (*weight > 1.0F && std::isfinite(*weight)) {
         error.help.emplace_back("probabilities lie above 0 and go up to 1; for weights that are "
                                 "normalised, write `#set weights any;`");
@@ -115,7 +110,7 @@ float ProductionResolver::weight_of(ExpressionId probability) {
         error.help.emplace_back(any ? "weights lie above 0"
                                     : "probabilities lie above 0 and go up to 1");
     }
-    return kNone;
+    return kInError;
 }
 
 void ProductionResolver::check_draws(const ProgramWord& successor) {
@@ -123,12 +118,9 @@ void ProductionResolver::check_draws(const ProgramWord& successor) {
     const std::uint32_t most = by_pass ? kMaxSequentialDraws : kMaxOperand;
     if (successor.draw_count > most) {
         resolution_.diagnostics.add(
-            DiagnosticCode::TooManyRanges,
-            successor.span,
+            DiagnosticCode::TooManyRanges, successor.span,
             fmt::format("{} random ranges in one successor; {} are possible{}",
-                        successor.draw_count,
-                        most,
-                        by_pass ? " in sequential rewriting" : ""));
+                        successor.draw_count, most, by_pass ? " in sequential rewriting" : ""));
     }
 }
 

@@ -28,7 +28,7 @@ private:
     ModuleReading& reading_;
     Resolution& resolution_;
     HeadResolver heads_;
-    std::vector<std::uint32_t> first_of_name_; // by name: in Ast::productions, or kNone
+    std::vector<std::uint32_t> first_of_name_;             // by name: in Ast::productions, or kNone
     std::unordered_map<std::string, std::uint32_t> rules_; // by predecessor
     std::unordered_map<std::string, std::uint32_t> groups_; // by predecessor and contexts
 };

@@ -6,11 +6,6 @@
 
 namespace lsys {
 
-std::string quoted(std::string_view name) {
-    return name.find('`') == std::string_view::npos ? fmt::format("`{}`", name)
-                                                    : fmt::format("`` {} ``", name);
-}
-
 std::string Suggestions::nearest(std::string_view wanted,
                                  const std::vector<std::string_view>& candidates) {
     if (!may_compare(candidates.size())) {

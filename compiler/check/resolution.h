@@ -2,6 +2,7 @@
 // resolve().
 #pragma once
 
+#include "compiler/check/places.h"
 #include "compiler/compile.h"
 #include "compiler/program.h"
 #include "grammar/ast.h"
@@ -28,10 +29,9 @@ struct Resolution {
     [[nodiscard]] std::string_view text(NameId name) const { return names.text(name); }
 };
 
-[[nodiscard]] constexpr std::size_t index_of(NameId name) { return static_cast<std::size_t>(name); }
-
-/// A name as it is shown in messages: in back quotes, and with more around names that hold one.
-[[nodiscard]] std::string quoted(std::string_view name);
+[[nodiscard]] constexpr std::size_t index_of(NameId name) {
+    return static_cast<std::size_t>(name);
+}
 
 /// Finds the nearest of some names for a name that is unknown, and stops looking when a file of a
 /// million mistakes has used up its share of work.

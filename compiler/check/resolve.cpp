@@ -76,8 +76,8 @@ public:
         for (const IgnoreNode& ignore : ast.ignores) {
             declarations_.ignore(ignore, splitter);
         }
-        ModuleReading reading{
-            resolution_, symbols_, splitter, expressions_, SplitReport(resolution_)};
+        ModuleReading reading{resolution_, symbols_, splitter, expressions_,
+                              SplitReport(resolution_)};
         ProductionResolver productions(reading, constants_);
         for (const Statement& statement : ast.statements) {
             switch (statement.kind) {
@@ -94,15 +94,15 @@ public:
                 settings.read_number(ast.sets[statement.index], expressions_);
                 break;
             case StatementKind::Module:
-                declarations_.module(
-                    ast.module_declarations[statement.index], statement.span, reading);
+                declarations_.module(ast.module_declarations[statement.index], statement.span,
+                                     reading);
                 break;
             case StatementKind::Axiom:
                 axiom(ast.axioms[statement.index], statement.span, reading);
                 break;
             case StatementKind::Production:
-                productions.resolve(
-                    statement.index, ast.productions[statement.index], statement.span);
+                productions.resolve(statement.index, ast.productions[statement.index],
+                                    statement.span);
                 break;
             case StatementKind::Object:
             case StatementKind::Ignore:
@@ -125,8 +125,8 @@ private:
         }
         first_axiom_ = statement;
         if (node.modules.count == 0) {
-            resolution_.diagnostics.add(
-                DiagnosticCode::EmptyAxiom, statement, "the axiom holds no module");
+            resolution_.diagnostics.add(DiagnosticCode::EmptyAxiom, statement,
+                                        "the axiom holds no module");
             return;
         }
         expressions_.begin_statement();
@@ -142,8 +142,7 @@ private:
             return {};
         }
         const FileId root = resolution_.ast.files[0].file;
-        const auto size =
-            static_cast<std::uint32_t>(resolution_.sources.file(root).text().size());
+        const auto size = static_cast<std::uint32_t>(resolution_.sources.file(root).text().size());
         return {root, size, size};
     }
 
@@ -162,8 +161,7 @@ private:
         if (resolution_.ast.generations.empty() && !resolution_.options.generations &&
             !attempted.has("n")) {
             Diagnostic& warning = resolution_.diagnostics.add(
-                DiagnosticCode::MissingGenerations,
-                end_of_text(),
+                DiagnosticCode::MissingGenerations, end_of_text(),
                 "the grammar does not say how many generations to derive");
             warning.notes.emplace_back("without it the word is the axiom");
             warning.help.emplace_back("add `#n = 5;`, or give `-n 5` on the command line");

@@ -17,7 +17,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// A key whose value is one number.
 struct NumberKey {
     std::string_view key;
-    float Settings::* field;
+    float Settings::*field;
     float minimum;
     const char* wanted;
 };
@@ -34,18 +34,14 @@ constexpr std::array kNumberKeys{
     NumberKey{"damping", &Settings::damping, 0.0F, "a damping from 0 on"},
 };
 
-constexpr std::array<std::string_view, 8> kOtherKeys{
-    "turtle", "names", "rewriting", "choice", "weights", "sides", "tropism", "seed"};
+constexpr std::array<std::string_view, 8> kOtherKeys{"turtle",  "names", "rewriting", "choice",
+                                                     "weights", "sides", "tropism",   "seed"};
 
-constexpr std::array kTurtles{TurtleProfile::Lsys,
-                              TurtleProfile::Thesis,
-                              TurtleProfile::Abop,
-                              TurtleProfile::Houdini,
-                              TurtleProfile::L3d,
-                              TurtleProfile::Lplus,
+constexpr std::array kTurtles{TurtleProfile::Lsys,    TurtleProfile::Thesis, TurtleProfile::Abop,
+                              TurtleProfile::Houdini, TurtleProfile::L3d,    TurtleProfile::Lplus,
                               TurtleProfile::Sys};
-constexpr std::array kModes{
-    RewritingMode::Parallel, RewritingMode::Sequential, RewritingMode::Cyclic};
+constexpr std::array kModes{RewritingMode::Parallel, RewritingMode::Sequential,
+                            RewritingMode::Cyclic};
 constexpr std::array kScopes{ChoiceScope::Module, ChoiceScope::Generation};
 constexpr std::array kWeights{WeightRule::One, WeightRule::Any};
 
@@ -80,9 +76,7 @@ std::uint64_t SetResolver::scope_of(const SetNode& node) const {
 bool SetResolver::is_first(const SetNode& node) {
     const auto [first, is_new] = first_.try_emplace(scope_of(node), node.key_span);
     if (!is_new) {
-        report_duplicate(resolution_,
-                         node.key_span,
-                         first->second,
+        report_duplicate(resolution_, node.key_span, first->second,
                          fmt::format("`#set {}`", resolution_.text(node.key)));
     }
     return is_new;
@@ -104,8 +98,7 @@ void SetResolver::read_mode(const SetNode& node, std::string_view key) {
         if (reading == NameReading::Letters) {
             resolution_.letter_files.push_back(node.key_span.file);
         }
-        if (!resolution_.ast.files.empty() &&
-            node.key_span.file == resolution_.ast.files[0].file) {
+        if (!resolution_.ast.files.empty() && node.key_span.file == resolution_.ast.files[0].file) {
             settings.print_letters = reading == NameReading::Letters;
         }
     } else {
@@ -129,8 +122,8 @@ void SetResolver::report_unknown_key(const SetNode& node) {
     for (const NumberKey& row : kNumberKeys) {
         keys.push_back(row.key);
     }
-    Diagnostic& error = resolution_.diagnostics.add(
-        DiagnosticCode::UnknownKey, node.key_span, fmt::format("there is no setting `{}`", key));
+    Diagnostic& error = resolution_.diagnostics.add(DiagnosticCode::UnknownKey, node.key_span,
+                                                    fmt::format("there is no setting `{}`", key));
     const std::string nearest = suggestions_.nearest(key, keys);
     if (!nearest.empty()) {
         suggest(error, node.key_span, nearest);
@@ -140,10 +133,9 @@ void SetResolver::report_unknown_key(const SetNode& node) {
 }
 
 void SetResolver::bad_value(const SetNode& node, SourceSpan span, const std::string& message) {
-    Diagnostic& error = resolution_.diagnostics.add(
-        DiagnosticCode::BadSetting,
-        span,
-        fmt::format("`{}` {}", resolution_.text(node.key), message));
+    Diagnostic& error =
+        resolution_.diagnostics.add(DiagnosticCode::BadSetting, span,
+                                    fmt::format("`{}` {}", resolution_.text(node.key), message));
     if (span != node.key_span) {
         error.labels.push_back({node.key_span, "the setting"});
     }
@@ -185,8 +177,7 @@ void SetResolver::choose(const SetNode& node, const std::array<Enum, size>& valu
     }
     const SourceSpan span = resolution_.ast.set_values[node.values.first].span;
     Diagnostic& error = resolution_.diagnostics.add(
-        DiagnosticCode::BadSetting,
-        span,
+        DiagnosticCode::BadSetting, span,
         fmt::format("`{}` cannot be `{}`", resolution_.text(node.key), word));
     const std::string nearest = suggestions_.nearest(word, names);
     if (!nearest.empty()) {
@@ -196,14 +187,12 @@ void SetResolver::choose(const SetNode& node, const std::array<Enum, size>& valu
     }
 }
 
-std::optional<float> SetResolver::number_of(const SetNode& node,
-                                            std::uint32_t index,
-                                            ExpressionResolver& expressions) {
+std::optional<float>
+SetResolver::number_of(const SetNode& node, std::uint32_t index, ExpressionResolver& expressions) {
     const SetValue value = resolution_.ast.set_values[node.values.first + index];
     const ValueId id =
-        value.is_word
-            ? expressions.resolve_name(value.word, value.span, ExpressionPlace::Setting)
-            : expressions.resolve(value.value, ExpressionPlace::Setting);
+        value.is_word ? expressions.resolve_name(value.word, value.span, ExpressionPlace::Setting)
+                      : expressions.resolve(value.value, ExpressionPlace::Setting);
     return id == kPoison ? std::nullopt : expressions.constant_value(id);
 }
 

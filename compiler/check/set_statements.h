@@ -1,5 +1,5 @@
-// Resolves #set: keys and values to Settings. Modes and profiles decide how everything else is read,
-// so they are read first; numbers may use constants and are read in the order of the text.
+// Resolves #set: keys and values to Settings. Modes and profiles decide how everything else is
+// read, so they are read first; numbers may use constants and are read in the order of the text.
 #pragma once
 
 #include "compiler/check/expressions.h"

@@ -32,8 +32,7 @@ void SplitReport::add(SourceSpan name, SourceSpan module, std::span<const NamePa
     }
     if (!warning_) {
         warning_ = make_diagnostic(
-            DiagnosticCode::SplitName,
-            name,
+            DiagnosticCode::SplitName, name,
             fmt::format("{} is read as {}", quoted(resolution_.sources.text(name)), quoted(read)));
         warning_->label = "no module has this name, but it is a row of known names";
         warning_->help.emplace_back(

@@ -14,9 +14,13 @@ void SymbolTable::bind(NameId name, TurtleOperation object, std::string mesh_fil
     bindings_[static_cast<std::uint32_t>(name)] = {object, std::move(mesh_file)};
 }
 
-void SymbolTable::ignore(NameId name) { ignored_[index_of(name)] = true; }
+void SymbolTable::ignore(NameId name) {
+    ignored_[index_of(name)] = true;
+}
 
-bool SymbolTable::is_ignored(NameId name) const { return ignored_[index_of(name)]; }
+bool SymbolTable::is_ignored(NameId name) const {
+    return ignored_[index_of(name)];
+}
 
 SymbolId SymbolTable::get(NameId name, std::uint32_t parameter_count) {
     Latest& latest = latest_[index_of(name)];
@@ -45,8 +49,7 @@ SymbolId SymbolTable::make(NameId name, std::uint32_t parameter_count) {
     if (binding != bindings_.end()) {
         symbol.turtle = binding->second.object;
         symbol.mesh_file = binding->second.mesh_file;
-    } else if (const TurtleCommand* command =
-                   find_turtle_command(program.settings.turtle, text)) {
+    } else if (const TurtleCommand* command = find_turtle_command(program.settings.turtle, text)) {
         symbol.turtle = command->operation;
     }
     program.symbols.push_back(symbol);

@@ -34,8 +34,8 @@ std::size_t ValueBuilder::slot_of(std::uint32_t bits) const {
 }
 
 void ValueBuilder::grow_table() {
-    const std::vector<ValueId> old = std::exchange(
-        literals_, std::vector<ValueId>(literals_.size() * 2, kNoValue));
+    const std::vector<ValueId> old =
+        std::exchange(literals_, std::vector<ValueId>(literals_.size() * 2, kNoValue));
     for (const ValueId id : old) {
         if (id != kNoValue) {
             literals_[slot_of(std::bit_cast<std::uint32_t>((*this)[id].literal))] = id;
@@ -69,8 +69,7 @@ ValueId ValueBuilder::leaf(Opcode opcode, std::uint32_t index, SourceSpan span) 
     return add(node);
 }
 
-ValueId
-ValueBuilder::range(ValueId minimum, ValueId maximum, std::uint32_t draw, SourceSpan span) {
+ValueId ValueBuilder::range(ValueId minimum, ValueId maximum, std::uint32_t draw, SourceSpan span) {
     if (minimum == kPoison || maximum == kPoison) {
         return kPoison;
     }

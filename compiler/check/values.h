@@ -22,8 +22,7 @@ public:
     [[nodiscard]] ValueId
     range(ValueId minimum, ValueId maximum, std::uint32_t draw, SourceSpan span);
     /// An operation on one value or two: a literal if they are. kPoison if one of them is.
-    [[nodiscard]] ValueId
-    operation(Opcode opcode, ValueId left, ValueId right, SourceSpan span);
+    [[nodiscard]] ValueId operation(Opcode opcode, ValueId left, ValueId right, SourceSpan span);
 
     [[nodiscard]] const Value& operator[](ValueId id) const {
         return values_[static_cast<std::size_t>(id)];

@@ -20,11 +20,9 @@ bool check_module(ModuleReading& reading, const ModuleView& module) {
         }
     }
     if (module.arguments.count != 0 && takes_no_parameters(name)) {
-        const SourceSpan parentheses{
-            module.span.file, module.name_span.end, module.span.end};
+        const SourceSpan parentheses{module.span.file, module.name_span.end, module.span.end};
         Diagnostic& error =
-            reading.resolution.diagnostics.add(DiagnosticCode::UnexpectedParameters,
-                                               parentheses,
+            reading.resolution.diagnostics.add(DiagnosticCode::UnexpectedParameters, parentheses,
                                                fmt::format("`{}` takes no parameters", name));
         error.fixes.push_back({"remove them", {{parentheses, ""}}, false});
         return false;

@@ -1,0 +1,42 @@
+#include "compiler/compile.h"
+
+#include "compiler/check/check.h"
+#include "compiler/check/resolve.h"
+#include "compiler/lower/lower.h"
+#include "compiler/verify.h"
+#include "grammar/contract.h"
+
+#include <utility>
+
+namespace lsys {
+
+CompileOutcome compile(Ast ast,
+                       Names& names,
+                       const SourceMap& sources,
+                       const CompileOptions& options,
+                       Diagnostics& diagnostics) {
+    CompileOutcome outcome;
+    ResolveOutcome resolved = resolve(std::move(ast), names, sources, options, diagnostics);
+    Program& program = resolved.program;
+    outcome.unknown_definitions = std::move(resolved.unknown_definitions);
+
+    if (program.complete && options.lower) {
+        outcome.bytecode = lower(program, names, sources);
+        if (!outcome.bytecode) {
+            diagnostics.add(DiagnosticCode::ProgramTooLarge, program.axiom.span,
+                            "this grammar has more parameters or constants than can be numbered");
+        }
+        LSYS_DCHECK(!outcome.bytecode || !verify(*outcome.bytecode));
+    }
+    const Bytecode* bytecode = outcome.bytecode ? &*outcome.bytecode : nullptr;
+    run_checks({program, bytecode, names, sources, options}, diagnostics);
+
+    if (diagnostics.has_errors()) {
+        outcome.bytecode.reset();
+    } else {
+        outcome.program = std::move(program);
+    }
+    return outcome;
+}
+
+} // namespace lsys
