@@ -33,35 +33,33 @@ bool prepares_drawing(TurtleOperation operation) {
 void check_drawing(const CheckInput& input, Diagnostics& diagnostics) {
     const Program& program = input.program;
     const Reachable reachable = find_reachable(program);
-    bool wants_drawing = !program.objects.empty();
+    bool prepared = false;
+    bool out_of_reach = false;  // something would draw, but never occurs
     SymbolId drawn = kNoSymbol; // the first to appear
-    SymbolId known = kNoSymbol; // one that would draw
     for (std::uint32_t s = 0; s < program.symbols.size(); ++s) {
         const auto symbol = SymbolId{s};
         const TurtleOperation operation = program.symbols[s].turtle;
         if (draws(operation)) {
-            wants_drawing = true;
-            known = symbol;
+            out_of_reach = out_of_reach || !reachable.occurs(symbol);
             if (reachable.occurs(symbol) &&
                 (drawn == kNoSymbol ||
                  reachable.generation[s] < reachable.generation[static_cast<std::size_t>(drawn)])) {
                 drawn = symbol;
             }
         }
-        wants_drawing = wants_drawing || (reachable.occurs(symbol) && prepares_drawing(operation));
-    }
-    if (!wants_drawing) {
-        return;
+        prepared = prepared || (reachable.occurs(symbol) && prepares_drawing(operation));
     }
     if (drawn == kNoSymbol) {
+        // Why a module never occurs is said where its production is; and words may be all that is
+        // meant.
+        if (out_of_reach || !prepared) {
+            return;
+        }
         Diagnostic& diagnostic =
             diagnostics.add(DiagnosticCode::NothingDrawn, program.axiom.span,
                             "nothing is drawn: the axiom leads to no module that draws");
-        diagnostic.help.push_back(
-            known != kNoSymbol
-                ? fmt::format("let the axiom or a successor lead to {}", quoted(input.name(known)))
-                : std::string("`F` draws a segment, and `#object NAME SPHERE;` draws an object for "
-                              "a module"));
+        diagnostic.help.emplace_back(
+            "`F` draws a segment, and `#object NAME SPHERE;` draws an object for a module");
         return;
     }
     const std::uint32_t generations =

@@ -62,7 +62,8 @@ void check_growth(const CheckInput& input, Diagnostics& diagnostics) {
         return;
     }
     const GrowthPrediction prediction = predict_growth(*input.bytecode, generations);
-    if (prediction.unchanged_from && *prediction.unchanged_from < generations) {
+    // A last generation that changes nothing shows that the word is complete.
+    if (prediction.unchanged_from && *prediction.unchanged_from + 1 < generations) {
         Diagnostic& diagnostic =
             diagnostics.add(DiagnosticCode::FixedPoint, place,
                             fmt::format("from generation {} on the word stays the same",
