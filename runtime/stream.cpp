@@ -117,6 +117,7 @@ private:
         write.end = counted.end.index;
         write.codes = below.codes.get();
         write.codes_limit = write.codes + room_codes_ + kWordSlack / sizeof(C);
+        write.writes_parameters = counted.parameters != 0;
         write.parameters = below.parameters.get();
         write.parameters_limit = write.parameters + room_parameters_ + kWordSlack / sizeof(float);
         const bool written = write_modules(plan_, keys_, chooser_.matcher(), view_, write,

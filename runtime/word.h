@@ -42,7 +42,7 @@ private:
 
 /// Bytes past the last code and parameter that writers may touch with wide stores. Those past the
 /// parameters hold finite numbers, so that wide loads may read them.
-inline constexpr std::size_t kWordSlack = 64;
+inline constexpr std::size_t kWordSlack = 256;
 
 class Word {
 public:

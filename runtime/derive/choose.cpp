@@ -1,20 +1,10 @@
 #include "runtime/derive/choose.h"
 
-#include "runtime/random.h"
-
 namespace lsys {
 
 template <typename C>
-float Chooser<C>::module_draw(ModulePlace place) const {
-    const std::uint64_t position = word_.first_position + place.index;
-    const PhiloxBlock block = draw_block(keys_.seed, keys_.generation, position,
-                                         static_cast<std::uint32_t>(keys_.first_draw / 4));
-    return unit_interval(block[keys_.first_draw % 4]);
-}
-
-template <typename C>
 bool Chooser<C>::condition(const Candidate& candidate,
-                           ModulePlace place,
+                           const ModulePlace& place,
                            const float* own,
                            bool& is_true) {
     switch (candidate.condition) {
@@ -47,17 +37,14 @@ bool Chooser<C>::condition(const Candidate& candidate,
 }
 
 template <typename C>
-bool Chooser<C>::choose(ModulePlace place, const Row& row, std::uint32_t& record) {
+bool Chooser<C>::choose(const ModulePlace& place, const Row& row, std::uint32_t& record) {
     record = 0;
     if (row.kind == RowKind::Choice) {
-        const Choice& choice = plan_.choice(row.source);
-        const std::span<const float> thresholds = plan_.thresholds(choice);
-        const float u = module_draw(place);
-        std::size_t taken = 0;
-        while (taken + 1 < thresholds.size() && !(thresholds[taken] > u)) {
-            ++taken;
-        }
-        record = plan_.records(choice)[taken];
+        record = choose_by_chance(place.index, row);
+        return true;
+    }
+    if (row.kind == RowKind::Tests) {
+        record = choose_by_test(word_.parameters + place.parameter, row);
         return true;
     }
     const Bytecode& bytecode = plan_.bytecode();
@@ -99,7 +86,7 @@ bool Chooser<C>::choose(ModulePlace place, const Row& row, std::uint32_t& record
 template <typename C>
 bool Chooser<C>::choose_among(const Family& family,
                               std::uint32_t first,
-                              ModulePlace place,
+                              const ModulePlace& place,
                               std::uint32_t& record) {
     const std::span<const Candidate> candidates = plan_.candidates(family);
     const std::uint32_t group = candidates[first].group;
@@ -128,7 +115,7 @@ bool Chooser<C>::choose_among(const Family& family,
     const std::uint32_t rule = bytecode.productions[candidates[first].production].rule;
     const float u = bytecode.settings.choice == ChoiceScope::Generation
                         ? plan_.rule_draw(rule, keys_.generation)
-                        : module_draw(place);
+                        : module_draw(place.index);
     float running = 0.0F;
     for (const std::uint32_t i : matching_) {
         record = i + 1;

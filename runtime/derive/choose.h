@@ -5,6 +5,7 @@
 #include "runtime/derive/match.h"
 #include "runtime/derive/plan.h"
 #include "runtime/expressions/eval.h"
+#include "runtime/random.h"
 
 #include <cstdint>
 #include <vector>
@@ -26,11 +27,48 @@ public:
             const PassKeys& keys,
             const WordView<C>& word,
             const ContextTables* contexts)
-        : plan_(plan), keys_(keys), word_(word), matcher_(plan, word, contexts) {}
+        : plan_(plan), keys_(keys), word_(word), contexts_(contexts),
+          matcher_(plan, word, contexts) {}
 
     /// The record of a module whose row is not Fixed: 0 if nothing matches, r if entry row.base + r
     /// rewrites it. False: a condition has no finite value, fault() tells.
-    [[nodiscard]] bool choose(ModulePlace place, const Row& row, std::uint32_t& record);
+    [[nodiscard]] bool choose(const ModulePlace& place, const Row& row, std::uint32_t& record);
+
+    /// The same for a Choice row and for a Tests row, which cannot fail.
+    [[nodiscard]] std::uint32_t choose_by_chance(std::uint64_t index, const Row& row) const {
+        const Choice& choice = plan_.choice(row.source);
+        const float* const thresholds = plan_.thresholds(choice).data();
+        const float u = module_draw(index);
+        std::uint32_t taken = 0;
+        for (std::uint32_t i = 0; i + 1 < choice.count; ++i) {
+            taken += thresholds[i] > u ? 0U : 1U; // they ascend
+        }
+        return plan_.records(choice)[taken];
+    }
+    [[nodiscard]] std::uint32_t choose_by_test(const float* own, const Row& row) const {
+        for (const Test& test : plan_.tests(row.source)) {
+            if (holds(test.comparison, own)) {
+                return test.record;
+            }
+        }
+        return 0;
+    }
+    /// Whether the neighbours of a General row's module allow any match at all.
+    [[nodiscard]] bool passes_guards(std::uint64_t index, const Row& row) const {
+        if (row.left_guard != kNone) {
+            const std::uint64_t left = contexts_->left_of(index);
+            if (left == kNowhere || plan_.guards()[row.left_guard + word_.codes[left]] == 0) {
+                return false;
+            }
+        }
+        if (row.right_guard != kNone) {
+            const std::uint64_t next = contexts_->next_from(index + plan_.predecessor_count());
+            if (next == kNowhere || plan_.guards()[row.right_guard + word_.codes[next]] == 0) {
+                return false;
+            }
+        }
+        return true;
+    }
 
     [[nodiscard]] const EvalFault& fault() const { return fault_; }
     /// The candidate at fault, an index into Plan::candidate().
@@ -38,17 +76,25 @@ public:
     [[nodiscard]] Matcher<C>& matcher() { return matcher_; }
 
 private:
-    [[nodiscard]] bool
-    condition(const Candidate& candidate, ModulePlace place, const float* own, bool& is_true);
+    [[nodiscard]] bool condition(const Candidate& candidate,
+                                 const ModulePlace& place,
+                                 const float* own,
+                                 bool& is_true);
     [[nodiscard]] bool choose_among(const Family& family,
                                     std::uint32_t first,
-                                    ModulePlace place,
+                                    const ModulePlace& place,
                                     std::uint32_t& record);
-    [[nodiscard]] float module_draw(ModulePlace place) const;
+    [[nodiscard]] float module_draw(std::uint64_t index) const {
+        const PhiloxBlock block =
+            draw_block(keys_.seed, keys_.generation, word_.first_position + index,
+                       static_cast<std::uint32_t>(keys_.first_draw / 4));
+        return unit_interval(block[keys_.first_draw % 4]);
+    }
 
     const Plan& plan_;
     const PassKeys& keys_;
     const WordView<C>& word_;
+    const ContextTables* contexts_;
     Matcher<C> matcher_;
     EvalFault fault_;
     std::uint32_t faulty_candidate_ = 0;

@@ -11,17 +11,30 @@ CountResult count_modules(const Plan& plan,
     const Row* const rows = plan.rows().data();
     const Entry* const entries = plan.entries().data();
     const C* const codes = word.codes;
+    const float* const parameters = word.parameters;
     const std::uint32_t predecessor_count = plan.predecessor_count();
+    const std::uint64_t end = request.end;
+    const std::uint64_t room_modules = request.room_modules;
+    const std::uint64_t room_parameters = request.room_parameters;
     CountResult result;
-    ModulePlace place = request.begin;
-    while (place.index < request.end) {
-        const C code = codes[place.index];
+    std::uint64_t modules = 0;
+    std::uint64_t written_parameters = 0;
+    std::uint64_t copies = 0;
+    std::uint64_t index = request.begin.index;
+    std::uint64_t parameter = request.begin.parameter;
+    while (index < end) {
+        const C code = codes[index];
         const Row& row = rows[code];
         std::uint64_t wrote = row.code_count;
         std::uint64_t stored = row.parameter_count;
         std::uint32_t record = 0;
         if (row.kind != RowKind::Fixed) {
-            if (!chooser.choose(place, row, record)) {
+            if (row.kind == RowKind::Choice) {
+                record = chooser.choose_by_chance(index, row);
+            } else if (row.kind == RowKind::Tests) {
+                record = chooser.choose_by_test(parameters + parameter, row);
+            } else if (chooser.passes_guards(index, row) &&
+                       !chooser.choose({index, parameter}, row, record)) {
                 result.fault = true;
                 break;
             }
@@ -30,23 +43,25 @@ CountResult count_modules(const Plan& plan,
             wrote = entry.code_count;
             stored = entry.parameter_count;
         }
-        if (wrote > request.room_modules - result.modules ||
-            stored > request.room_parameters - result.parameters) {
+        if (wrote > room_modules - modules || stored > room_parameters - written_parameters) {
             break;
         }
-        result.modules += wrote;
-        result.parameters += stored;
-        result.copies += row.copies ? 1 : 0;
+        modules += wrote;
+        written_parameters += stored;
+        copies += row.copies ? 1 : 0;
         records += row.kind != RowKind::Fixed ? 1 : 0;
-        place.parameter += row.stored;
-        ++place.index;
+        parameter += row.stored;
+        ++index;
         if (record != 0 && predecessor_count > 1) {
-            for (std::uint32_t i = 1; i < predecessor_count; ++i, ++place.index) {
-                place.parameter += rows[codes[place.index]].stored;
+            for (std::uint32_t i = 1; i < predecessor_count; ++i, ++index) {
+                parameter += rows[codes[index]].stored;
             }
         }
     }
-    result.end = place;
+    result.end = {index, parameter};
+    result.modules = modules;
+    result.parameters = written_parameters;
+    result.copies = copies;
     return result;
 }
 

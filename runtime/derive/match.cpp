@@ -126,7 +126,7 @@ void Matcher<C>::gather(TableRange pattern,
 }
 
 template <typename C>
-const float* Matcher<C>::formals(const Candidate& candidate, ModulePlace place) {
+const float* Matcher<C>::formals(const Candidate& candidate, const ModulePlace& place) {
     if (!candidate.gathers) {
         return own(place);
     }
@@ -145,7 +145,7 @@ const float* Matcher<C>::formals(const Candidate& candidate, ModulePlace place) 
 }
 
 template <typename C>
-const float* Matcher<C>::formals_again(const Candidate& candidate, ModulePlace place) {
+const float* Matcher<C>::formals_again(const Candidate& candidate, const ModulePlace& place) {
     if (candidate.reads_context) {
         static_cast<void>(
             matches_contexts(plan_.bytecode().productions[candidate.production], place.index));

@@ -35,7 +35,7 @@ public:
         : plan_(plan), word_(word), contexts_(contexts) {}
 
     /// The parameters of a module, wherever they are kept.
-    [[nodiscard]] const float* own(ModulePlace place) const {
+    [[nodiscard]] const float* own(const ModulePlace& place) const {
         const Row& row = plan_.row(word_.codes[place.index]);
         return row.constants == kNone ? word_.parameters + place.parameter
                                       : plan_.bytecode().constants.data() + row.constants;
@@ -48,9 +48,9 @@ public:
     [[nodiscard]] bool matches_contexts(const BytecodeProduction& production, std::uint64_t index);
     /// All formals of the candidate's production for the module at `place`. If some are of
     /// contexts, the last matches_contexts() was for this production's group and place.
-    [[nodiscard]] const float* formals(const Candidate& candidate, ModulePlace place);
+    [[nodiscard]] const float* formals(const Candidate& candidate, const ModulePlace& place);
     /// The same, after looking for the contexts again.
-    [[nodiscard]] const float* formals_again(const Candidate& candidate, ModulePlace place);
+    [[nodiscard]] const float* formals_again(const Candidate& candidate, const ModulePlace& place);
 
 private:
     [[nodiscard]] bool matches_left(const BytecodeProduction& production, std::uint64_t index);

@@ -280,6 +280,7 @@ DeriveStatus Passes::write(const WordView<C>& word, Word& out, const PassKeys& k
         request.codes = codes + chunk.out_module;
         request.parameters = parameters + chunk.out_parameter;
         request.mostly_copies = chunk.mostly_copies;
+        request.writes_parameters = chunk.parameters != 0;
         const bool last = index + 1 == chunks_.size();
         request.codes_limit = in_order || last ? codes_end : request.codes + chunk.modules;
         request.parameters_limit =
@@ -289,6 +290,7 @@ DeriveStatus Passes::write(const WordView<C>& word, Word& out, const PassKeys& k
             request.codes = next.codes;
             request.parameters = next.parameters;
             request.mostly_copies = mostly(census_copies, word.count);
+            request.writes_parameters = parameters_ != 0;
         }
         request.end = chunk.end;
         const C* const begin = request.codes;

@@ -63,6 +63,7 @@ Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generat
     : bytecode_(bytecode), inputs_(inputs), each_generation_(each_generation) {
     make_codes();
     make_families();
+    make_guards();
     make_entries();
     if (bytecode_.settings.rewriting == RewritingMode::Parallel) {
         for (std::uint32_t i = 0; i < families_.size(); ++i) {
@@ -204,10 +205,50 @@ void Plan::make_families() {
     }
 }
 
+/// Where every candidate of a family asks for a left neighbour, most modules are done with when
+/// theirs is seen to be another; the same on the right.
+void Plan::make_guards() {
+    constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 22;
+    const Code codes = bytecode_.code_count();
+    if (std::uint64_t{codes} * families_.size() * 2 > kMostBytes) {
+        return;
+    }
+    const auto mark = [&](std::uint32_t& guard, SymbolId symbol) {
+        if (guard == kNone) {
+            guard = static_cast<std::uint32_t>(guards_.size());
+            guards_.resize(guards_.size() + codes);
+        }
+        for (const Code code : codes_of(symbol)) {
+            guards_[guard + code] = 1;
+        }
+    };
+    for (Family& family : families_) {
+        bool all_left = true;
+        bool all_right = true;
+        for (const Candidate& candidate : candidates(family)) {
+            const BytecodeProduction& production = bytecode_.productions[candidate.production];
+            all_left = all_left && production.has_left;
+            all_right = all_right && production.has_right &&
+                        bytecode_.patterns[production.right.first].kind == PatternKind::Module;
+        }
+        for (const Candidate& candidate : candidates(family)) {
+            const BytecodeProduction& production = bytecode_.productions[candidate.production];
+            if (all_left) {
+                const std::uint32_t nearest = production.left.first + production.left.count - 1;
+                mark(family.left_guard, bytecode_.patterns[nearest].symbol);
+            }
+            if (all_right) {
+                mark(family.right_guard, bytecode_.patterns[production.right.first].symbol);
+            }
+        }
+    }
+}
+
 void Plan::make_entries() {
     const Code count = bytecode_.code_count();
     rows_.resize(count);
     choice_of_code_.assign(count, kNone);
+    tests_of_code_.assign(count, kNone);
     entries_.resize(std::size_t{count} + candidates_.size());
     for (Code code = 0; code < count; ++code) {
         Row& row = rows_[code];
@@ -304,6 +345,7 @@ std::uint64_t Plan::held_bytes() const {
            bytes_of(candidates_) + bytes_of(comparisons_) + bytes_of(choices_) +
            bytes_of(thresholds_) + bytes_of(choice_records_) + bytes_of(pool_) +
            bytes_of(codes_of_first_) + bytes_of(codes_of_) + bytes_of(choice_of_code_) +
+           bytes_of(tests_of_code_) + bytes_of(test_lists_) + bytes_of(tests_) + bytes_of(guards_) +
            bytes_of(varying_families_);
 }
 

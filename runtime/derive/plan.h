@@ -4,10 +4,11 @@
 // passes, by many threads at once.
 //
 // A row tells how modules of a code are rewritten: always by one entry, by a choice among a fixed
-// set, or as conditions and contexts say. An entry is one way: the codes to copy, and for each
-// parameter a lane (expressions/shape.h), or general code. Entry c < code_count belongs to code c:
-// what a Fixed row writes, and the copy that stands for no match in other rows. The others follow
-// in the order of the families, so that record r > 0 of a module means entry row.base + r.
+// set, by the first of some comparisons that holds, or as conditions and contexts say. An entry is
+// one way: the codes to copy, and for each parameter a lane (expressions/shape.h), or general code.
+// Entry c < code_count belongs to code c: what a Fixed row writes, and the copy that stands for no
+// match in other rows. The others follow in the order of the families, so that record r > 0 of a
+// module means entry row.base + r.
 #pragma once
 
 #include "compiler/bytecode.h"
@@ -43,6 +44,7 @@ struct alignas(64) Entry {
 enum class RowKind : std::uint8_t {
     Fixed,   // always entry c
     Choice,  // stochastic, among the same productions for every module
+    Tests,   // by the first comparison of its parameters that holds
     General, // the family's candidates are tried
 };
 
@@ -52,7 +54,9 @@ struct Row {
     std::uint32_t parameter_count = 0; // Fixed
     std::uint32_t stored = 0;          // parameters the module has in the word
     std::uint32_t constants = kNone;   // of a folded module, in Bytecode::constants
-    std::uint32_t source = 0;          // Choice: in choices; General: in families
+    std::uint32_t source = 0;         // Choice: in choices; Tests: in test lists; else: in families
+    std::uint32_t left_guard = kNone; // General: what must be next to it, in guards
+    std::uint32_t right_guard = kNone;
     RowKind kind = RowKind::Fixed;
     bool copies = true; // Fixed: writes the module itself
     bool slow = false;  // entries read the parameters of a folded module
@@ -62,6 +66,8 @@ struct Row {
 struct Family {
     std::uint32_t first = 0; // in candidates
     std::uint32_t count = 0;
+    std::uint32_t left_guard = kNone; // codes that may stand left of a module that is rewritten
+    std::uint32_t right_guard = kNone;
     bool has_context = false;
     bool reads_context = false; // a formal of a context is used
     bool varies = false;        // depends on the generation: step(), or one choice a generation
@@ -88,6 +94,17 @@ struct Candidate {
 /// The fixed set of a Choice row: the first record whose running weight exceeds the draw.
 struct Choice {
     std::uint32_t first = 0; // in thresholds and choice_records
+    std::uint32_t count = 0;
+    std::uint32_t room = 0;
+};
+
+/// One of the tests of a row, in file order; the first that holds decides.
+struct Test {
+    Comparison comparison;
+    std::uint32_t record = 0;
+};
+struct TestList {
+    std::uint32_t first = 0; // in tests
     std::uint32_t count = 0;
     std::uint32_t room = 0;
 };
@@ -133,6 +150,11 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> records(const Choice& choice) const {
         return {choice_records_.data() + choice.first, choice.count};
     }
+    [[nodiscard]] std::span<const Test> tests(std::uint32_t index) const {
+        return {tests_.data() + test_lists_[index].first, test_lists_[index].count};
+    }
+    /// guards()[guard + code]: whether a module of that code may be the neighbour.
+    [[nodiscard]] const std::uint8_t* guards() const { return guards_.data(); }
     /// Codes at the word's width: those of the templates, then every code once; with slack.
     [[nodiscard]] const std::byte* pool() const { return pool_.data(); }
     /// Where the one-code templates begin.
@@ -169,6 +191,7 @@ public:
 private:
     void make_codes();
     void make_families();
+    void make_guards();
     void make_entries();
     void shape(Family& family);
     void shape_condition(Candidate& candidate);
@@ -178,6 +201,7 @@ private:
     void resolve(std::uint32_t family_index, Code code);
     void resolve_choice(const Family& family, std::uint32_t first_match, Code code);
     void resolve_fixed(Code code, const Entry& entry);
+    [[nodiscard]] bool resolve_tests(const Family& family, Code code);
     [[nodiscard]] bool bake(const Row& row, Entry& entry) const;
     [[nodiscard]] ConditionKind
     condition_for(const Family& family, const Candidate& candidate, const float* own) const;
@@ -203,10 +227,14 @@ private:
     std::vector<Choice> choices_;
     std::vector<float> thresholds_;
     std::vector<std::uint32_t> choice_records_;
+    std::vector<TestList> test_lists_;
+    std::vector<Test> tests_;
+    std::vector<std::uint8_t> guards_;
     std::vector<std::byte> pool_;
     std::vector<std::uint32_t> codes_of_first_; // by symbol; one more at the end
     std::vector<Code> codes_of_;
     std::vector<std::uint32_t> choice_of_code_; // kNone: none yet
+    std::vector<std::uint32_t> tests_of_code_;
     std::vector<std::uint32_t> varying_families_;
     std::uint32_t identity_first_ = 0;
     std::uint32_t dynamic_rows_ = 0;

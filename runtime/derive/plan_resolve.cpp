@@ -150,6 +150,8 @@ void Plan::resolve(std::uint32_t family_index, Code code) {
     Row& row = rows_[code];
     row.base = bytecode_.code_count() + family.first - 1;
     row.source = family_index;
+    row.left_guard = family.left_guard;
+    row.right_guard = family.right_guard;
     const float* const own = own_constants(row);
     if (own != nullptr) {
         const auto entry = entries_.begin() + row.base + 1;
@@ -174,7 +176,7 @@ void Plan::resolve(std::uint32_t family_index, Code code) {
             continue;
         }
         if (candidate.has_context || condition != ConditionKind::Always) {
-            set_kind(code, RowKind::General);
+            set_kind(code, resolve_tests(family, code) ? RowKind::Tests : RowKind::General);
             return;
         }
         if (candidate.stochastic) {
@@ -185,6 +187,51 @@ void Plan::resolve(std::uint32_t family_index, Code code) {
         return;
     }
     row.slow = false; // no production can match
+}
+
+/// Whether comparisons alone decide, each by itself: no contexts, no chance, no other conditions.
+bool Plan::resolve_tests(const Family& family, Code code) {
+    constexpr std::size_t kMostTests = 16;
+    Row& row = rows_[code];
+    if (row.constants != kNone) {
+        return false;
+    }
+    std::vector<Test> found;
+    for (std::uint32_t i = 0; i < family.count; ++i) {
+        const Candidate& candidate = candidates_[family.first + i];
+        const std::span<const Comparison> all = comparisons(candidate);
+        if (candidate.condition == ConditionKind::Never) {
+            continue;
+        }
+        if (candidate.has_context || candidate.stochastic || found.size() == kMostTests ||
+            candidate.condition == ConditionKind::Expression ||
+            (candidate.condition == ConditionKind::Comparisons && all.size() != 1)) {
+            return false;
+        }
+        if (candidate.condition == ConditionKind::Always) {
+            constexpr std::uint32_t kAny =
+                Comparison::kLess | Comparison::kEqual | Comparison::kGreater;
+            found.push_back({{{}, 0.0F, kAny}, i + 1});
+            break;
+        }
+        found.push_back({all[0], i + 1});
+    }
+    std::uint32_t& index = tests_of_code_[code];
+    if (index == kNone) {
+        index = static_cast<std::uint32_t>(test_lists_.size());
+        test_lists_.emplace_back();
+    }
+    TestList& list = test_lists_[index];
+    const auto count = static_cast<std::uint32_t>(found.size());
+    if (count > list.room) {
+        list.room = count;
+        list.first = static_cast<std::uint32_t>(tests_.size());
+        tests_.resize(tests_.size() + count);
+    }
+    list.count = count;
+    std::copy(found.begin(), found.end(), tests_.begin() + list.first);
+    row.source = index;
+    return true;
 }
 
 void Plan::resolve_choice(const Family& family, std::uint32_t first_match, Code code) {

@@ -15,7 +15,7 @@ using Float4 = float __attribute__((vector_size(16)));
 
 /// Where the lanes of one entry find their inputs.
 enum class LaneInputs : std::uint8_t {
-    None,  // the program stores no parameters
+    None,  // no parameters are written
     First, // no module stores more than one
     Any,
 };
@@ -49,7 +49,7 @@ public:
             fine = run_exactly(request_.end);
         } else if (request_.mostly_copies) {
             fine = run_blocks();
-        } else if (!plan_.has_parameters()) {
+        } else if (!plan_.has_parameters() || !request_.writes_parameters) {
             fine = run_wide<LaneInputs::None>();
         } else if (!plan_.mixes_inputs()) {
             fine = run_wide<LaneInputs::First>();

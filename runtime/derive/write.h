@@ -19,7 +19,8 @@ struct WriteRequest {
     C* codes_limit = nullptr;
     float* parameters = nullptr;
     float* parameters_limit = nullptr;
-    bool mostly_copies = false; // then runs of modules that are copied are moved as blocks
+    bool mostly_copies = false;    // then runs of modules that are copied are moved as blocks
+    bool writes_parameters = true; // false: the stretch becomes modules that store none
 };
 
 /// False: a parameter is not finite or a range is not one; find_fault() tells which.
