@@ -5,7 +5,9 @@ add_library(lsys_options INTERFACE)
 target_include_directories(lsys_options INTERFACE "${PROJECT_SOURCE_DIR}")
 target_compile_options(lsys_options INTERFACE
   -ffp-contract=off
-  "-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=" "-ffile-prefix-map=${PROJECT_BINARY_DIR}/=")
+  # What users get names no folder of the machine that built it.
+  $<$<CONFIG:Release>:-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=>
+  $<$<CONFIG:Release>:-ffile-prefix-map=${PROJECT_BINARY_DIR}/=>)
 if(LSYS_SANITIZE)
   target_compile_options(lsys_options INTERFACE
     -fsanitize=${LSYS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
