@@ -98,6 +98,14 @@ Diagnostic& Diagnostics::add(DiagnosticCode code, SourceSpan span, std::string m
     return add(make_diagnostic(code, span, std::move(message)));
 }
 
+bool Diagnostics::admits(DiagnosticCode code) {
+    if (all_.size() < kMaxStored) {
+        return true;
+    }
+    ++counts_[static_cast<std::size_t>(info(code).severity)];
+    return false;
+}
+
 void Diagnostics::sort_by_place() {
     const auto key = [](const Diagnostic& d) {
         return std::array<std::uint64_t, 3>{static_cast<std::uint64_t>(d.span.file), d.span.begin,

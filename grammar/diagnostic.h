@@ -81,6 +81,10 @@ public:
     Diagnostic& add(Diagnostic diagnostic);
     Diagnostic& add(DiagnosticCode code, SourceSpan span, std::string message);
 
+    /// Whether one more would be stored. If not, it is counted here and now with the code's usual
+    /// severity, and the caller need not write a message that nobody reads.
+    [[nodiscard]] bool admits(DiagnosticCode code);
+
     [[nodiscard]] const std::vector<Diagnostic>& all() const { return all_; }
     /// All that were added, stored or not.
     [[nodiscard]] std::uint64_t count(Severity severity) const {

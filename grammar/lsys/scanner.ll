@@ -1,0 +1,596 @@
+/* The tokens of .lsys files. Positions are byte offsets of the scanned text: where the match lies in Flex's
+   own copy. A run of module names, blanks and plain arguments, `F+F [ +(30) A`, is one token, because an
+   axiom may have a hundred million modules. No pattern that may be long contains NUL, which Flex matches
+   by going back to the start of the token. What is done about mistakes is in repairs.cpp. */
+
+%option reentrant noyywrap nounput noinput nodefault never-interactive batch
+%option 8bit full ecs
+%option prefix="lsys_yy" extra-type="lsys::ParseSession*"
+
+%{
+#include "grammar/lsys/expression_tokens.h"
+#include "grammar/lsys/lookahead.h"
+#include "grammar/lsys/module_tokens.h"
+#include "grammar/lsys/plain_text.h"
+#include "grammar/lsys/scanning.h"
+#include "grammar/lsys/statement_tokens.h"
+#include "lsys/parser.h"
+
+#define YY_DECL                                                                                    \
+    lsys::lsys_grammar::Parser::symbol_type lsys::lsys_grammar::next_token(                        \
+        lsys::ParseSession& session, void* yyscanner)
+
+#define YY_USER_ACTION                                                                             \
+    scan.begin = static_cast<std::uint32_t>(yytext - YY_CURRENT_BUFFER_LVALUE->yy_ch_buf);         \
+    scan.end = scan.begin + static_cast<std::uint32_t>(yyleng);
+
+/* Shortens the match and moves the end with it. */
+#define SHORTEN(length)                                                                            \
+    do {                                                                                           \
+        yyless(length);                                                                            \
+        scan.end = scan.begin + static_cast<std::uint32_t>(length);                                \
+    } while (false)
+/* The start condition follows the part of the statement. */
+#define FOLLOW() BEGIN(start_condition(scan))
+#define TEXT std::string_view(yytext, static_cast<std::size_t>(yyleng))
+#define OPERATOR(kind)                                                                             \
+    do {                                                                                           \
+        const SourceSpan span = session.token();                                                   \
+        scan.after_operator();                                                                     \
+        return Parser::make_##kind(span);                                                          \
+    } while (false)
+/* Two values side by side: an operator or comma is supplied first. */
+#define BEGIN_VALUE()                                                                              \
+    do {                                                                                           \
+        if (scan.value_before) {                                                                   \
+            Parser::symbol_type between = supply_between_values(session);                          \
+            SHORTEN(0);                                                                            \
+            FOLLOW();                                                                              \
+            return between;                                                                        \
+        }                                                                                          \
+    } while (false)
+%}
+
+BLANK   [ \t\r\n]
+IDENT   [A-Za-z_][A-Za-z0-9_]*
+SYMBOL  [-+/\\^&|$!"'.[\]{}%]
+NUMBER  ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][+-]?[0-9]+)?
+LIKE    ([0-9]|"."[0-9])[0-9A-Za-z_.]*
+PLAIN   "-"?{BLANK}*{NUMBER}
+PLAINS  "("{BLANK}*{PLAIN}{BLANK}*(","{BLANK}*{PLAIN}{BLANK}*)*")"
+NAME    {IDENT}|{SYMBOL}
+ITEM    ({NAME})({BLANK}*{PLAINS})?
+RUN     {ITEM}({BLANK}*{ITEM})*
+CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
+
+%x OPENING
+%x OBJECT_NAME
+%x OBJECT_VALUE
+%x SETTING
+%x MODULES
+%x EXPRESSION
+%x SKIP
+%x COMMENT
+%x LINE_COMMENT
+%x RANGE
+
+%%
+
+%{
+    ScanState& scan = session.scan;
+    const auto start_condition = [](const ScanState& state) {
+        if (state.skipping) {
+            return SKIP;
+        }
+        if (!state.open.empty()) {
+            return EXPRESSION;
+        }
+        switch (state.part) {
+        case Part::Between:
+            return INITIAL;
+        case Part::Opening:
+            return OPENING;
+        case Part::Value:
+        case Part::Condition:
+            return EXPRESSION;
+        case Part::ObjectName:
+            return OBJECT_NAME;
+        case Part::ObjectValue:
+            return OBJECT_VALUE;
+        case Part::Setting:
+            return SETTING;
+        case Part::Declaration:
+        case Part::Ignored:
+        case Part::Axiom:
+        case Part::Head:
+        case Part::Successor:
+            return MODULES;
+        }
+        return INITIAL;
+    };
+    if (scan.draining != Drain::Nothing) {
+        Parser::symbol_type token = drain(session);
+        FOLLOW();
+        return token;
+    }
+%}
+
+<INITIAL,OPENING,OBJECT_NAME,OBJECT_VALUE,SETTING,MODULES,EXPRESSION>{
+  {BLANK}+              { }
+}
+<INITIAL,OPENING,OBJECT_NAME,OBJECT_VALUE,SETTING,MODULES,EXPRESSION,SKIP>{
+  "/*"                  {
+                          scan.comment_begin = scan.begin;
+                          scan.comment_return = YY_START;
+                          BEGIN(COMMENT);
+                        }
+  ";"                   {
+                          if (is_colour_symbol(session)) {
+                              const SourceSpan span = session.token();
+                              return Parser::make_QUOTED(read_as_module(session, ";"), span);
+                          }
+                          const std::optional<Parser::symbol_type> token = semicolon(session);
+                          FOLLOW();
+                          if (token) {
+                              return *token;
+                          }
+                        }
+}
+
+<COMMENT>{
+  [^*\0]+               { }
+  "*"+"/"               {
+                          keep_comment(session);
+                          BEGIN(scan.comment_return);
+                        }
+  "*"+                  { }
+  \0                    { }
+}
+<LINE_COMMENT>{
+  [^\n\0]+              { }
+  \0                    { }
+  \n                    {
+                          scan.end = scan.begin;
+                          keep_comment(session);
+                          BEGIN(scan.comment_return);
+                        }
+}
+
+<INITIAL>{
+  "//"                  {
+                          scan.comment_begin = scan.begin;
+                          scan.comment_return = INITIAL;
+                          BEGIN(LINE_COMMENT);
+                        }
+  "#"[ \t]*{IDENT}      {
+                          const Parser::symbol_type token = start_statement(session, TEXT);
+                          FOLLOW();
+                          return token;
+                        }
+  {IDENT}               {
+                          const Parser::symbol_type token = start_without_hash(session, TEXT);
+                          FOLLOW();
+                          return token;
+                        }
+  [^#;A-Za-z_ \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF]|"#" {
+                          const Parser::symbol_type token = start_without_hash(session, {});
+                          FOLLOW();
+                          return token;
+                        }
+}
+
+<SKIP>{
+  [^;#/\0]+             { }
+  "/"                   { }
+  \0                    { }
+}
+<SKIP,OPENING,OBJECT_NAME,OBJECT_VALUE,SETTING,MODULES,EXPRESSION>{
+  "#"                   {
+                          if (begins_statement(session.scanned.text, scan.begin)) {
+                              scan.next_statement = scan.begin;
+                              SHORTEN(0);
+                              Parser::symbol_type token =
+                                  start_drain(session, Drain::NextStatement, {});
+                              FOLLOW();
+                              return token;
+                          }
+                          if (YY_START == EXPRESSION || YY_START == SETTING) {
+                              report_stray_hash(session);
+                              if (!scan.value_before) {
+                                  scan.value_before = true;
+                                  return Parser::make_BAD_VALUE(session.token());
+                              }
+                          } else if (YY_START == MODULES) {
+                              report_foreign_symbol(session, '#');
+                              const SourceSpan span = session.token();
+                              return Parser::make_QUOTED(read_as_module(session, "#"), span);
+                          } else if (YY_START != SKIP) {
+                              return Parser::make_OTHER(session.token());
+                          }
+                        }
+}
+
+<OPENING>{
+  ":"                   {
+                          const SourceSpan span = session.token();
+                          after_opening_colon(session);
+                          FOLLOW();
+                          return Parser::make_COLON(span);
+                        }
+  "="                   {
+                          const Parser::symbol_type token = opening_equals(session);
+                          FOLLOW();
+                          return token;
+                        }
+  {IDENT}               {
+                          if (const auto missing = missing_opening(session)) {
+                              SHORTEN(0);
+                              FOLLOW();
+                              return *missing;
+                          }
+                          const SourceSpan span = session.token();
+                          scan.enter(scan.keyword == Keyword::Set ? Part::Setting : Part::Value);
+                          FOLLOW();
+                          return Parser::make_IDENTIFIER(session.builder.intern(TEXT), span);
+                        }
+  [^:;=#A-Za-z_ \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF] {
+                          if (const auto missing = missing_opening(session)) {
+                              SHORTEN(0);
+                              FOLLOW();
+                              return *missing;
+                          }
+                          return Parser::make_OTHER(session.token());
+                        }
+}
+
+<OBJECT_NAME,OBJECT_VALUE>{
+  "\""[^"\n\0]*"\""     { return Parser::make_STRING(session.token()); }
+}
+<OBJECT_NAME>{
+  {IDENT}|{SYMBOL}      {
+                          if (yytext[0] == '"' && scan.keyword == Keyword::Include) {
+                              const Parser::symbol_type token = unclosed_quote(session);
+                              FOLLOW();
+                              return token;
+                          }
+                          const SourceSpan span = session.token();
+                          scan.enter(Part::ObjectValue);
+                          FOLLOW();
+                          return Parser::make_NAMES({scan.begin, scan.end}, span);
+                        }
+}
+<OBJECT_VALUE>{
+  {IDENT}               { return Parser::make_IDENTIFIER(session.builder.intern(TEXT), session.token()); }
+  "("                   {
+                          const SourceSpan span = session.token();
+                          scan.push(OpenBracket::Kind::Module);
+                          FOLLOW();
+                          return Parser::make_OPEN(span);
+                        }
+  "\""                  {
+                          const Parser::symbol_type token = unclosed_quote(session);
+                          FOLLOW();
+                          return token;
+                        }
+  "`"                   { return Parser::make_OTHER(session.token()); }
+}
+<OBJECT_NAME,OBJECT_VALUE>{
+  ":"                   { return Parser::make_COLON(session.token()); }
+  [^:;#"`A-Za-z_ \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF] {
+                          return Parser::make_OTHER(session.token());
+                        }
+}
+
+<SETTING>{
+  {IDENT}               { return Parser::make_IDENTIFIER(session.builder.intern(TEXT), session.token()); }
+  {NUMBER}              {
+                          const SourceSpan span = session.token();
+                          return number(session, TEXT, span);
+                        }
+  {LIKE}                {
+                          const SourceSpan span = session.token();
+                          report_malformed_number(session, TEXT, span);
+                          return Parser::make_BAD_VALUE(span);
+                        }
+  "-"                   { return Parser::make_MINUS(session.token()); }
+  "("                   {
+                          const SourceSpan span = session.token();
+                          scan.push(OpenBracket::Kind::Group);
+                          FOLLOW();
+                          return Parser::make_LPAREN(span);
+                        }
+  [=:]                  {
+                          if (!is_needless_sign(session)) {
+                              return Parser::make_OTHER(session.token());
+                          }
+                        }
+  [^=:;#A-Za-z_0-9( \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF-] {
+                          return Parser::make_OTHER(session.token());
+                        }
+}
+
+<MODULES>{
+  {RUN}                 {
+                          const SourceSpan span = session.token();
+                          return Parser::make_NAMES({scan.begin, scan.end}, span);
+                        }
+  {RUN}"*"              {
+                          /* A comment may begin here; the run does not reach into it. */
+                          SHORTEN(run_before_star(TEXT));
+                          const SourceSpan span = session.token();
+                          return Parser::make_NAMES({scan.begin, scan.end}, span);
+                        }
+  "("                   {
+                          const SourceSpan span = session.token();
+                          scan.push(OpenBracket::Kind::Module);
+                          FOLLOW();
+                          return Parser::make_OPEN(span);
+                        }
+  ")"                   { report_extra_parenthesis(session); }
+  ":"                   {
+                          const Parser::symbol_type token = colon_after_modules(session);
+                          FOLLOW();
+                          return token;
+                        }
+  "<"                   {
+                          if (scan.part == Part::Head) {
+                              return Parser::make_CLT(session.token());
+                          }
+                          report_foreign_symbol(session, yytext[0]);
+                          const SourceSpan span = session.token();
+                          return Parser::make_QUOTED(read_as_module(session, TEXT), span);
+                        }
+  ">"                   {
+                          if (scan.part == Part::Head) {
+                              return Parser::make_CGT(session.token());
+                          }
+                          report_foreign_symbol(session, yytext[0]);
+                          const SourceSpan span = session.token();
+                          return Parser::make_QUOTED(read_as_module(session, TEXT), span);
+                        }
+  [@*~=?,]|{NUMBER}     {
+                          switch (stray_in_modules(session, TEXT)) {
+                          case Stray::Skip:
+                              break;
+                          case Stray::Module: {
+                              const SourceSpan span = session.token();
+                              return Parser::make_QUOTED(read_as_module(session, TEXT), span);
+                          }
+                          case Stray::Range:
+                              BEGIN(RANGE);
+                              break;
+                          case Stray::Colon: {
+                              SHORTEN(0);
+                              scan.enter(Part::Condition);
+                              FOLLOW();
+                              return Parser::make_COLON(session.supplied());
+                          }
+                          case Stray::Lost: {
+                              const Parser::symbol_type token = lose_statement(session);
+                              FOLLOW();
+                              return token;
+                          }
+                          }
+                        }
+}
+<RANGE>{
+  [^};:#`/\0]+          { }
+  [};:#`/\0]            {
+                          SHORTEN(0);
+                          BEGIN(MODULES);
+                        }
+}
+
+<MODULES,OBJECT_NAME>{
+  "`"[^`\n\0]*"`"       {
+                          replace_in_quotes(session, TEXT);
+                          const SourceSpan span = session.token();
+                          const NameId name = quoted_name(session, TEXT, span);
+                          if (scan.part == Part::ObjectName) {
+                              scan.enter(Part::ObjectValue);
+                              FOLLOW();
+                          }
+                          return Parser::make_QUOTED(name, span);
+                        }
+  "`"                   { report_unclosed_back_quote(session); }
+}
+
+<EXPRESSION>{
+  {NUMBER}              {
+                          BEGIN_VALUE();
+                          const SourceSpan span = session.token();
+                          scan.value_before = true;
+                          return number(session, TEXT, span);
+                        }
+  {LIKE}                {
+                          BEGIN_VALUE();
+                          if (const std::size_t length = number_before_name(TEXT); length != 0) {
+                              SHORTEN(static_cast<int>(length));
+                              const SourceSpan span = session.token();
+                              scan.value_before = true;
+                              return number(session, TEXT, span);
+                          }
+                          const SourceSpan span = session.token();
+                          scan.value_before = true;
+                          report_malformed_number(session, TEXT, span);
+                          return Parser::make_BAD_VALUE(span);
+                        }
+  {IDENT}               {
+                          BEGIN_VALUE();
+                          const SourceSpan span = session.token();
+                          scan.value_before = true;
+                          scan.name_before = true;
+                          return Parser::make_IDENTIFIER(session.builder.intern(TEXT), span);
+                        }
+  "("                   {
+                          const bool is_call = scan.name_before;
+                          if (!is_call) {
+                              BEGIN_VALUE();
+                          }
+                          const SourceSpan span = session.token();
+                          scan.push(is_call ? OpenBracket::Kind::Call : OpenBracket::Kind::Group);
+                          if (scan.depth > kMaxNesting) {
+                              const Parser::symbol_type token = too_deep(session);
+                              FOLLOW();
+                              return token;
+                          }
+                          return Parser::make_LPAREN(span);
+                        }
+  "{"                   {
+                          if (!begins_bounds(scan)) {
+                              BEGIN_VALUE();
+                          }
+                          const SourceSpan span = session.token();
+                          scan.push(OpenBracket::Kind::Brace);
+                          if (scan.depth > kMaxNesting) {
+                              const Parser::symbol_type token = too_deep(session);
+                              FOLLOW();
+                              return token;
+                          }
+                          return Parser::make_LBRACE(span);
+                        }
+  [)}]                  {
+                          const std::optional<Parser::symbol_type> token =
+                              closing(session, yytext[0]);
+                          if (token) {
+                              if (token->location.begin == token->location.end) {
+                                  SHORTEN(0);
+                              }
+                              FOLLOW();
+                              return *token;
+                          }
+                        }
+  ","                   { OPERATOR(COMMA); }
+  "*"                   { OPERATOR(STAR); }
+  "/"                   { OPERATOR(SLASH); }
+  "+"                   { OPERATOR(PLUS); }
+  "<"                   { OPERATOR(LESS); }
+  "<="                  { OPERATOR(LESS_EQUAL); }
+  ">"                   { OPERATOR(GREATER); }
+  ">="                  { OPERATOR(GREATER_EQUAL); }
+  "=="                  { OPERATOR(EQUAL); }
+  "!="                  { OPERATOR(NOT_EQUAL); }
+  "&&"                  { OPERATOR(AND); }
+  "||"                  { OPERATOR(OR); }
+  "~"                   { OPERATOR(TILDE); }
+  "-"                   {
+                          if (scan.value_before) {
+                              OPERATOR(MINUS);
+                          }
+                          const SourceSpan span = session.token();
+                          if (!lengthen_chain(session)) {
+                              const Parser::symbol_type token = too_deep(session);
+                              FOLLOW();
+                              return token;
+                          }
+                          return Parser::make_MINUS(span);
+                        }
+  "!"                   {
+                          const SourceSpan span = session.token();
+                          if (!lengthen_chain(session)) {
+                              const Parser::symbol_type token = too_deep(session);
+                              FOLLOW();
+                              return token;
+                          }
+                          return Parser::make_NOT(span);
+                        }
+  "^"                   {
+                          const SourceSpan span = session.token();
+                          if (!lengthen_chain(session)) {
+                              const Parser::symbol_type token = too_deep(session);
+                              FOLLOW();
+                              return token;
+                          }
+                          return Parser::make_CARET(span);
+                        }
+  "!"{BLANK}+"="        { report_split_operator(session, TEXT); OPERATOR(NOT_EQUAL); }
+  "="{BLANK}+"="        { report_split_operator(session, TEXT); OPERATOR(EQUAL); }
+  "<"{BLANK}+"="        { report_split_operator(session, TEXT); OPERATOR(LESS_EQUAL); }
+  ">"{BLANK}+"="        { report_split_operator(session, TEXT); OPERATOR(GREATER_EQUAL); }
+  "&"{BLANK}+"&"        { report_split_operator(session, TEXT); OPERATOR(AND); }
+  "|"{BLANK}+"|"        { report_split_operator(session, TEXT); OPERATOR(OR); }
+  "&"                   { report_wrong_operator(session, "&&"); OPERATOR(AND); }
+  "|"                   { report_wrong_operator(session, "||"); OPERATOR(OR); }
+  "=<"                  { report_wrong_operator(session, "<="); OPERATOR(LESS_EQUAL); }
+  "=>"                  { report_wrong_operator(session, ">="); OPERATOR(GREATER_EQUAL); }
+  "<>"                  { report_wrong_operator(session, "!="); OPERATOR(NOT_EQUAL); }
+  "==="                 { report_wrong_operator(session, "=="); OPERATOR(EQUAL); }
+  "**"                  {
+                          report_wrong_operator(session, "^");
+                          const SourceSpan span = session.token();
+                          if (!lengthen_chain(session)) {
+                              const Parser::symbol_type token = too_deep(session);
+                              FOLLOW();
+                              return token;
+                          }
+                          return Parser::make_CARET(span);
+                        }
+  "%"                   {
+                          if (scan.value_before) {
+                              report_remainder_operator(session);
+                              OPERATOR(SLASH);
+                          }
+                          return Parser::make_OTHER(session.token());
+                        }
+  "="                   {
+                          if (!is_needless_sign(session)) {
+                              report_assignment(session);
+                              OPERATOR(EQUAL);
+                          }
+                        }
+  "//"                  {
+                          report_comment_in_expression(session);
+                          scan.comment_begin = scan.begin;
+                          scan.comment_return = YY_START;
+                          BEGIN(LINE_COMMENT);
+                        }
+  "//*"                 { SHORTEN(1); OPERATOR(SLASH); }
+  ":"                   {
+                          const Parser::symbol_type token = colon_in_expression(session);
+                          FOLLOW();
+                          return token;
+                        }
+  [[\]$"'.?@\\`]        { scan.after_operator(); return Parser::make_OTHER(session.token()); }
+}
+
+<INITIAL,OPENING,OBJECT_NAME,OBJECT_VALUE,SETTING,MODULES,EXPRESSION>{
+  {CONTROL}+|\0         { control_characters(session); }
+}
+<INITIAL,OPENING,OBJECT_NAME,OBJECT_VALUE,SETTING,MODULES,EXPRESSION>{
+  [\x80-\xFF][\x80-\xBF]* { /* one character */
+                          const int plain = read_as_plain(session, yytext, yyleng);
+                          SHORTEN(plain);
+                        }
+}
+
+<<EOF>>                 {
+                          scan.begin = scan.end = static_cast<std::uint32_t>(session.scanned.text.size());
+                          if (YY_START == COMMENT) {
+                              report_unclosed_comment(session);
+                          }
+                          if (YY_START == COMMENT || YY_START == LINE_COMMENT) {
+                              keep_comment(session);
+                          }
+                          scan.next_statement = scan.end;
+                          const Parser::symbol_type token =
+                              start_drain(session, Drain::EndOfFile, {});
+                          FOLLOW();
+                          return token;
+                        }
+
+%%
+
+namespace lsys::lsys_grammar {
+
+Scanning::Scanning(ParseSession& session) {
+    const int failed = lsys_yylex_init_extra(&session, &scanner_);
+    LSYS_CHECK(failed == 0);
+    const std::string_view text = session.scanned.text;
+    lsys_yy_scan_bytes(text.data(), static_cast<int>(text.size()), scanner_);
+}
+
+Scanning::~Scanning() {
+    lsys_yylex_destroy(scanner_);
+}
+
+}

@@ -1,0 +1,27 @@
+// Number literals: text to binary32, rounded once. Used by the scanner and by the AST builder, which
+// reads plain arguments by itself.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace lsys {
+
+enum class LiteralRange : std::uint8_t {
+    Normal,
+    Overflow,  // larger than every binary32 value
+    Underflow, // not 0 as written, but subnormal or 0 as a binary32 value
+};
+
+struct Literal {
+    float value = 0.0F; // 0 after an overflow
+    LiteralRange range = LiteralRange::Normal;
+};
+
+/// Precondition: `text` is a number of the language: digits with an optional point and exponent.
+[[nodiscard]] Literal read_literal(std::string_view text);
+
+/// Length of the longest number at the start of `text`; 0 if there is none.
+[[nodiscard]] std::size_t literal_length(std::string_view text);
+
+} // namespace lsys
