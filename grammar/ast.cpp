@@ -32,8 +32,8 @@ std::uint32_t name_end(std::string_view source, std::uint32_t begin, std::string
     }
     if (rest.starts_with('`')) {
         const std::size_t close = rest.find_first_of("`\n", 1);
-        return begin + static_cast<std::uint32_t>(
-                           close == std::string_view::npos ? rest.size() : close + 1);
+        return begin + static_cast<std::uint32_t>(close == std::string_view::npos ? rest.size()
+                                                                                  : close + 1);
     }
     std::size_t at = 0;
     for (std::size_t taken = 0; taken < name.size() && at < rest.size(); ++taken) {

@@ -248,7 +248,7 @@ struct Ast {
 
     ChunkedVector<Expression> expressions;
     ChunkedVector<ExpressionId> expression_lists; // arguments of calls, consecutive
-    ChunkedVector<ListRange> argument_lists;        // of function calls
+    ChunkedVector<ListRange> argument_lists;      // of function calls
     ChunkedVector<ModuleNode> modules;
     ChunkedVector<CallNode> calls;
 

@@ -132,9 +132,9 @@ std::optional<Parser::symbol_type> closing(ParseSession& session, char character
     if (is_brace == (scan.open.back().kind == OpenBracket::Kind::Brace)) {
         const SourceSpan span = session.token();
         const OpenBracket::Kind kind = scan.pop();
-        return is_brace                                ? Parser::make_RBRACE(span)
+        return is_brace                            ? Parser::make_RBRACE(span)
                : kind == OpenBracket::Kind::Module ? Parser::make_CLOSE(span)
-                                                       : Parser::make_RPAREN(span);
+                                                   : Parser::make_RPAREN(span);
     }
     // A bracket of the other kind was opened later and is closed first.
     const OpenBracket& inner = scan.open.back();
@@ -142,8 +142,7 @@ std::optional<Parser::symbol_type> closing(ParseSession& session, char character
     if (session.wants(DiagnosticCode::UnclosedParenthesis)) {
         const std::string closer = is_brace ? ")" : "}";
         Diagnostic& diagnostic = session.context.diagnostics.add(
-            DiagnosticCode::UnclosedParenthesis,
-            session.scanned.span(inner.begin, inner.begin + 1),
+            DiagnosticCode::UnclosedParenthesis, session.scanned.span(inner.begin, inner.begin + 1),
             std::string("`") + (is_brace ? '(' : '{') + "` is not closed before the `" + character +
                 "`");
         diagnostic.labels.push_back(
@@ -189,8 +188,7 @@ void report_wrong_operator(ParseSession& session, std::string_view right) {
         return;
     }
     const ScanState& scan = session.scan;
-    const std::string_view text =
-        session.scanned.text.substr(scan.begin, scan.end - scan.begin);
+    const std::string_view text = session.scanned.text.substr(scan.begin, scan.end - scan.begin);
     Diagnostic& diagnostic = report(session, DiagnosticCode::SyntaxError,
                                     "there is no operator `" + std::string(text) + "`");
     add_fix(diagnostic, "write `" + std::string(right) + "`", diagnostic.span, std::string(right));
@@ -214,9 +212,8 @@ void report_assignment(ParseSession& session) {
 
 void report_comment_in_expression(ParseSession& session) {
     if (session.wants(DiagnosticCode::SyntaxError)) {
-        Diagnostic& diagnostic =
-            report(session, DiagnosticCode::SyntaxError,
-                   "a comment with `//` stands between statements only");
+        Diagnostic& diagnostic = report(session, DiagnosticCode::SyntaxError,
+                                        "a comment with `//` stands between statements only");
         diagnostic.help.emplace_back("write `/* ... */` here, or put the comment after the `;`");
     }
 }

@@ -1,5 +1,5 @@
-// What the scanner does inside expressions: numbers, operators, parentheses, and two values that stand
-// side by side. Where the author's meaning is plain, it is reported and read as meant.
+// What the scanner does inside expressions: numbers, operators, parentheses, and two values that
+// stand side by side. Where the author's meaning is plain, it is reported and read as meant.
 #pragma once
 
 #include "grammar/lsys/parse_session.h"
@@ -22,7 +22,8 @@ Parser::symbol_type supply_between_values(ParseSession& session);
 /// Whether a `{` here is that of the bounds of #param.
 [[nodiscard]] bool begins_bounds(const ScanState& scan);
 
-/// A `)` or `}`. Nothing if it closes nothing; an empty one if another bracket must be closed before.
+/// A `)` or `}`. Nothing if it closes nothing; an empty one if another bracket must be closed
+/// before.
 std::optional<Parser::symbol_type> closing(ParseSession& session, char character);
 /// A unary operator or `^`: false if they nest too deep.
 [[nodiscard]] bool lengthen_chain(ParseSession& session);

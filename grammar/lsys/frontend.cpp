@@ -26,12 +26,11 @@ void ParseSession::end_statement(SourceSpan span, bool whole) {
     const bool is_kept = builder.finish_statement(span, whole);
     if (is_kept && scan.semicolon_supplied && wants(DiagnosticCode::MissingSemicolon)) {
         const SourceSpan place = supplied();
-        Diagnostic& diagnostic = context.diagnostics.add(DiagnosticCode::MissingSemicolon, place,
-                                                         "`;` is missing at the end of a statement");
+        Diagnostic& diagnostic = context.diagnostics.add(
+            DiagnosticCode::MissingSemicolon, place, "`;` is missing at the end of a statement");
         if (scan.draining != Drain::EndOfFile) {
-            diagnostic.labels.push_back(
-                {scanned.span(scan.next_statement, scan.next_statement + 1),
-                 "the next statement begins here"});
+            diagnostic.labels.push_back({scanned.span(scan.next_statement, scan.next_statement + 1),
+                                         "the next statement begins here"});
         }
         diagnostic.fixes.push_back({"add `;`", {{place, ";"}}, true});
     }

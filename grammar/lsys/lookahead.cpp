@@ -45,7 +45,8 @@ std::size_t next_significant(std::string_view text, std::size_t at) {
 std::string_view leading_word(std::string_view text) {
     std::size_t end = 0;
     if (!text.empty() && is_letter(text[0])) {
-        while (end < text.size() && (is_letter(text[end]) || (text[end] >= '0' && text[end] <= '9'))) {
+        while (end < text.size() &&
+               (is_letter(text[end]) || (text[end] >= '0' && text[end] <= '9'))) {
             ++end;
         }
     }

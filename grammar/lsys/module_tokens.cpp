@@ -31,8 +31,9 @@ struct ForeignSymbol {
     std::string_view meaning;
 };
 constexpr std::array<ForeignSymbol, 9> kForeignSymbols{{
-    {'@', "in Houdini `@` divides the angle, in Fractint it scales the step, in .sys files it turns: "
-          "write `\"(factor)` for the step, `+(angle)` or `-(angle)` for a turn"},
+    {'@',
+     "in Houdini `@` divides the angle, in Fractint it scales the step, in .sys files it turns: "
+     "write `\"(factor)` for the step, `+(angle)` or `-(angle)` for a turn"},
     {'*', "in .l++ files `*` draws a leaf (`#object L LEAF;` and `L`), in Houdini it rolls by 180 "
           "degrees (`\\(180)`)"},
     {'~', "in Houdini `~(a)` turns at random (`+({-10, 10})`), in cpfg `~` places a surface "
@@ -40,14 +41,16 @@ constexpr std::array<ForeignSymbol, 9> kForeignSymbols{{
     {'=', "in .l++ files `=(p)` sets the thickness (`!(width)`); a production is "
           "`#name : A : * : B;`"},
     {'?', "in Houdini `?` divides the width (`!(width)`), in cpfg it asks for the turtle's state"},
-    {'<', "`<` stands between a left context and the predecessor; in .l files it rolls (`\\` and `/`), "
-          "in .l++ files it changes the width (`!(width)`), in .sys files it turns (`+` and `-`)"},
+    {'<',
+     "`<` stands between a left context and the predecessor; in .l files it rolls (`\\` and `/`), "
+     "in .l++ files it changes the width (`!(width)`), in .sys files it turns (`+` and `-`)"},
     {'>', "`>` stands between the predecessor and a right context; in .l files it rolls (`\\` and "
           "`/`), in .l++ files it changes the width (`!(width)`), in .sys files it turns (`+` and "
           "`-`)"},
     {'#', "`#` begins a statement; in Houdini `#` steps the texture"},
-    {';', "`;` ends the statement; in cpfg it sets the colour (`'(index)`), in Houdini it multiplies "
-          "the angle"},
+    {';',
+     "`;` ends the statement; in cpfg it sets the colour (`'(index)`), in Houdini it multiplies "
+     "the angle"},
 }};
 
 Stray stray_number(ParseSession& session, std::string_view text) {
@@ -64,11 +67,11 @@ Stray stray_number(ParseSession& session, std::string_view text) {
         return Stray::Range;
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
-        Diagnostic& diagnostic = report(session, DiagnosticCode::SyntaxError,
-                                        "a number cannot stand among modules");
-        const bool after_turn = scan.last_end == scan.begin &&
-                                std::string_view("+-/\\&^!\"'").find(before) !=
-                                    std::string_view::npos;
+        Diagnostic& diagnostic =
+            report(session, DiagnosticCode::SyntaxError, "a number cannot stand among modules");
+        const bool after_turn =
+            scan.last_end == scan.begin &&
+            std::string_view("+-/\\&^!\"'").find(before) != std::string_view::npos;
         if (after_turn) {
             add_fix(diagnostic, "put the argument in parentheses", diagnostic.span,
                     "(" + std::string(text) + ")");
@@ -156,7 +159,8 @@ NameId quoted_name(ParseSession& session, std::string_view text, SourceSpan span
     bool printable = true;
     for (std::size_t at = 0; at < name.size() && count <= kLongestQuotedName;) {
         const CodePoint point = decode_utf8(name.substr(at));
-        printable = printable && point.value > 0x20 && !(point.value >= 0x7F && point.value <= 0xA0);
+        printable =
+            printable && point.value > 0x20 && !(point.value >= 0x7F && point.value <= 0xA0);
         at += point.length;
         ++count;
     }
@@ -190,8 +194,7 @@ Parser::symbol_type unclosed_quote(ParseSession& session) {
         const std::size_t line_end = std::min(text.find('\n', session.scan.end), text.size());
         const std::size_t semicolon = text.rfind(';', line_end);
         if (semicolon != std::string_view::npos && semicolon > session.scan.end) {
-            const SourceSpan place =
-                session.scanned.after(static_cast<std::uint32_t>(semicolon));
+            const SourceSpan place = session.scanned.after(static_cast<std::uint32_t>(semicolon));
             add_fix(diagnostic, "add `\"`", place, "\"");
             diagnostic.fixes.back().machine_applicable = false;
         }
@@ -219,8 +222,7 @@ void control_characters(ParseSession& session) {
         !session.context.diagnostics.admits(DiagnosticCode::UnknownCharacter)) {
         return;
     }
-    const std::string_view text =
-        session.scanned.text.substr(scan.begin, scan.end - scan.begin);
+    const std::string_view text = session.scanned.text.substr(scan.begin, scan.end - scan.begin);
     report(session, DiagnosticCode::UnknownCharacter,
            "a control character, `" + shown(text) + "`, has no meaning in a grammar");
 }

@@ -1,5 +1,5 @@
-// What the scanner does with characters that are no modules of the language but stand in a module list,
-// with back quotes, and with quoted file names.
+// What the scanner does with characters that are no modules of the language but stand in a module
+// list, with back quotes, and with quoted file names.
 #pragma once
 
 #include "grammar/lsys/parse_session.h"

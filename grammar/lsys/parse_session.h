@@ -1,5 +1,5 @@
-// One parse of one .lsys file: what the scanner, the parser and their reports share. Included files have
-// sessions of their own, and all build the same Ast.
+// One parse of one .lsys file: what the scanner, the parser and their reports share. Included files
+// have sessions of their own, and all build the same Ast.
 #pragma once
 
 #include "grammar/diagnostic.h"
@@ -35,7 +35,7 @@ public:
     ScanState scan;
     IncludeChain* includes; // null where files are not to be read
 
-    bool silent = false;                        // the scan is for its tokens only: nothing is reported
+    bool silent = false; // the scan is for its tokens only: nothing is reported
     std::vector<TextRange>* comments = nullptr; // collects them, if it is set
     PlainReader* plain_reader = nullptr;        // of the first pass
 
@@ -56,7 +56,8 @@ public:
     }
 
     // --- for the parser
-    /// Keeps the statement unless `whole` is false or a part of it was lost; reads an included file.
+    /// Keeps the statement unless `whole` is false or a part of it was lost; reads an included
+    /// file.
     void end_statement(SourceSpan span, bool whole);
     /// The parser has recovered within the statement.
     void recover() {

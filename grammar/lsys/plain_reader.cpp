@@ -80,12 +80,11 @@ void PlainReader::report_group() {
         diagnostics_->admits(DiagnosticCode::LookAlike)) {
         const bool is_blank = group_.plain.find_first_not_of(' ') == std::string::npos;
         const std::string what =
-            group_.code_points +
-            (group_.name.empty() ? "" : " (" + std::string(group_.name) + ")");
+            group_.code_points + (group_.name.empty() ? "" : " (" + std::string(group_.name) + ")");
         const SourceSpan span{file_, group_.begin, group_.end};
         const std::string message =
-            group_.plain.empty() ? "an invisible character, " + what + ", has no meaning here"
-            : is_blank           ? "this is no plain blank but " + what
+            group_.plain.empty()  ? "an invisible character, " + what + ", has no meaning here"
+            : is_blank            ? "this is no plain blank but " + what
             : group_.plain == ":" ? "this is " + what + "; parts are separated by `:`"
                                   : "this looks like `" + group_.plain + "` but is " + what;
         Diagnostic& diagnostic = diagnostics_->add(DiagnosticCode::LookAlike, span, message);
@@ -105,8 +104,8 @@ void PlainReader::report_group() {
 
 /// The quote that closes a name which began with a curly one may be curly too.
 void PlainReader::close_quotes(std::uint32_t after, char* buffer) {
-    for (std::uint32_t at = after; at < text_.size() && text_[at] != '\n' && text_[at] != '"' &&
-                                   text_[at] != '\0';) {
+    for (std::uint32_t at = after;
+         at < text_.size() && text_[at] != '\n' && text_[at] != '"' && text_[at] != '\0';) {
         const CodePoint point = decode_utf8(text_.substr(at));
         const LookAlike* const look_alike =
             point.value < 0x80 ? nullptr : find_look_alike(point.value);
@@ -149,11 +148,11 @@ std::string PlainReader::read_unknown(std::uint32_t begin, const CodePoint& poin
     if (!same_word && diagnostics_ != nullptr &&
         diagnostics_->admits(DiagnosticCode::UnknownCharacter)) {
         const std::string text(text_.substr(first, end - first));
-        Diagnostic& diagnostic = diagnostics_->add(
-            DiagnosticCode::UnknownCharacter, {file_, first, end},
-            is_letter ? "`" + text + "` is not a name"
-                      : "`" + text + "`, " + code_point_name(point.value) +
-                            ", has no meaning in a grammar");
+        Diagnostic& diagnostic =
+            diagnostics_->add(DiagnosticCode::UnknownCharacter, {file_, first, end},
+                              is_letter ? "`" + text + "` is not a name"
+                                        : "`" + text + "`, " + code_point_name(point.value) +
+                                              ", has no meaning in a grammar");
         if (is_letter) {
             diagnostic.help.emplace_back(
                 "names are made of the letters A to Z and a to z, digits and `_`");

@@ -18,8 +18,8 @@ public:
     PlainReader(FileId file, std::string_view text, TextMap& map, Diagnostics* diagnostics)
         : file_(file), text_(text), map_(map), diagnostics_(diagnostics) {}
 
-    /// The valid character that lies at `begin` of the text and at `buffer` in the scanner's copy. Its
-    /// last bytes there are overwritten by the plain text; returns the offset of that.
+    /// The valid character that lies at `begin` of the text and at `buffer` in the scanner's copy.
+    /// Its last bytes there are overwritten by the plain text; returns the offset of that.
     int read(std::uint32_t begin, char* buffer, int length, bool in_object);
     /// A character between back quotes: only look-alikes are replaced.
     void read_quoted(std::uint32_t begin, std::uint32_t length);
@@ -36,8 +36,11 @@ private:
         std::uint32_t count = 0;
     };
 
-    void replace(std::uint32_t begin, std::uint32_t length, char32_t character,
-                 std::string_view plain, std::string_view name);
+    void replace(std::uint32_t begin,
+                 std::uint32_t length,
+                 char32_t character,
+                 std::string_view plain,
+                 std::string_view name);
     void close_quotes(std::uint32_t after, char* buffer);
     std::string read_unknown(std::uint32_t begin, const CodePoint& point);
     void report_group();

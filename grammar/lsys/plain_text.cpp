@@ -21,10 +21,8 @@ struct Validity {
 };
 
 /// Reports each run of bytes that are not UTF-8, and puts blanks in their place into `repaired`.
-Validity check_utf8(FileId file,
-                    std::string_view text,
-                    Diagnostics* diagnostics,
-                    std::string& repaired) {
+Validity
+check_utf8(FileId file, std::string_view text, Diagnostics* diagnostics, std::string& repaired) {
     Validity validity;
     for (std::size_t at = 0; at < text.size();) {
         if ((static_cast<unsigned char>(text[at]) & 0x80u) == 0) {

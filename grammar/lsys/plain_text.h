@@ -1,5 +1,6 @@
-// The first pass over a file: bytes that are no UTF-8 and typographic characters are reported, and the
-// text is made in which plain characters stand for them. Comments and file names stay as they are.
+// The first pass over a file: bytes that are no UTF-8 and typographic characters are reported, and
+// the text is made in which plain characters stand for them. Comments and file names stay as they
+// are.
 #pragma once
 
 #include "grammar/lsys/parse_session.h"
@@ -24,8 +25,8 @@ struct PlainText {
 
 namespace lsys_grammar {
 
-/// The scanner of the first pass has met a character beyond ASCII. Reports it and writes what is meant
-/// over the end of it; returns where the scan goes on.
+/// The scanner of the first pass has met a character beyond ASCII. Reports it and writes what is
+/// meant over the end of it; returns where the scan goes on.
 int read_as_plain(ParseSession& session, char* character, int length);
 /// The same for the name in back quotes at hand, which the scan then passes over.
 void replace_in_quotes(ParseSession& session, std::string_view text);

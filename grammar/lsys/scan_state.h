@@ -1,9 +1,9 @@
-// What the scanner of .lsys files remembers between tokens: where in which statement it stands. The same
-// character is an operator in one part of a statement and a module in another, so the scanner follows
-// the parts by its own tokens; the parser never switches it.
-// It also keeps three promises that make the parser's recovery safe: parentheses inside a statement are
-// balanced, a condition is followed by `:`, and a statement ends with `;`. Where the author forgot one,
-// the scanner reports it and supplies it ("drains").
+// What the scanner of .lsys files remembers between tokens: where in which statement it stands. The
+// same character is an operator in one part of a statement and a module in another, so the scanner
+// follows the parts by its own tokens; the parser never switches it. It also keeps three promises
+// that make the parser's recovery safe: parentheses inside a statement are balanced, a condition is
+// followed by `:`, and a statement ends with `;`. Where the author forgot one, the scanner reports
+// it and supplies it ("drains").
 #pragma once
 
 #include "grammar/session/ast_builder.h"
@@ -66,10 +66,10 @@ struct ScanState {
     Keyword keyword = Keyword::Label;
     Part part = Part::Between;
     Part ended_part = Part::Between; // the last part of the statement that a `;` has ended
-    bool statement_open = false; // `#word` was read, its `;` was not
-    bool part_empty = true;      // no token of the part was read
-    bool skipping = false;       // everything up to `;` is dropped
-    bool failed = false;         // a syntax error was reported: no more reports in this statement
+    bool statement_open = false;     // `#word` was read, its `;` was not
+    bool part_empty = true;          // no token of the part was read
+    bool skipping = false;           // everything up to `;` is dropped
+    bool failed = false; // a syntax error was reported: no more reports in this statement
     bool semicolon_supplied = false;
     bool value_before = false; // the last token ends a value
     bool name_before = false;  // the last token is a name in an expression
@@ -79,15 +79,15 @@ struct ScanState {
     std::uint32_t next_statement = 0; // where a supplied `;` was found missing
     int comment_return = 0;           // start condition
 
-    // Inside expressions. Operators that wait for what is to their right (unary, `^`) nest as deep as
-    // parentheses do.
+    // Inside expressions. Operators that wait for what is to their right (unary, `^`) nest as deep
+    // as parentheses do.
     std::vector<OpenBracket> open;
     std::uint32_t open_braces = 0;
     std::uint32_t chain = 0;
     std::uint32_t depth = 0; // open brackets and chains of all levels
 
     Drain draining = Drain::Nothing;
-    SourceSpan drained; // the `:` or `;` itself
+    SourceSpan drained;            // the `:` or `;` itself
     std::uint32_t control_end = 0; // end of the last control character
 
     void enter(Part next) {

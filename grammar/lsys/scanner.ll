@@ -27,8 +27,9 @@
 /* Shortens the match and moves the end with it. */
 #define SHORTEN(length)                                                                            \
     do {                                                                                           \
-        yyless(length);                                                                            \
-        scan.end = scan.begin + static_cast<std::uint32_t>(length);                                \
+        const int shortened = (length);                                                            \
+        yyless(shortened);                                                                         \
+        scan.end = scan.begin + static_cast<std::uint32_t>(shortened);                             \
     } while (false)
 /* The start condition follows the part of the statement. */
 #define FOLLOW() BEGIN(start_condition(scan))

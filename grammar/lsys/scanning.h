@@ -1,5 +1,5 @@
-// One pass of the scanner over a session's text. The parser and whoever wants the tokens alone draw them
-// from here.
+// One pass of the scanner over a session's text. The parser and whoever wants the tokens alone draw
+// them from here.
 #pragma once
 
 #include "grammar/lsys/parse_session.h"

@@ -121,9 +121,9 @@ Parser::symbol_type start(ParseSession& session, std::string_view word) {
     if (scan.keyword == Keyword::Label && is_axiom_by_another_name(session, word)) {
         if (session.wants(DiagnosticCode::UnknownStatement)) {
             const SourceSpan span = session.scanned.span(scan.begin, scan.end);
-            Diagnostic& diagnostic = session.context.diagnostics.add(
-                DiagnosticCode::UnknownStatement, span,
-                "there is no statement `#" + shown(word) + "`");
+            Diagnostic& diagnostic =
+                session.context.diagnostics.add(DiagnosticCode::UnknownStatement, span,
+                                                "there is no statement `#" + shown(word) + "`");
             add_fix(diagnostic, "the axiom is `#w`", span, "#w");
         }
         scan.keyword = Keyword::Axiom;
@@ -141,10 +141,10 @@ Parser::symbol_type start_statement(ParseSession& session, std::string_view text
             Diagnostic& diagnostic = session.context.diagnostics.add(
                 DiagnosticCode::SplitOperator, session.scanned.span(scan.begin, scan.end),
                 "a blank stands between `#` and its word");
-            add_fix(diagnostic, "remove the blank",
-                    session.scanned.span(scan.begin + 1,
-                                         scan.begin + static_cast<std::uint32_t>(name)),
-                    "");
+            add_fix(
+                diagnostic, "remove the blank",
+                session.scanned.span(scan.begin + 1, scan.begin + static_cast<std::uint32_t>(name)),
+                "");
         }
     }
     return start(session, text.substr(name));
@@ -167,16 +167,16 @@ Parser::symbol_type start_without_hash(ParseSession& session, std::string_view w
          (scan.keyword == Keyword::Label || scan.keyword == Keyword::Axiom));
     if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::MissingHash)) {
         const SourceSpan span = session.scanned.span(scan.begin, scan.end);
-        Diagnostic& diagnostic = session.context.diagnostics.add(
-            DiagnosticCode::MissingHash, span, "a statement begins with `#`");
+        Diagnostic& diagnostic = session.context.diagnostics.add(DiagnosticCode::MissingHash, span,
+                                                                 "a statement begins with `#`");
         if (is_statement) {
-            add_fix(diagnostic, "write `#" + shown(word) + "`",
-                    {span.file, span.begin, span.begin}, "#");
+            add_fix(diagnostic, "write `#" + shown(word) + "`", {span.file, span.begin, span.begin},
+                    "#");
         } else if (after_modules) {
             diagnostic.labels.push_back({session.scanned.span(scan.last_end - 1, scan.last_end),
                                          "this `;` ends the statement"});
-            diagnostic.help.emplace_back(
-                "if it is meant as a module, as in other programs, write it in back quotes: `` `;` ``");
+            diagnostic.help.emplace_back("if it is meant as a module, as in other programs, write "
+                                         "it in back quotes: `` `;` ``");
         } else {
             diagnostic.help.emplace_back(
                 "for example `#w : F;` or `#grow : F : * : F F;`; a comment is `// ...` or "
@@ -230,8 +230,8 @@ std::optional<Parser::symbol_type> missing_opening(ParseSession& session) {
     const std::string sign = wants_equals ? "=" : ":";
     const auto code = wants_equals ? DiagnosticCode::SyntaxError : DiagnosticCode::MissingColon;
     if (session.wants(code)) {
-        const std::string_view written = session.scanned.text.substr(
-            scan.statement_begin, scan.last_end - scan.statement_begin);
+        const std::string_view written =
+            session.scanned.text.substr(scan.statement_begin, scan.last_end - scan.statement_begin);
         Diagnostic& diagnostic = session.context.diagnostics.add(
             code, place, "`" + sign + "` is missing after `" + shown(written) + "`");
         add_fix(diagnostic, "add `" + sign + "`", place, " " + sign);
@@ -368,8 +368,7 @@ void report_missing_parts(ParseSession& session) {
         return;
     }
     const std::uint32_t first =
-        scan.part_begin +
-        static_cast<std::uint32_t>(condition.find_first_not_of(" \t\r\n"));
+        scan.part_begin + static_cast<std::uint32_t>(condition.find_first_not_of(" \t\r\n"));
     Diagnostic& diagnostic =
         diagnostics.add(DiagnosticCode::MissingColon, session.scanned.span(first, scan.last_end),
                         "the production has three parts, not four");

@@ -1,5 +1,6 @@
-// What the scanner does where statements and their parts begin and end, right or wrong: the author's
-// mistakes are reported here, and what is missing is supplied, so that the parser sees whole statements.
+// What the scanner does where statements and their parts begin and end, right or wrong: the
+// author's mistakes are reported here, and what is missing is supplied, so that the parser sees
+// whole statements.
 #pragma once
 
 #include "grammar/lsys/parse_session.h"
@@ -27,14 +28,15 @@ Parser::symbol_type colon_in_expression(ParseSession& session);
 /// Nothing for a `;` between statements.
 std::optional<Parser::symbol_type> semicolon(ParseSession& session);
 
-/// Supplies what the statement lacks before `kind` takes effect. drain() goes on with it, token by token.
+/// Supplies what the statement lacks before `kind` takes effect. drain() goes on with it, token by
+/// token.
 Parser::symbol_type start_drain(ParseSession& session, Drain kind, SourceSpan own);
 Parser::symbol_type drain(ParseSession& session);
 
 /// Drops the rest of the statement.
 Parser::symbol_type lose_statement(ParseSession& session);
-/// Whether the production at hand has too few `:`. Reports that at the match at hand, once, and with
-/// the fix if there is one.
+/// Whether the production at hand has too few `:`. Reports that at the match at hand, once, and
+/// with the fix if there is one.
 bool lacks_colon(ParseSession& session, std::string_view inserted);
 
 } // namespace lsys::lsys_grammar

@@ -143,16 +143,16 @@ bool report_modules_in_parentheses(ParseSession& session, const Unexpected& erro
 
 bool report_empty_condition(ParseSession& session, const Unexpected& error) {
     const std::string_view text = session.scanned.text;
-    const std::size_t before =
-        session.scan.begin == 0 ? std::string_view::npos
-                                : text.find_last_not_of(" \t\r\n", session.scan.begin - 1);
+    const std::size_t before = session.scan.begin == 0
+                                   ? std::string_view::npos
+                                   : text.find_last_not_of(" \t\r\n", session.scan.begin - 1);
     if (error.token != Kind::S_COLON || error.part != Part::Successor ||
         before == std::string_view::npos || text[before] != ':') {
         return false;
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
-        Diagnostic& diagnostic = report(session, DiagnosticCode::SyntaxError, error.place,
-                                        "the condition is missing");
+        Diagnostic& diagnostic =
+            report(session, DiagnosticCode::SyntaxError, error.place, "the condition is missing");
         diagnostic.fixes.push_back(
             {"`*` is the condition that always holds",
              {{{error.place.file, error.place.begin, error.place.begin}, "* "}},
@@ -207,12 +207,11 @@ void report_unexpected_token(ParseSession& session,
                         : session.scanned.text.substr(scan.begin, scan.end - scan.begin);
         const Unexpected error{token, place, expected, part, text};
         const bool in_production = part == Part::Head || part == Part::Condition;
-        const bool reported = report_modules_in_parentheses(session, error) ||
-                              report_empty_condition(session, error) ||
-                              report_parts_of_a_head(session, error) ||
-                              (in_production && scan.open.empty() && !is_supplied &&
-                               lacks_colon(session, "")) ||
-                              report_unary_plus(session, error);
+        const bool reported =
+            report_modules_in_parentheses(session, error) ||
+            report_empty_condition(session, error) || report_parts_of_a_head(session, error) ||
+            (in_production && scan.open.empty() && !is_supplied && lacks_colon(session, "")) ||
+            report_unary_plus(session, error);
         if (!reported) {
             report_expected(session, error);
         }

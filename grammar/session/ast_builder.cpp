@@ -312,8 +312,9 @@ bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
         statement_.span = span;
         ast_.statements.push_back(statement_);
     }
-    mark_ = {ast_.expressions.size(), ast_.expression_lists.size(), ast_.argument_lists.size(),
-             ast_.modules.size(),     ast_.calls.size(),            ast_.set_values.size()};
+    mark_ = {ast_.expressions.size(),    ast_.expression_lists.size(),
+             ast_.argument_lists.size(), ast_.modules.size(),
+             ast_.calls.size(),          ast_.set_values.size()};
     has_node_ = false;
     spoilt_ = false;
     arguments_.clear();

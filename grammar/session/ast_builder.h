@@ -1,7 +1,8 @@
 // Builds the Ast of one file, node by node, as the parser asks. It knows what nodes look like and
 // nothing of tokens; the mistakes it reports are those that only show when nodes are put together
 // (depth of brackets, chained comparisons, ranges that are not two values).
-// A statement's nodes are kept by finish_statement() or taken back, so the Ast holds whole statements.
+// A statement's nodes are kept by finish_statement() or taken back, so the Ast holds whole
+// statements.
 #pragma once
 
 #include "grammar/ast.h"
@@ -95,8 +96,8 @@ public:
     /// The same, where the parser goes on within the statement after an error.
     void recover();
 
-    /// Keeps the statement made since the last call, or takes all of it back. Returns whether it was
-    /// kept; what is taken back makes the Ast incomplete.
+    /// Keeps the statement made since the last call, or takes all of it back. Returns whether it
+    /// was kept; what is taken back makes the Ast incomplete.
     bool finish_statement(SourceSpan span, bool keep);
 
 private:

@@ -49,11 +49,11 @@ IncludeChain::IncludeChain(const ParseContext& context, FileId root) : context_(
 
 FileId IncludeChain::enter(std::string_view path, SourceSpan path_span) {
     Diagnostics& diagnostics = context_.diagnostics;
-    const std::string beside =
-        path_beside(context_.sources.file(path_span.file).path(), path);
+    const std::string beside = path_beside(context_.sources.file(path_span.file).path(), path);
     std::string normalised = normalised_path(beside);
     if (path.empty()) {
-        diagnostics.add(DiagnosticCode::IncludeNotFound, path_span, "the name of the file is empty");
+        diagnostics.add(DiagnosticCode::IncludeNotFound, path_span,
+                        "the name of the file is empty");
         return kNoFile;
     }
     const auto same = [&](const Link& link) { return link.path == normalised; };
@@ -62,24 +62,23 @@ FileId IncludeChain::enter(std::string_view path, SourceSpan path_span) {
         if (!diagnostics.admits(DiagnosticCode::IncludeCycle)) {
             return kNoFile;
         }
-        Diagnostic& diagnostic =
-            diagnostics.add(DiagnosticCode::IncludeCycle, path_span,
-                            found + 1 == chain_.end()
-                                ? "`" + beside + "` includes itself"
-                                : "`" + beside + "` is being included already");
+        Diagnostic& diagnostic = diagnostics.add(
+            DiagnosticCode::IncludeCycle, path_span,
+            found + 1 == chain_.end() ? "`" + beside + "` includes itself"
+                                      : "`" + beside + "` is being included already");
         for (auto link = found + 1; link != chain_.end(); ++link) {
             diagnostic.labels.push_back({link->included_at, "which includes this file"});
         }
-        diagnostic.help.emplace_back("an #include stands for the statements of the file; a file that "
-                                     "includes itself would never end");
+        diagnostic.help.emplace_back(
+            "an #include stands for the statements of the file; a file that "
+            "includes itself would never end");
         return kNoFile;
     }
     if (chain_.size() > kMaxIncludeDepth || inclusions_ >= kMaxInclusions) {
         if (diagnostics.admits(DiagnosticCode::IncludeTooDeep)) {
             diagnostics.add(DiagnosticCode::IncludeTooDeep, path_span,
-                            inclusions_ >= kMaxInclusions
-                                ? "more than 65,536 files are included"
-                                : "files are included more than 32 deep");
+                            inclusions_ >= kMaxInclusions ? "more than 65,536 files are included"
+                                                          : "files are included more than 32 deep");
         }
         return kNoFile;
     }
@@ -91,11 +90,10 @@ FileId IncludeChain::enter(std::string_view path, SourceSpan path_span) {
         const bool too_large = bytes.ok() && bytes.value().size() > kMaxSourceBytes;
         if (!bytes.ok() || too_large) {
             if (diagnostics.admits(DiagnosticCode::IncludeNotFound)) {
-                Diagnostic& diagnostic =
-                    diagnostics.add(DiagnosticCode::IncludeNotFound, path_span,
-                                    "cannot read `" + beside + "`: " +
-                                        (too_large ? "it is larger than 2 GiB"
-                                                   : bytes.error().message));
+                Diagnostic& diagnostic = diagnostics.add(
+                    DiagnosticCode::IncludeNotFound, path_span,
+                    "cannot read `" + beside +
+                        "`: " + (too_large ? "it is larger than 2 GiB" : bytes.error().message));
                 diagnostic.help.emplace_back(
                     "the path is relative to the file that holds the #include");
             }

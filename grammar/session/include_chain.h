@@ -1,5 +1,5 @@
-// The files that are being parsed, from the root to the innermost #include, and those that were read
-// before: decides whether one more may be entered.
+// The files that are being parsed, from the root to the innermost #include, and those that were
+// read before: decides whether one more may be entered.
 #pragma once
 
 #include "grammar/parse.h"
@@ -25,8 +25,8 @@ class IncludeChain {
 public:
     IncludeChain(const ParseContext& context, FileId root);
 
-    /// Loads the file that `path_span` names and makes it the innermost; reports why not and returns
-    /// kNoFile where it cannot.
+    /// Loads the file that `path_span` names and makes it the innermost; reports why not and
+    /// returns kNoFile where it cannot.
     [[nodiscard]] FileId enter(std::string_view path, SourceSpan path_span);
     void leave();
 

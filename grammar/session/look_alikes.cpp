@@ -161,9 +161,11 @@ constexpr LookAlike kTable[] = {
     {0xFB04, "ffl", "ligature ffl"},
     {0xFEFF, "", "byte order mark"},
 };
-static_assert(std::is_sorted(std::begin(kTable), std::end(kTable), [](const auto& a, const auto& b) {
-    return a.character < b.character;
-}));
+static_assert(std::is_sorted(std::begin(kTable),
+                             std::end(kTable),
+                             [](const auto& a, const auto& b) {
+                                 return a.character < b.character;
+                             }));
 
 constexpr char32_t kFirstFullWidth = 0xFF01; // `!`
 constexpr char32_t kLastFullWidth = 0xFF5E;  // `~`
@@ -178,8 +180,8 @@ constexpr std::array<char, kLastFullWidth - kFirstFullWidth + 1> kPlain = [] {
 constexpr std::array<LookAlike, kPlain.size()> kFullWidth = [] {
     std::array<LookAlike, kPlain.size()> table{};
     for (std::size_t i = 0; i < table.size(); ++i) {
-        table[i] = {static_cast<char32_t>(kFirstFullWidth + i), {&kPlain[i], 1},
-                    "full-width character"};
+        table[i] = {
+            static_cast<char32_t>(kFirstFullWidth + i), {&kPlain[i], 1}, "full-width character"};
     }
     return table;
 }();
@@ -190,9 +192,9 @@ const LookAlike* find_look_alike(char32_t character) {
     if (character >= kFirstFullWidth && character <= kLastFullWidth) {
         return &kFullWidth[character - kFirstFullWidth];
     }
-    const auto* const found =
-        std::lower_bound(std::begin(kTable), std::end(kTable), character,
-                         [](const LookAlike& row, char32_t wanted) { return row.character < wanted; });
+    const auto* const found = std::lower_bound(
+        std::begin(kTable), std::end(kTable), character,
+        [](const LookAlike& row, char32_t wanted) { return row.character < wanted; });
     return found != std::end(kTable) && found->character == character ? found : nullptr;
 }
 

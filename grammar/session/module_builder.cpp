@@ -1,5 +1,5 @@
-// The part of AstBuilder that makes module lists. An axiom may have a hundred million modules, so this
-// is the one hot loop of the front end: a run of names comes as one token and is split here.
+// The part of AstBuilder that makes module lists. An axiom may have a hundred million modules, so
+// this is the one hot loop of the front end: a run of names comes as one token and is split here.
 #include "grammar/contract.h"
 #include "grammar/session/ast_builder.h"
 #include "grammar/session/number.h"

@@ -15,8 +15,8 @@ bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-/// Whether the value of `text` is 1 or more; only its order of magnitude counts, because it is asked of
-/// values that binary32 cannot hold.
+/// Whether the value of `text` is 1 or more; only its order of magnitude counts, because it is
+/// asked of values that binary32 cannot hold.
 bool is_large(std::string_view text) {
     std::int64_t magnitude = 0; // of the first digit that is not 0
     bool seen_point = false;

@@ -1,5 +1,5 @@
-// Number literals: text to binary32, rounded once. Used by the scanner and by the AST builder, which
-// reads plain arguments by itself.
+// Number literals: text to binary32, rounded once. Used by the scanner and by the AST builder,
+// which reads plain arguments by itself.
 #pragma once
 
 #include <cstdint>

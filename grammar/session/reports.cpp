@@ -32,8 +32,8 @@ void report_chained_comparison(Diagnostics& diagnostics,
         return;
     }
     const Expression& inner = ast.expression(first);
-    Diagnostic& diagnostic = diagnostics.add(DiagnosticCode::ChainedComparison, span,
-                                             "comparisons do not chain");
+    Diagnostic& diagnostic =
+        diagnostics.add(DiagnosticCode::ChainedComparison, span, "comparisons do not chain");
     diagnostic.labels.push_back({inner.span(), "this is 1 or 0"});
     diagnostic.help.emplace_back("write both comparisons, as in `a < b && b < c`, or parentheses "
                                  "around the first if its result is to be compared");
@@ -76,10 +76,10 @@ void report_literal_range(Diagnostics& diagnostics,
     }
     if (literal.range == LiteralRange::Underflow &&
         diagnostics.admits(DiagnosticCode::NumberUnderflow)) {
-        Diagnostic& diagnostic = diagnostics.add(
-            DiagnosticCode::NumberUnderflow, span,
-            "`" + shown(text) + "` is too small for a normal binary32 number and " +
-                (literal.value > 0.0F ? "loses digits" : "becomes 0"));
+        Diagnostic& diagnostic =
+            diagnostics.add(DiagnosticCode::NumberUnderflow, span,
+                            "`" + shown(text) + "` is too small for a normal binary32 number and " +
+                                (literal.value > 0.0F ? "loses digits" : "becomes 0"));
         diagnostic.help.emplace_back("the smallest is about 1.2e-38");
     }
 }

@@ -44,8 +44,7 @@ std::size_t TextMap::edits_ending_by(std::uint32_t offset) const {
 std::uint32_t TextMap::source_begin(std::uint32_t offset) const {
     const std::size_t before = edits_ending_by(offset);
     const std::uint32_t source =
-        before == 0 ? offset
-                    : offset - edits_[before - 1].text_end + edits_[before - 1].source_end;
+        before == 0 ? offset : offset - edits_[before - 1].text_end + edits_[before - 1].source_end;
     const bool inside = before < edits_.size() && source >= edits_[before].source_begin;
     return inside ? edits_[before].source_begin : source;
 }

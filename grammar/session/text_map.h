@@ -1,6 +1,6 @@
-// The text that a front end scans, and where it stands in the file. Typographic characters are replaced
-// before the scan (and reported then), so that all later stages read the file as if plain ones had been
-// written; a TextMap leads from offsets of that text back to offsets of the file.
+// The text that a front end scans, and where it stands in the file. Typographic characters are
+// replaced before the scan (and reported then), so that all later stages read the file as if plain
+// ones had been written; a TextMap leads from offsets of that text back to offsets of the file.
 #pragma once
 
 #include "grammar/chunked_vector.h"
@@ -17,8 +17,8 @@ class TextMap {
 public:
     explicit TextMap(std::string_view source) : source_(source) {}
 
-    /// The bytes [begin, end) of the source are read as `replacement`. Precondition: begin is not before
-    /// the end of the last replacement.
+    /// The bytes [begin, end) of the source are read as `replacement`. Precondition: begin is not
+    /// before the end of the last replacement.
     void replace(std::uint32_t begin, std::uint32_t end, std::string_view replacement);
     /// Takes over what is left of the source.
     void finish();
@@ -45,11 +45,12 @@ private:
     mutable std::size_t near_ = 0; // the last answer; questions come in ascending order, nearly
 };
 
-/// A file as it is scanned. Offsets of scanned text become places of the file here and nowhere else.
+/// A file as it is scanned. Offsets of scanned text become places of the file here and nowhere
+/// else.
 struct ScannedText {
     FileId file = kNoFile;
-    std::string_view source; // the file's text
-    std::string_view text;   // what is scanned
+    std::string_view source;      // the file's text
+    std::string_view text;        // what is scanned
     const TextMap* map = nullptr; // null where the text is the file's own
 
     [[nodiscard]] std::uint32_t source_begin(std::uint32_t offset) const {
