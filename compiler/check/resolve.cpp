@@ -42,9 +42,7 @@ std::vector<bool> known_names(const Resolution& resolution) {
         add(object.name);
     }
     for (const TurtleCommand& command : turtle_commands(resolution.program.settings.turtle)) {
-        if (const NameId name = resolution.names.find(command.name); name != kNoName) {
-            known[index_of(name)] = true;
-        }
+        known[index_of(resolution.names.find(command.name))] = true;
     }
     return known;
 }
@@ -186,15 +184,18 @@ ResolveOutcome resolve(Ast ast,
                        const CompileOptions& options,
                        Diagnostics& diagnostics) {
     ResolveOutcome outcome;
-    // Tables by name are as long as there are names, so all are made before them.
-    for (const std::string_view function : function_names()) {
-        static_cast<void>(names.intern(function));
-    }
     Resolution resolution{ast, names, sources, options, diagnostics, outcome.program, {}};
     outcome.program.files = paths_of(resolution);
     outcome.program.has_all_statements = !ast.incomplete;
     SetResolver settings(resolution);
     settings.read_modes();
+    // Tables by name are as long as there are names, so all names are made before them.
+    for (const std::string_view function : function_names()) {
+        static_cast<void>(names.intern(function));
+    }
+    for (const TurtleCommand& command : turtle_commands(outcome.program.settings.turtle)) {
+        static_cast<void>(names.intern(command.name));
+    }
     Resolver resolver(resolution);
     resolver.run(settings);
     outcome.unknown_definitions = resolver.unknown_definitions();

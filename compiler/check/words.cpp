@@ -9,16 +9,6 @@ namespace lsys {
 bool check_module(ModuleReading& reading, const ModuleView& module) {
     const Resolution& resolution = reading.resolution;
     const std::string_view name = resolution.text(module.name);
-    if (name == "%") {
-        const TurtleCommand* command =
-            find_turtle_command(resolution.program.settings.turtle, name);
-        if (!module.quoted || (command != nullptr && command->operation == TurtleOperation::Cut)) {
-            Diagnostic& error = reading.resolution.diagnostics.add(
-                DiagnosticCode::CutNotSupported, module.name_span, "`%` cannot be used yet");
-            error.notes.emplace_back("it will cut off the rest of its branch");
-            return false;
-        }
-    }
     if (module.arguments.count != 0 && takes_no_parameters(name)) {
         const SourceSpan parentheses{module.span.file, module.name_span.end, module.span.end};
         Diagnostic& error =
@@ -67,8 +57,7 @@ ProgramWord resolve_word(ModuleReading& reading, ModuleList list, ExpressionPlac
         const ModuleView module = cursor.view();
         const std::string_view name = resolution.text(module.name);
         const std::uint32_t count = module.arguments.count;
-        const bool is_special = name.size() == 1 && (count != 0 || name == "%");
-        if (is_special && !check_module(reading, module)) {
+        if (count != 0 && name.size() == 1 && !check_module(reading, module)) {
             continue;
         }
         append_module(reading, module);

@@ -18,7 +18,7 @@ struct ModuleReading {
     SplitReport splits;
 };
 
-/// Reports parameters of a module that takes none, and the cut module. False: the module is wrong.
+/// Reports parameters of a module that takes none. False: the module is wrong.
 [[nodiscard]] bool check_module(ModuleReading& reading, const ModuleView& module);
 
 /// Resolves the modules of a list and appends them to the Program. Ranges of its arguments are

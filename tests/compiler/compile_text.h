@@ -1,0 +1,107 @@
+// Grammars as text through parser and compiler, for tests: what is said about them, and where.
+#pragma once
+
+#include "compiler/compile.h"
+#include "compiler/program_dump.h"
+#include "grammar/parse.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lsys::test {
+
+struct Compiled {
+    SourceMap sources;
+    Names names;
+    Diagnostics diagnostics;
+    CompileOutcome outcome;
+
+    /// "code line:column" of every diagnostic, in order of place.
+    [[nodiscard]] std::vector<std::string> said() const {
+        std::vector<std::string> result;
+        for (const Diagnostic& d : diagnostics.all()) {
+            const LineColumn at = sources.file(d.span.file).line_column(d.span.begin);
+            result.push_back(std::string(info(d.code).name) + " " + std::to_string(at.line) + ":" +
+                             std::to_string(at.column));
+        }
+        return result;
+    }
+    /// The same of errors only.
+    [[nodiscard]] std::vector<std::string> errors() const {
+        std::vector<std::string> result = said();
+        for (std::size_t i = result.size(); i-- > 0;) {
+            if (diagnostics.all()[i].severity != Severity::Error) {
+                result.erase(result.begin() + static_cast<std::ptrdiff_t>(i));
+            }
+        }
+        return result;
+    }
+    /// The first diagnostic with this code, or null.
+    [[nodiscard]] const Diagnostic* find(DiagnosticCode code) const {
+        for (const Diagnostic& d : diagnostics.all()) {
+            if (d.code == code) {
+                return &d;
+            }
+        }
+        return nullptr;
+    }
+    /// What the first diagnostic with this code points at.
+    [[nodiscard]] std::string at(DiagnosticCode code) const {
+        const Diagnostic* found = find(code);
+        return found == nullptr ? "nothing" : std::string(sources.text(found->span));
+    }
+    [[nodiscard]] std::string message(DiagnosticCode code) const {
+        const Diagnostic* found = find(code);
+        return found == nullptr ? "nothing" : found->message;
+    }
+    [[nodiscard]] std::string dump() const {
+        return outcome.program ? dump_program(*outcome.program, names) : "no program";
+    }
+    /// The root file after the first fix of the first diagnostic with this code.
+    [[nodiscard]] std::string fixed(DiagnosticCode code) const {
+        const Diagnostic* found = find(code);
+        std::string text(sources.file(FileId{0}).text());
+        if (found == nullptr || found->fixes.empty()) {
+            return text;
+        }
+        std::vector<Edit> edits = found->fixes[0].edits;
+        std::sort(edits.begin(), edits.end(),
+                  [](const Edit& a, const Edit& b) { return a.span.begin > b.span.begin; });
+        for (const Edit& edit : edits) {
+            text.replace(edit.span.begin, edit.span.end - edit.span.begin, edit.replacement);
+        }
+        return text;
+    }
+};
+
+/// Compiles files["main.lsys"]; the others can be included. Generations are given, so that a
+/// grammar needs no `#n`.
+inline Compiled compile_files(const std::map<std::string, std::string>& files,
+                              CompileOptions options) {
+    Compiled compiled;
+    if (!options.generations) {
+        options.generations = 4;
+    }
+    const FileId root = compiled.sources.add("main.lsys", files.at("main.lsys"));
+    const FileLoader load = [&](const std::string& path) -> Result<std::string> {
+        const auto found = files.find(path);
+        if (found == files.end()) {
+            return Error{"no such file"};
+        }
+        return found->second;
+    };
+    Ast ast = parse_lsys(root, {compiled.sources, compiled.names, compiled.diagnostics, load});
+    compiled.outcome =
+        compile(std::move(ast), compiled.names, compiled.sources, options, compiled.diagnostics);
+    compiled.diagnostics.sort_by_place();
+    return compiled;
+}
+
+inline Compiled compile_text(const std::string& text, CompileOptions options = {}) {
+    return compile_files({{"main.lsys", text}}, std::move(options));
+}
+
+} // namespace lsys::test
