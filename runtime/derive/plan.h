@@ -70,6 +70,7 @@ struct Family {
     std::uint32_t right_guard = kNone;
     bool has_context = false;
     bool reads_context = false; // a formal of a context is used
+    bool reads_own = false;     // an entry reads the module's parameters
     bool varies = false;        // depends on the generation: step(), or one choice a generation
     bool current = false;       // candidates and entries are up to date
 };
@@ -242,7 +243,7 @@ private:
     std::uint32_t selected_rule_ = kNone;
     std::uint32_t record_width_ = 1;
     std::uint32_t code_width_ = 1;
-    std::uint64_t folded_budget_ = std::uint64_t{1} << 24; // candidates tried for folded modules
+    std::uint64_t folded_budget_ = 0; // candidates that may still be tried for folded modules
     std::uint32_t wide_bytes_ = 16;
     bool mixes_inputs_ = false;
     bool has_parameters_ = false;

@@ -15,6 +15,10 @@ bool is_lane_constant(float value) {
     return std::isfinite(value) && !(value == 0.0F && std::signbit(value));
 }
 
+/// Candidates tried ahead for all folded modules of one family; further ones are tried when a
+/// module is met.
+constexpr std::uint64_t kFoldedBudget = std::uint64_t{1} << 16;
+
 } // namespace
 
 ShapeKnowledge Plan::knowledge(const Candidate& candidate) const {
@@ -96,9 +100,12 @@ void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
 }
 
 void Plan::shape(Family& family) {
+    family.reads_own = false;
     for (std::uint32_t i = family.first; i < family.first + family.count; ++i) {
+        Entry& entry = entries_[std::size_t{bytecode_.code_count()} + i];
         shape_condition(candidates_[i]);
-        shape_entry(candidates_[i], entries_[std::size_t{bytecode_.code_count()} + i]);
+        shape_entry(candidates_[i], entry);
+        family.reads_own = family.reads_own || entry.reads_own;
     }
     family.current = true;
 }
@@ -111,6 +118,7 @@ void Plan::put_in_force(std::uint32_t family_index) {
     needs_contexts_ = needs_contexts_ || family.has_context;
     reads_contexts_ = reads_contexts_ || family.reads_context;
     const BytecodeProduction& example = bytecode_.productions[candidates_[family.first].production];
+    folded_budget_ = kFoldedBudget;
     for (const Code code : codes_of(bytecode_.patterns[example.predecessor.first].symbol)) {
         resolve(family_index, code);
     }
@@ -153,11 +161,7 @@ void Plan::resolve(std::uint32_t family_index, Code code) {
     row.left_guard = family.left_guard;
     row.right_guard = family.right_guard;
     const float* const own = own_constants(row);
-    if (own != nullptr) {
-        const auto entry = entries_.begin() + row.base + 1;
-        row.slow = std::any_of(entry, entry + family.count,
-                               [](const Entry& each) { return each.reads_own; });
-    }
+    row.slow = own != nullptr && family.reads_own;
     if (predecessor_count_ > 1) {
         set_kind(code, RowKind::General);
         return;
@@ -237,6 +241,13 @@ bool Plan::resolve_tests(const Family& family, Code code) {
 void Plan::resolve_choice(const Family& family, std::uint32_t first_match, Code code) {
     Row& row = rows_[code];
     const Candidate& first = candidates_[family.first + first_match];
+    if (own_constants(row) != nullptr) {
+        if (folded_budget_ < family.count) {
+            set_kind(code, RowKind::General);
+            return;
+        }
+        folded_budget_ -= family.count;
+    }
     std::vector<std::uint32_t> records;
     float sum = 0.0F;
     for (std::uint32_t i = first_match; i < family.count; ++i) {
