@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <string>
 #include <sys/resource.h>
@@ -30,7 +31,7 @@ struct Ended {
     int status = -1; // exit status, or -signal
     long peak_kib = 0;
     double seconds = 0.0;
-    std::string errors; // the first bytes of standard error
+    std::string errors; // standard error
 };
 
 double now() {
@@ -64,9 +65,7 @@ Ended run(const std::vector<std::string>& command, const std::string& folder, co
     ended.peak_kib = usage.ru_maxrss;
     ended.status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     std::ifstream errors(error_path, std::ios::binary);
-    ended.errors.resize(4000);
-    errors.read(ended.errors.data(), static_cast<std::streamsize>(ended.errors.size()));
-    ended.errors.resize(static_cast<std::size_t>(errors.gcount()));
+    ended.errors.assign(std::istreambuf_iterator<char>(errors), std::istreambuf_iterator<char>());
     unlink(error_path.c_str());
     return ended;
 }
