@@ -312,14 +312,18 @@ bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
         statement_.span = span;
         ast_.statements.push_back(statement_);
     }
-    mark_ = {ast_.expressions.size(),    ast_.expression_lists.size(),
-             ast_.argument_lists.size(), ast_.modules.size(),
-             ast_.calls.size(),          ast_.set_values.size()};
+    take_marks();
     has_node_ = false;
     spoilt_ = false;
     arguments_.clear();
     production_ = ProductionNode{};
     return kept;
+}
+
+void AstBuilder::take_marks() {
+    mark_ = {ast_.expressions.size(),    ast_.expression_lists.size(),
+             ast_.argument_lists.size(), ast_.modules.size(),
+             ast_.calls.size(),          ast_.set_values.size()};
 }
 
 void AstBuilder::take_back_node() {

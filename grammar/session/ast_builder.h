@@ -99,6 +99,9 @@ public:
     /// Keeps the statement made since the last call, or takes all of it back. Returns whether it
     /// was kept; what is taken back makes the Ast incomplete.
     bool finish_statement(SourceSpan span, bool keep);
+    /// What stands in the Ast now belongs to finished statements, such as those of an included
+    /// file.
+    void take_marks();
 
 private:
     /// How much of the Ast belongs to finished statements.

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <map>
 #include <string>
 
 namespace {
@@ -213,6 +214,20 @@ TEST_CASE("with names letters every letter is a module, wherever the setting sta
     CHECK(modules_of(comment, comment.ast.axioms[0].modules) == "AB");
     Parsed digits("#set names letters; #w : F1 A_B;");
     CHECK(digits.codes() == "1:27 letter-name, 1:30 letter-name");
+}
+
+TEST_CASE("a statement after an include owns nothing of the included file") {
+    const std::map<std::string, std::string> files{
+        {"a.lsys", "#set angle 20; #p : A : * : B(1) C(2);"}};
+    Parsed after("#include \"a.lsys\"; #set choice generation;", files);
+    CHECK(after.codes().empty());
+    REQUIRE(after.ast.sets.size() == 2);
+    CHECK(after.ast.sets[1].values.count == 1);
+    // A broken statement takes back its own nodes only.
+    Parsed broken("#include \"a.lsys\"; #w : F : ~ ;", files);
+    CHECK(broken.ast.productions.size() == 1);
+    REQUIRE(broken.ast.modules.size() >= 3);
+    CHECK(broken.ast.calls.size() >= 2);
 }
 
 TEST_CASE("included files stand in place and see only their own names letters") {
