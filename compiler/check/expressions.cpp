@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -109,6 +110,9 @@ ExpressionResolver::ExpressionResolver(Resolution& resolution,
 }
 
 void ExpressionResolver::begin_statement() {
+    // Children come before parents and statements follow each other, so all that comes before the
+    // last root has been resolved.
+    resolution_.ast.expressions.release_before(last_root_);
     for (const NameId formal : formals_) {
         formal_of_[index_of(formal)] = kNone;
     }
@@ -146,6 +150,7 @@ ValueId ExpressionResolver::resolve(ExpressionId root, ExpressionPlace place) {
     is_drawn_ = false;
     culprit_.reset();
     zero_divisors_.clear();
+    last_root_ = std::max(last_root_, static_cast<std::size_t>(root));
     frames_.push_back({root, 0});
     while (!frames_.empty()) {
         visit(place);

@@ -107,6 +107,7 @@ private:
     std::unordered_set<NameId> reported_; // names with an error in this statement
     bool drawn_once_noted_ = false;
     std::uint32_t draw_count_ = 0;
+    std::size_t last_root_ = 0; // the greatest id resolved so far
     bool is_drawn_ = false;
 
     std::vector<Frame> frames_;

@@ -10,49 +10,25 @@
 
 namespace lsys {
 
-namespace {
-
-void append_number(std::string& key, std::uint32_t number) {
-    for (int shift = 0; shift < 32; shift += 8) {
-        key.push_back(static_cast<char>((number >> shift) & 0xFF));
-    }
-}
-
-/// Names, counts and brackets of a pattern as bytes. Brackets are numbers that no symbol has.
-void append_key(std::string& key, const ProgramPattern& pattern) {
-    constexpr std::uint32_t kOpenKey = 0xFFFFFFFE;
-    constexpr std::uint32_t kCloseKey = 0xFFFFFFFD;
-    for (const ProgramPatternItem& item : pattern.items) {
-        append_number(key, item.kind == PatternKind::Module
-                               ? static_cast<std::uint32_t>(item.symbol)
-                           : item.kind == PatternKind::Open ? kOpenKey
-                                                            : kCloseKey);
-    }
-}
-
-} // namespace
-
 ProductionResolver::ProductionResolver(ModuleReading& reading, ConstantTable& constants)
     : reading_(reading), resolution_(reading.resolution), heads_(reading, constants),
-      first_of_name_(reading.resolution.names.count(), kNone) {
+      classes_(reading.resolution.program), first_of_name_(reading.resolution.names.count()) {
     resolution_.program.productions.reserve(resolution_.ast.productions.size());
 }
 
-bool ProductionResolver::is_first_of_name(std::uint32_t index, const ProductionNode& node) {
-    std::uint32_t& first = first_of_name_[index_of(node.name)];
-    if (first == kNone) {
-        first = index;
+bool ProductionResolver::is_first_of_name(const ProductionNode& node) {
+    SourceSpan& first = first_of_name_[index_of(node.name)];
+    if (first.file == kNoFile) {
+        first = node.name_span;
         return true;
     }
-    report_duplicate(resolution_, node.name_span, resolution_.ast.productions[first].name_span,
+    report_duplicate(resolution_, node.name_span, first,
                      fmt::format("production {}", quoted(resolution_.text(node.name))));
     return false;
 }
 
-void ProductionResolver::resolve(std::uint32_t index,
-                                 const ProductionNode& node,
-                                 SourceSpan statement) {
-    bool fine = is_first_of_name(index, node);
+void ProductionResolver::resolve(const ProductionNode& node, SourceSpan statement) {
+    bool fine = is_first_of_name(node);
     Production production;
     production.name = node.name;
     production.name_span = node.name_span;
@@ -70,8 +46,8 @@ void ProductionResolver::resolve(std::uint32_t index,
         resolution_.program.has_all_statements = false;
         return;
     }
-    classify(production);
     resolution_.program.productions.push_back(std::move(production));
+    classes_.classify_last();
 }
 
 void ProductionResolver::resolve_condition(const ConditionNode& node, Production& production) {
@@ -122,25 +98,6 @@ void ProductionResolver::check_draws(const ProgramWord& successor) {
             fmt::format("{} random ranges in one successor; {} are possible{}",
                         successor.draw_count, most, by_pass ? " in sequential rewriting" : ""));
     }
-}
-
-/// Gives the production its rule and its group, numbered by first appearance.
-void ProductionResolver::classify(Production& production) {
-    Program& program = resolution_.program;
-    std::string key;
-    append_key(key, production.predecessor);
-    const auto [rule, new_rule] = rules_.try_emplace(key, program.rule_count);
-    program.rule_count += new_rule ? 1U : 0U;
-    production.rule = rule->second;
-    append_number(key, production.has_left ? 1 : 0);
-    append_number(key, static_cast<std::uint32_t>(production.left.items.size()));
-    append_key(key, production.left);
-    append_number(key, production.has_right ? 1 : 0);
-    append_key(key, production.right);
-    append_number(key, static_cast<std::uint32_t>(production.predecessor.items.size()));
-    const auto [group, new_group] = groups_.try_emplace(std::move(key), program.group_count);
-    program.group_count += new_group ? 1U : 0U;
-    production.group = group->second;
 }
 
 } // namespace lsys

@@ -99,8 +99,8 @@ public:
                 axiom(ast.axioms[statement.index], statement.span, reading);
                 break;
             case StatementKind::Production:
-                productions.resolve(statement.index, ast.productions[statement.index],
-                                    statement.span);
+                productions.resolve(ast.productions[statement.index], statement.span);
+                resolution_.ast.productions.release_before(statement.index);
                 break;
             case StatementKind::Object:
             case StatementKind::Ignore:
