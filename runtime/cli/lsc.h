@@ -2,6 +2,7 @@
 // exit status as the executable.
 #pragma once
 
+#include <atomic>
 #include <iosfwd>
 #include <span>
 #include <string>
@@ -14,6 +15,8 @@ struct Io {
     std::ostream& out;
     std::ostream& err;
     bool err_is_terminal = false; // colour and progress on `auto`
+    /// Becomes true on Ctrl-C; the run then ends with 130 as soon as it can.
+    const std::atomic<bool>* interrupted = nullptr;
 };
 
 /// Runs `lsc ARGUMENTS...` (without the program's name). Returns the exit status: 0 fine, 1 the

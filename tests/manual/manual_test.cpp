@@ -1,5 +1,6 @@
-// Every fenced block of grammar/language.md that begins with ```lsys ARGUMENTS is a grammar; `lsc ARGUMENTS`
-// on it must succeed, say nothing on standard error, and print the ```text block that follows, if one does.
+// Every fenced block of grammar/language.md that begins with ```lsys ARGUMENTS is a grammar; `lsc
+// ARGUMENTS` on it must succeed, say nothing on standard error, and print the ```text block that
+// follows, if one does.
 #include "runtime/cli/lsc.h"
 
 #include <catch2/catch.hpp>

@@ -1,0 +1,38 @@
+#include "compiler/module_file.h"
+#include "runtime/cli/commands.h"
+#include "runtime/cli/files.h"
+#include "runtime/cli/grammar_file.h"
+
+#include <fmt/format.h>
+
+namespace lsys::lsc {
+
+Status run_compile(const CompileCommand& command, const Console& console) {
+    Grammar grammar;
+    const Status status = load_grammar(command.file, command.grammar, console, grammar);
+    if (status != Status::Fine) {
+        return status;
+    }
+    if (grammar.is_module_file) {
+        console.error(fmt::format("`{}` is compiled already", shown_path(command.file)));
+        return Status::Failure;
+    }
+    Bytecode& bytecode = *grammar.bytecode;
+    if (command.grammar.generations) {
+        bytecode.generations = command.grammar.generations;
+    }
+    if (command.seed) {
+        bytecode.settings.has_seed = true;
+        bytecode.settings.seed = *command.seed;
+    }
+    const std::string bytes = write_module_file(bytecode);
+    if (const Result<Done> written = write_file(command.output, bytes, console); !written) {
+        console.error(written.error().message);
+        return Status::Failure;
+    }
+    console.detail(fmt::format("`{}`: {} bytes, {} symbols, {} productions", command.output,
+                               bytes.size(), bytecode.symbols.size(), bytecode.productions.size()));
+    return Status::Fine;
+}
+
+} // namespace lsys::lsc

@@ -1,0 +1,78 @@
+#include "compiler/disassemble.h"
+#include "compiler/program_dump.h"
+#include "runtime/cli/commands.h"
+#include "runtime/cli/dump_word.h"
+#include "runtime/cli/files.h"
+#include "runtime/cli/grammar_file.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+namespace lsys::lsc {
+
+namespace {
+
+/// Options that do not go together, in words; empty if all is well.
+std::string find_conflict(const DumpCommand& command) {
+    const bool saves = command.steps || !command.save_state.empty() || !command.from.empty();
+    if (command.stage != Stage::Word) {
+        const bool derives =
+            command.all || command.count || command.stream || saves || command.seed;
+        return derives ? "only --stage word derives, so --all, --count, --stream, --seed, --steps, "
+                         "--save-state and --from do not go with another stage"
+                       : "";
+    }
+    if (command.stream && (saves || command.all)) {
+        return "--stream keeps no word, so --all, --steps, --save-state and --from do not go with "
+               "it";
+    }
+    if (command.save_state == "-" && command.output == "-") {
+        return "--save-state - and the word cannot both go to standard output; say where with -o";
+    }
+    return {};
+}
+
+Status fail(const Error& error, const Console& console) {
+    console.error(error.message);
+    return Status::Failure;
+}
+
+Status write_stage(const DumpCommand& command, const std::string& text, const Console& console) {
+    if (const Result<Done> written = write_file(command.output, text, console); !written) {
+        return fail(written.error(), console);
+    }
+    return Status::Fine;
+}
+
+} // namespace
+
+Status run_dump(const DumpCommand& command, const Console& console) {
+    if (const std::string conflict = find_conflict(command); !conflict.empty()) {
+        return fail(Error{conflict}, console);
+    }
+    Grammar grammar;
+    const Status status = load_grammar(command.file, command.grammar, console, grammar);
+    if (status != Status::Fine) {
+        return status;
+    }
+    switch (command.stage) {
+    case Stage::Program:
+        if (!grammar.program) {
+            return fail(Error{fmt::format("`{}` is compiled; its program is not in it, "
+                                          "--stage bytecode is",
+                                          command.file)},
+                        console);
+        }
+        return write_stage(command, dump_program(*grammar.program, grammar.names), console);
+    case Stage::Bytecode:
+        return write_stage(command, disassemble(*grammar.bytecode), console);
+    case Stage::Word:
+        break;
+    }
+    grammar.program.reset(); // the word wants its memory
+    return dump_word(command, grammar, console);
+}
+
+} // namespace lsys::lsc

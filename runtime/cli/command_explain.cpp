@@ -1,0 +1,98 @@
+#include "grammar/diagnostic.h"
+#include "runtime/cli/commands.h"
+#include "runtime/cli/explanations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys::lsc {
+
+namespace {
+
+/// Every code with its severity and meaning, in the order of diagnostics.def.
+std::string list_all() {
+    std::size_t width = 0;
+    for (std::uint32_t i = 0; i < diagnostic_code_count(); ++i) {
+        width = std::max(width, info(static_cast<DiagnosticCode>(i)).name.size());
+    }
+    std::string text;
+    for (std::uint32_t i = 0; i < diagnostic_code_count(); ++i) {
+        const DiagnosticInfo& row = info(static_cast<DiagnosticCode>(i));
+        text += fmt::format("{:<{}}  {:<7}  {}\n", row.name, width, severity_name(row.severity),
+                            row.meaning);
+    }
+    return text;
+}
+
+/// `text` with four blanks before every line that is not empty.
+void append_indented(std::string_view text, std::string& out) {
+    bool at_start = true;
+    for (const char c : text) {
+        if (at_start && c != '\n') {
+            out += "    ";
+        }
+        at_start = c == '\n';
+        out += c;
+    }
+}
+
+std::string explain(const DiagnosticInfo& row, const Explanation& explanation) {
+    std::string text = fmt::format("{}: {} ({})\n\n{}\n", row.name, row.meaning,
+                                   severity_name(row.severity), explanation.text);
+    for (const Example& example : explanation.examples) {
+        text += example.right ? "\nRight" : "\nWrong";
+        if (!example.arguments.empty()) {
+            text += fmt::format(", with `lsc {}`", example.arguments);
+        }
+        text += ":\n";
+        for (const auto& [name, grammar] : example.files) {
+            if (&name != &example.files.front().first) {
+                text += fmt::format("\nand `{}`:\n", name);
+            }
+            text += '\n';
+            append_indented(grammar, text);
+        }
+    }
+    return text;
+}
+
+} // namespace
+
+Status run_explain(const ExplainCommand& command, const Console& console) {
+    std::string text;
+    if (command.code.empty()) {
+        text = list_all();
+    } else {
+        const std::optional<DiagnosticCode> code = find_diagnostic_code(command.code);
+        const std::vector<Explanation> all = parse_explanations(explanations_text());
+        const auto found = std::find_if(
+            all.begin(), all.end(), [&](const Explanation& e) { return e.code == command.code; });
+        if (!code || found == all.end()) {
+            console.error(fmt::format("`{}` is no code of a diagnostic", command.code));
+            std::vector<std::string_view> names;
+            for (std::uint32_t i = 0; i < diagnostic_code_count(); ++i) {
+                names.push_back(info(static_cast<DiagnosticCode>(i)).name);
+            }
+            const auto nearest = nearest_name(command.code, names);
+            console.help(nearest ? fmt::format("did you mean `{}`?", *nearest)
+                                 : std::string("`lsc explain` lists all of them"));
+            return Status::Failure;
+        }
+        text = explain(info(*code), *found);
+    }
+    Result<Done> written = console.write(text);
+    if (written) {
+        written = console.flush();
+    }
+    if (!written) {
+        console.error(written.error().message);
+        return Status::Failure;
+    }
+    return Status::Fine;
+}
+
+} // namespace lsys::lsc

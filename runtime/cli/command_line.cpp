@@ -1,0 +1,343 @@
+#include "runtime/cli/command_line.h"
+
+#include "grammar/diagnostic.h"
+#include "runtime/cli/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lsys::lsc {
+
+namespace {
+
+/// Every command's options while they are parsed.
+struct AllCommands {
+    CheckCommand check;
+    CompileCommand compile;
+    DumpCommand dump;
+    StatsCommand stats;
+    ExplainCommand explain;
+};
+
+/// An option whose value `parse` reads into `target`.
+template <typename Target, typename Parse>
+CLI::Option*
+add_parsed(CLI::App& app, const std::string& name, Target& target, Parse parse, const char* text) {
+    return app.add_option_function<std::string>(
+        name,
+        [&target, parse, name](const std::string& value) {
+            auto parsed = parse(value);
+            if (!parsed) {
+                throw CLI::ValidationError(name.substr(name.rfind(',') + 1),
+                                           parsed.error().message);
+            }
+            target = static_cast<Target>(std::move(parsed.value()));
+        },
+        text);
+}
+
+/// An option that takes one of a few words.
+template <typename Target>
+CLI::Option* add_choice(CLI::App& app,
+                        const std::string& name,
+                        Target& target,
+                        std::vector<std::pair<std::string, Target>> choices,
+                        const char* text) {
+    std::string words;
+    for (const auto& choice : choices) {
+        words += (words.empty() ? "" : "|") + choice.first;
+    }
+    const auto parse = [choices = std::move(choices),
+                        words](const std::string& value) -> Result<Target> {
+        for (const auto& [word, meaning] : choices) {
+            if (word == value) {
+                return meaning;
+            }
+        }
+        return Error{choices.size() == 1 ? fmt::format("`{}` is not `{}`", value, words)
+                                         : fmt::format("`{}` is none of {}", value, words)};
+    };
+    return add_parsed(app, name, target, parse, text)->type_name(words);
+}
+
+auto whole(std::uint64_t low, std::uint64_t high) {
+    return [low, high](const std::string& text) { return parse_whole(text, low, high); };
+}
+
+void add_messages(CLI::App& app, MessageOptions& options) {
+    app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
+    add_choice<MessageFormat>(app, "--message-format", options.format,
+                              {{"human", MessageFormat::Human},
+                               {"short", MessageFormat::Short},
+                               {"json", MessageFormat::Json}},
+                              "How messages are written (default human)")
+        ->group("Messages");
+    add_choice<ColourMode>(
+        app, "--color", options.colour,
+        {{"auto", ColourMode::Auto}, {"always", ColourMode::Always}, {"never", ColourMode::Never}},
+        "Colour in messages; auto: on a terminal (default auto)")
+        ->group("Messages");
+    app.add_flag("-q,--quiet", options.quiet, "Errors only")->group("Messages");
+    app.add_flag("-v,--verbose", options.verbose, "Say what is done")->group("Messages");
+}
+
+void add_deny(CLI::App& app, MessageOptions& options) {
+    add_choice<bool>(app, "--deny", options.deny_warnings, {{"warnings", true}},
+                     "Take every warning for an error")
+        ->group("Messages");
+}
+
+void add_dialect(CLI::App& app, std::string& dialect) {
+    add_choice<std::string>(app, "--dialect", dialect, {{"lsys", "lsys"}},
+                            "The language of the file (default: by its extension)")
+        ->group("Grammar");
+}
+
+void add_grammar(CLI::App& app, GrammarOptions& options) {
+    add_parsed(app, "-n,--generations", options.generations, whole(0, kMaxGenerations),
+               "Generations, instead of #n")
+        ->type_name("N")
+        ->group("Grammar");
+    app.add_option_function<std::vector<std::string>>(
+           "-D,--define",
+           [&options](const std::vector<std::string>& texts) {
+               for (const std::string& text : texts) {
+                   Result<Definition> definition = parse_definition(text);
+                   if (!definition) {
+                       throw CLI::ValidationError("--define", definition.error().message);
+                   }
+                   for (const Definition& known : options.definitions) {
+                       if (known.name == definition.value().name) {
+                           throw CLI::ValidationError(
+                               "--define", fmt::format("`{}` is given twice", known.name));
+                       }
+                   }
+                   options.definitions.push_back(std::move(definition.value()));
+               }
+           },
+           "The value of a #define or #param; may be repeated")
+        ->type_name("NAME=NUMBER")
+        ->allow_extra_args(false)
+        ->group("Grammar");
+    add_dialect(app, options.dialect);
+    add_parsed(app, "--max-modules", options.max_modules,
+               whole(1, std::numeric_limits<std::uint64_t>::max()),
+               "The most modules a word may have (default 4294967296)")
+        ->type_name("N")
+        ->group("Limits");
+}
+
+void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed) {
+    add_parsed(app, "-s,--seed", seed, whole(0, std::numeric_limits<std::uint64_t>::max()),
+               "Seed of all random numbers, instead of `#set seed` (default 0)")
+        ->type_name("S")
+        ->group("Grammar");
+}
+
+void add_check(CLI::App& app, CheckCommand& command) {
+    app.add_option("FILE", command.files, "Grammars; `-` is standard input")->required();
+    app.add_flag("--fix", command.fix, "Apply every repair that is certain to the files");
+    add_grammar(app, command.grammar);
+    add_messages(app, command.messages);
+    add_deny(app, command.messages);
+    app.footer("Exit status: 0 no errors, 1 errors in a grammar, 2 a file or the command line.\n"
+               "Example: lsc check --fix tree.lsys");
+}
+
+void add_compile(CLI::App& app, CompileCommand& command) {
+    app.add_option("FILE", command.file, "The grammar; `-` is standard input")->required();
+    app.add_option("-o,--output", command.output, "The .lsb file; `-` is standard output")
+        ->required()
+        ->type_name("FILE");
+    add_grammar(app, command.grammar);
+    add_seed(app, command.seed);
+    add_messages(app, command.messages);
+    add_deny(app, command.messages);
+    app.footer("-n and --seed take the place of #n and `#set seed` in what is written.\n"
+               "Example: lsc compile tree.lsys -o tree.lsb");
+}
+
+void add_dump(CLI::App& app, DumpCommand& command) {
+    app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
+        ->required();
+    app.add_option("-o,--output", command.output, "Where to write (default standard output)")
+        ->type_name("FILE");
+    add_choice<Stage>(
+        app, "--stage", command.stage,
+        {{"program", Stage::Program}, {"bytecode", Stage::Bytecode}, {"word", Stage::Word}},
+        "What is written: what a step of the compiler made, or the derived word "
+        "(default word)");
+    app.add_flag("--all", command.all, "One generation a line, 0 first");
+    app.add_flag("--count", command.count, "The number of modules instead of the modules");
+    app.add_flag("--stream", command.stream,
+                 "Derive without storing the word (no contexts, parallel rewriting only)");
+    add_grammar(app, command.grammar);
+    add_seed(app, command.seed);
+    command.max_bytes = half_of_memory();
+    add_parsed(app, "--max-memory", command.max_bytes, parse_size,
+               "The most memory the words may take: 500M, 2G (default half of the machine's)")
+        ->type_name("SIZE")
+        ->group("Limits");
+    constexpr std::uint64_t kMaxThreads = 1024;
+    add_parsed(app, "--threads", command.threads, whole(1, kMaxThreads),
+               "Threads to derive with; the result is the same (default all cores)")
+        ->type_name("N")
+        ->group("Limits");
+    add_parsed(app, "--steps", command.steps, whole(0, kMaxGenerations),
+               "Make only K of the generations in this run")
+        ->type_name("K")
+        ->group("Saved states");
+    app.add_option("--save-state", command.save_state, "Write where the derivation stands")
+        ->type_name("FILE")
+        ->group("Saved states");
+    app.add_option("--from", command.from, "Go on from a saved state")
+        ->type_name("FILE")
+        ->group("Saved states");
+    add_messages(app, command.messages);
+    add_deny(app, command.messages);
+    app.footer("Examples: lsc dump -n 3 tree.lsys\n"
+               "          lsc dump --all --count tree.lsys\n"
+               "          lsc dump -n 10 --steps 5 --save-state half.lss --count tree.lsys\n"
+               "          lsc dump --from half.lss tree.lsys");
+}
+
+void add_stats(CLI::App& app, StatsCommand& command) {
+    app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
+        ->required();
+    add_grammar(app, command.grammar);
+    add_messages(app, command.messages);
+    add_deny(app, command.messages);
+    app.footer("Predicts the size of every generation without deriving. With --message-format json "
+               "the\ntable is JSON too.\nExample: lsc stats -n 12 tree.lsys");
+}
+
+void add_explain(CLI::App& app, ExplainCommand& command) {
+    app.add_option("CODE", command.code,
+                   "What stands in brackets at the end of a message; without it, all are listed");
+    add_messages(app, command.messages);
+    app.footer("Example: lsc explain look-alike");
+}
+
+/// The message that CLI11 has for a mistake, in this program's words, with the nearest name.
+UsageError describe(const CLI::ParseError& error, const CLI::App& app, const std::string& command) {
+    UsageError usage;
+    usage.help = fmt::format("`lsc {}{}--help` lists what may be written", command,
+                             command.empty() ? "" : " ");
+    usage.message = error.what();
+    const auto is = [&](CLI::ExitCodes code) {
+        return error.get_exit_code() == static_cast<int>(code);
+    };
+    if (is(CLI::ExitCodes::ExtrasError)) {
+        const std::vector<std::string> extras = app.remaining(true);
+        const std::string extra = extras.empty() ? std::string() : extras.front();
+        usage.message = extra.starts_with('-') ? fmt::format("unknown option `{}`", extra)
+                                               : fmt::format("unexpected argument `{}`", extra);
+        std::vector<std::string> names;
+        for (const CLI::Option* option : app.get_options()) {
+            for (const std::string& name : option->get_lnames()) {
+                names.push_back("--" + name);
+            }
+        }
+        const std::vector<std::string_view> candidates(names.begin(), names.end());
+        if (const auto nearest = nearest_name(extra, candidates)) {
+            usage.help = fmt::format("did you mean `{}`?", *nearest);
+        }
+    } else if (is(CLI::ExitCodes::RequiredError)) {
+        usage.message =
+            fmt::format("{} is missing", usage.message.substr(0, usage.message.find(' ')));
+    }
+    return usage;
+}
+
+/// The command of that name, or nothing.
+const CLI::App* find_command(const CLI::App& app, const std::string& name) {
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (command->get_name() == name) {
+            return command;
+        }
+    }
+    return nullptr;
+}
+
+/// A first argument that is no command.
+std::optional<UsageError> unknown_command(std::span<const std::string> arguments,
+                                          const CLI::App& app) {
+    if (arguments.empty()) {
+        return UsageError{"no command is given", "`lsc --help` lists the commands"};
+    }
+    const std::string& first = arguments.front();
+    if (first.starts_with('-') || find_command(app, first) != nullptr) {
+        return std::nullopt;
+    }
+    std::vector<std::string_view> names;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        names.push_back(command->get_name());
+    }
+    UsageError usage{fmt::format("`{}` is not a command", first),
+                     "`lsc --help` lists the commands"};
+    if (const auto nearest = nearest_name(first, names)) {
+        usage.help = fmt::format("did you mean `lsc {}`?", *nearest);
+    }
+    return usage;
+}
+
+} // namespace
+
+CommandLine parse_command_line(std::span<const std::string> arguments) {
+    AllCommands all;
+    CLI::App app("Compiles and derives L-systems: grammars of plants, curves and other growing "
+                 "things.",
+                 "lsc");
+    app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
+    app.require_subcommand(1);
+    app.footer("`lsc COMMAND --help` says more of each.");
+    CLI::App& check = *app.add_subcommand("check", "Check grammars, and mend what is certain");
+    CLI::App& compile = *app.add_subcommand("compile", "Compile a grammar to a .lsb file");
+    CLI::App& dump = *app.add_subcommand("dump", "Derive a word and print it");
+    CLI::App& stats = *app.add_subcommand("stats", "Predict the size of every generation");
+    CLI::App& explain = *app.add_subcommand("explain", "Explain a diagnostic, with examples");
+    add_check(check, all.check);
+    add_compile(compile, all.compile);
+    add_dump(dump, all.dump);
+    add_stats(stats, all.stats);
+    add_explain(explain, all.explain);
+
+    if (std::optional<UsageError> usage = unknown_command(arguments, app)) {
+        return *usage;
+    }
+    const CLI::App* command = find_command(app, arguments.front());
+    try {
+        std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+        app.parse(std::move(reversed));
+    } catch (const CLI::CallForHelp&) {
+        return PrintText{command == nullptr ? app.help() : command->help("lsc")};
+    } catch (const CLI::CallForVersion&) {
+        return PrintText{"lsc " LSC_VERSION "\n"};
+    } catch (const CLI::ParseError& error) {
+        return describe(error, command == nullptr ? app : *command,
+                        command == nullptr ? "" : command->get_name());
+    }
+    if (check.parsed()) {
+        return std::move(all.check);
+    }
+    if (compile.parsed()) {
+        return std::move(all.compile);
+    }
+    if (dump.parsed()) {
+        return std::move(all.dump);
+    }
+    if (stats.parsed()) {
+        return std::move(all.stats);
+    }
+    return std::move(all.explain);
+}
+
+} // namespace lsys::lsc

@@ -1,0 +1,34 @@
+// The command line: what may be written, and what it asks for. The only user of the CLI11 package.
+#pragma once
+
+#include "runtime/cli/options.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+
+namespace lsys::lsc {
+
+/// Text to print instead of running a command: --help, --version.
+struct PrintText {
+    std::string text;
+};
+
+/// What is wrong with a command line.
+struct UsageError {
+    std::string message;
+    std::string help;
+};
+
+using CommandLine = std::variant<PrintText,
+                                 UsageError,
+                                 CheckCommand,
+                                 CompileCommand,
+                                 DumpCommand,
+                                 StatsCommand,
+                                 ExplainCommand>;
+
+[[nodiscard]] CommandLine parse_command_line(std::span<const std::string> arguments);
+
+} // namespace lsys::lsc

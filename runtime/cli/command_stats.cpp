@@ -1,0 +1,161 @@
+#include "compiler/growth.h"
+#include "runtime/cli/commands.h"
+#include "runtime/cli/files.h"
+#include "runtime/cli/grammar_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace lsys::lsc {
+
+namespace {
+
+/// Rows of a table at most; nobody reads more, and counts have left every scale by then.
+constexpr std::uint32_t kMaxRows = 10'000;
+
+using Row = std::vector<std::string>;
+
+std::string bounds_text(const Count& low, const Count& high) {
+    const std::string low_text = to_text(low);
+    const std::string high_text = to_text(high);
+    return low_text == high_text ? low_text : low_text + " .. " + high_text;
+}
+
+/// How many times the modules of one generation are those of the one before; nothing at 0.
+std::string factor_text(const Count& before, const Count& now) {
+    if (!before.exceeds && before.value == 0) {
+        return {};
+    }
+    if (!now.exceeds && now.value == 0) {
+        return "0";
+    }
+    return fmt::format("{:.4g}", std::exp2(now.approximate_log2() - before.approximate_log2()));
+}
+
+std::string factor_bounds(const GrowthPrediction& growth, std::size_t generation) {
+    if (generation == 0) {
+        return {};
+    }
+    const std::string low =
+        factor_text(growth.low[generation - 1].modules, growth.low[generation].modules);
+    const std::string high =
+        factor_text(growth.high[generation - 1].modules, growth.high[generation].modules);
+    return low == high ? low : low + " .. " + high;
+}
+
+/// Columns under each other, numbers to the right.
+std::string lay_out(const std::vector<Row>& rows) {
+    std::vector<std::size_t> widths(rows.front().size(), 0);
+    for (const Row& row : rows) {
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            widths[i] = std::max(widths[i], row[i].size());
+        }
+    }
+    std::string text;
+    for (const Row& row : rows) {
+        std::string line;
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            line += fmt::format("{}{:>{}}", i == 0 ? "" : "  ", row[i], widths[i]);
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + '\n';
+    }
+    return text;
+}
+
+std::string make_table(const GrowthPrediction& growth) {
+    Row head{"generation", "modules", "parameters", "segments", "bytes", "growth"};
+    if (growth.has_expected) {
+        head.insert(head.begin() + 2, "expected");
+    }
+    std::vector<Row> rows{std::move(head)};
+    for (std::size_t i = 0; i < growth.low.size(); ++i) {
+        const GenerationSize& low = growth.low[i];
+        const GenerationSize& high = growth.high[i];
+        Row row{std::to_string(i),
+                bounds_text(low.modules, high.modules),
+                bounds_text(low.parameters, high.parameters),
+                bounds_text(low.segments, high.segments),
+                bounds_text(low.bytes, high.bytes),
+                factor_bounds(growth, i)};
+        if (growth.has_expected) {
+            row.insert(row.begin() + 2, fmt::format("{:.6g}", growth.expected_modules[i]));
+        }
+        rows.push_back(std::move(row));
+    }
+    std::string text = lay_out(rows);
+    text += growth.exact ? "exact\n"
+            : growth.has_expected
+                ? "bounds and expected counts: the productions are chosen by chance\n"
+                : "bounds: the productions depend on parameters, neighbours or chance\n";
+    return text;
+}
+
+/// As a JSON number where it is one exactly, else as text.
+nlohmann::ordered_json json_count(const Count& count) {
+    if (count.at_most(std::numeric_limits<std::uint64_t>::max())) {
+        return static_cast<std::uint64_t>(count.value);
+    }
+    std::string digits = to_text(count);
+    digits.erase(std::remove(digits.begin(), digits.end(), ','), digits.end());
+    return digits;
+}
+
+nlohmann::ordered_json json_size(const GenerationSize& size) {
+    nlohmann::ordered_json object;
+    object["modules"] = json_count(size.modules);
+    object["parameters"] = json_count(size.parameters);
+    object["segments"] = json_count(size.segments);
+    object["bytes"] = json_count(size.bytes);
+    return object;
+}
+
+/// One object a generation.
+std::string make_json(const GrowthPrediction& growth) {
+    std::string text;
+    for (std::size_t i = 0; i < growth.low.size(); ++i) {
+        nlohmann::ordered_json object;
+        object["generation"] = i;
+        object["exact"] = growth.exact;
+        object["low"] = json_size(growth.low[i]);
+        object["high"] = json_size(growth.high[i]);
+        if (growth.has_expected) {
+            object["expected_modules"] = growth.expected_modules[i];
+        }
+        text += object.dump() + '\n';
+    }
+    return text;
+}
+
+} // namespace
+
+Status run_stats(const StatsCommand& command, const Console& console) {
+    Grammar grammar;
+    const Status status = load_grammar(command.file, command.grammar, console, grammar);
+    if (status != Status::Fine) {
+        return status;
+    }
+    const std::uint32_t wanted =
+        command.grammar.generations.value_or(grammar.bytecode->generations.value_or(0));
+    const std::uint32_t shown = std::min(wanted, kMaxRows);
+    const GrowthPrediction growth = predict_growth(*grammar.bytecode, shown);
+    const std::string text =
+        command.messages.format == MessageFormat::Json ? make_json(growth) : make_table(growth);
+    if (const Result<Done> written = write_file("-", text, console); !written) {
+        console.error(written.error().message);
+        return Status::Failure;
+    }
+    if (shown < wanted) {
+        console.info(fmt::format("only the first {} of {} generations are shown", shown, wanted));
+    }
+    return Status::Fine;
+}
+
+} // namespace lsys::lsc

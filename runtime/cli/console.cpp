@@ -1,0 +1,151 @@
+#include "runtime/cli/console.h"
+
+#include "grammar/render_diagnostic.h"
+#include "runtime/cli/files.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <istream>
+#include <ostream>
+
+namespace lsys::lsc {
+
+namespace {
+
+bool wants_colour(const Io& io, ColourMode mode) {
+    switch (mode) {
+    case ColourMode::Always:
+        return true;
+    case ColourMode::Never:
+        return false;
+    case ColourMode::Auto:
+        break;
+    }
+    const char* const no_colour = std::getenv("NO_COLOR"); // https://no-color.org
+    return io.err_is_terminal && (no_colour == nullptr || *no_colour == '\0');
+}
+
+/// Without what --quiet leaves out.
+Diagnostics errors_only(const Diagnostics& diagnostics) {
+    Diagnostics errors;
+    for (const Diagnostic& diagnostic : diagnostics.all()) {
+        if (diagnostic.severity == Severity::Error) {
+            errors.add(diagnostic);
+        }
+    }
+    return errors;
+}
+
+Result<Done> output_result(std::ostream& out) {
+    if (out.good()) {
+        return Done{};
+    }
+    const int reason = errno;
+    std::string message = "cannot write standard output";
+    if (reason != 0) {
+        message += ": ";
+        message += reason_text(reason);
+    }
+    return Error{message};
+}
+
+} // namespace
+
+Status worse(Status a, Status b) {
+    return std::max(a, b);
+}
+
+Console::Console(const Io& io, const MessageOptions& options) : io_(io), options_(options) {}
+
+bool Console::interrupted() const {
+    return io_.interrupted != nullptr && io_.interrupted->load(std::memory_order_relaxed);
+}
+
+bool Console::shows_progress() const {
+    return io_.err_is_terminal && !options_.quiet && options_.format != MessageFormat::Json;
+}
+
+void Console::say(std::string_view severity, std::string_view message) const {
+    if (options_.format == MessageFormat::Json) {
+        nlohmann::ordered_json object;
+        object["severity"] = severity;
+        object["message"] = message;
+        io_.err << object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+                << '\n';
+    } else {
+        io_.err << "lsc: " << severity << ": " << message << '\n';
+    }
+}
+
+void Console::error(std::string_view message) const {
+    say("error", message);
+}
+
+void Console::help(std::string_view message) const {
+    if (options_.format != MessageFormat::Json) {
+        say("help", message);
+    }
+}
+
+void Console::info(std::string_view message) const {
+    if (!options_.quiet) {
+        if (options_.format == MessageFormat::Json) {
+            say("note", message);
+        } else {
+            io_.err << "lsc: " << message << '\n';
+        }
+    }
+}
+
+void Console::line(std::string_view text) const {
+    if (options_.format == MessageFormat::Json) {
+        info(text);
+    } else if (!options_.quiet) {
+        io_.err << text << '\n';
+    }
+}
+
+void Console::detail(std::string_view message) const {
+    if (options_.verbose) {
+        info(message);
+    }
+}
+
+RenderOptions Console::render_options() const {
+    RenderOptions render;
+    render.format = options_.format;
+    render.colour = options_.format != MessageFormat::Json && wants_colour(io_, options_.colour);
+    return render;
+}
+
+Status Console::show(Diagnostics& diagnostics, const SourceMap& sources) const {
+    if (options_.deny_warnings) {
+        diagnostics.promote_warnings();
+    }
+    diagnostics.sort_by_place();
+    std::string text;
+    if (options_.quiet) {
+        render_all(errors_only(diagnostics), sources, render_options(), text);
+    } else {
+        render_all(diagnostics, sources, render_options(), text);
+    }
+    io_.err << text << std::flush;
+    return diagnostics.has_errors() ? Status::AuthorErrors : Status::Fine;
+}
+
+Result<Done> Console::write(std::string_view text) const {
+    errno = 0;
+    io_.out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    return output_result(io_.out);
+}
+
+Result<Done> Console::flush() const {
+    errno = 0;
+    io_.out.flush();
+    return output_result(io_.out);
+}
+
+} // namespace lsys::lsc

@@ -1,0 +1,371 @@
+#include "runtime/cli/dump_word.h"
+
+#include "runtime/cli/files.h"
+#include "runtime/cli/progress.h"
+#include "runtime/derive.h"
+#include "runtime/runtime_diagnostic.h"
+#include "runtime/state_file.h"
+#include "runtime/stream.h"
+#include "runtime/word_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <utility>
+
+namespace lsys::lsc {
+
+namespace {
+
+constexpr std::size_t kPieceOfText = std::size_t{1} << 18;
+
+/// What a run of `dump` does, once command line, grammar and saved state have been put together.
+struct Plan {
+    DeriveOptions derive;
+    std::uint32_t first_age = 0;
+    std::uint32_t last_age = 0;
+    std::string saved_bytes; // of --from; empty: from the axiom
+    std::uint64_t max_bytes = 0;
+};
+
+/// Shows a diagnostic of the run and returns what it makes of the exit status.
+Status show(Diagnostic diagnostic, Status status, const Grammar& grammar, const Console& console) {
+    Diagnostics diagnostics;
+    diagnostics.add(std::move(diagnostic));
+    static_cast<void>(console.show(diagnostics, grammar.sources));
+    return status;
+}
+
+Status fail(const Error& error, const Console& console) {
+    console.error(error.message);
+    return Status::Failure;
+}
+
+/// The exit status of a derivation that ended as `status`, after its message.
+Status tell(DeriveStatus status,
+            const RuntimeError& error,
+            const LimitReport& limit,
+            const Plan& plan,
+            const Grammar& grammar,
+            const Console& console) {
+    const Bytecode& bytecode = *grammar.bytecode;
+    const bool has_sources = !grammar.is_module_file;
+    switch (status) {
+    case DeriveStatus::Ok:
+        return Status::Fine;
+    case DeriveStatus::Error:
+        return show(runtime_diagnostic(error, bytecode, has_sources), Status::AuthorErrors, grammar,
+                    console);
+    case DeriveStatus::Limit:
+    case DeriveStatus::OutOfMemory:
+        return show(limit_diagnostic(limit, plan.derive.limits, bytecode, has_sources),
+                    Status::Limit, grammar, console);
+    case DeriveStatus::Cancelled:
+        return Status::Interrupted;
+    }
+    return Status::Failure;
+}
+
+Result<SavedState> read_saved(const Plan& plan, const std::string& path, const Bytecode& bytecode) {
+    Result<SavedState> state = read_state(plan.saved_bytes, bytecode);
+    if (!state) {
+        return Error{fmt::format("cannot go on from `{}`: {}", path, state.error().message)};
+    }
+    return state;
+}
+
+/// Takes over what the saved state fixes: generations, seed, age.
+Result<Done> plan_from_state(const DumpCommand& command,
+                             const Bytecode& bytecode,
+                             const Console& console,
+                             Plan& plan) {
+    Result<std::string> bytes = read_file(command.from, ~std::uint64_t{0}, console);
+    if (!bytes) {
+        return bytes.error();
+    }
+    plan.saved_bytes = std::move(bytes.value());
+    const Result<SavedState> state = read_saved(plan, command.from, bytecode);
+    if (!state) {
+        return state.error();
+    }
+    const StateHeader& header = state.value().header;
+    if (command.seed && *command.seed != header.seed) {
+        return Error{
+            fmt::format("`{}` was derived with --seed {}, so it cannot go on with --seed {}",
+                        command.from, header.seed, *command.seed)};
+    }
+    plan.derive.seed = header.seed;
+    plan.first_age = header.age;
+    plan.derive.generations = command.grammar.generations.value_or(header.generations);
+    if (bytecode.uses_steps && plan.derive.generations != header.generations) {
+        return Error{
+            fmt::format("`{}` was derived with -n {}, and the grammar's steps() depends on it",
+                        command.from, header.generations)};
+    }
+    if (plan.derive.generations < header.age) {
+        return Error{fmt::format("`{}` is of generation {}, past the -n {} that is asked for",
+                                 command.from, header.age, plan.derive.generations)};
+    }
+    return Done{};
+}
+
+Result<Plan> make_plan(const DumpCommand& command, const Grammar& grammar, const Console& console) {
+    const Bytecode& bytecode = *grammar.bytecode;
+    Plan plan;
+    plan.derive.generations =
+        command.grammar.generations.value_or(bytecode.generations.value_or(0));
+    plan.derive.seed =
+        command.seed.value_or(bytecode.settings.has_seed ? bytecode.settings.seed : 0);
+    plan.derive.threads = command.threads;
+    plan.derive.limits = {command.grammar.max_modules, command.max_bytes};
+    plan.derive.cancelled = console.io().interrupted;
+    if (!command.from.empty()) {
+        if (const Result<Done> taken = plan_from_state(command, bytecode, console, plan); !taken) {
+            return taken.error();
+        }
+    }
+    const std::uint64_t steps = command.steps.value_or(plan.derive.generations);
+    plan.last_age = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(plan.first_age + steps, plan.derive.generations));
+    return plan;
+}
+
+/// Writes to an Output from callbacks that can only say stop.
+class Writer {
+public:
+    explicit Writer(Output output) : output_(std::move(output)) {}
+
+    [[nodiscard]] bool write(std::string_view text) {
+        if (!failed_) {
+            const Result<Done> written = output_.write(text);
+            if (!written) {
+                failed_ = written.error();
+            }
+        }
+        return !failed_;
+    }
+    /// What made write() return false.
+    [[nodiscard]] const std::optional<Error>& failure() const { return failed_; }
+    [[nodiscard]] Result<Done> commit() {
+        return failed_ ? Result<Done>(*failed_) : output_.commit();
+    }
+
+private:
+    Output output_;
+    std::optional<Error> failed_;
+};
+
+// -----------------------------------------------------------------------------------------
+// stored words
+
+using OnGeneration = std::function<bool(const Derivation&)>;
+
+/// Runs the derivation of `plan`; `on_generation` sees the words of all ages, or of the last only.
+/// Its false ends the run as Cancelled.
+Status derive(Derivation& derivation,
+              const DumpCommand& command,
+              const Plan& plan,
+              const Grammar& grammar,
+              const Console& console,
+              const OnGeneration& on_generation) {
+    DeriveStatus status = DeriveStatus::Ok;
+    if (command.from.empty()) {
+        status = derivation.start();
+    } else {
+        Result<SavedState> state = read_saved(plan, command.from, *grammar.bytecode);
+        if (!state) {
+            return fail(state.error(), console);
+        }
+        status = derivation.resume(std::move(state.value().word), state.value().header.age);
+    }
+    while (status == DeriveStatus::Ok) {
+        console.detail(fmt::format("generation {}: {} modules, {} bytes", derivation.age(),
+                                   derivation.word().module_count(),
+                                   derivation.word().byte_count()));
+        const bool is_last = derivation.age() == plan.last_age;
+        // A word in the middle of a derivation may still find its brackets.
+        if (is_last && derivation.age() == plan.derive.generations) {
+            status = derivation.check_brackets();
+            if (status != DeriveStatus::Ok) {
+                break;
+            }
+        }
+        if ((is_last || command.all) && !on_generation(derivation)) {
+            return console.interrupted() ? Status::Interrupted : Status::Failure;
+        }
+        if (is_last) {
+            return Status::Fine;
+        }
+        status = derivation.step();
+    }
+    return tell(status, derivation.error(), derivation.limit(), plan, grammar, console);
+}
+
+Result<Done> save_state(const Plan& plan,
+                        const Derivation& derivation,
+                        const Bytecode& bytecode,
+                        Writer& writer) {
+    const StateHeader header{digest(bytecode), plan.derive.seed, plan.derive.generations,
+                             derivation.age()};
+    static_cast<void>(write_state(header, derivation.word(),
+                                  [&](std::string_view bytes) { return writer.write(bytes); }));
+    return writer.commit();
+}
+
+/// Opens the outputs that were asked for, so that one that cannot be written is known early.
+Result<Done> open_outputs(const DumpCommand& command,
+                          const Console& console,
+                          std::optional<Writer>& word,
+                          std::optional<Writer>& state) {
+    Result<Output> output = Output::open(command.output, console);
+    if (!output) {
+        return output.error();
+    }
+    word.emplace(std::move(output.value()));
+    if (!command.save_state.empty()) {
+        Result<Output> saved = Output::open(command.save_state, console);
+        if (!saved) {
+            return saved.error();
+        }
+        state.emplace(std::move(saved.value()));
+    }
+    return Done{};
+}
+
+Status dump_stored(const DumpCommand& command,
+                   const Plan& plan,
+                   Grammar& grammar,
+                   const Console& console) {
+    const Bytecode& bytecode = *grammar.bytecode;
+    const auto ignore = [](const Derivation&) { return true; };
+    if (command.all && !command.count && command.output == "-") {
+        // What is on standard output cannot be taken back, so a first run shows whether there will
+        // be a second.
+        Derivation rehearsal(bytecode, plan.derive);
+        const Status status = derive(rehearsal, command, plan, grammar, console, ignore);
+        if (status != Status::Fine) {
+            return status;
+        }
+    }
+    std::optional<Writer> word_writer;
+    std::optional<Writer> state_writer;
+    if (const Result<Done> opened = open_outputs(command, console, word_writer, state_writer);
+        !opened) {
+        return fail(opened.error(), console);
+    }
+    Writer& writer = *word_writer;
+    Derivation derivation(bytecode, plan.derive);
+    std::string counts;
+    const auto print = [&](const Derivation& now) {
+        if (command.count) {
+            counts += fmt::format("{}\n", now.word().module_count());
+            return true;
+        }
+        WordPrinter printer(bytecode);
+        return printer.print(now.word(), [&](std::string_view text) {
+            return !console.interrupted() && writer.write(text);
+        }) && writer.write("\n");
+    };
+    const Status status = derive(derivation, command, plan, grammar, console, print);
+    if (writer.failure()) {
+        return fail(*writer.failure(), console);
+    }
+    if (status != Status::Fine) {
+        return status;
+    }
+    static_cast<void>(writer.write(counts));
+    Result<Done> done = writer.commit();
+    if (done && state_writer) {
+        done = save_state(plan, derivation, bytecode, *state_writer);
+    }
+    return done ? Status::Fine : fail(done.error(), console);
+}
+
+// -----------------------------------------------------------------------------------------
+// streamed words
+
+/// One streamed run into `consumer`.
+Status stream(const Plan& plan,
+              const Grammar& grammar,
+              const Console& console,
+              const StreamConsumer& consumer,
+              StreamOutcome& outcome) {
+    outcome = derive_streamed(*grammar.bytecode, plan.derive, consumer);
+    return tell(outcome.status, outcome.error, outcome.limit, plan, grammar, console);
+}
+
+Status dump_streamed(const DumpCommand& command,
+                     const Plan& plan,
+                     const Grammar& grammar,
+                     const Console& console) {
+    const Bytecode& bytecode = *grammar.bytecode;
+    if (const std::optional<std::string> reason = why_not_streamable(bytecode)) {
+        return fail(Error{fmt::format("--stream: {}", *reason)}, console);
+    }
+    StreamOutcome outcome;
+    const auto ignore = [&](const StreamChunk&) { return !console.interrupted(); };
+    if (command.count || command.output == "-") {
+        // The rehearsal of standard output, and all that a count needs.
+        const Status status = stream(plan, grammar, console, ignore, outcome);
+        if (status != Status::Fine) {
+            return status;
+        }
+    }
+    Result<Output> output = Output::open(command.output, console);
+    if (!output) {
+        return fail(output.error(), console);
+    }
+    Writer writer(std::move(output.value()));
+    if (command.count) {
+        static_cast<void>(writer.write(fmt::format("{}\n", outcome.modules)));
+    } else {
+        WordPrinter printer(bytecode);
+        std::string text;
+        const auto print = [&](const StreamChunk& chunk) {
+            printer.append(chunk.codes, chunk.parameters, text);
+            if (text.size() < kPieceOfText) {
+                return !console.interrupted();
+            }
+            const bool fine = writer.write(text);
+            text.clear();
+            return fine && !console.interrupted();
+        };
+        const Status status = stream(plan, grammar, console, print, outcome);
+        text += '\n';
+        if (status == Status::Fine) {
+            static_cast<void>(writer.write(text));
+        } else if (!writer.failure()) {
+            return status;
+        }
+    }
+    if (const Result<Done> done = writer.commit(); !done) {
+        return fail(done.error(), console);
+    }
+    return Status::Fine;
+}
+
+} // namespace
+
+Status dump_word(const DumpCommand& command, Grammar& grammar, const Console& console) {
+    Result<Plan> planned = make_plan(command, grammar, console);
+    if (!planned) {
+        return fail(planned.error(), console);
+    }
+    Plan& plan = planned.value();
+    console.detail(
+        fmt::format("{} generations, seed {}", plan.derive.generations, plan.derive.seed));
+    Progress progress(console.shows_progress() ? &console.io().err : nullptr, plan.last_age,
+                      Progress::Clock::now());
+    plan.derive.progress = [&](std::uint32_t generation, std::uint64_t modules) {
+        progress.update(generation, modules, Progress::Clock::now());
+    };
+    if (command.stream) {
+        return dump_streamed(command, plan, grammar, console);
+    }
+    return dump_stored(command, plan, grammar, console);
+}
+
+} // namespace lsys::lsc

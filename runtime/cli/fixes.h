@@ -1,0 +1,46 @@
+// `lsc check --fix`: applies the machine-applicable fixes of a grammar and of the files it
+// includes, in memory, until none is left.
+#pragma once
+
+#include "grammar/result.h"
+#include "runtime/cli/console.h"
+#include "runtime/cli/grammar_file.h"
+#include "runtime/cli/options.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lsys::lsc {
+
+struct FixedGrammar {
+    /// The new bytes of every file that changed, by path.
+    std::map<std::string, std::string> changed;
+    /// One line a fix: `tree.lsys:7:26: fixed: write A S(1) [code]`; the first kMaxFixLines.
+    std::vector<std::string> lines;
+    std::uint64_t fix_count = 0;
+    /// What the mended text compiles to, with the diagnostics that are left.
+    Grammar grammar;
+};
+inline constexpr std::size_t kMaxFixLines = 50;
+
+/// Mends `bytes`, the text of `path`. A byte order mark and CRLF line ends stay.
+[[nodiscard]] Result<Done> fix_text(const std::string& path,
+                                    const std::string& bytes,
+                                    const GrammarOptions& options,
+                                    const Console& console,
+                                    FixedGrammar& fixed);
+
+/// Chooses of `diagnostics` the first machine-applicable fix of each, leaving out those that touch
+/// one before; returns the edits of each file, by path and place, and counts and describes them in
+/// `fixed`.
+using FileEdits = std::map<std::string, std::vector<const Edit*>>;
+[[nodiscard]] FileEdits
+choose_edits(const Diagnostics& diagnostics, const SourceMap& sources, FixedGrammar& fixed);
+
+/// `text` with the edits applied; they are in order of place and do not overlap. A line feed of a
+/// replacement becomes CRLF where the text has CRLF.
+[[nodiscard]] std::string apply_edits(std::string_view text, const std::vector<const Edit*>& edits);
+
+} // namespace lsys::lsc

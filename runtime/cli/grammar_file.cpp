@@ -1,0 +1,134 @@
+#include "runtime/cli/grammar_file.h"
+
+#include "compiler/compile.h"
+#include "compiler/module_file.h"
+#include "runtime/cli/files.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lsys::lsc {
+
+namespace {
+
+constexpr std::string_view kGrammarExtension = ".lsys";
+constexpr std::string_view kModuleExtension = ".lsb";
+
+Error unknown_dialect(const std::string& path) {
+    if (path.ends_with(kModuleExtension)) {
+        return Error{fmt::format("`{}` is compiled; this needs the grammar itself", path)};
+    }
+    return Error{
+        fmt::format("the name of `{}` does not tell its language; rename it to end in {}, or "
+                    "say --dialect lsys",
+                    path, kGrammarExtension)};
+}
+
+/// The -D that no constant answers to, with the nearest that does.
+Error unknown_definition(const std::string& name, const Grammar& grammar) {
+    std::string text = fmt::format("-D {}: the grammar has no #define or #param `{}`", name, name);
+    if (grammar.program) {
+        std::vector<std::string_view> known;
+        for (const Constant& constant : grammar.program->constants) {
+            known.push_back(grammar.names.text(constant.name));
+        }
+        if (const auto nearest = nearest_name(name, known)) {
+            text += fmt::format("; did you mean `{}`?", *nearest);
+        }
+    }
+    return Error{text};
+}
+
+Status load_module(std::string_view bytes,
+                   const std::string& path,
+                   const GrammarOptions& options,
+                   const Console& console,
+                   Grammar& grammar) {
+    if (!options.definitions.empty()) {
+        console.error(fmt::format("-D cannot change `{}`, which is compiled", path));
+        console.help("compile the grammar again with this -D");
+        return Status::Failure;
+    }
+    Result<Bytecode> bytecode = read_module_file(bytes);
+    if (!bytecode) {
+        console.error(fmt::format("cannot use `{}`: {}", path, bytecode.error().message));
+        return Status::Failure;
+    }
+    grammar.bytecode = std::move(bytecode.value());
+    grammar.is_module_file = true;
+    if (!options.generations && !grammar.bytecode->generations) {
+        grammar.diagnostics.add(
+            DiagnosticCode::MissingGenerations, {},
+            fmt::format("`{}` does not say how many generations to derive", path));
+    }
+    return console.show(grammar.diagnostics, grammar.sources);
+}
+
+} // namespace
+
+FileLoader make_loader(const Console& console) {
+    return
+        [console](const std::string& path) { return read_bytes(path, kMaxSourceBytes, console); };
+}
+
+Result<std::string>
+read_grammar(const std::string& path, const std::string& dialect, const Console& console) {
+    if (dialect.empty() && path != "-" && !path.ends_with(kGrammarExtension)) {
+        // Whether the file is there at all is the better message.
+        Result<std::string> bytes = read_file(path, kMaxSourceBytes, console);
+        return bytes.ok() ? Result<std::string>(unknown_dialect(path)) : std::move(bytes);
+    }
+    return read_file(path, kMaxSourceBytes, console);
+}
+
+Result<Done> compile_text(const std::string& path,
+                          std::string bytes,
+                          const GrammarOptions& options,
+                          const FileLoader& load,
+                          Grammar& grammar) {
+    const FileId root = grammar.sources.add(shown_path(path), std::move(bytes));
+    Ast ast = parse_lsys(root, {grammar.sources, grammar.names, grammar.diagnostics, load});
+    CompileOptions compile_options;
+    compile_options.definitions = options.definitions;
+    compile_options.generations = options.generations;
+    compile_options.max_modules = options.max_modules;
+    CompileOutcome outcome = compile(std::move(ast), grammar.names, grammar.sources,
+                                     compile_options, grammar.diagnostics);
+    grammar.program = std::move(outcome.program);
+    grammar.bytecode = std::move(outcome.bytecode);
+    if (!outcome.unknown_definitions.empty()) {
+        return unknown_definition(outcome.unknown_definitions.front(), grammar);
+    }
+    return Done{};
+}
+
+Status load_grammar(const std::string& path,
+                    const GrammarOptions& options,
+                    const Console& console,
+                    Grammar& grammar) {
+    Result<std::string> bytes = read_file(path, kMaxSourceBytes, console);
+    if (!bytes) {
+        console.error(bytes.error().message);
+        return console.interrupted() ? Status::Interrupted : Status::Failure;
+    }
+    if (is_module_file(bytes.value()) || path.ends_with(kModuleExtension)) {
+        return load_module(bytes.value(), path, options, console, grammar);
+    }
+    if (options.dialect.empty() && path != "-" && !path.ends_with(kGrammarExtension)) {
+        console.error(unknown_dialect(path).message);
+        return Status::Failure;
+    }
+    const Result<Done> compiled =
+        compile_text(path, std::move(bytes.value()), options, make_loader(console), grammar);
+    const Status status = console.show(grammar.diagnostics, grammar.sources);
+    if (!compiled) {
+        console.error(compiled.error().message);
+        return Status::Failure;
+    }
+    return status;
+}
+
+} // namespace lsys::lsc

@@ -1,0 +1,52 @@
+// From a file to a compiled grammar: reads it and what it includes, parses, compiles, shows the
+// diagnostics. The front door of every command that takes a grammar.
+#pragma once
+
+#include "compiler/bytecode.h"
+#include "compiler/program.h"
+#include "grammar/ast.h"
+#include "grammar/diagnostic.h"
+#include "grammar/names.h"
+#include "grammar/parse.h"
+#include "grammar/source.h"
+#include "runtime/cli/console.h"
+#include "runtime/cli/options.h"
+
+#include <optional>
+#include <string>
+
+namespace lsys::lsc {
+
+/// A grammar and all that stands behind it. Diagnostics and sites refer to `sources`.
+struct Grammar {
+    SourceMap sources;
+    Names names;
+    Diagnostics diagnostics;
+    std::optional<Program> program;   // of a source without errors
+    std::optional<Bytecode> bytecode; // without errors
+    bool is_module_file = false;      // read from a .lsb: `sources` is empty
+};
+
+/// Reads files for #include.
+[[nodiscard]] FileLoader make_loader(const Console& console);
+
+/// The bytes of a grammar, once its dialect is clear.
+[[nodiscard]] Result<std::string>
+read_grammar(const std::string& path, const std::string& dialect, const Console& console);
+
+/// Compiles the text `bytes` of `path`; diagnostics are collected, not shown. An Error is a -D of
+/// no constant.
+[[nodiscard]] Result<Done> compile_text(const std::string& path,
+                                        std::string bytes,
+                                        const GrammarOptions& options,
+                                        const FileLoader& load,
+                                        Grammar& grammar);
+
+/// Reads and compiles `path`, a grammar or a .lsb file, and shows what there is to say. After Fine
+/// the bytecode is there.
+[[nodiscard]] Status load_grammar(const std::string& path,
+                                  const GrammarOptions& options,
+                                  const Console& console,
+                                  Grammar& grammar);
+
+} // namespace lsys::lsc

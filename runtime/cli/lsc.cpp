@@ -1,0 +1,76 @@
+#include "runtime/cli/lsc.h"
+
+#include "runtime/cli/command_line.h"
+#include "runtime/cli/commands.h"
+
+#include <new>
+#include <ostream>
+#include <stdexcept>
+#include <variant>
+
+namespace lsys::lsc {
+
+namespace {
+
+/// The command that each kind of options belongs to.
+struct Dispatch {
+    const Io& io;
+
+    Status operator()(const PrintText& text) const {
+        const Console console(io, {});
+        Result<Done> written = console.write(text.text);
+        if (written) {
+            written = console.flush();
+        }
+        if (!written) {
+            console.error(written.error().message);
+            return Status::Failure;
+        }
+        return Status::Fine;
+    }
+    Status operator()(const UsageError& usage) const {
+        const Console console(io, {});
+        console.error(usage.message);
+        console.help(usage.help);
+        return Status::Failure;
+    }
+    Status operator()(const CheckCommand& command) const {
+        return run_check(command, {io, command.messages});
+    }
+    Status operator()(const CompileCommand& command) const {
+        return run_compile(command, {io, command.messages});
+    }
+    Status operator()(const DumpCommand& command) const {
+        return run_dump(command, {io, command.messages});
+    }
+    Status operator()(const StatsCommand& command) const {
+        return run_stats(command, {io, command.messages});
+    }
+    Status operator()(const ExplainCommand& command) const {
+        return run_explain(command, {io, command.messages});
+    }
+};
+
+/// Without allocating: there is no memory.
+int out_of_memory(const Io& io) {
+    io.err << "lsc: error: out of memory\n" << std::flush;
+    return static_cast<int>(Status::Limit);
+}
+
+} // namespace
+
+int run(std::span<const std::string> arguments, const Io& io) {
+    try {
+        const Status status = std::visit(Dispatch{io}, parse_command_line(arguments));
+        const bool interrupted =
+            io.interrupted != nullptr && io.interrupted->load(std::memory_order_relaxed);
+        io.err << (interrupted ? "lsc: interrupted\n" : "") << std::flush;
+        return static_cast<int>(interrupted ? Status::Interrupted : status);
+    } catch (const std::bad_alloc&) {
+        return out_of_memory(io);
+    } catch (const std::length_error&) { // what a string or vector throws when it cannot be so long
+        return out_of_memory(io);
+    }
+}
+
+} // namespace lsys::lsc

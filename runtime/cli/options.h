@@ -1,0 +1,79 @@
+// What the command line asks for, one struct a command. Made by command_line.cpp, read by the
+// command of the same name.
+#pragma once
+
+#include "compiler/compile.h"
+#include "grammar/render_diagnostic.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys::lsc {
+
+enum class ColourMode : std::uint8_t { Auto, Always, Never };
+
+/// How messages are shown; every command has these.
+struct MessageOptions {
+    MessageFormat format = MessageFormat::Human;
+    ColourMode colour = ColourMode::Auto;
+    bool deny_warnings = false;
+    bool quiet = false;   // errors only, no progress
+    bool verbose = false; // what is done, and how large it is
+};
+
+/// How a grammar is read and compiled.
+struct GrammarOptions {
+    std::string dialect; // empty: by the file's extension
+    std::vector<Definition> definitions;
+    std::optional<std::uint32_t> generations; // -n
+    std::uint64_t max_modules = std::uint64_t{1} << 32;
+};
+
+struct CheckCommand {
+    MessageOptions messages;
+    GrammarOptions grammar;
+    std::vector<std::string> files;
+    bool fix = false;
+};
+
+struct CompileCommand {
+    MessageOptions messages;
+    GrammarOptions grammar;
+    std::optional<std::uint64_t> seed;
+    std::string file;
+    std::string output;
+};
+
+enum class Stage : std::uint8_t { Program, Bytecode, Word };
+
+struct DumpCommand {
+    MessageOptions messages;
+    GrammarOptions grammar;
+    std::optional<std::uint64_t> seed;
+    std::uint32_t threads = 0; // 0: as many as the machine has
+    std::uint64_t max_bytes = 0;
+    std::string file;
+    std::string output = "-";
+    Stage stage = Stage::Word;
+    bool all = false;
+    bool count = false;
+    bool stream = false;
+    std::optional<std::uint32_t> steps; // generations of this run
+    std::string save_state;
+    std::string from;
+};
+
+struct StatsCommand {
+    MessageOptions messages;
+    GrammarOptions grammar;
+    std::string file;
+};
+
+struct ExplainCommand {
+    MessageOptions messages;
+    std::string code; // empty: the list of all
+};
+
+} // namespace lsys::lsc

@@ -1,0 +1,138 @@
+#include "runtime/cli/files.h"
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <sstream>
+#include <string>
+#include <sys/stat.h>
+#include <unistd.h>
+
+using namespace lsys;
+using namespace lsys::lsc;
+using lsys::tests::read_text;
+using lsys::tests::ScratchFolder;
+using lsys::tests::write_text;
+
+namespace {
+
+constexpr std::uint64_t kMany = std::uint64_t{1} << 40;
+
+struct Fixture {
+    std::istringstream in;
+    std::ostringstream out;
+    std::ostringstream err;
+    ScratchFolder folder;
+    Console console{{in, out, err}, {}};
+
+    std::size_t file_count() const {
+        std::size_t count = 0;
+        for ([[maybe_unused]] const auto& entry :
+             std::filesystem::directory_iterator(folder.path())) {
+            ++count;
+        }
+        return count;
+    }
+};
+
+} // namespace
+
+TEST_CASE("files are read whole, whatever they hold") {
+    Fixture f;
+    std::string bytes("a\0b\xFF", 4);
+    for (const std::size_t size : {0U, 4U, 1U << 20U, (3U << 20U) + 1U}) {
+        bytes.resize(size, 'x');
+        write_text(f.folder / "x", bytes);
+        const Result<std::string> read = read_file(f.folder / "x", kMany, f.console);
+        REQUIRE(read.ok());
+        CHECK(read.value() == bytes);
+    }
+    const Result<std::string> device = read_file("/dev/null", kMany, f.console);
+    REQUIRE(device.ok());
+    CHECK(device.value().empty());
+}
+
+TEST_CASE("what cannot be read is named with its reason") {
+    Fixture f;
+    CHECK(read_file(f.folder / "none", kMany, f.console).error().message ==
+          "cannot read `" + f.folder / "none" + "`: no such file or directory");
+    CHECK(read_file(f.folder.path().string(), kMany, f.console).error().message ==
+          "cannot read `" + f.folder.path().string() + "`: it is a directory");
+    write_text(f.folder / "large", "12345");
+    CHECK(read_file(f.folder / "large", 4, f.console).error().message ==
+          "cannot read `" + f.folder / "large" +
+              "`: it has more than 4 bytes, the most that can be read");
+    CHECK(read_file(f.folder / "large", 5, f.console).value() == "12345");
+    // Without an end, and without a size.
+    CHECK(!read_file("/dev/zero", 3'000'000, f.console).ok());
+}
+
+TEST_CASE("standard input has the name -") {
+    Fixture f;
+    f.in.str(std::string(3'000'000, 'x'));
+    CHECK(read_file("-", kMany, f.console).value().size() == 3'000'000);
+    Fixture too_long;
+    too_long.in.str("12345");
+    CHECK(!read_file("-", 4, too_long.console).ok());
+}
+
+TEST_CASE("a written file appears when it is complete") {
+    Fixture f;
+    {
+        Result<Output> output = Output::open(f.folder / "x", f.console);
+        REQUIRE(output.ok());
+        CHECK(output.value().write("first").ok());
+        CHECK(!std::filesystem::exists(f.folder / "x"));
+    }
+    CHECK(f.file_count() == 0); // it was never committed
+    CHECK(write_file(f.folder / "x", "first", f.console).ok());
+    {
+        Result<Output> output = Output::open(f.folder / "x", f.console);
+        REQUIRE(output.ok());
+        CHECK(output.value().write("second").ok());
+        CHECK(read_text(f.folder / "x") == "first");
+        CHECK(output.value().commit().ok());
+    }
+    CHECK(read_text(f.folder / "x") == "second");
+    CHECK(f.file_count() == 1);
+}
+
+TEST_CASE("a replaced file keeps its permissions, and a link stays a link") {
+    Fixture f;
+    write_text(f.folder / "x", "first");
+    REQUIRE(::chmod((f.folder / "x").c_str(), 0640) == 0);
+    REQUIRE(::symlink("x", (f.folder / "link").c_str()) == 0);
+    CHECK(write_file(f.folder / "link", "second", f.console).ok());
+    CHECK(read_text(f.folder / "x") == "second");
+    CHECK(std::filesystem::is_symlink(f.folder / "link"));
+    struct stat facts {};
+    REQUIRE(::stat((f.folder / "x").c_str(), &facts) == 0);
+    CHECK((facts.st_mode & 0777U) == 0640);
+    const mode_t mask = ::umask(022);
+    CHECK(write_file(f.folder / "new", "", f.console).ok());
+    ::umask(mask);
+    REQUIRE(::stat((f.folder / "new").c_str(), &facts) == 0);
+    CHECK((facts.st_mode & 0777U) == 0644);
+}
+
+TEST_CASE("what cannot be written is named with its reason, and leaves nothing") {
+    Fixture f;
+    CHECK(write_file(f.folder / "none/x", "text", f.console).error().message ==
+          "cannot write `" + f.folder / "none/x" + "`: no such file or directory");
+    CHECK(write_file(f.folder.path().string(), "text", f.console).error().message ==
+          "cannot write `" + f.folder.path().string() + "`: is a directory");
+    CHECK(write_file("/dev/full", "text", f.console).error().message ==
+          "cannot write `/dev/full`: no space left on device");
+    CHECK(write_file("/dev/null", "text", f.console).ok());
+    CHECK(f.file_count() == 0);
+}
+
+TEST_CASE("standard output that fails is an error") {
+    Fixture f;
+    CHECK(write_file("-", "text", f.console).ok());
+    CHECK(f.out.str() == "text");
+    f.out.setstate(std::ios::badbit);
+    CHECK(write_file("-", "text", f.console)
+              .error()
+              .message.starts_with("cannot write standard output"));
+}

@@ -1,0 +1,150 @@
+// The program as a whole, where no golden case reaches: interrupts, terminals, streams that fail,
+// no memory.
+#include "runtime/cli/lsc.h"
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <sstream>
+#include <streambuf>
+#include <string>
+#include <vector>
+
+namespace {
+
+using lsys::tests::read_text;
+using lsys::tests::ScratchFolder;
+using lsys::tests::write_text;
+
+constexpr const char* kEndless = "#n = 4000000000; #w : F; #p : F : * : F;";
+constexpr const char* kWrong = "#n = 1; #w : F(x);";
+
+int run(const std::vector<std::string>& arguments, const lsys::lsc::Io& io) {
+    return lsys::lsc::run(arguments, io);
+}
+
+std::size_t file_count(const ScratchFolder& folder) {
+    std::size_t count = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        ++count;
+    }
+    return count;
+}
+
+/// Has no memory for what is read from it.
+class NoMemory : public std::streambuf {
+protected:
+    int_type underflow() override { throw std::bad_alloc(); }
+    std::streamsize xsgetn(char*, std::streamsize) override { throw std::bad_alloc(); }
+};
+
+} // namespace
+
+TEST_CASE("an interrupted run ends with 130 and leaves nothing") {
+    const ScratchFolder folder;
+    const std::atomic<bool> interrupted{true};
+    for (const std::vector<std::string>& options : {std::vector<std::string>{"dump", "-"},
+                                                    {"dump", "-", "--stream"},
+                                                    {"dump", "-", "-o", folder / "word"},
+                                                    {"dump", "-", "--all", "--count"},
+                                                    {"dump", "-", "--save-state", folder / "state"},
+                                                    {"check", "--fix", "-"},
+                                                    {"compile", "-", "-o", folder / "x.lsb"}}) {
+        std::istringstream in(kEndless);
+        std::ostringstream out;
+        std::ostringstream err;
+        CHECK(run(options, {in, out, err, false, &interrupted}) == 130);
+        CHECK(out.str().empty());
+        CHECK(err.str().ends_with("lsc: interrupted\n"));
+    }
+    CHECK(file_count(folder) == 0);
+}
+
+TEST_CASE("standard output that fails ends with 2") {
+    for (const std::vector<std::string>& options : {std::vector<std::string>{"dump", "-"},
+                                                    {"dump", "-", "--all"},
+                                                    {"dump", "-", "--count"},
+                                                    {"dump", "-", "--stream"},
+                                                    {"dump", "-", "--stage", "bytecode"},
+                                                    {"stats", "-"},
+                                                    {"explain"},
+                                                    {"explain", "look-alike"},
+                                                    {"--help"},
+                                                    {"--version"},
+                                                    {"compile", "-", "-o", "-"}}) {
+        INFO(options.back());
+        std::istringstream in("#n = 1; #w : F;");
+        std::ostringstream out;
+        std::ostringstream err;
+        out.setstate(std::ios::badbit);
+        CHECK(run(options, {in, out, err}) == 2);
+        CHECK(err.str().find("cannot write standard output") != std::string::npos);
+    }
+}
+
+TEST_CASE("running out of memory is a limit, not a crash") {
+    NoMemory nothing;
+    std::istream in(&nothing);
+    in.exceptions(std::ios::badbit);
+    std::ostringstream out;
+    std::ostringstream err;
+    CHECK(run({"check", "-"}, {in, out, err}) == 3);
+    CHECK(err.str() == "lsc: error: out of memory\n");
+}
+
+TEST_CASE("colour follows the terminal, the option and NO_COLOR") {
+    const auto is_coloured = [](bool terminal, const std::vector<std::string>& options) {
+        std::vector<std::string> arguments{"check", "-"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        std::istringstream in(kWrong);
+        std::ostringstream out;
+        std::ostringstream err;
+        CHECK(run(arguments, {in, out, err, terminal}) == 1);
+        return err.str().find('\x1b') != std::string::npos;
+    };
+    ::unsetenv("NO_COLOR");
+    CHECK(is_coloured(true, {}));
+    CHECK(!is_coloured(false, {}));
+    CHECK(is_coloured(false, {"--color", "always"}));
+    CHECK(!is_coloured(true, {"--color", "never"}));
+    CHECK(!is_coloured(true, {"--message-format", "json"}));
+    ::setenv("NO_COLOR", "1", 1);
+    CHECK(!is_coloured(true, {}));
+    CHECK(is_coloured(true, {"--color", "always"}));
+    ::unsetenv("NO_COLOR");
+}
+
+TEST_CASE("a limit or an error leaves an earlier output file as it was") {
+    const ScratchFolder folder;
+    write_text(folder / "word", "before");
+    const std::string grows = "#n = 9; #w : F; #p : F : * : F F;";
+    const std::string fails = "#n = 3; #w : A(1); #p : A(x) : * : A(x - 1) F(1 / x);";
+    for (const char* option : {"--all", "--stream", "--count"}) {
+        CHECK(lsys::tests::run_lsc(
+                  {"dump", "-", option, "-o", folder / "word", "--max-modules", "100"}, grows)
+                  .status == 3);
+        CHECK(lsys::tests::run_lsc({"dump", "-", option, "-o", folder / "word"}, fails).status ==
+              1);
+    }
+    CHECK(read_text(folder / "word") == "before");
+    CHECK(file_count(folder) == 1);
+}
+
+TEST_CASE("--fix writes the file once and as a whole") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 1\n#w : F(3 \u2212 1);\n#include \"b.lsys\";\n");
+    write_text(folder / "b.lsys", "#p : F(x) : * : F(x \u2212 1)\n");
+    const lsys::tests::LscRun fixed =
+        lsys::tests::run_lsc({"check", "--fix", folder / "a.lsys"}, "");
+    CHECK(fixed.status == 0);
+    CHECK(fixed.err.find("fixed: ") != std::string::npos);
+    CHECK(read_text(folder / "a.lsys") == "#n = 1;\n#w : F(3 - 1);\n#include \"b.lsys\";\n");
+    CHECK(read_text(folder / "b.lsys") == "#p : F(x) : * : F(x - 1);\n");
+    CHECK(file_count(folder) == 2);
+    const lsys::tests::LscRun again = lsys::tests::run_lsc({"check", folder / "a.lsys"}, "");
+    CHECK(again.status == 0);
+    CHECK(again.err == "");
+}

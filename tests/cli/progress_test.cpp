@@ -1,0 +1,41 @@
+#include "runtime/cli/progress.h"
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <sstream>
+
+using lsys::lsc::Progress;
+using namespace std::chrono_literals;
+
+TEST_CASE("progress is drawn after a second, not too often, and taken away") {
+    const Progress::Clock::time_point begin{};
+    std::ostringstream terminal;
+    {
+        Progress progress(&terminal, 8, begin);
+        progress.update(1, 10, begin + 900ms);
+        CHECK(terminal.str().empty());
+        progress.update(2, 20, begin + 1s);
+        CHECK(terminal.str() == "\r\x1b[K[======                  ] generation 2 of 8, 20 modules");
+        terminal.str("");
+        progress.update(2, 30, begin + 1050ms);
+        CHECK(terminal.str().empty());
+        progress.update(8, 40, begin + 2s);
+        CHECK(terminal.str() == "\r\x1b[K[========================] generation 8 of 8, 40 modules");
+        terminal.str("");
+    }
+    CHECK(terminal.str() == "\r\x1b[K");
+}
+
+TEST_CASE("short work and no terminal show no progress") {
+    const Progress::Clock::time_point begin{};
+    std::ostringstream terminal;
+    {
+        Progress progress(&terminal, 0, begin);
+        progress.update(0, 1, begin + 10ms);
+    }
+    CHECK(terminal.str().empty());
+    Progress none(nullptr, 8, begin);
+    none.update(1, 10, begin + 10s);
+    none.clear();
+}

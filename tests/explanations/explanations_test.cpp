@@ -1,0 +1,93 @@
+// Every diagnostic is explained, in order, and the examples do what they say.
+#include "grammar/diagnostic.h"
+#include "runtime/cli/explanations.h"
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using lsys::lsc::Example;
+using lsys::lsc::Explanation;
+using lsys::tests::LscRun;
+using lsys::tests::run_lsc;
+using lsys::tests::ScratchFolder;
+
+std::vector<Explanation> all_explanations() {
+    return lsys::lsc::parse_explanations(lsys::lsc::explanations_text());
+}
+
+struct Messages {
+    int status = 0;
+    std::set<std::string> codes;      // of all diagnostics
+    std::set<std::string> severities; // of all diagnostics
+    std::string text;
+};
+
+Messages run_example(const Example& example) {
+    const ScratchFolder folder;
+    for (const auto& [name, text] : example.files) {
+        lsys::tests::write_text(folder / name, text);
+    }
+    std::vector<std::string> arguments;
+    std::istringstream words(example.arguments.empty() ? "check" : example.arguments);
+    for (std::string word; words >> word;) {
+        arguments.push_back(word);
+    }
+    arguments.insert(arguments.end(), {"--message-format", "json", folder / "example.lsys"});
+    const LscRun run = run_lsc(arguments, "");
+    Messages messages;
+    messages.status = run.status;
+    messages.text = run.err;
+    std::istringstream lines(run.err);
+    for (std::string line; std::getline(lines, line);) {
+        const nlohmann::json object = nlohmann::json::parse(line);
+        messages.severities.insert(object.value("severity", ""));
+        messages.codes.insert(object.value("code", ""));
+    }
+    return messages;
+}
+
+} // namespace
+
+TEST_CASE("every diagnostic has an explanation, in the same order") {
+    std::vector<std::string> wanted;
+    for (std::uint32_t i = 0; i < lsys::diagnostic_code_count(); ++i) {
+        wanted.emplace_back(lsys::info(static_cast<lsys::DiagnosticCode>(i)).name);
+    }
+    std::vector<std::string> found;
+    for (const Explanation& explanation : all_explanations()) {
+        found.push_back(explanation.code);
+        INFO(explanation.code);
+        CHECK(explanation.text.size() > 20);
+        REQUIRE(explanation.examples.size() >= 2);
+        CHECK(!explanation.examples.front().right);
+        CHECK(explanation.examples.back().right);
+    }
+    CHECK(found == wanted);
+}
+
+TEST_CASE("wrong examples yield their diagnostic, right ones yield none") {
+    for (const Explanation& explanation : all_explanations()) {
+        for (const Example& example : explanation.examples) {
+            if (example.is_sketch) {
+                continue;
+            }
+            const Messages messages = run_example(example);
+            INFO(explanation.code << (example.right ? ", right:\n" : ", wrong:\n")
+                                  << example.files.front().second << messages.text);
+            CHECK(messages.codes.contains(explanation.code) == !example.right);
+            if (example.right) {
+                CHECK(messages.status == 0);
+                CHECK(!messages.severities.contains("error"));
+                CHECK(!messages.severities.contains("warning"));
+            }
+        }
+    }
+}

@@ -1,0 +1,152 @@
+// What must hold for every grammar, tried on the samples of the gallery.
+#include "grammar/parse.h"
+#include "runtime/cli/console.h"
+#include "runtime/cli/grammar_file.h"
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace lsys;
+using tests::all_samples;
+using tests::LscRun;
+using tests::run_lsc;
+using tests::Sample;
+using tests::ScratchFolder;
+
+/// Generations that keep a sample small enough to be derived many times.
+std::string few_generations(const Sample& sample) {
+    const LscRun stats = run_lsc(
+        {"stats", "--quiet", "--message-format", "json", "-n", "6", sample.file.string()}, "");
+    // One line a generation; the word grows with n in all of them.
+    std::istringstream lines(stats.out);
+    std::size_t n = 0;
+    std::size_t index = 0;
+    for (std::string line; std::getline(lines, line); ++index) {
+        const std::size_t at = line.find("\"high\":{\"modules\":");
+        if (at != std::string::npos && std::strtod(line.c_str() + at + 18, nullptr) < 20'000) {
+            n = index;
+        }
+    }
+    return std::to_string(n);
+}
+
+/// The text with another axiom; nothing if the axiom is in an included file.
+std::optional<std::string>
+with_axiom(const std::filesystem::path& path, const std::string& text, const std::string& word) {
+    std::istringstream in;
+    std::ostringstream out;
+    std::ostringstream err;
+    const lsc::Console console({in, out, err}, {});
+    SourceMap sources;
+    Names names;
+    Diagnostics diagnostics;
+    const FileLoader load = lsc::make_loader(console);
+    const FileId root = sources.add(path.string(), text);
+    const Ast ast = parse_lsys(root, {sources, names, diagnostics, load});
+    for (const Statement& statement : ast.statements) {
+        if (statement.kind == StatementKind::Axiom && statement.span.file == root) {
+            return text.substr(0, statement.span.begin) + "#w : " + word + ";" +
+                   text.substr(statement.span.end);
+        }
+    }
+    return std::nullopt;
+}
+
+std::string dump(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"dump", "--quiet"});
+    const LscRun run = run_lsc(arguments, "");
+    INFO(run.err);
+    CHECK(run.status == 0);
+    return run.out;
+}
+
+} // namespace
+
+TEST_CASE("what is dumped parses as the axiom of the same file and dumps the same") {
+    std::size_t tried = 0;
+    for (const Sample& sample : all_samples()) {
+        INFO(sample.file);
+        const std::string n = few_generations(sample);
+        const std::string word = dump({"-n", n, "--seed", "3", sample.file.string()});
+        const std::optional<std::string> text =
+            with_axiom(sample.file, tests::read_text(sample.file), word.substr(0, word.size() - 1));
+        if (!text) {
+            continue;
+        }
+        ++tried;
+        // Beside the sample, since it may include its neighbours.
+        const LscRun again = run_lsc({"dump", "--quiet", "-n", "0", "-"}, *text);
+        if (sample.file.filename() == "teach-include.lsys") {
+            const ScratchFolder folder;
+            std::filesystem::copy(sample.file.parent_path(), folder.path());
+            tests::write_text(folder / "again.lsys", *text);
+            CHECK(dump({"-n", "0", folder / "again.lsys"}) == word);
+            continue;
+        }
+        INFO(again.err);
+        CHECK(again.out == word);
+    }
+    CHECK(tried > 40);
+}
+
+TEST_CASE("one thread and two derive the same word") {
+    for (const Sample& sample : all_samples()) {
+        INFO(sample.file);
+        const std::string file = sample.file.string();
+        CHECK(dump({"--seed", "5", "--threads", "1", file}) ==
+              dump({"--seed", "5", "--threads", "2", file}));
+    }
+}
+
+TEST_CASE("a streamed word is the stored one") {
+    std::size_t tried = 0;
+    for (const Sample& sample : all_samples()) {
+        INFO(sample.file);
+        const std::string file = sample.file.string();
+        const LscRun streamed = run_lsc({"dump", "--quiet", "--seed", "6", "--stream", file}, "");
+        if (streamed.status == 2) {
+            CHECK(streamed.err.find("--stream") != std::string::npos);
+            continue;
+        }
+        ++tried;
+        CHECK(streamed.status == 0);
+        CHECK(streamed.out == dump({"--seed", "6", file}));
+        CHECK(dump({"--stream", "--count", "--seed", "6", file}) ==
+              dump({"--count", "--seed", "6", file}));
+    }
+    CHECK(tried > 20);
+}
+
+TEST_CASE("a derivation that is saved and continued ends as one in one go") {
+    const ScratchFolder folder;
+    for (const Sample& sample : all_samples()) {
+        INFO(sample.file);
+        const std::string n = few_generations(sample);
+        const std::string whole = dump({"-n", n, "--seed", "7", sample.file.string()});
+        const std::string state = folder / "half.lss";
+        const std::string half = dump(
+            {"-n", n, "--seed", "7", "--steps", "2", "--save-state", state, sample.file.string()});
+        CHECK(half == dump({"-n", n, "--seed", "7", "--steps", "2", sample.file.string()}));
+        CHECK(dump({"--from", state, sample.file.string()}) == whole);
+    }
+}
+
+TEST_CASE("a compiled grammar derives what its source does") {
+    const ScratchFolder folder;
+    const std::string compiled = folder / "sample.lsb";
+    for (const Sample& sample : all_samples()) {
+        INFO(sample.file);
+        const std::string n = few_generations(sample);
+        CHECK(run_lsc({"compile", "--quiet", sample.file.string(), "-o", compiled}, "").status ==
+              0);
+        CHECK(dump({"-n", n, "--seed", "8", compiled}) ==
+              dump({"-n", n, "--seed", "8", sample.file.string()}));
+    }
+}

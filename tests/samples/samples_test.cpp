@@ -1,0 +1,61 @@
+// Every sample of the gallery does what its first lines say.
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <string>
+
+namespace {
+
+using lsys::tests::all_samples;
+using lsys::tests::LscRun;
+using lsys::tests::run_lsc;
+using lsys::tests::Sample;
+
+} // namespace
+
+TEST_CASE("samples check clean") {
+    const std::vector<Sample> samples = all_samples();
+    REQUIRE(samples.size() > 40);
+    for (const Sample& sample : samples) {
+        INFO(sample.file);
+        const LscRun run = run_lsc({"check", sample.file.string()}, "");
+        CHECK(run.status == 0);
+        CHECK(run.err.find(": error: ") == std::string::npos);
+        const bool has_warnings = run.err.find(": warning: ") != std::string::npos;
+        CHECK(has_warnings == sample.declares_warnings);
+        if (!sample.declares_warnings) {
+            CHECK(run.err == "");
+        }
+    }
+}
+
+TEST_CASE("the command lines of samples succeed") {
+    for (const Sample& sample : all_samples()) {
+        INFO(sample.file);
+        CHECK(!sample.runs.empty());
+        for (const std::vector<std::string>& arguments : sample.runs) {
+            const LscRun run = run_lsc(arguments, "");
+            INFO(run.err);
+            CHECK(run.status == 0);
+            CHECK(!run.out.empty());
+        }
+    }
+}
+
+TEST_CASE("samples have as many modules as they say") {
+    std::size_t counted = 0;
+    for (const Sample& sample : all_samples()) {
+        if (sample.count_count == 0) {
+            continue;
+        }
+        ++counted;
+        INFO(sample.file);
+        const LscRun run = run_lsc({"dump", sample.file.string(), "--all", "--count", "-n",
+                                    std::to_string(sample.count_count - 1)},
+                                   "");
+        CHECK(run.status == 0);
+        CHECK(run.out == sample.counts);
+    }
+    CHECK(counted > 40);
+}

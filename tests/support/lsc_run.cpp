@@ -1,0 +1,97 @@
+#include "tests/support/lsc_run.h"
+
+#include "runtime/cli/lsc.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <unistd.h>
+
+namespace lsys::tests {
+
+namespace fs = std::filesystem;
+
+LscRun run_lsc(const std::vector<std::string>& arguments, const std::string& input) {
+    std::istringstream in(input);
+    std::ostringstream out;
+    std::ostringstream err;
+    LscRun run;
+    run.status = lsc::run(arguments, {in, out, err});
+    run.out = std::move(out).str();
+    run.err = std::move(err).str();
+    return run;
+}
+
+std::string read_text(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        throw std::runtime_error("cannot read " + path.string());
+    }
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+void write_text(const fs::path& path, std::string_view text) {
+    std::ofstream file(path, std::ios::binary);
+    file.write(text.data(), static_cast<std::streamsize>(text.size()));
+    if (!file) {
+        throw std::runtime_error("cannot write " + path.string());
+    }
+}
+
+ScratchFolder::ScratchFolder() {
+    static std::atomic<int> number{0};
+    path_ = fs::temp_directory_path() /
+            ("lsc-test-" + std::to_string(::getpid()) + "-" + std::to_string(++number));
+    fs::remove_all(path_);
+    fs::create_directories(path_);
+}
+
+ScratchFolder::~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+std::string ScratchFolder::operator/(std::string_view name) const {
+    return (path_ / name).string();
+}
+
+std::vector<Sample> all_samples() {
+    std::vector<Sample> samples;
+    for (const fs::directory_entry& entry : fs::directory_iterator(LSYS_SOURCE_DIR "/samples")) {
+        const std::string name = entry.path().filename().string();
+        Sample sample;
+        sample.file = entry.path() / (name + ".lsys");
+        if (!fs::exists(sample.file)) {
+            continue;
+        }
+        sample.declares_warnings = name.ends_with("-as-printed");
+        std::istringstream lines(read_text(sample.file));
+        for (std::string line; std::getline(lines, line) && line.starts_with("//");) {
+            std::istringstream words(line.substr(2));
+            std::string key;
+            words >> key;
+            if (key == "run:") {
+                std::vector<std::string> run;
+                for (std::string word; words >> word;) {
+                    run.push_back(word);
+                }
+                run.insert(run.begin() + (run.empty() ? 0 : 1), sample.file.string());
+                sample.runs.push_back(std::move(run));
+            } else if (key == "counts:") {
+                for (std::string word; words >> word; ++sample.count_count) {
+                    sample.counts += word + "\n";
+                }
+            }
+        }
+        samples.push_back(std::move(sample));
+    }
+    std::sort(samples.begin(), samples.end(),
+              [](const Sample& a, const Sample& b) { return a.file < b.file; });
+    return samples;
+}
+
+} // namespace lsys::tests

@@ -1,0 +1,58 @@
+// A golden case: a grammar whose first lines say how it is run and whose comments say which
+// diagnostics belong to which line. tests/README.md describes the form. Read by the runner.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys::tests {
+
+/// `// run: dump -n 3`, and the `// exit: 1` after it.
+struct UiRun {
+    std::vector<std::string> words; // with `%` and `%t` as written
+    std::string input;              // file of standard input, after `<`; may be empty
+    int exit_status = 0;
+};
+
+/// `//~ error: part of the text [code]`.
+struct UiAnnotation {
+    std::uint32_t line = 0;       // of the diagnostic; 0: anywhere
+    std::uint32_t written_at = 0; // line of the annotation
+    std::string severity;
+    std::string text; // part of the message; may be empty
+    std::string code; // may be empty
+};
+
+struct UiCase {
+    std::filesystem::path file;
+    std::vector<UiRun> runs;
+    std::vector<UiAnnotation> annotations;
+    std::vector<std::string> mistakes; // of the case itself
+};
+
+/// Reads what a case says about itself.
+[[nodiscard]] UiCase parse_ui_case(const std::filesystem::path& file, std::string_view text);
+
+/// A diagnostic as it was printed, in whichever format.
+struct UiDiagnostic {
+    std::string file; // empty: no place
+    std::uint32_t line = 0;
+    std::string severity;
+    std::string message;
+    std::string code;
+};
+
+/// The diagnostics that standard error shows: heads of frames, short lines, JSON objects.
+[[nodiscard]] std::vector<UiDiagnostic> parse_diagnostics(std::string_view text);
+
+/// Whether the annotation speaks of the diagnostic; `name` is the file name of the case.
+[[nodiscard]] bool
+matches(const UiAnnotation& annotation, const UiDiagnostic& diagnostic, std::string_view name);
+
+/// Words separated by blanks; single quotes keep blanks.
+[[nodiscard]] std::vector<std::string> split_words(std::string_view text);
+
+} // namespace lsys::tests

@@ -1,0 +1,28 @@
+// Runs golden cases in-process and compares what they print with the files beside them.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace lsys::tests {
+
+struct UiOptions {
+    std::filesystem::path root;       // tests/ui
+    std::vector<std::string> filters; // parts of `feature/fact`; none: all
+    bool bless = false;
+    bool verbose = false; // names every case before it runs, so that a crash has a name
+};
+
+struct UiOutcome {
+    std::size_t case_count = 0;
+    std::vector<std::string> failures; // each names its case
+    std::vector<std::string> blessed;  // files that were rewritten or removed
+    std::set<std::string> codes;       // of all annotations
+};
+
+/// Every case below `root` that passes a filter: `<feature>/<fact>.lsys`, without what lies deeper.
+[[nodiscard]] UiOutcome run_ui_cases(const UiOptions& options);
+
+} // namespace lsys::tests
