@@ -72,10 +72,16 @@ void CodeEmitter::instruction(Opcode opcode, std::uint32_t operand) {
 }
 
 void CodeEmitter::mark(std::uint32_t site) {
-    if (site != marked_ && site != kNone) {
-        bytecode_.site_marks.push_back(
-            {static_cast<std::uint32_t>(bytecode_.instructions.size()), site});
-        marked_ = site;
+    if (site == marked_ || site == kNone) {
+        return;
+    }
+    marked_ = site;
+    const auto here = static_cast<std::uint32_t>(bytecode_.instructions.size());
+    std::vector<SiteMark>& marks = bytecode_.site_marks;
+    if (!marks.empty() && marks.back().instruction == here) {
+        marks.back().site = site; // the one range ends where the braces around it are drawn
+    } else {
+        marks.push_back({here, site});
     }
 }
 

@@ -1,3 +1,4 @@
+#include "compiler/verify.h"
 #include "tests/compiler/compile_text.h"
 
 #include <catch2/catch.hpp>
@@ -128,6 +129,15 @@ TEST_CASE("random ranges stand where they can be drawn") {
     CHECK(compile_text(drawn + "#set step r;\n#w : F;\n").errors() ==
           Said{"range-not-allowed 2:11"});
     CHECK(compile_text(drawn + "#w : F(r);\n#p : F(x) : x < r : F(x + r);\n").errors().empty());
+}
+
+TEST_CASE("a range may stand in the bounds of a range") {
+    const test::Compiled c =
+        compile_text("#w : F({0, {1, 2}});\n"
+                     "#p : F(x) : * : F({{-2, -1}, {x, {x, x + 1} + {0, 1}}});\n");
+    CHECK(c.errors().empty());
+    REQUIRE(c.outcome.bytecode);
+    CHECK_FALSE(verify(*c.outcome.bytecode));
 }
 
 TEST_CASE("the bounds of a constant range are checked") {
