@@ -110,11 +110,12 @@ private:
                         "close the first with `}` before the second begins");
                 } else if (!open && may_be_inside && !broken) {
                     broken = true;
-                    Diagnostic& diagnostic =
-                        add(DiagnosticCode::NestedPolygon, word, i,
-                            "this polygon can begin within another one: the module that becomes it "
-                            "also stands in one");
-                    diagnostic.severity = Severity::Warning;
+                    Diagnostic diagnostic = make_diagnostic(
+                        DiagnosticCode::NestedPolygon, module_name_span(input_, word, i),
+                        "this polygon can begin within another one: the module that becomes it "
+                        "also stands in one");
+                    diagnostic.severity = Severity::Warning; // before it is counted
+                    diagnostics_.add(std::move(diagnostic));
                 }
                 open = i;
                 vertices = moves = 0;

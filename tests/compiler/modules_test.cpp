@@ -159,3 +159,11 @@ TEST_CASE("a turtle command reads so many parameters and no more") {
     CHECK(compile_text("#w : F(1, 2, 3, 4);\n#p : F(a, b, c, d) : a < b : F(b, a, d, c);\n")
               .find(DiagnosticCode::ExtraParameters) == nullptr);
 }
+
+TEST_CASE("a polygon that rewriting may put into another is a warning only") {
+    const test::Compiled c = compile_text("#w : A;\n#p : A : * : { F A F F };\n");
+    CHECK(c.said() == Said{"nested-polygon 2:14"});
+    CHECK(c.errors().empty());
+    CHECK_FALSE(c.diagnostics.has_errors());
+    CHECK(c.outcome.bytecode);
+}
