@@ -3,6 +3,7 @@
 
 #include "compiler/compile.h"
 #include "grammar/parse.h"
+#include "grammar/render_diagnostic.h"
 #include "tests/reference/generate.h"
 #include "tests/reference/print.h"
 #include "tests/support/derived.h"
@@ -17,8 +18,8 @@ namespace lsys::reference {
 
 namespace {
 
-// Compiles a case from memory.
-std::optional<Bytecode> compiled(const Case& made) {
+// Compiles a case from memory. `messages` gets what the compiler says.
+std::optional<Bytecode> compiled(const Case& made, std::string& messages) {
     std::map<std::string, std::string> texts;
     const std::vector<TextFile> files = print_grammar(made.grammar, made.layout_seed);
     for (const TextFile& file : files) {
@@ -40,7 +41,10 @@ std::optional<Bytecode> compiled(const Case& made) {
         options.definitions.push_back({name, value});
     }
     Ast ast = parse_lsys(root, ParseContext{sources, names, diagnostics, load});
-    return compile(std::move(ast), names, sources, options, diagnostics).bytecode;
+    std::optional<Bytecode> bytecode =
+        compile(std::move(ast), names, sources, options, diagnostics).bytecode;
+    render_all(diagnostics, sources, {.format = MessageFormat::Human}, messages);
+    return bytecode;
 }
 
 } // namespace
@@ -49,8 +53,9 @@ TEST_CASE("random grammars give the same word in pieces of any size") {
     for (std::uint64_t seed = 2001; seed <= 2300; ++seed) {
         const Case made = generate(seed);
         const Derivation derivation = derive(made.grammar, made.request);
-        INFO("seed " << seed);
-        const std::optional<Bytecode> bytecode = compiled(made);
+        std::string messages;
+        const std::optional<Bytecode> bytecode = compiled(made, messages);
+        INFO("seed " << seed << "\n" << messages);
         REQUIRE(bytecode);
         if (!derivation.error) {
             const std::string word =
