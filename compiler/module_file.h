@@ -18,7 +18,8 @@ inline constexpr std::uint32_t kModuleFileVersion = 1;
 [[nodiscard]] Result<Bytecode> read_module_file(std::string_view bytes);
 /// Whether these bytes begin like a .lsb file.
 [[nodiscard]] bool is_module_file(std::string_view bytes);
-/// Makes head, size and checksum fit whatever contents follow, so that tests reach what lies behind them.
+/// Makes head, size and checksum fit whatever contents follow, so that tests reach what lies behind
+/// them.
 void seal_module_file(std::string& bytes);
 
 } // namespace lsys

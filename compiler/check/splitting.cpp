@@ -52,6 +52,7 @@ void NameSplitter::add_uses(ModuleList list) {
         const ModuleView module = cursor.view();
         if (unknown_[index_of(module.name)]) {
             uses_.insert({module.name, module.arguments.count, module.name_span.file});
+            use_lengths_.insert(resolution_.text(module.name).size());
         }
     }
 }
@@ -111,11 +112,12 @@ std::vector<NamePart> NameSplitter::split(const Use& whole) {
         }
         for_each_known_prefix(text.substr(begin),
                               [&](std::size_t length) { add(begin, begin + length); });
-        if (begin == 0 || work_left_ < text.size()) {
+        const std::size_t length = text.size() - begin;
+        if (begin == 0 || work_left_ < length || !use_lengths_.contains(length)) {
             continue;
         }
         // The last part may be an unknown name, if it stands alone elsewhere in the file.
-        work_left_ -= text.size() - begin;
+        work_left_ -= length;
         const NameId rest = resolution_.names.find(text.substr(begin));
         if (rest != kNoName && unknown_[index_of(rest)] &&
             uses_.contains({rest, whole.parameter_count, whole.file})) {

@@ -60,6 +60,7 @@ private:
     std::vector<bool> unknown_;                  // by name: unknown identifiers that occur
     std::vector<std::string_view> known_sorted_; // known identifiers
     std::unordered_set<Use, UseHash> uses_;      // of unknown identifiers
+    std::unordered_set<std::size_t> use_lengths_;
     std::unordered_map<Use, std::vector<NamePart>, UseHash> decided_;
     /// Steps left: names made to be costly to split are left as they are in the end.
     std::uint64_t work_left_ = std::uint64_t{1} << 28;
