@@ -1,5 +1,7 @@
 #include "compiler/disassemble.h"
 #include "compiler/program_dump.h"
+#include "grammar/ast_dump.h"
+#include "grammar/tokens.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/dump_word.h"
 #include "runtime/cli/files.h"
@@ -46,11 +48,32 @@ Status write_stage(const DumpCommand& command, const std::string& text, const Co
     return Status::Fine;
 }
 
+/// Tokens and the tree need no compiler, and are there for wrong grammars too.
+Status dump_syntax(const DumpCommand& command, const Console& console) {
+    Result<std::string> bytes = read_grammar(command.file, command.grammar.dialect, console);
+    if (!bytes) {
+        return fail(bytes.error(), console);
+    }
+    SourceMap sources;
+    Names names;
+    Diagnostics diagnostics;
+    const FileId root = sources.add(shown_path(command.file), std::move(bytes.value()));
+    const FileLoader load = make_loader(console);
+    const ParseContext context{sources, names, diagnostics, load};
+    const std::string text = command.stage == Stage::Tokens
+                                 ? dump_tokens(sources.file(root))
+                                 : dump_ast(parse_lsys(root, context), names, sources);
+    return worse(console.show(diagnostics, sources), write_stage(command, text, console));
+}
+
 } // namespace
 
 Status run_dump(const DumpCommand& command, const Console& console) {
     if (const std::string conflict = find_conflict(command); !conflict.empty()) {
         return fail(Error{conflict}, console);
+    }
+    if (command.stage == Stage::Tokens || command.stage == Stage::Ast) {
+        return dump_syntax(command, console);
     }
     Grammar grammar;
     const Status status = load_grammar(command.file, command.grammar, console, grammar);
@@ -68,6 +91,8 @@ Status run_dump(const DumpCommand& command, const Console& console) {
         return write_stage(command, dump_program(*grammar.program, grammar.names), console);
     case Stage::Bytecode:
         return write_stage(command, disassemble(*grammar.bytecode), console);
+    case Stage::Tokens:
+    case Stage::Ast:
     case Stage::Word:
         break;
     }

@@ -24,6 +24,7 @@ struct AllCommands {
     CompileCommand compile;
     DumpCommand dump;
     StatsCommand stats;
+    FormatCommand format;
     ExplainCommand explain;
 };
 
@@ -170,11 +171,14 @@ void add_dump(CLI::App& app, DumpCommand& command) {
         ->required();
     app.add_option("-o,--output", command.output, "Where to write (default standard output)")
         ->type_name("FILE");
-    add_choice<Stage>(
-        app, "--stage", command.stage,
-        {{"program", Stage::Program}, {"bytecode", Stage::Bytecode}, {"word", Stage::Word}},
-        "What is written: what a step of the compiler made, or the derived word "
-        "(default word)");
+    add_choice<Stage>(app, "--stage", command.stage,
+                      {{"tokens", Stage::Tokens},
+                       {"ast", Stage::Ast},
+                       {"program", Stage::Program},
+                       {"bytecode", Stage::Bytecode},
+                       {"word", Stage::Word}},
+                      "What is written: what a step of the compiler made, or the derived word "
+                      "(default word)");
     app.add_flag("--all", command.all, "One generation a line, 0 first");
     app.add_flag("--count", command.count, "The number of modules instead of the modules");
     app.add_flag("--stream", command.stream,
@@ -217,6 +221,18 @@ void add_stats(CLI::App& app, StatsCommand& command) {
     add_deny(app, command.messages);
     app.footer("Predicts the size of every generation without deriving. With --message-format json "
                "the\ntable is JSON too.\nExample: lsc stats -n 12 tree.lsys");
+}
+
+void add_format(CLI::App& app, FormatCommand& command) {
+    app.add_option("FILE", command.files,
+                   "Grammars; `-` reads standard input, writes standard "
+                   "output")
+        ->required();
+    app.add_flag("--check", command.check,
+                 "Change nothing; name the files that are not formatted, with exit status 1");
+    add_dialect(app, command.dialect);
+    add_messages(app, command.messages);
+    app.footer("Example: lsc fmt --check *.lsys");
 }
 
 void add_explain(CLI::App& app, ExplainCommand& command) {
@@ -303,11 +319,13 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
     CLI::App& compile = *app.add_subcommand("compile", "Compile a grammar to a .lsb file");
     CLI::App& dump = *app.add_subcommand("dump", "Derive a word and print it");
     CLI::App& stats = *app.add_subcommand("stats", "Predict the size of every generation");
+    CLI::App& format = *app.add_subcommand("fmt", "Lay out grammars in the common style");
     CLI::App& explain = *app.add_subcommand("explain", "Explain a diagnostic, with examples");
     add_check(check, all.check);
     add_compile(compile, all.compile);
     add_dump(dump, all.dump);
     add_stats(stats, all.stats);
+    add_format(format, all.format);
     add_explain(explain, all.explain);
 
     if (std::optional<UsageError> usage = unknown_command(arguments, app)) {
@@ -336,6 +354,9 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
     }
     if (stats.parsed()) {
         return std::move(all.stats);
+    }
+    if (format.parsed()) {
+        return std::move(all.format);
     }
     return std::move(all.explain);
 }

@@ -27,6 +27,7 @@ using CommandLine = std::variant<PrintText,
                                  CompileCommand,
                                  DumpCommand,
                                  StatsCommand,
+                                 FormatCommand,
                                  ExplainCommand>;
 
 [[nodiscard]] CommandLine parse_command_line(std::span<const std::string> arguments);

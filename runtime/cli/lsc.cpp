@@ -46,6 +46,9 @@ struct Dispatch {
     Status operator()(const StatsCommand& command) const {
         return run_stats(command, {io, command.messages});
     }
+    Status operator()(const FormatCommand& command) const {
+        return run_format(command, {io, command.messages});
+    }
     Status operator()(const ExplainCommand& command) const {
         return run_explain(command, {io, command.messages});
     }

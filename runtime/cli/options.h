@@ -46,7 +46,7 @@ struct CompileCommand {
     std::string output;
 };
 
-enum class Stage : std::uint8_t { Program, Bytecode, Word };
+enum class Stage : std::uint8_t { Tokens, Ast, Program, Bytecode, Word };
 
 struct DumpCommand {
     MessageOptions messages;
@@ -69,6 +69,13 @@ struct StatsCommand {
     MessageOptions messages;
     GrammarOptions grammar;
     std::string file;
+};
+
+struct FormatCommand {
+    MessageOptions messages;
+    std::string dialect;
+    std::vector<std::string> files;
+    bool check = false;
 };
 
 struct ExplainCommand {

@@ -1,0 +1,64 @@
+#include "grammar/format.h"
+#include "runtime/cli/commands.h"
+#include "runtime/cli/files.h"
+#include "runtime/cli/grammar_file.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+namespace lsys::lsc {
+
+namespace {
+
+Status format_file(const std::string& path, const FormatCommand& command, const Console& console) {
+    Result<std::string> bytes = read_grammar(path, command.dialect, console);
+    if (!bytes) {
+        console.error(bytes.error().message);
+        return Status::Failure;
+    }
+    SourceMap sources;
+    Names names;
+    Diagnostics diagnostics;
+    const FileLoader load = make_loader(console);
+    const std::string before = bytes.value();
+    const FileId file = sources.add(shown_path(path), std::move(bytes.value()));
+    const std::optional<std::string> text = format_lsys(file, {sources, names, diagnostics, load});
+    if (!text) { // nothing is written; the messages say why
+        return console.show(diagnostics, sources);
+    }
+    if (command.check) {
+        if (*text != before) {
+            console.line(fmt::format("{}: not formatted", shown_path(path)));
+            return Status::AuthorErrors;
+        }
+        return Status::Fine;
+    }
+    if (path != "-" && *text == before) {
+        return Status::Fine;
+    }
+    if (Result<Done> written = write_file(path, *text, console); !written) {
+        console.error(written.error().message);
+        return Status::Failure;
+    }
+    if (path != "-") {
+        console.detail(fmt::format("`{}`: formatted", shown_path(path)));
+    }
+    return Status::Fine;
+}
+
+} // namespace
+
+Status run_format(const FormatCommand& command, const Console& console) {
+    Status status = Status::Fine;
+    for (const std::string& path : command.files) {
+        status = worse(status, format_file(path, command, console));
+        if (console.interrupted()) {
+            return Status::Interrupted;
+        }
+    }
+    return status;
+}
+
+} // namespace lsys::lsc
