@@ -133,7 +133,7 @@ TEST_CASE("a limit or an error leaves an earlier output file as it was") {
     CHECK(file_count(folder) == 1);
 }
 
-TEST_CASE("--fix writes the file once and as a whole") {
+TEST_CASE("check --fix writes the file once and as a whole") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 1\n#w : F(3 \u2212 1);\n#include \"b.lsys\";\n");
     write_text(folder / "b.lsys", "#p : F(x) : * : F(x \u2212 1)\n");
