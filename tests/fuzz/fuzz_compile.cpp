@@ -1,0 +1,41 @@
+// Text to word: whatever the bytes are, the compiler ends with diagnostics or with bytecode that
+// verifies, and that bytecode derives under small limits.
+#include "compiler/compile.h"
+#include "compiler/verify.h"
+#include "grammar/parse.h"
+#include "runtime/derive.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    lsys::SourceMap sources;
+    lsys::Names names;
+    lsys::Diagnostics diagnostics;
+    const lsys::FileLoader no_files = [](const std::string&) -> lsys::Result<std::string> {
+        return lsys::Error{"no such file"};
+    };
+    const lsys::FileId file = sources.add("fuzz.lsys", std::string(data, data + size));
+    lsys::Ast ast = lsys::parse_lsys(file, {sources, names, diagnostics, no_files});
+    const lsys::CompileOutcome outcome =
+        lsys::compile(std::move(ast), names, sources, lsys::CompileOptions{}, diagnostics);
+    if (!outcome.bytecode.has_value()) {
+        return diagnostics.has_errors() ? 0 : (std::abort(), 0);
+    }
+    if (lsys::verify(*outcome.bytecode).has_value()) {
+        std::abort();
+    }
+    lsys::DeriveOptions options;
+    options.generations = std::min<std::uint32_t>(outcome.bytecode->generations.value_or(3), 4);
+    options.threads = 1;
+    options.limits.max_modules = 20'000;
+    options.limits.max_bytes = 16U << 20;
+    lsys::Derivation derivation(*outcome.bytecode, options);
+    if (derivation.start() == lsys::DeriveStatus::Ok) {
+        static_cast<void>(derivation.run_to(options.generations));
+    }
+    return 0;
+}
