@@ -32,6 +32,7 @@ std::string_view name_of(LexemeKind kind) {
     case LexemeKind::Quoted:
         return "quoted";
     case LexemeKind::Operator:
+    case LexemeKind::Any:
         return "operator";
     case LexemeKind::Unary:
         return "unary";

@@ -189,4 +189,19 @@ std::uint32_t display_width(char32_t value) {
     return contains(kWide, value) ? 2 : 1;
 }
 
+std::uint32_t text_width(std::string_view text) {
+    std::uint32_t width = 0;
+    while (!text.empty()) {
+        if (static_cast<unsigned char>(text[0]) < 0x80) {
+            ++width;
+            text.remove_prefix(1);
+            continue;
+        }
+        const CodePoint point = decode_utf8(text);
+        width += display_width(point.value);
+        text.remove_prefix(point.length);
+    }
+    return width;
+}
+
 } // namespace lsys

@@ -24,5 +24,7 @@ void append_utf8(char32_t value, std::string& out);
 /// Columns that a terminal gives to `value`: 0 for combining characters, 2 for wide ones (East
 /// Asian Width W and F, Unicode 14), else 1. Says nothing about control characters.
 [[nodiscard]] std::uint32_t display_width(char32_t value);
+/// The same of a text; a control character counts as one column.
+[[nodiscard]] std::uint32_t text_width(std::string_view text);
 
 } // namespace lsys

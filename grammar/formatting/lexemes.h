@@ -1,7 +1,8 @@
 // The tokens of a correct .lsys text as the formatter wants them: with comments, and with what
-// stood before.
+// stood before. Read one by one, because a text may have a hundred million.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -21,7 +22,8 @@ enum class LexemeKind : std::uint8_t {
     Word,     // a name where an expression or value stands
     Number,   //
     Quoted,   // "file"
-    Operator, // of an expression, `*` and `~` of a condition included
+    Operator, // of an expression, `~` of a condition included
+    Any,      // the `*` of a condition
     Unary,    // `-` or `!` before its operand
     Left,     // `(` or `{` of an expression
     Right,    // `)` or `}`
@@ -33,7 +35,69 @@ struct Lexeme {
     std::string_view text;
     std::uint32_t newlines_before = 0;
     bool blank_before = false;
-    bool call = false; // Left: follows the name of a function
+    bool call = false;   // Left: follows the name of a function
+    bool bounds = false; // Left: the `{` after the value of a `#param`
+};
+
+/// What a statement is made of, as far as its layout goes.
+enum class StatementShape : std::uint8_t {
+    Production,  // three colons, then modules
+    List,        // `#w` and `#ignore`: a colon, then modules
+    Definition,  // `#define` and `#param`: a name, a value, bounds
+    Setting,     // `#set`: a name, values
+    Declaration, // `#object`, `#module`, and `#include` of a name
+    Other,
+};
+
+[[nodiscard]] inline bool is_comment(const Lexeme& lexeme) {
+    return lexeme.kind == LexemeKind::LineComment || lexeme.kind == LexemeKind::BlockComment;
+}
+
+/// Reads tokens from a place between two statements on.
+class LexemeReader {
+public:
+    LexemeReader(std::string_view text, std::size_t begin) : text_(text), at_(begin) {}
+
+    /// False at the end of the text.
+    bool next(Lexeme& lexeme);
+    /// Where the last token ends.
+    [[nodiscard]] std::size_t offset() const { return at_; }
+    /// Of the statement whose keyword was read last.
+    [[nodiscard]] StatementShape shape() const { return shape_; }
+
+private:
+    enum class Area : std::uint8_t { Between, Modules, Object, Set, Name, Expression };
+
+    [[nodiscard]] bool starts(std::string_view prefix) const {
+        return text_.substr(at_).starts_with(prefix);
+    }
+    [[nodiscard]] std::size_t rest() const { return text_.size() - at_; }
+    [[nodiscard]] std::size_t word_length(std::size_t from) const;
+    [[nodiscard]] std::size_t number_length() const;
+    [[nodiscard]] char next_character() const;
+    bool skip_blanks();
+    void take(LexemeKind kind, std::size_t length);
+    void line_comment();
+    void keyword();
+    void next_part();
+    void token();
+    void module();
+    void quoted();
+    void value(LexemeKind kind, std::size_t length);
+    void expression();
+    void operation();
+
+    std::string_view text_;
+    std::size_t at_;
+    Lexeme lexeme_;
+    std::uint32_t newlines_ = 0;
+    bool blank_ = false;
+    Area area_ = Area::Between;
+    StatementShape shape_ = StatementShape::Other;
+    std::uint32_t part_ = 0;
+    std::uint32_t depth_ = 0;
+    bool after_value_ = false;
+    LexemeKind previous_ = LexemeKind::Semicolon;
 };
 
 [[nodiscard]] std::vector<Lexeme> lexemes_of(std::string_view text);

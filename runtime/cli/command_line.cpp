@@ -232,7 +232,9 @@ void add_format(CLI::App& app, FormatCommand& command) {
                  "Change nothing; name the files that are not formatted, with exit status 1");
     add_dialect(app, command.dialect);
     add_messages(app, command.messages);
-    app.footer("Example: lsc fmt --check *.lsys");
+    app.footer(
+        "Statements of one kind get columns, long lines are broken; comments, line ends between "
+        "modules\nand the meaning stay. Example: lsc fmt --check *.lsys");
 }
 
 void add_explain(CLI::App& app, ExplainCommand& command) {

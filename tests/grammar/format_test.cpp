@@ -12,7 +12,7 @@ using lsys::format_text;
 
 TEST_CASE("one statement goes on a line, with single blanks") {
     CHECK(format_text("#n=6;#define  a  -1;#param b 2*(a+1)  {0,5};") ==
-          "#n = 6;\n#define a -1;\n#param b 2 * (a + 1) {0, 5};\n");
+          "#n = 6;\n#define a -1;\n#param  b 2*(a + 1) {0, 5};\n");
     CHECK(format_text("#p:A(x,y):x>1&&y<=-2~.5:F( x^2 ,-y ) ;") ==
           "#p : A(x, y) : x > 1 && y <= -2 ~ .5 : F(x^2, -y);\n");
     CHECK(format_text("#q : A:*~ 0.3: ;") == "#q : A : * ~ 0.3 : ;\n");
@@ -28,6 +28,35 @@ TEST_CASE("modules keep the blanks between them, and contexts get theirs") {
     CHECK(format_text("#define : A : * : { . F } ;") == "#define : A : * : { . F };\n");
 }
 
+TEST_CASE("a quotation mark may be a module") {
+    CHECK(format_text("#object   \" LEAF ;\n#w:F;") == "#object \" LEAF;\n#w : F;\n");
+    CHECK(format_text("#module \" ;#w:\"F\";") == "#module \";\n#w : \"F\";\n");
+}
+
+TEST_CASE("statements beside each other get lines of their own") {
+    CHECK(format_text("#n=1;#w:F;/* c */#p:F:*:F;") ==
+          "#n = 1;\n#w : F;  /* c */\n#p : F : * : F;\n");
+    CHECK(format_text("/* c */#n=1;#w:F;") == "/* c */ #n = 1;\n#w : F;\n");
+}
+
+TEST_CASE("a comment keeps its distance from what could change it") {
+    CHECK(format_text("#w:F/ /*c*/ /A(2/ /*c*/ /**/3);") == "#w : F/ /*c*/ /A(2/ /*c*/ /**/ 3);\n");
+    CHECK(format_text("#w:F(/*c*/1/*d*/)/*e*/;") == "#w : F(/*c*/ 1 /*d*/) /*e*/;\n");
+}
+
+TEST_CASE("a file keeps its line ends") {
+    const std::string text = "// a \r\n\r\n\r\n#n=1;\r\n/* b\r\n c */\r\n#w:F\r\n[A];";
+    const std::string lines = "// a\r\n\r\n#n = 1;\r\n/* b\r\n c */\r\n#w : F\r\n    [A];\r\n";
+    CHECK(format_text(text) == lines);
+    CHECK(format_text(lines) == lines);
+    // Of mixed ones the more frequent; a lone carriage return is none.
+    CHECK(format_text("#n=1;\r\n\n\n#w:F; // a\rb\n") == "#n = 1;\n\n#w : F;  // a\rb\n");
+    CHECK(format_text("#n=1;\r\n#w:F;\r\n#p:F:*:F;\n") ==
+          "#n = 1;\r\n#w : F;\r\n#p : F : * : F;\r\n");
+    CHECK(format_text("") == "");
+    CHECK(format_text("\n\n") == "");
+}
+
 TEST_CASE("comments and single blank lines stay") {
     const std::string text =
         "// top\n\n\n\n#n = 3; // here\n/* own */\n#w : /* in */ F; /* after */\n"
@@ -37,6 +66,16 @@ TEST_CASE("comments and single blank lines stay") {
         "/* before */ #p : F : * : F /*x*/ (1);\n";
     CHECK(format_text(text) == expected);
     CHECK(format_text(expected) == expected);
+}
+
+TEST_CASE("columns stand where the widest sensible cell ends") {
+    const std::string wide(24, 'B');
+    CHECK(format_text("#p:A:*:F;\n#q:A" + wide + ":*:F;\n") ==
+          "#p : A" + std::string(24, ' ') + " : * : F;\n#q : A" + wide + " : * : F;\n");
+    CHECK(format_text("#p:A:*:F;\n#q:AB" + wide + ":*:F;\n") ==
+          "#p : A : * : F;\n#q : AB" + wide + " : * : F;\n");
+    CHECK(format_text("#n=1; // a\n#w:A" + wide + wide + "; // b\n") ==
+          "#n = 1;  // a\n#w : A" + wide + wide + ";  // b\n");
 }
 
 TEST_CASE("long statements are broken at blanks, and formatting again changes nothing") {

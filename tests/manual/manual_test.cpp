@@ -77,6 +77,9 @@ TEST_CASE("the examples of the language manual print what it says") {
         if (example.has_output) {
             CHECK(out.str() == example.output);
         }
+        // Laid out as `lsc fmt` does it.
+        arguments = {"fmt", "--check", grammar.string()};
+        CHECK(lsys::lsc::run(arguments, {in, out, err}) == 0);
     }
     std::filesystem::remove(grammar);
 }

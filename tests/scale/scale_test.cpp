@@ -187,6 +187,19 @@ std::map<std::string, Case> cases() {
                         2,
                         "no space left",
                         "/dev/full"};
+    const std::vector<std::string> format{"fmt", "--check", "%"};
+    const std::string unlike = "not formatted";
+    all["format-arguments-100mb"] = {repeated(head + "#w : ", "F(1)", 25'000'000, ";"), format, 1,
+                                     unlike};
+    all["format-statements-100mb"] = {
+        repeated(head + "#w : F;\n", "#ignore:+ -;// c\n", 5'800'000, ""), format, 1, unlike};
+    all["format-brackets"] = {
+        repeated(head, "#p : F : * : " + std::string(5000, '[') + std::string(5000, ']') + ";\n",
+                 100, ""),
+        format, 1, unlike};
+    all["format-condition-10mb"] = {
+        repeated(head + "#w : F;\n#p : F(x) : x > 1", "&& x > 2 ", 1'100'000, ": F(x);"), format, 1,
+        unlike};
     all["nested-word"] = {
         repeated("#n = 5000;\n#w : A;\n#p : A : * : [A];\n#q : F < A : * : A;\n", " ", 1, ""),
         {"dump", "--count", "%"},

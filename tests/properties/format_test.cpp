@@ -1,0 +1,197 @@
+// What must hold for the layout of every grammar: the samples and random grammars, as they are and
+// with their layout destroyed. Formatting again changes nothing, and what is parsed is the same.
+#include "grammar/ast_dump.h"
+#include "grammar/format.h"
+#include "grammar/formatting/lexemes.h"
+#include "grammar/parse.h"
+#include "tests/reference/generate.h"
+#include "tests/reference/print.h"
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace lsys;
+
+/// The tree as text, without the places of its statements; nothing if the text has errors.
+std::optional<std::string> tree_of(const std::string& text) {
+    SourceMap sources;
+    Names names;
+    Diagnostics diagnostics;
+    const FileLoader nothing = [](const std::string&) -> Result<std::string> {
+        return std::string();
+    };
+    const FileId file = sources.add("grammar.lsys", text);
+    const Ast ast = parse_lsys(file, {sources, names, diagnostics, nothing});
+    if (diagnostics.count(Severity::Error) != 0) {
+        return std::nullopt;
+    }
+    std::istringstream lines(dump_ast(ast, names, sources));
+    std::string tree;
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t place = line.find_first_not_of(" 0123456789:");
+        tree += line.starts_with("  ") && place != line.npos ? line.substr(place) : line;
+        tree += '\n';
+    }
+    return tree;
+}
+
+std::vector<std::string> comments_of(const std::string& text) {
+    std::vector<std::string> comments;
+    for (const Lexeme& lexeme : lexemes_of(text)) {
+        if (is_comment(lexeme)) {
+            comments.emplace_back(lexeme.text);
+        }
+    }
+    return comments;
+}
+
+/// An author who does not care: chooses what stands between two tokens.
+class Vandal {
+public:
+    enum class Manner { Blanks, Lines, Mixed };
+
+    Vandal(Manner manner, std::uint64_t seed) : manner_(manner), state_(seed * 2 + 1) {}
+
+    /// `repeats`: how often the modules of every production are written.
+    std::string run(const std::string& text, int repeats) {
+        std::string out;
+        std::vector<Lexeme> statement;
+        for (const Lexeme& lexeme : lexemes_of(text)) {
+            statement.push_back(lexeme);
+            if (lexeme.kind == LexemeKind::Semicolon || is_between(lexeme, statement)) {
+                write(statement, repeats, out);
+                statement.clear();
+            }
+        }
+        return out;
+    }
+
+private:
+    static bool is_between(const Lexeme& lexeme, const std::vector<Lexeme>& statement) {
+        return statement.size() == 1 && is_comment(lexeme);
+    }
+
+    void write(const std::vector<Lexeme>& statement, int repeats, std::string& out) {
+        std::size_t list = statement.size(); // the first token after the last of three colons
+        int colons = 0;
+        int depth = 0;
+        for (std::size_t i = 0; i < statement.size() && colons < 3; ++i) {
+            depth += statement[i].kind == LexemeKind::Left ? 1 : 0;
+            depth -= statement[i].kind == LexemeKind::Right ? 1 : 0;
+            if (statement[i].kind == LexemeKind::Colon && depth == 0 && ++colons == 3) {
+                list = i + 1;
+            }
+        }
+        for (std::size_t i = 0; i < list; ++i) {
+            put(statement[i], out);
+        }
+        for (int again = 0; again < repeats; ++again) {
+            for (std::size_t i = list; i + 1 < statement.size(); ++i) {
+                put(statement[i], out);
+            }
+        }
+        if (list < statement.size()) {
+            put(statement.back(), out);
+        }
+    }
+
+    void put(const Lexeme& lexeme, std::string& out) {
+        out += lexeme.text;
+        if (lexeme.kind == LexemeKind::LineComment) {
+            out += '\n';
+            return;
+        }
+        switch (manner_) {
+        case Manner::Blanks:
+            out += ' ';
+            break;
+        case Manner::Lines:
+            out += '\n';
+            break;
+        case Manner::Mixed:
+            static const char* const gaps[] = {" ",    " ",       "\n",          "   ",
+                                               "\t",   " \n\n\n", " /* c */ ",   "\r\n",
+                                               "\n\n", " ",       "/* a\n b */", " "};
+            state_ = state_ * 6364136223846793005U + 1442695040888963407U;
+            out += gaps[(state_ >> 33) % std::size(gaps)];
+            break;
+        }
+    }
+
+    Manner manner_;
+    std::uint64_t state_;
+};
+
+/// Empty if all is well.
+std::string mistake_in_layout_of(const std::string& text) {
+    const std::optional<std::string> before = tree_of(text);
+    if (!before) {
+        return "the text has errors";
+    }
+    const std::string once = format_text(text);
+    if (tree_of(once) != before) {
+        return "the tree has changed:\n" + once;
+    }
+    if (comments_of(once).size() != comments_of(text).size()) {
+        return "a comment is lost:\n" + once;
+    }
+    const std::string twice = format_text(once);
+    if (twice != once) {
+        return "formatting again changes it:\n" + once + "----\n" + twice;
+    }
+    return {};
+}
+
+std::size_t check_layouts_of(std::string text, std::uint64_t seed) {
+    if (text.starts_with("\xEF\xBB\xBF")) {
+        text.erase(0, 3); // no part of the text
+    }
+    std::size_t tried = 0;
+    const auto check = [&](const std::string& layout) {
+        const std::string mistake = mistake_in_layout_of(layout);
+        if (!mistake.empty()) {
+            FAIL_CHECK(mistake << "\n---- of\n" << layout);
+        }
+        ++tried;
+    };
+    check(text);
+    using Manner = Vandal::Manner;
+    for (const Manner manner : {Manner::Blanks, Manner::Lines, Manner::Mixed}) {
+        for (const int repeats : {1, 2, 9}) {
+            check(Vandal(manner, seed).run(text, repeats));
+        }
+    }
+    return tried;
+}
+
+} // namespace
+
+TEST_CASE("the layout of every sample means the same and stays") {
+    std::size_t tried = 0;
+    for (const tests::Sample& sample : tests::all_samples()) {
+        INFO(sample.file);
+        tried += check_layouts_of(tests::read_text(sample.file), tried);
+    }
+    CHECK(tried > 400);
+}
+
+TEST_CASE("the layout of random grammars means the same and stays") {
+    std::size_t tried = 0;
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+        INFO("seed " << seed);
+        const reference::Case made = reference::generate(seed);
+        for (const reference::TextFile& file :
+             reference::print_grammar(made.grammar, made.layout_seed)) {
+            tried += check_layouts_of(file.text, seed);
+        }
+    }
+    CHECK(tried >= 3000);
+}
