@@ -3,7 +3,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -55,4 +57,19 @@ TEST_CASE("samples have as many modules as they say") {
         CHECK(run.out == sample.counts);
     }
     CHECK(counted > 40);
+}
+
+TEST_CASE("samples and their parts are laid out as lsc fmt does") {
+    std::vector<std::string> command{"fmt", "--check"};
+    for (const Sample& sample : all_samples()) {
+        for (const auto& entry : std::filesystem::directory_iterator(sample.file.parent_path())) {
+            if (entry.path().extension() == ".lsys") {
+                command.push_back(entry.path().string());
+            }
+        }
+    }
+    REQUIRE(command.size() > 60);
+    const LscRun run = run_lsc(command, "");
+    CHECK(run.err == "");
+    CHECK(run.status == 0);
 }
