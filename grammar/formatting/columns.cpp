@@ -71,6 +71,7 @@ Row measure(std::string_view text, std::size_t begin, std::uint32_t column) {
     bool in_head = true;
     bool has_modules = false;
     bool in_first_module = false;
+    bool has_outer_place = false; // on the first line, to break it outside of branches
     // What follows the first line, or is too far right on it, is not asked for.
     const auto is_measured = [&] {
         return has_modules && !in_first_module && (!in_first_line || now > kColumns);
@@ -92,6 +93,9 @@ Row measure(std::string_view text, std::size_t begin, std::uint32_t column) {
             in_first_module = false;
         }
         in_first_line = in_first_line && !piece.own_line;
+        has_outer_place =
+            has_outer_place || (piece.in_list && !in_first_module && piece.depth == 0 &&
+                                piece.break_class == BreakClass::Fine && now <= kColumns);
         const std::uint32_t width = piece.width + (piece.blank ? 1U : 0U);
         now += width;
         row.first_module += in_first_module ? width : 0;
@@ -101,7 +105,7 @@ Row measure(std::string_view text, std::size_t begin, std::uint32_t column) {
     }
     row.several_lines = reader.skip_rest() || row.several_lines;
     const bool too_long = row.head + row.first_module > kColumns ||
-                          (row.head > kLongHead && row.first_line > kColumns);
+                          (row.first_line > kColumns && (row.head > kLongHead || !has_outer_place));
     row.list_below = row.list_below || (has_modules && too_long);
     row.end = static_cast<std::uint32_t>(reader.offset());
     row.comments_end = row.end;
