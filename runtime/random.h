@@ -4,28 +4,31 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace lsys {
 
 using PhiloxBlock = std::array<std::uint32_t, 4>;
 
+inline constexpr int kPhiloxRounds = 10;
+inline constexpr std::uint64_t kPhiloxMultiplier0 = 0xD2511F53; // figure 2 of the paper
+inline constexpr std::uint64_t kPhiloxMultiplier1 = 0xCD9E8D57;
+inline constexpr std::uint32_t kPhiloxWeyl0 = 0x9E3779B9;
+inline constexpr std::uint32_t kPhiloxWeyl1 = 0xBB67AE85;
+
 /// Ten rounds of Philox4x32.
 [[nodiscard]] constexpr PhiloxBlock philox4x32(PhiloxBlock counter,
                                                std::array<std::uint32_t, 2> key) {
-    constexpr std::uint64_t kMultiplier0 = 0xD2511F53; // figure 2 of the paper
-    constexpr std::uint64_t kMultiplier1 = 0xCD9E8D57;
-    constexpr std::uint32_t kWeyl0 = 0x9E3779B9;
-    constexpr std::uint32_t kWeyl1 = 0xBB67AE85;
-    for (int round = 0; round < 10; ++round) {
-        const std::uint64_t product0 = kMultiplier0 * counter[0];
-        const std::uint64_t product1 = kMultiplier1 * counter[2];
+    for (int round = 0; round < kPhiloxRounds; ++round) {
+        const std::uint64_t product0 = kPhiloxMultiplier0 * counter[0];
+        const std::uint64_t product1 = kPhiloxMultiplier1 * counter[2];
         counter = {static_cast<std::uint32_t>(product1 >> 32) ^ counter[1] ^ key[0],
                    static_cast<std::uint32_t>(product1),
                    static_cast<std::uint32_t>(product0 >> 32) ^ counter[3] ^ key[1],
                    static_cast<std::uint32_t>(product0)};
-        key[0] += kWeyl0;
-        key[1] += kWeyl1;
+        key[0] += kPhiloxWeyl0;
+        key[1] += kPhiloxWeyl1;
     }
     return counter;
 }
@@ -47,6 +50,22 @@ inline constexpr std::uint32_t kStartGeneration = 0xFFFFFFFFu;
                        static_cast<std::uint32_t>(position >> 32), generation, block},
                       {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
 }
+
+/// Where the draws of many positions are the same: of which seed, generation and block, and which
+/// of the block's four words.
+struct DrawKey {
+    std::uint64_t seed = 0;
+    std::uint32_t generation = 0;
+    std::uint32_t block = 0;
+    std::uint32_t word = 0;
+};
+
+/// The draws at `count` positions, as u in [0, 1): several at a time where the machine can, the
+/// same numbers on any.
+void draw_units(const DrawKey& key,
+                const std::uint64_t* positions,
+                std::size_t count,
+                float* units);
 
 /// The draws of one rewritten module.
 class DrawSource {

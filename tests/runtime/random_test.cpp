@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 using lsys::draw_in_range;
 using lsys::DrawSource;
@@ -33,7 +34,26 @@ TEST_CASE("a draw is named by seed, generation, position and number") {
     CHECK(source.draw(2) == unit_interval(block[2]));
 }
 
-TEST_CASE("u lies in [0, 1) and has 24 bits") {
+TEST_CASE("many positions draw at once what each draws alone") {
+    for (std::uint32_t word = 0; word < 4; ++word) {
+        const lsys::DrawKey key{0x0123456789ABCDEF, 7, 5, word};
+        for (std::size_t count = 0; count <= 33; ++count) {
+            std::vector<std::uint64_t> positions;
+            for (std::size_t i = 0; i < count; ++i) {
+                positions.push_back((std::uint64_t{i} << 31) + 0xFFFFFFF0 + i * i);
+            }
+            std::vector<float> units(count + 1, 2.0F);
+            lsys::draw_units(key, positions.data(), count, units.data());
+            for (std::size_t i = 0; i < count; ++i) {
+                const PhiloxBlock block = lsys::draw_block(key.seed, 7, positions[i], 5);
+                CHECK(units[i] == unit_interval(block[word]));
+            }
+            CHECK(units[count] == 2.0F);
+        }
+    }
+}
+
+TEST_CASE("u lies from 0 to below 1 and has 24 bits") {
     CHECK(unit_interval(0) == 0.0F);
     CHECK(unit_interval(0xFF) == 0.0F);
     CHECK(unit_interval(0x100) == 0x1p-24F);
