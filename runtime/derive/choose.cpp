@@ -40,7 +40,7 @@ template <typename C>
 bool Chooser<C>::choose(const ModulePlace& place, const Row& row, std::uint32_t& record) {
     record = 0;
     if (row.kind == RowKind::Choice) {
-        record = choose_by_chance(place.index, row);
+        record = choose_by_chance(module_draw(place.index), row);
         return true;
     }
     if (row.kind == RowKind::Tests) {

@@ -34,11 +34,20 @@ public:
     /// rewrites it. False: a condition has no finite value, fault() tells.
     [[nodiscard]] bool choose(const ModulePlace& place, const Row& row, std::uint32_t& record);
 
-    /// The same for a Choice row and for a Tests row, which cannot fail.
-    [[nodiscard]] std::uint32_t choose_by_chance(std::uint64_t index, const Row& row) const {
+    /// The draw of a Choice row's module, and at once those of `count` modules at `positions`.
+    [[nodiscard]] float module_draw(std::uint64_t index) const {
+        const std::uint64_t position = word_.first_position + index;
+        const DrawKey key = choice_key();
+        const PhiloxBlock block = draw_block(key.seed, key.generation, position, key.block);
+        return unit_interval(block[key.word]);
+    }
+    void module_draws(const std::uint64_t* positions, std::size_t count, float* units) const {
+        draw_units(choice_key(), positions, count, units);
+    }
+    /// The same for a Choice row, with its draw, and for a Tests row, which cannot fail.
+    [[nodiscard]] std::uint32_t choose_by_chance(float u, const Row& row) const {
         const Choice& choice = plan_.choice(row.source);
         const float* const thresholds = plan_.thresholds(choice).data();
-        const float u = module_draw(index);
         std::uint32_t taken = 0;
         for (std::uint32_t i = 0; i + 1 < choice.count; ++i) {
             taken += thresholds[i] > u ? 0U : 1U; // they ascend
@@ -84,11 +93,9 @@ private:
                                     std::uint32_t first,
                                     const ModulePlace& place,
                                     std::uint32_t& record);
-    [[nodiscard]] float module_draw(std::uint64_t index) const {
-        const PhiloxBlock block =
-            draw_block(keys_.seed, keys_.generation, word_.first_position + index,
-                       static_cast<std::uint32_t>(keys_.first_draw / 4));
-        return unit_interval(block[keys_.first_draw % 4]);
+    [[nodiscard]] DrawKey choice_key() const {
+        return {keys_.seed, keys_.generation, static_cast<std::uint32_t>(keys_.first_draw / 4),
+                static_cast<std::uint32_t>(keys_.first_draw % 4)};
     }
 
     const Plan& plan_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "runtime/derive/choose.h"
+#include "runtime/derive/marks.h"
 
 #include <cstdint>
 
@@ -23,8 +24,7 @@ struct CountResult {
     ModulePlace end;
     std::uint64_t modules = 0;
     std::uint64_t parameters = 0;
-    std::uint64_t copies = 0; // modules that are surely copied
-    bool fault = false;       // a condition of the module at `end` has no finite value
+    bool fault = false; // a condition of the module at `end` has no finite value
 };
 
 /// Writes a record (R: uint8_t or uint32_t, as Plan::record_width says) for each module whose row
@@ -35,5 +35,16 @@ template <typename C, typename R>
                                         const WordView<C>& word,
                                         const CountRequest& request,
                                         R* records);
+
+/// The same for all modules from `begin` to `end` by their marks, which leave out what is surely
+/// copied: a record for each marked module whose row is not Fixed.
+template <typename C, typename R>
+[[nodiscard]] CountResult count_marked(const Plan& plan,
+                                       Chooser<C>& chooser,
+                                       const Marks& marks,
+                                       const WordView<C>& word,
+                                       ModulePlace begin,
+                                       std::uint64_t end,
+                                       R* records);
 
 } // namespace lsys

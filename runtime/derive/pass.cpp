@@ -6,6 +6,7 @@
 #include "runtime/derive/write.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 #include <span>
@@ -28,10 +29,10 @@ std::uint64_t saturating_multiply(std::uint64_t a, std::uint64_t b) {
     return b != 0 && a > kMax / b ? kMax : a * b;
 }
 
-/// Whether moving blocks pays: 7 of 8 modules are copied.
-bool mostly(std::uint64_t copies, std::uint64_t modules) {
-    return copies >= modules - modules / 8;
-}
+/// Marks pay where this part of the modules or less is marked: of a word of which every module has
+/// one successor, and of one where each is chosen or tested, which costs more.
+constexpr std::uint64_t kMarkedOfFixed = 8;
+constexpr std::uint64_t kMarkedOfDynamic = 2;
 
 template <typename C>
 WordView<C> view(const Word& word) {
@@ -124,8 +125,8 @@ DeriveStatus Passes::run_recorded(const Word& in, Word& out, const PassKeys& key
     parameters_ = 0;
     const bool dynamic = !plan_.all_fixed();
     const std::uint64_t record_bytes = dynamic ? word.count * sizeof(R) : 0;
-    const bool contexts = dynamic && plan_.needs_contexts();
-    const std::uint64_t tables = contexts ? contexts_.held_bytes_after(in) : 0;
+    const bool searches = dynamic && plan_.needs_contexts();
+    const std::uint64_t tables = searches ? contexts_.held_bytes_after(in) : 0;
     const std::uint64_t before =
         other_bytes_ + in.held_bytes() + out.held_bytes() + saturating_add(record_bytes, tables);
     if (before > options_.limits.max_bytes) {
@@ -136,10 +137,11 @@ DeriveStatus Passes::run_recorded(const Word& in, Word& out, const PassKeys& key
         return DeriveStatus::Limit;
     }
     if (!records_.reserve(record_bytes + sizeof(R)) ||
-        (contexts && !contexts_.prepare(plan_, in))) {
+        (searches && !contexts_.prepare(plan_, in))) {
         return no_memory(in, before);
     }
     cut(word);
+    marks_.prepare(plan_, contexts());
 
     const bool by_census = !dynamic && (workers_.count() == 1 || chunks_.size() <= 1) &&
                            plan_.rows().size() <= kCensusCodes;
@@ -154,7 +156,7 @@ DeriveStatus Passes::run_recorded(const Word& in, Word& out, const PassKeys& key
     }
     DeriveStatus status = check_limits(in, out, keys);
     if (status == DeriveStatus::Limit) {
-        limit_.production = dominant_production<C, R>(word);
+        limit_.production = dominant_production(word, keys);
     }
     if (status != DeriveStatus::Ok) {
         return status;
@@ -201,6 +203,20 @@ void Passes::cut(const WordView<C>& word) {
     }
 }
 
+/// Judged by how the chunk begins.
+template <typename C>
+bool Passes::marks_pay(const WordView<C>& word, const Chunk& chunk) const {
+    if (!marks_.usable()) {
+        return false;
+    }
+    std::array<MarkBits, Marks::kModules / Marks::kBlock> bits; // NOLINT: written by fill()
+    const std::uint64_t count =
+        std::min<std::uint64_t>(chunk.end - chunk.begin.index, Marks::kModules);
+    const std::uint64_t part = plan_.all_fixed() ? kMarkedOfFixed : kMarkedOfDynamic;
+    return marks_.fill(word.codes, word.count, chunk.begin.index, count, bits.data()) <=
+           count / part;
+}
+
 template <typename C, typename R>
 DeriveStatus Passes::count(const WordView<C>& word, const PassKeys& keys) {
     // A match of several modules may reach into the next chunk, which then begins after it.
@@ -210,15 +226,15 @@ DeriveStatus Passes::count(const WordView<C>& word, const PassKeys& keys) {
             return;
         }
         Chunk& chunk = chunks_[index];
-        Chooser<C> chooser(plan_, keys, word, plan_.needs_contexts() ? &contexts_ : nullptr);
-        CountRequest request;
-        request.begin = chunk.begin;
-        request.end = chunk.end;
+        Chooser<C> chooser(plan_, keys, word, contexts());
+        R* const records = records_at<R>(chunk.begin.index);
+        chunk.marked = marks_pay(word, chunk);
         const CountResult result =
-            count_modules(plan_, chooser, word, request, records_at<R>(chunk.begin.index));
+            chunk.marked
+                ? count_marked(plan_, chooser, marks_, word, chunk.begin, chunk.end, records)
+                : count_modules(plan_, chooser, word, {chunk.begin, chunk.end}, records);
         chunk.modules = result.modules;
         chunk.parameters = result.parameters;
-        chunk.mostly_copies = mostly(result.copies, chunk.end - chunk.begin.index);
         chunk.fault = result.fault;
         chunk.fault_index = result.end.index;
         chunk.end = result.end.index;
@@ -264,12 +280,13 @@ DeriveStatus Passes::write(const WordView<C>& word, Word& out, const PassKeys& k
     next.codes = codes;
     next.parameters = parameters;
     const bool by_census = census_known_;
-    std::uint64_t census_copies = 0;
+    std::uint64_t rewritten = 0; // by census
     if (by_census) {
         for (Code code = 0; code < census_.size(); ++code) {
-            census_copies += plan_.row(code).copies ? census_[code] : 0;
+            rewritten += plan_.row(code).copies ? 0 : census_[code];
         }
     }
+    const bool census_marked = marks_.usable() && rewritten <= word.count / kMarkedOfFixed;
     const auto write_chunk = [&](std::uint64_t index) {
         if (cancelled()) {
             return;
@@ -279,7 +296,7 @@ DeriveStatus Passes::write(const WordView<C>& word, Word& out, const PassKeys& k
         request.begin = chunk.begin;
         request.codes = codes + chunk.out_module;
         request.parameters = parameters + chunk.out_parameter;
-        request.mostly_copies = chunk.mostly_copies;
+        request.marks = chunk.marked ? &marks_ : nullptr;
         request.writes_parameters = chunk.parameters != 0;
         const bool last = index + 1 == chunks_.size();
         request.codes_limit = in_order || last ? codes_end : request.codes + chunk.modules;
@@ -289,13 +306,13 @@ DeriveStatus Passes::write(const WordView<C>& word, Word& out, const PassKeys& k
             request.begin = next.begin;
             request.codes = next.codes;
             request.parameters = next.parameters;
-            request.mostly_copies = mostly(census_copies, word.count);
+            request.marks = census_marked ? &marks_ : nullptr;
             request.writes_parameters = parameters_ != 0;
         }
         request.end = chunk.end;
         const C* const begin = request.codes;
         chunk.begin = request.begin;
-        Matcher<C> matcher(plan_, word, plan_.needs_contexts() ? &contexts_ : nullptr);
+        Matcher<C> matcher(plan_, word, contexts());
         chunk.fault = !write_modules(plan_, keys, matcher, word, request,
                                      static_cast<const R*>(records_at<R>(chunk.begin.index)));
         if (in_order) {
@@ -326,8 +343,7 @@ DeriveStatus Passes::report_fault(const WordView<C>& word,
                                   const PassKeys& keys,
                                   ModulePlace begin,
                                   std::uint64_t end) {
-    const ContextTables* const contexts = plan_.needs_contexts() ? &contexts_ : nullptr;
-    std::optional<RuntimeError> error = find_fault(plan_, keys, word, contexts, begin, end);
+    std::optional<RuntimeError> error = find_fault(plan_, keys, word, contexts(), begin, end);
     LSYS_CHECK(error.has_value(), begin.index, end);
     error_ = std::move(*error);
     return DeriveStatus::Error;
@@ -351,21 +367,25 @@ DeriveStatus Passes::check_limits(const Word& in, const Word& out, const PassKey
 }
 
 /// The production whose applications make the word longer by most modules.
-template <typename C, typename R>
-std::uint32_t Passes::dominant_production(const WordView<C>& word) const {
+template <typename C>
+std::uint32_t Passes::dominant_production(const WordView<C>& word, const PassKeys& keys) const {
     std::vector<std::uint64_t> uses(plan_.entries().size(), 0);
     if (census_known_) {
         std::copy(census_.begin(), census_.end(), uses.begin());
     } else {
-        const R* const all = reinterpret_cast<const R*>(records_.data());
-        for (const Chunk& chunk : chunks_) {
-            const R* records = all + chunk.begin.index;
-            for (std::uint64_t i = chunk.begin.index; i < chunk.end; ++i) {
-                const C code = word.codes[i];
-                const Row& row = plan_.row(code);
-                const std::uint32_t record = row.kind == RowKind::Fixed ? 0 : *records++;
-                ++uses[record == 0 ? code : row.base + record];
-                i += record != 0 ? plan_.predecessor_count() - 1 : 0;
+        Chooser<C> chooser(plan_, keys, word, contexts());
+        for (ModulePlace place; place.index < word.count;) {
+            const C code = word.codes[place.index];
+            const Row& row = plan_.row(code);
+            std::uint32_t record = 0;
+            if (row.kind != RowKind::Fixed) {
+                const bool counted = chooser.choose(place, row, record);
+                LSYS_CHECK(counted, place.index); // or the pass had ended before
+            }
+            ++uses[record == 0 ? code : row.base + record];
+            const std::uint32_t modules = record == 0 ? 1 : plan_.predecessor_count();
+            for (std::uint32_t i = 0; i < modules; ++i, ++place.index) {
+                place.parameter += plan_.row(word.codes[place.index]).stored;
             }
         }
     }

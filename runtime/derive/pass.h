@@ -6,6 +6,7 @@
 #include "runtime/derive.h"
 #include "runtime/derive/choose.h"
 #include "runtime/derive/contexts.h"
+#include "runtime/derive/marks.h"
 #include "runtime/derive/match.h"
 #include "runtime/derive/plan.h"
 #include "runtime/derive/workers.h"
@@ -44,7 +45,7 @@ private:
         std::uint64_t parameters = 0;
         std::uint64_t out_module = 0;
         std::uint64_t out_parameter = 0;
-        bool mostly_copies = false;
+        bool marked = false; // counted, and to be written, by its marks
         bool fault = false;
         std::uint64_t fault_index = 0;
     };
@@ -55,6 +56,8 @@ private:
     [[nodiscard]] DeriveStatus run_recorded(const Word& in, Word& out, const PassKeys& keys);
     template <typename C>
     void cut(const WordView<C>& word);
+    template <typename C>
+    [[nodiscard]] bool marks_pay(const WordView<C>& word, const Chunk& chunk) const;
     template <typename C, typename R>
     [[nodiscard]] DeriveStatus count(const WordView<C>& word, const PassKeys& keys);
     template <typename C, typename R>
@@ -63,8 +66,12 @@ private:
     void take_census(const WordView<C>& word);
     void advance_census();
     [[nodiscard]] DeriveStatus check_limits(const Word& in, const Word& out, const PassKeys& keys);
-    template <typename C, typename R>
-    [[nodiscard]] std::uint32_t dominant_production(const WordView<C>& word) const;
+    template <typename C>
+    [[nodiscard]] std::uint32_t dominant_production(const WordView<C>& word,
+                                                    const PassKeys& keys) const;
+    [[nodiscard]] const ContextTables* contexts() const {
+        return plan_.needs_contexts() ? &contexts_ : nullptr;
+    }
     template <typename C>
     [[nodiscard]] DeriveStatus report_fault(const WordView<C>& word,
                                             const PassKeys& keys,
@@ -82,6 +89,7 @@ private:
     const DeriveOptions& options_;
     Workers workers_;
     ContextTables contexts_;
+    Marks marks_;
     std::vector<Chunk> chunks_;
     Arena records_;                     // of module i at place i or before, within its chunk
     std::vector<std::uint64_t> census_; // modules of each code in the word

@@ -1,6 +1,7 @@
 #include "runtime/derive/write.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstring>
@@ -47,14 +48,12 @@ public:
         bool fine = true;
         if (plan_.predecessor_count() > 1) {
             fine = run_exactly(request_.end);
-        } else if (request_.mostly_copies) {
-            fine = run_blocks();
         } else if (!plan_.has_parameters() || !request_.writes_parameters) {
-            fine = run_wide<LaneInputs::None>();
+            fine = run_with<LaneInputs::None>();
         } else if (!plan_.mixes_inputs()) {
-            fine = run_wide<LaneInputs::First>();
+            fine = run_with<LaneInputs::First>();
         } else {
-            fine = run_wide<LaneInputs::Any>();
+            fine = run_with<LaneInputs::Any>();
         }
         const float* const written = std::exchange(request_.parameters, parameters_);
         request_.begin = place_;
@@ -63,6 +62,11 @@ public:
     }
 
 private:
+    template <LaneInputs kInputs>
+    bool run_with() {
+        return request_.marks != nullptr ? run_marked<kInputs>() : run_wide<kInputs>();
+    }
+
     template <LaneInputs kInputs>
     bool run_wide() {
         if (plan_.all_fixed()) {
@@ -94,6 +98,24 @@ private:
             }
         }
         return true;
+    }
+
+    /// The first four parameters of an entry, as one store.
+    template <LaneInputs kInputs>
+    static void store_lanes(const Entry& entry, const float* own, float* out) {
+        Float4 scale;
+        Float4 offset;
+        std::memcpy(&scale, entry.scale.data(), sizeof scale);
+        std::memcpy(&offset, entry.offset.data(), sizeof offset);
+        Float4 input;
+        if constexpr (kInputs == LaneInputs::First) {
+            input = Float4{own[0], own[0], own[0], own[0]};
+        } else {
+            input = Float4{own[entry.input[0]], own[entry.input[1]], own[entry.input[2]],
+                           own[entry.input[3]]};
+        }
+        const Float4 values = input * scale + offset;
+        std::memcpy(out, &values, sizeof values);
     }
 
     /// Up to `batch` modules; returns how many, which are fewer if a special one comes next.
@@ -131,19 +153,7 @@ private:
             std::memcpy(codes, pool + entry->first_code, kBytes);
             codes += entry->code_count;
             if constexpr (kInputs != LaneInputs::None) {
-                Float4 scale;
-                Float4 offset;
-                std::memcpy(&scale, entry->scale.data(), sizeof scale);
-                std::memcpy(&offset, entry->offset.data(), sizeof offset);
-                Float4 input;
-                if constexpr (kInputs == LaneInputs::First) {
-                    input = Float4{own[0], own[0], own[0], own[0]};
-                } else {
-                    input = Float4{own[entry->input[0]], own[entry->input[1]], own[entry->input[2]],
-                                   own[entry->input[3]]};
-                }
-                const Float4 values = input * scale + offset;
-                std::memcpy(parameters, &values, sizeof values);
+                store_lanes<kInputs>(*entry, own, parameters);
                 parameters += entry->parameter_count;
                 own += row->stored;
             }
@@ -157,29 +167,111 @@ private:
         return done;
     }
 
-    /// Runs of modules that are copied are moved as blocks, the others written exactly.
-    bool run_blocks() {
+    template <LaneInputs kInputs>
+    bool run_marked() {
+        constexpr std::size_t kBlock = Marks::kBlock;
+        const Marks& marks = *request_.marks;
+        std::array<MarkBits, Marks::kModules / kBlock> bits; // NOLINT: filled before it is read
         while (place_.index < request_.end) {
-            const C* const begin = word_.codes + place_.index;
-            const C* const end = word_.codes + request_.end;
-            const C* in = begin;
-            std::uint64_t stored = 0;
-            while (in != end && rows_[*in].copies) {
-                stored += rows_[*in].stored;
-                ++in;
-            }
-            const auto count = static_cast<std::uint64_t>(in - begin);
-            codes_ = std::copy(begin, in, codes_);
-            const float* const own = word_.parameters + place_.parameter;
-            parameters_ = std::copy(own, own + stored, parameters_);
-            place_.index += count;
-            place_.parameter += stored;
-            while (place_.index < request_.end && !rows_[word_.codes[place_.index]].copies) {
-                if (!run_exactly(place_.index + 1)) {
+            const std::uint64_t begin = place_.index;
+            const auto count = static_cast<std::size_t>(
+                std::min<std::uint64_t>(request_.end - begin, Marks::kModules));
+            marks.fill(word_.codes, word_.count, begin, count, bits.data());
+            for (std::size_t first = 0; first < count; first += kBlock) {
+                const auto size = static_cast<unsigned>(std::min(count - first, kBlock));
+                if (!write_block<kInputs>(marks, bits[first / kBlock], size)) {
                     return false;
                 }
             }
         }
+        return true;
+    }
+
+    /// The next `size` modules, of 64 or the last: what stands between two that are marked is moved
+    /// by one copy of 64.
+    template <LaneInputs kInputs>
+    bool write_block(const Marks& marks, MarkBits bits, unsigned size) {
+        constexpr std::size_t kBlock = Marks::kBlock;
+        const C* const in = word_.codes + place_.index;
+        const std::uint64_t begin = place_.index;
+        unsigned from = 0;
+        while (true) {
+            const unsigned to =
+                bits.active == 0 ? size : static_cast<unsigned>(std::countr_zero(bits.active));
+            const unsigned run = to - from;
+            const bool code_room =
+                static_cast<std::size_t>(request_.codes_limit - codes_) >= kBlock;
+            if (code_room) {
+                std::memcpy(codes_, in + from, kBlock * sizeof(C));
+            } else {
+                std::copy_n(in + from, run, codes_);
+            }
+            codes_ += run;
+            if constexpr (kInputs != LaneInputs::None) {
+                const std::uint64_t before =
+                    to == kBlock ? ~std::uint64_t{0} : (std::uint64_t{1} << to) - 1;
+                const std::uint64_t stored = marks.stored(in, bits.stores & before);
+                bits.stores &= ~before;
+                copy_parameters(stored);
+            }
+            if (bits.active == 0) {
+                break;
+            }
+            bits.active &= bits.active - 1;
+            place_.index = begin + to;
+            if (!write_marked<kInputs>(in[to])) {
+                return false;
+            }
+            bits.stores &= ~(std::uint64_t{1} << to);
+            from = to + 1;
+        }
+        place_.index = begin + size;
+        return true;
+    }
+
+    void copy_parameters(std::uint64_t count) {
+        const float* const own = word_.parameters + place_.parameter;
+        if (static_cast<std::uint64_t>(request_.parameters_limit - parameters_) >=
+            count + kEntryLanes) {
+            for (std::uint64_t i = 0; i < count; i += kEntryLanes) {
+                std::memcpy(parameters_ + i, own + i, kEntryLanes * sizeof(float));
+            }
+        } else {
+            std::copy_n(own, count, parameters_);
+        }
+        parameters_ += count;
+        place_.parameter += count;
+    }
+
+    /// The marked module at place_.
+    template <LaneInputs kInputs>
+    bool write_marked(C code) {
+        constexpr std::size_t kWide = 32 / sizeof(C);
+        const Row& row = rows_[code];
+        const Entry* entry = entries_ + code;
+        if (row.kind != RowKind::Fixed) {
+            const std::uint32_t record = *records_++;
+            entry = record == 0 ? entry : entries_ + row.base + record;
+        }
+        bool room = static_cast<std::size_t>(request_.codes_limit - codes_) >= kWide;
+        if constexpr (kInputs != LaneInputs::None) {
+            room = room &&
+                   static_cast<std::size_t>(request_.parameters_limit - parameters_) >= kEntryLanes;
+        }
+        if (room && !entry->special && !row.slow) {
+            std::memcpy(codes_, pool_ + entry->first_code, kWide * sizeof(C));
+            if constexpr (kInputs != LaneInputs::None) {
+                store_lanes<kInputs>(*entry, word_.parameters + place_.parameter, parameters_);
+            }
+        } else {
+            std::copy_n(pool_ + entry->first_code, entry->code_count, codes_);
+            if (!write_parameters(*entry)) {
+                return false;
+            }
+        }
+        codes_ += entry->code_count;
+        parameters_ += entry->parameter_count;
+        place_.parameter += row.stored;
         return true;
     }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/derive/choose.h"
+#include "runtime/derive/marks.h"
 
 #include <cstdint>
 
@@ -19,12 +20,13 @@ struct WriteRequest {
     C* codes_limit = nullptr;
     float* parameters = nullptr;
     float* parameters_limit = nullptr;
-    bool mostly_copies = false;    // then runs of modules that are copied are moved as blocks
+    const Marks* marks = nullptr;  // then runs of modules that are not marked are moved as blocks
     bool writes_parameters = true; // false: the stretch becomes modules that store none
 };
 
 /// False: a parameter is not finite or a range is not one; find_fault() tells which.
-/// `records` are those that count_modules() wrote for this stretch.
+/// `records` are those that count_marked(), with marks, or else count_modules() wrote for this
+/// stretch.
 template <typename C, typename R>
 [[nodiscard]] bool write_modules(const Plan& plan,
                                  const PassKeys& keys,

@@ -4,15 +4,19 @@
 #include "compiler/compile.h"
 #include "grammar/parse.h"
 #include "grammar/render_diagnostic.h"
+#include "runtime/derive.h"
+#include "runtime/random.h"
 #include "tests/reference/generate.h"
 #include "tests/reference/print.h"
 #include "tests/support/derived.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <vector>
 
 namespace lsys::reference {
 
@@ -47,7 +51,97 @@ std::optional<Bytecode> compiled(const Case& made, std::string& messages) {
     return bytecode;
 }
 
+/// `count` modules of codes by chance, most of them `usual`, so that runs of it stand between
+/// others.
+lsys::Word
+random_word(const Bytecode& bytecode, std::uint64_t seed, std::uint64_t count, Code usual) {
+    std::vector<Code> codes;
+    std::uint64_t parameters = 0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const PhiloxBlock drawn = draw_block(seed, 0, i, 0);
+        const bool is_usual = drawn[1] % 100 < seed % 100;
+        codes.push_back(is_usual ? usual : drawn[0] % bytecode.code_count());
+        parameters += bytecode.stored_parameters(codes.back());
+    }
+    lsys::Word word(code_width(bytecode.code_count()));
+    REQUIRE(word.resize(count, parameters));
+    for (std::uint64_t i = 0; i < count; ++i) {
+        if (word.code_width() == 1) {
+            word.codes<std::uint8_t>()[i] = static_cast<std::uint8_t>(codes[i]);
+        } else {
+            word.codes<std::uint16_t>()[i] = static_cast<std::uint16_t>(codes[i]);
+        }
+    }
+    for (std::uint64_t i = 0; i < parameters; ++i) {
+        word.parameters()[i] = static_cast<float>(draw_block(seed, 1, i, 0)[0] % 9) * 0.5F;
+    }
+    return word;
+}
+
+/// One generation of `word`, or where and why there is none, as values that can be compared.
+struct Rewritten {
+    DeriveStatus status = DeriveStatus::Ok;
+    std::uint64_t fault = 0;
+    std::vector<Code> codes;
+    std::vector<float> parameters;
+
+    friend bool operator==(const Rewritten&, const Rewritten&) = default;
+};
+
+Rewritten rewritten(const Bytecode& bytecode,
+                    lsys::Word word,
+                    std::uint64_t seed,
+                    std::uint32_t threads,
+                    std::uint32_t chunk) {
+    DeriveOptions options;
+    options.generations = 1;
+    options.seed = seed;
+    options.threads = threads;
+    options.chunk_modules = chunk;
+    lsys::Derivation derivation(bytecode, options);
+    Rewritten result;
+    result.status = derivation.resume(std::move(word), 0);
+    if (result.status == DeriveStatus::Ok) {
+        result.status = derivation.step();
+    }
+    if (result.status == DeriveStatus::Error) {
+        result.fault = derivation.error().position;
+    }
+    const lsys::Word& last = derivation.word();
+    for (std::uint64_t i = 0; i < last.module_count(); ++i) {
+        result.codes.push_back(last.code(i));
+    }
+    result.parameters.assign(last.parameters().begin(), last.parameters().end());
+    return result;
+}
+
 } // namespace
+
+// Chunks of one module are rewritten one look at a time, long ones by vectors of codes.
+TEST_CASE("long random words give the same word in chunks of any size") {
+    std::size_t rewrote = 0;
+    for (std::uint64_t seed = 3001; seed <= 3300; ++seed) {
+        const Case made = generate(seed);
+        std::string messages;
+        const std::optional<Bytecode> bytecode = compiled(made, messages);
+        INFO("seed " << seed << "\n" << messages);
+        REQUIRE(bytecode);
+        const Code usual = static_cast<Code>(seed * 7 % bytecode->code_count());
+        const auto word = [&] { return random_word(*bytecode, seed, 4500 + seed % 77, usual); };
+        const Rewritten expected = rewritten(*bytecode, word(), seed, 1, 1);
+        const bool is_rewritten =
+            expected.status == DeriveStatus::Ok && expected.codes.size() != 4500 + seed % 77;
+        rewrote += is_rewritten ? 1 : 0;
+        for (const std::uint32_t chunk : {65536U, 1000U, 64U, 65U}) {
+            for (const std::uint32_t threads : {1U, 2U}) {
+                INFO("chunks of " << chunk << ", " << threads << " threads");
+                const bool same = rewritten(*bytecode, word(), seed, threads, chunk) == expected;
+                CHECK(same);
+            }
+        }
+    }
+    CHECK(rewrote > 100);
+}
 
 TEST_CASE("random grammars give the same word in pieces of any size") {
     for (std::uint64_t seed = 2001; seed <= 2300; ++seed) {
