@@ -323,19 +323,18 @@ std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
     }
     ConditionGrid grid;
     for (auto& [parameter, cuts] : cuts_) {
-        const bool compared = std::any_of(pairs_.begin(), pairs_.end(), [&](const auto& pair) {
-            return pair.first == parameter || pair.second == parameter;
+        GridAxis axis;
+        axis.parameter = parameter;
+        axis.compared = std::any_of(pairs_.begin(), pairs_.end(), [&axis](const auto& pair) {
+            return pair.first == axis.parameter || pair.second == axis.parameter;
         });
         std::sort(cuts.begin(), cuts.end());
         cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
-        GridAxis axis;
-        axis.parameter = parameter;
-        axis.compared = compared;
         std::int32_t first = -kLargest;
         const auto close = [&](std::int32_t last) {
             const auto cell = static_cast<std::uint32_t>(axis.cells.size());
             axis.cells.push_back({number_at(first), number_at(last)});
-            if (!compared) {
+            if (!axis.compared) {
                 axis.samples.push_back({friendly(first, last), cell});
             } else {
                 // Three numbers of an interval realise every order of up to three parameters.

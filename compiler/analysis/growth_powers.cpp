@@ -12,6 +12,7 @@ namespace {
 
 std::vector<Count>
 product(const std::vector<Count>& a, const std::vector<Count>& b, std::size_t size) {
+    LSYS_CHECK(size != 0);
     std::vector<Count> result(a.size());
     for (std::size_t row = 0; row < a.size() / size; ++row) {
         for (std::size_t k = 0; k < size; ++k) {
@@ -45,7 +46,7 @@ std::optional<GrowthPowers> GrowthPowers::make(ModuleClasses& classes) {
         }
         classes.expand(static_cast<ClassId>(i), 0);
     }
-    GrowthPowers powers(classes);
+    GrowthPowers powers;
     powers.size_ = classes.count();
     if (powers.size_ == 0) {
         return std::nullopt;

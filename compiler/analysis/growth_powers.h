@@ -32,12 +32,11 @@ private:
         Matrix high;
     };
 
-    explicit GrowthPowers(ModuleClasses& classes) : classes_(&classes) {}
+    GrowthPowers() = default;
     const Power& power(std::size_t exponent); // of 2
     [[nodiscard]] GrowthWalk
     times(const GrowthWalk& walk, const Power& power, std::uint32_t generations);
 
-    ModuleClasses* classes_;
     std::size_t size_ = 0;
     std::uint32_t period_ = 1; // generations that the first power stands for
     bool never_shrinks_ = true;
