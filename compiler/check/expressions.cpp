@@ -88,6 +88,7 @@ bool drawn_constants_allowed(ExpressionPlace place) {
 
 std::vector<std::string_view> function_names() {
     std::vector<std::string_view> names;
+    names.reserve(kFunctions.size());
     for (const FunctionRow& row : kFunctions) {
         names.push_back(row.name);
     }
