@@ -1,35 +1,51 @@
-// The six workloads: derivation by the library, in a fresh Derivation each time (so its memory is
-// fresh too), next to the limit program on fresh pages. Usage: derive_bench [RUNS]
+// Derivation beside hand-written programs for the same six systems (tests/bench/limits.h), and
+// whole runs of `lsc`, in one run on one machine. Prints a table, and Google Benchmark's JSON if
+// asked for
+// (--benchmark_out=FILE). Asserts nothing about time.
+//
+// "cold" is the first derivation of a process: memory comes fresh from the system. "warm" derives
+// again with the memory of the time before.
 #include "compiler/compile.h"
 #include "grammar/parse.h"
 #include "runtime/derive.h"
 #include "tests/bench/limits.h"
 
+#include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
+#include <map>
 #include <string>
+#include <sys/resource.h>
 #include <utility>
 #include <vector>
 
 namespace {
 
 using lsys::bench::FreshPages;
+using lsys::bench::PageSize;
 
-double milliseconds(const std::function<void()>& work) {
+double seconds(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
     work();
-    const std::chrono::duration<double, std::milli> spent =
-        std::chrono::steady_clock::now() - start;
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     return spent.count();
 }
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     return values[values.size() / 2];
+}
+
+[[noreturn]] void fail(const std::string& what) {
+    fmt::print(stderr, "derive_bench: {}\n", what);
+    std::exit(1);
 }
 
 lsys::Bytecode compile(const std::string& text) {
@@ -44,24 +60,26 @@ lsys::Bytecode compile(const std::string& text) {
     lsys::CompileOutcome outcome =
         lsys::compile(std::move(ast), names, sources, lsys::CompileOptions{}, diagnostics);
     if (!outcome.bytecode) {
-        fmt::print("a workload does not compile\n");
-        std::exit(1);
+        fail("a workload does not compile");
     }
     return std::move(*outcome.bytecode);
 }
+
+/// Derives into buffers of codes a and b and of parameters; returns a number that is not 0.
+using LimitProgram = std::function<std::size_t(const FreshPages& a,
+                                               const FreshPages& b,
+                                               const FreshPages& parameters_a,
+                                               const FreshPages& parameters_b)>;
 
 struct Workload {
     const char* name;
     std::string grammar;
     std::uint32_t generations;
     std::size_t capacity; // modules the limit program has room for
-    std::function<std::size_t(const FreshPages& a,
-                              const FreshPages& b,
-                              const FreshPages& parameters_a,
-                              const FreshPages& parameters_b)>
-        limit;
+    LimitProgram limit;
 };
 
+/// W1 to W6.
 std::vector<Workload> workloads() {
     using namespace lsys::bench;
     using Pages = const FreshPages&;
@@ -71,13 +89,13 @@ std::vector<Workload> workloads() {
             return derive_plain(system, generations, a.as<std::uint8_t>(), b.as<std::uint8_t>());
         };
     };
-    all.push_back({"W1 n=9", "#set names letters; #n = 9; #w : F; #p : F : * : F+F-F-F+F;", 9,
+    all.push_back({"W1/n=9", "#set names letters; #n = 9; #w : F; #p : F : * : F+F-F-F+F;", 9,
                    3'906'249, plain(koch_w1(), 9)});
-    all.push_back({"W2 n=9",
+    all.push_back({"W2/n=9",
                    "#set names letters; #n = 9; #w : X; #p : X : * : F-[[X]+X]+F[+FX]-X;"
                    "#q : F : * : FF;",
                    9, 1'615'783, plain(weed_w2(), 9)});
-    all.push_back({"W3 n=11",
+    all.push_back({"W3/n=11",
                    "#n = 11; #w : !(1.4)F(2)/(45)A; #p : A : * : !(1.4)F(2)[&(22.5)F(2)A]/(112.5)"
                    "[&(22.5)F(2)A]/(157.5)[&(22.5)F(2)A]; #q : F(l) : * : F(l*1.1);"
                    "#r : !(w) : * : !(w*1.4);",
@@ -85,13 +103,13 @@ std::vector<Workload> workloads() {
                        return derive_w3(11, a.as<std::uint8_t>(), b.as<std::uint8_t>(),
                                         c.as<float>(), d.as<float>());
                    }});
-    all.push_back({"W4 n=10",
+    all.push_back({"W4/n=10",
                    "#set names letters; #n = 10; #w : F; #p : F : ~ 0.33 : F[+F]F[-F]F;"
                    "#q : F : ~ 0.33 : F[+F]F; #r : F : ~ 0.34 : F[-F]F;",
                    10, std::size_t{16} << 20, [](Pages a, Pages b, Pages, Pages) {
                        return derive_w4(10, a.as<std::uint8_t>(), b.as<std::uint8_t>());
                    }});
-    all.push_back({"W5 n=13",
+    all.push_back({"W5/n=13",
                    "#n = 13; #w : A(12); #p : A(x) : x > 0 : F(1)[+(30)A(x-1)][-(30)A(x-1)]A(x-1);"
                    "#q : A(x) : x <= 0 : F(1);",
                    13, 2'391'481, [](Pages a, Pages b, Pages c, Pages d) {
@@ -103,7 +121,7 @@ std::vector<Workload> workloads() {
         axiom += "a";
     }
     all.push_back(
-        {"W6 n=200",
+        {"W6/n=200",
          "#set names letters; #n = 200; #w : " + axiom + "; #p : b < a : * : b; #q : b : * : a;",
          200, 100'002, [](Pages a, Pages b, Pages, Pages) {
              return derive_w6(200, 100'001, a.as<std::uint8_t>(), b.as<std::uint8_t>());
@@ -111,65 +129,267 @@ std::vector<Workload> workloads() {
     return all;
 }
 
-struct Measured {
-    double first = 0.0;
-    double again = 0.0;
-    std::uint64_t modules = 0;
-    std::uint64_t bytes = 0;
+/// Peak memory of this process so far, in bytes.
+double peak_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) * 1024.0;
+}
+
+/// One derivation as a process sees it.
+struct Run {
+    double seconds = 0.0;
+    double modules = 0.0;
+    double bytes = 0.0; // of the word
+    double peak = 0.0;  // bytes that the derivation added to the peak of the process
 };
 
-Measured
-derive(const lsys::Bytecode& bytecode, std::uint32_t generations, std::uint32_t threads, int runs) {
-    std::vector<double> times;
-    Measured measured;
-    for (int run = 0; run < runs; ++run) {
-        times.push_back(milliseconds([&] {
-            lsys::DeriveOptions options;
-            options.generations = generations;
-            options.threads = threads;
-            lsys::Derivation derivation(bytecode, options);
-            if (derivation.start() != lsys::DeriveStatus::Ok ||
-                derivation.run_to(generations) != lsys::DeriveStatus::Ok) {
-                fmt::print("a workload does not derive\n");
-                std::exit(1);
-            }
-            measured.modules = derivation.word().module_count();
-            measured.bytes = derivation.word().byte_count();
-        }));
+void derive(lsys::Derivation& derivation, std::uint32_t generations) {
+    if (derivation.start() != lsys::DeriveStatus::Ok ||
+        derivation.run_to(generations) != lsys::DeriveStatus::Ok) {
+        fail("a workload does not derive");
     }
-    measured.first = times.front();
-    measured.again = median(times);
-    return measured;
 }
+
+lsys::DeriveOptions options_for(const Workload& workload, std::uint32_t threads) {
+    lsys::DeriveOptions options;
+    options.generations = workload.generations;
+    options.threads = threads;
+    return options;
+}
+
+/// `derive_bench --child WORKLOAD THREADS`: derives once, prints the numbers of Run.
+int derive_as_child(const std::string& name, const std::string& threads) {
+    for (const Workload& workload : workloads()) {
+        if (workload.name != name) {
+            continue;
+        }
+        const lsys::Bytecode bytecode = compile(workload.grammar);
+        const double before = peak_bytes();
+        lsys::Derivation derivation(
+            bytecode, options_for(workload, static_cast<std::uint32_t>(std::stoul(threads))));
+        const double spent = seconds([&] { derive(derivation, workload.generations); });
+        const lsys::Word& word = derivation.word();
+        fmt::print("{} {} {} {}\n", spent, word.module_count(), word.byte_count(),
+                   peak_bytes() - before);
+        return 0;
+    }
+    return 2;
+}
+
+std::string output_of(const std::string& command) {
+    std::FILE* const pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) {
+        fail("cannot run " + command);
+    }
+    std::string text;
+    std::array<char, 256> part{};
+    while (std::fgets(part.data(), part.size(), pipe) != nullptr) {
+        text += part.data();
+    }
+    if (pclose(pipe) != 0) {
+        fail(command + " failed");
+    }
+    return text;
+}
+
+Run run_child(const std::string& self, const Workload& workload, std::uint32_t threads) {
+    const std::string text =
+        output_of(fmt::format("'{}' --child {} {}", self, workload.name, threads));
+    Run run;
+    if (std::sscanf(text.c_str(), "%lf %lf %lf %lf", &run.seconds, &run.modules, &run.bytes,
+                    &run.peak) != 4) {
+        fail("a child said: " + text);
+    }
+    return run;
+}
+
+void add(const std::string& name, std::function<void(benchmark::State&)> body) {
+    benchmark::RegisterBenchmark(name.c_str(),
+                                 [body = std::move(body)](benchmark::State& state) {
+                                     for (auto _ : state) {
+                                         body(state);
+                                     }
+                                 })
+        ->UseManualTime()
+        ->Iterations(1)
+        ->Unit(benchmark::kMillisecond);
+}
+
+void add_limit(const Workload& workload, const std::string& kind, PageSize pages, bool warm) {
+    add(fmt::format("{}/limit {}", workload.name, kind), [=](benchmark::State& state) {
+        const std::size_t codes = workload.capacity + 64;
+        const std::size_t parameters = 4 * workload.capacity + 256;
+        const FreshPages a(codes, pages);
+        const FreshPages b(codes, pages);
+        const FreshPages c(parameters, pages);
+        const FreshPages d(parameters, pages);
+        const auto work = [&] { benchmark::DoNotOptimize(workload.limit(a, b, c, d)); };
+        if (warm) {
+            work();
+        }
+        state.SetIterationTime(seconds(work));
+    });
+}
+
+void add_lsc(const std::string& self, const Workload& workload, std::uint32_t threads) {
+    add(fmt::format("{}/lsc cold {}", workload.name, threads), [=](benchmark::State& state) {
+        const Run run = run_child(self, workload, threads);
+        state.SetIterationTime(run.seconds);
+        state.counters["modules"] = run.modules;
+        state.counters["bytes_per_module"] = run.bytes / run.modules;
+        state.counters["peak_bytes_per_module"] = run.peak / run.modules;
+    });
+    add(fmt::format("{}/lsc warm {}", workload.name, threads), [=](benchmark::State& state) {
+        const lsys::Bytecode bytecode = compile(workload.grammar);
+        lsys::Derivation derivation(bytecode, options_for(workload, threads));
+        derive(derivation, workload.generations);
+        state.SetIterationTime(seconds([&] { derive(derivation, workload.generations); }));
+    });
+}
+
+/// A run of `lsc` from start to exit, its output thrown away.
+struct WholeRun {
+    std::string name;
+    std::string grammar;
+    std::string arguments; // % stands for the file
+    double bytes = 0.0;    // that it writes, if that is what counts
+};
+
+std::vector<WholeRun> whole_runs(const std::vector<Workload>& all) {
+    const std::string bush =
+        "#n = 7; #set names letters; #w : A; #p : A : * : [&FL!A]/////'[&FL!A];"
+        "#q : F : * : S/////F; #r : S : * : FL; #s : L : * : [^^{-f+f+f}];";
+    return {
+        {"start: check a sample", bush, "check -q %"},
+        {"start: first module of a sample", bush, "dump -q -n 1 %"},
+        {"read an axiom of 100,001 modules", all[5].grammar, "check -q %"},
+        {"stats of W1, n=60", all[0].grammar, "stats -q -n 60 %"},
+        {"count W1, n=14 (12.2 G), streamed", all[0].grammar,
+         "dump -q --stream --count -n 14 --max-modules 100000000000 %"},
+        {"text of W1, n=11 (97.7 MB)", all[0].grammar, "dump -q -n 11 %", 97'656'249.0},
+        {"text of W3, n=13 (118 MB)", all[2].grammar, "dump -q -n 13 %", 0.0},
+    };
+}
+
+void add_whole(const std::string& lsc, const WholeRun& whole) {
+    add("lsc/" + whole.name, [=](benchmark::State& state) {
+        const std::string path = fmt::format(
+            "{}/lsys-bench-{}.lsys",
+            std::getenv("TMPDIR") != nullptr ? std::getenv("TMPDIR") : "/tmp", getpid());
+        std::ofstream(path) << whole.grammar;
+        std::string arguments = whole.arguments;
+        arguments.replace(arguments.find('%'), 1, path);
+        const std::string command = fmt::format("'{}' {}", lsc, arguments);
+        double bytes = 0.0;
+        state.SetIterationTime(seconds([&] {
+            if (std::system((command + " > /dev/null").c_str()) != 0) {
+                fail(command + " failed");
+            }
+        }));
+        bytes = whole.bytes;
+        state.counters["bytes"] = bytes;
+        std::remove(path.c_str());
+    });
+}
+
+/// Collects the times of all repetitions and prints two tables of medians.
+class Table : public benchmark::BenchmarkReporter {
+public:
+    bool ReportContext(const Context&) override { return true; }
+    void ReportRuns(const std::vector<Run>& runs) override {
+        for (const Run& run : runs) {
+            if (run.run_type != Run::RT_Iteration) {
+                continue;
+            }
+            const std::string& name = run.run_name.function_name;
+            if (!times_.contains(name)) {
+                order_.push_back(name);
+            }
+            times_[name].push_back(run.real_accumulated_time * 1000.0);
+            for (const auto& [counter, value] : run.counters) {
+                counters_[name][counter] = value;
+            }
+        }
+    }
+    void Finalize() override {
+        fmt::print(
+            "Milliseconds, medians; in brackets the part of the limit program on fresh small "
+            "pages.\n\n{:<9}",
+            "");
+        for (const char* head : {"limit", "huge pages", "warm", "lsc 1 thread", "2 threads",
+                                 "warm 1", "warm 2", "M modules/s", "bytes/module", "at peak"}) {
+            fmt::print(" {:>15}", head);
+        }
+        fmt::print("\n");
+        for (const Workload& workload : workloads()) {
+            const std::string name = workload.name;
+            const double limit = time(name + "/limit cold");
+            const std::map<std::string, double>& counters = counters_[name + "/lsc cold 1"];
+            if (limit == 0.0 || counters.empty()) {
+                continue; // filtered out
+            }
+            fmt::print("{:<9} {:>15.3f}", name, limit);
+            for (const char* kind : {"limit cold huge", "limit warm", "lsc cold 1", "lsc cold 2",
+                                     "lsc warm 1", "lsc warm 2"}) {
+                const double spent = time(name + "/" + kind);
+                fmt::print(" {:>15}", fmt::format("{:.3f} [{:.2f}]", spent, spent / limit));
+            }
+            const double best = std::min(time(name + "/lsc cold 1"), time(name + "/lsc cold 2"));
+            // W6 rewrites a word of one length again and again
+            const double modules =
+                counters.at("modules") * (name.starts_with("W6") ? workload.generations : 1.0);
+            fmt::print(" {:>15.0f} {:>15.2f} {:>15.2f}\n", modules / best / 1000.0,
+                       counters.at("bytes_per_module"), counters.at("peak_bytes_per_module"));
+        }
+        fmt::print("\n");
+        for (const std::string& name : order_) {
+            if (name.starts_with("lsc/")) {
+                const double bytes = counters_[name]["bytes"];
+                fmt::print("{:<36} {:>9.2f} ms {}\n", name.substr(4), time(name),
+                           bytes == 0.0 ? ""
+                                        : fmt::format("{:>8.2f} GB/s", bytes / time(name) / 1e6));
+            }
+        }
+    }
+
+private:
+    double time(const std::string& name) const {
+        const auto found = times_.find(name);
+        return found == times_.end() ? 0.0 : median(found->second);
+    }
+
+    std::vector<std::string> order_;
+    std::map<std::string, std::vector<double>> times_;
+    std::map<std::string, std::map<std::string, double>> counters_;
+};
 
 } // namespace
 
 int main(int argc, char** argv) {
-    const int runs = argc > 1 ? std::max(1, std::atoi(argv[1])) : 11;
-    fmt::print("{:<9} {:>9} {:>7} {:>10} {:>10} {:>8} {:>10} {:>8} {:>12}\n", "", "modules",
-               "bytes/m", "limit ms", "1 thread", "ratio", "2 threads", "ratio", "M modules/s");
-    for (const Workload& workload : workloads()) {
-        const lsys::Bytecode bytecode = compile(workload.grammar);
-        std::vector<double> limit_times;
-        for (int run = 0; run < runs; ++run) {
-            const FreshPages a(workload.capacity + 64);
-            const FreshPages b(workload.capacity + 64);
-            const FreshPages c(4 * workload.capacity + 256);
-            const FreshPages d(4 * workload.capacity + 256);
-            limit_times.push_back(milliseconds([&] {
-                if (workload.limit(a, b, c, d) == 0) {
-                    std::exit(1);
-                }
-            }));
-        }
-        const double limit = median(limit_times);
-        const Measured one = derive(bytecode, workload.generations, 1, runs);
-        const Measured two = derive(bytecode, workload.generations, 2, runs);
-        fmt::print(
-            "{:<9} {:>9} {:>7.2f} {:>10.3f} {:>10.3f} {:>8.2f} {:>10.3f} {:>8.2f} {:>12.0f}\n",
-            workload.name, one.modules,
-            static_cast<double>(one.bytes) / static_cast<double>(one.modules), limit, one.again,
-            one.again / limit, two.again, two.again / limit,
-            static_cast<double>(one.modules) / one.again / 1000.0);
+    if (argc == 4 && std::string(argv[1]) == "--child") {
+        return derive_as_child(argv[2], argv[3]);
     }
+    std::vector<char*> arguments(argv, argv + argc);
+    std::string repetitions = "--benchmark_repetitions=9";
+    arguments.insert(arguments.begin() + 1, repetitions.data());
+    int count = static_cast<int>(arguments.size());
+    benchmark::Initialize(&count, arguments.data());
+    if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) {
+        return 2;
+    }
+    const std::vector<Workload> all = workloads();
+    for (const Workload& workload : all) {
+        add_limit(workload, "cold", PageSize::Small, false);
+        add_limit(workload, "cold huge", PageSize::Huge, false);
+        add_limit(workload, "warm", PageSize::Small, true);
+        add_lsc(argv[0], workload, 1);
+        add_lsc(argv[0], workload, 2);
+    }
+    for (const WholeRun& whole : whole_runs(all)) {
+        add_whole(LSYS_LSC, whole);
+    }
+    Table table;
+    benchmark::RunSpecifiedBenchmarks(&table);
+    return 0;
 }

@@ -7,11 +7,14 @@
 
 namespace lsys::bench {
 
-FreshPages::FreshPages(std::size_t bytes)
+FreshPages::FreshPages(std::size_t bytes, PageSize size)
     : data_(mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)),
       bytes_(bytes) {
     if (data_ == MAP_FAILED) {
         std::abort();
+    }
+    if (size == PageSize::Huge) {
+        madvise(data_, bytes, MADV_HUGEPAGE);
     }
 }
 

@@ -7,10 +7,12 @@
 
 namespace lsys::bench {
 
-/// Anonymous pages that no one has touched; releases them at its end.
+enum class PageSize : std::uint8_t { Small, Huge };
+
+/// Anonymous pages that no one has touched; releases them at its end. Huge: advised for huge pages.
 class FreshPages {
 public:
-    explicit FreshPages(std::size_t bytes);
+    FreshPages(std::size_t bytes, PageSize size);
     ~FreshPages();
     FreshPages(const FreshPages&) = delete;
     FreshPages& operator=(const FreshPages&) = delete;
