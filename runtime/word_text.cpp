@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::string_view kSymbols = "+-/\\^&|$!\"'.[]{}%";
 constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
+/// Programs of more codes, and shorter words, are printed module by module.
+constexpr std::size_t kMostPairedCodes = 64;
+constexpr std::size_t kPairedFrom = 4096;
 /// The longest binary32 in text, and a comma or parenthesis.
 constexpr std::size_t kNumberBytes = 24;
 
@@ -67,6 +70,28 @@ WordPrinter::WordPrinter(const Bytecode& bytecode) {
     buffer_.resize(kBufferBytes);
 }
 
+void WordPrinter::make_pairs() {
+    const std::size_t codes = spellings_.size();
+    pairs_.resize(2 * codes * codes);
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+        Pair& pair = pairs_[i];
+        bool after_identifier = i >= codes * codes;
+        std::string text;
+        bool plain = true;
+        for (const std::size_t code : {i / codes % codes, i % codes}) {
+            const Spelling& spelling = spellings_[code];
+            plain = plain && spelling.parameter_count == 0 && spelling.length <= kShort;
+            text += after_identifier && spelling.starts_identifier ? " " : "";
+            text.append(spelling.head.data(), plain ? spelling.length : 0);
+            after_identifier = spelling.ends_identifier;
+        }
+        if (plain && text.size() <= pair.text.size()) {
+            std::copy(text.begin(), text.end(), pair.text.begin());
+            pair.length = static_cast<std::uint8_t>(text.size());
+        }
+    }
+}
+
 template <typename C>
 bool WordPrinter::write(const C* codes,
                         std::size_t count,
@@ -76,7 +101,27 @@ bool WordPrinter::write(const C* codes,
     char* const full = begin + buffer_.size() - 2 * kShort - kNumberBytes;
     char* at = begin;
     bool after_identifier = after_identifier_;
+    const std::size_t size = spellings_.size();
+    if (pairs_.empty() && count >= kPairedFrom && size <= kMostPairedCodes) {
+        make_pairs();
+    }
     for (std::size_t i = 0; i < count; ++i) {
+        if (!pairs_.empty()) {
+            while (i + 1 < count && at < full) {
+                const std::size_t row = (after_identifier ? size : 0) + codes[i];
+                const Pair& pair = pairs_[row * size + codes[i + 1]];
+                if (pair.length == 0) {
+                    break;
+                }
+                std::memcpy(at, pair.text.data(), kShort - 1);
+                at += pair.length;
+                after_identifier = spellings_[codes[i + 1]].ends_identifier;
+                i += 2;
+            }
+            if (i == count) {
+                break;
+            }
+        }
         if (at >= full) {
             if (!sink({begin, static_cast<std::size_t>(at - begin)})) {
                 return false;

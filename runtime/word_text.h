@@ -42,7 +42,14 @@ private:
         bool starts_identifier = false;
         bool ends_identifier = false; // an identifier without parameters
     };
+    /// Two neighbours as one short text. Length 0: they are written one after the other.
+    struct Pair {
+        std::array<char, kShort - 1> text{};
+        std::uint8_t length = 0;
+    };
     using Sink = std::function<bool(std::string_view)>;
+
+    void make_pairs();
 
     template <typename C>
     [[nodiscard]] bool
@@ -50,6 +57,7 @@ private:
 
     std::vector<Spelling> spellings_; // by code; folded arguments included
     std::vector<std::string> long_texts_;
+    std::vector<Pair> pairs_; // by after_identifier_, first and second code; empty: not made
     std::vector<char> buffer_;
     bool after_identifier_ = false;
 };

@@ -1,4 +1,5 @@
 // Arenas, words and their text.
+#include "runtime/random.h"
 #include "runtime/word.h"
 #include "runtime/word_text.h"
 #include "tests/support/bytecode_builder.h"
@@ -9,6 +10,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 using namespace lsys;
 using test::BytecodeBuilder;
@@ -98,6 +100,33 @@ TEST_CASE("a word may be printed in pieces") {
     printer.append({codes.data() + 3, 1}, {}, text);
     printer.append({codes.data(), 1}, {}, text);
     CHECK(text == "A A(1)B(2,4)C A");
+}
+
+TEST_CASE("a long word is printed as its modules are one after the other") {
+    BytecodeBuilder builder;
+    builder.settings.print_letters = GENERATE(true, false);
+    builder.axiom("F G + [ ] F(1.5) H(1) a_name_that_is_rather_long K L");
+    builder.production("p : H(x) : * : H(x)");
+    const Bytecode bytecode = builder.build();
+    std::vector<Code> codes;
+    std::vector<float> parameters;
+    for (std::uint64_t i = 0; i < 9001; ++i) {
+        codes.push_back(draw_block(1, 0, i, 0)[0] % bytecode.code_count());
+        for (std::uint32_t j = 0; j < bytecode.stored_parameters(codes.back()); ++j) {
+            parameters.push_back(static_cast<float>(i) * 0.5F);
+        }
+    }
+    std::string whole;
+    WordPrinter(bytecode).append(codes, parameters, whole);
+    std::string pieces;
+    WordPrinter printer(bytecode);
+    const float* next = parameters.data();
+    for (const Code& code : codes) {
+        const std::uint32_t stored = bytecode.stored_parameters(code);
+        printer.append({&code, 1}, {next, stored}, pieces);
+        next += stored;
+    }
+    CHECK(whole == pieces);
 }
 
 TEST_CASE("printing stops when the reader has enough") {
