@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
 /// From here on huge pages: zeroing one is as quick as zeroing a third of it in small pages.
 constexpr std::size_t kHugeFrom = std::size_t{1} << 20;
+constexpr std::size_t kWorthAHugePage = kHugePage / 3;
 /// Addresses taken at once for a large arena; only those that are written become memory.
 constexpr std::size_t kLargeReservation = std::size_t{256} << 20;
 
@@ -37,8 +38,8 @@ std::byte* map(std::size_t bytes) {
     return address == MAP_FAILED ? nullptr : static_cast<std::byte*>(address);
 }
 
-/// `bytes`, a multiple of a huge page, that begin at the border of one and are advised for them.
-std::byte* map_huge(std::size_t bytes) {
+/// `bytes`, a multiple of a huge page, that begin at the border of one.
+std::byte* map_aligned(std::size_t bytes) {
     std::byte* const begin = map(bytes + kHugePage);
     if (begin == nullptr) {
         return nullptr;
@@ -51,7 +52,6 @@ std::byte* map_huge(std::size_t bytes) {
     if (head != kHugePage) {
         munmap(begin + head + bytes, kHugePage - head);
     }
-    madvise(begin + head, bytes, MADV_HUGEPAGE); // advice only: a refusal costs time, no more
     return begin + head;
 }
 
@@ -63,7 +63,7 @@ Arena::~Arena() {
 
 Arena::Arena(Arena&& other) noexcept
     : data_(std::exchange(other.data_, nullptr)), capacity_(std::exchange(other.capacity_, 0)),
-      used_(std::exchange(other.used_, 0)) {}
+      used_(std::exchange(other.used_, 0)), advised_(std::exchange(other.advised_, 0)) {}
 
 Arena& Arena::operator=(Arena&& other) noexcept {
     if (this != &other) {
@@ -71,6 +71,7 @@ Arena& Arena::operator=(Arena&& other) noexcept {
         data_ = std::exchange(other.data_, nullptr);
         capacity_ = std::exchange(other.capacity_, 0);
         used_ = std::exchange(other.used_, 0);
+        advised_ = std::exchange(other.advised_, 0);
     }
     return *this;
 }
@@ -82,6 +83,7 @@ void Arena::release() {
     data_ = nullptr;
     capacity_ = 0;
     used_ = 0;
+    advised_ = 0;
 }
 
 bool Arena::reserve(std::size_t bytes) {
@@ -95,10 +97,10 @@ bool Arena::reserve(std::size_t bytes) {
             data_ = map(capacity_);
         } else {
             capacity_ = std::max(round_up(bytes, kHugePage) * 4, kLargeReservation);
-            data_ = map_huge(capacity_);
+            data_ = map_aligned(capacity_);
             if (data_ == nullptr) {
                 capacity_ = round_up(bytes, kHugePage);
-                data_ = map_huge(capacity_);
+                data_ = map_aligned(capacity_);
             }
         }
         if (data_ == nullptr) {
@@ -107,7 +109,21 @@ bool Arena::reserve(std::size_t bytes) {
         }
     }
     used_ = std::max(used_, bytes);
+    advise();
     return true;
+}
+
+/// Asks for huge pages where what is used fills them; the last, if it is used for a third.
+void Arena::advise() {
+    if (capacity_ <= kHugeFrom) {
+        return;
+    }
+    const std::size_t rest = used_ % kHugePage;
+    const std::size_t end = used_ - rest + (rest >= kWorthAHugePage ? kHugePage : 0);
+    if (end > advised_) {
+        madvise(data_ + advised_, end - advised_, MADV_HUGEPAGE); // a refusal costs time, no more
+        advised_ = end;
+    }
 }
 
 bool Word::resize(std::uint64_t module_count, std::uint64_t parameter_count) {

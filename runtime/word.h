@@ -35,9 +35,12 @@ public:
     [[nodiscard]] std::size_t used() const { return used_; }
 
 private:
+    void advise();
+
     std::byte* data_ = nullptr;
     std::size_t capacity_ = 0;
     std::size_t used_ = 0;
+    std::size_t advised_ = 0; // from the begin on
 };
 
 /// Bytes past the last code and parameter that writers may touch with wide stores. Those past the

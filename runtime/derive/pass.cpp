@@ -19,6 +19,8 @@ namespace {
 constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
 /// Programs of more codes are counted module by module.
 constexpr Code kCensusCodes = 4096;
+/// From this many chunks on, counting them by all threads costs less than it saves over the census.
+constexpr std::size_t kChunksInParallel = 64;
 /// Modules between two reports of progress.
 constexpr std::uint64_t kProgressStride = std::uint64_t{1} << 24;
 
@@ -143,12 +145,13 @@ DeriveStatus Passes::run_recorded(const Word& in, Word& out, const PassKeys& key
     cut(word);
     marks_.prepare(plan_, contexts());
 
-    const bool by_census = !dynamic && (workers_.count() == 1 || chunks_.size() <= 1) &&
-                           plan_.rows().size() <= kCensusCodes;
-    if (by_census) {
+    by_census_ = !dynamic && plan_.rows().size() <= kCensusCodes &&
+                 (workers_.count() == 1 || chunks_.size() < kChunksInParallel);
+    if (by_census_) {
         take_census(word);
     } else {
         census_known_ = false;
+        place_chunks(word);
         const DeriveStatus status = count<C, R>(word, keys);
         if (status != DeriveStatus::Ok) {
             return status;
@@ -169,13 +172,13 @@ DeriveStatus Passes::run_recorded(const Word& in, Word& out, const PassKeys& key
         census_known_ = false;
         return status;
     }
-    if (by_census) {
+    if (by_census_) {
         advance_census();
     }
     return DeriveStatus::Ok;
 }
 
-/// Chunks of the size asked for; for more than one thread also where the parameters of each begin.
+/// Chunks of the size asked for.
 template <typename C>
 void Passes::cut(const WordView<C>& word) {
     const std::uint64_t size = std::max(options_.chunk_modules, 1U);
@@ -184,6 +187,11 @@ void Passes::cut(const WordView<C>& word) {
         chunks_[i].begin.index = i * size;
         chunks_[i].end = std::min(word.count, (i + 1) * size);
     }
+}
+
+/// Where the parameters of each chunk begin, if several threads are to read them.
+template <typename C>
+void Passes::place_chunks(const WordView<C>& word) {
     if (!plan_.has_parameters() || workers_.count() == 1 || chunks_.size() == 1) {
         return;
     }
@@ -273,15 +281,14 @@ template <typename C, typename R>
 DeriveStatus Passes::write(const WordView<C>& word, Word& out, const PassKeys& keys) {
     C* const codes = out.codes<C>().data();
     float* const parameters = out.parameters().data();
-    const bool in_order = workers_.count() == 1 || chunks_.size() == 1;
+    const bool in_order = workers_.count() == 1 || chunks_.size() == 1 || by_census_;
     C* const codes_end = codes + modules_ + kWordSlack / sizeof(C);
     float* const parameters_end = parameters + parameters_ + kWordSlack / sizeof(float);
     WriteRequest<C> next; // in order: where the chunk before ended
     next.codes = codes;
     next.parameters = parameters;
-    const bool by_census = census_known_;
     std::uint64_t rewritten = 0; // by census
-    if (by_census) {
+    if (by_census_) {
         for (Code code = 0; code < census_.size(); ++code) {
             rewritten += plan_.row(code).copies ? 0 : census_[code];
         }
@@ -302,7 +309,7 @@ DeriveStatus Passes::write(const WordView<C>& word, Word& out, const PassKeys& k
         request.codes_limit = in_order || last ? codes_end : request.codes + chunk.modules;
         request.parameters_limit =
             in_order || last ? parameters_end : request.parameters + chunk.parameters;
-        if (by_census) {
+        if (by_census_) {
             request.begin = next.begin;
             request.codes = next.codes;
             request.parameters = next.parameters;

@@ -57,6 +57,8 @@ private:
     template <typename C>
     void cut(const WordView<C>& word);
     template <typename C>
+    void place_chunks(const WordView<C>& word);
+    template <typename C>
     [[nodiscard]] bool marks_pay(const WordView<C>& word, const Chunk& chunk) const;
     template <typename C, typename R>
     [[nodiscard]] DeriveStatus count(const WordView<C>& word, const PassKeys& keys);
@@ -94,6 +96,7 @@ private:
     Arena records_;                     // of module i at place i or before, within its chunk
     std::vector<std::uint64_t> census_; // modules of each code in the word
     bool census_known_ = false;
+    bool by_census_ = false;    // the pass at work takes sizes from the census, and writes in order
     std::uint64_t modules_ = 0; // of the word to be written
     std::uint64_t parameters_ = 0;
     std::uint64_t other_bytes_ = 0;
