@@ -76,17 +76,24 @@ void NameSplitter::for_each_known_prefix(std::string_view text, Function found) 
     auto first = known_sorted_.cbegin();
     auto last = known_sorted_.cend();
     for (std::size_t length = 0; length < text.size() && work_left_ > 0; --work_left_) {
-        const char next = text[length];
-        const auto before = [&](std::string_view name, char c) {
-            return name.size() <= length || name[length] < c;
-        };
-        const auto after = [&](char c, std::string_view name) {
-            return name.size() > length && c < name[length];
-        };
-        first = std::lower_bound(first, last, next, before);
-        last = std::upper_bound(first, last, next, after);
+        if (first != last && first->size() == length) {
+            ++first;
+        }
         if (first == last) {
             return;
+        }
+        const char next = text[length];
+        // Sorted names whose first and last agree all agree: no search then.
+        if ((*first)[length] != next || (*(last - 1))[length] != next) {
+            first = std::lower_bound(first, last, next, [length](std::string_view name, char c) {
+                return name[length] < c;
+            });
+            last = std::upper_bound(first, last, next, [length](char c, std::string_view name) {
+                return c < name[length];
+            });
+            if (first == last) {
+                return;
+            }
         }
         ++length;
         if (first->size() == length) {
