@@ -25,10 +25,12 @@ target_compile_options(lsys_warnings INTERFACE
   -Wdouble-promotion
   # -Wrestrict: g++ 12 sees overlaps in std::string's operator+ that cannot be. A warning of null
   # dereferences is not in the set: with optimisation or sanitizers it sees them in the containers.
-  # -Wmaybe-uninitialized: g++ 12 loses track of std::string's buffers in code with sanitizers.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wduplicated-cond -Wlogical-op -Wuseless-cast>
-  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${LSYS_SANITIZE}>>:-Wno-maybe-uninitialized>
   $<$<BOOL:${LSYS_WERROR}>:-Werror>)
+if(LSYS_SANITIZE)
+  # g++ 12 loses track of std::string's buffers in code with sanitizers.
+  target_compile_options(lsys_warnings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+endif()
 
 # lsys_library(NAME SOURCES... ) : a static library of ours.
 function(lsys_library name)
