@@ -13,6 +13,26 @@ namespace {
 constexpr std::array<std::string_view, 10> kSpellings{
     "", "n", "define", "param", "module", "object", "include", "set", "ignore", "w"};
 
+/// What other programs, or hasty fingers, write for a keyword.
+struct Synonym {
+    std::string_view word;
+    Keyword keyword;
+};
+constexpr std::array<Synonym, 12> kSynonyms{{
+    {"axiom", Keyword::Axiom},
+    {"omega", Keyword::Axiom},
+    {"start", Keyword::Axiom},
+    {"W", Keyword::Axiom},
+    {"iterations", Keyword::Generations},
+    {"generations", Keyword::Generations},
+    {"depth", Keyword::Generations},
+    {"N", Keyword::Generations},
+    {"const", Keyword::Define},
+    {"let", Keyword::Define},
+    {"import", Keyword::Include},
+    {"consider", Keyword::Ignore},
+}};
+
 bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
@@ -107,25 +127,13 @@ Keyword find_keyword(std::string_view word) {
                                      : static_cast<Keyword>(found - kSpellings.begin());
 }
 
+bool is_synonym(std::string_view word, Keyword keyword) {
+    return std::any_of(kSynonyms.begin(), kSynonyms.end(), [&](const Synonym& synonym) {
+        return synonym.keyword == keyword && synonym.word == word;
+    });
+}
+
 std::optional<Keyword> suggest_keyword(std::string_view word) {
-    struct Synonym {
-        std::string_view word;
-        Keyword keyword;
-    };
-    static constexpr std::array<Synonym, 12> kSynonyms{{
-        {"axiom", Keyword::Axiom},
-        {"omega", Keyword::Axiom},
-        {"start", Keyword::Axiom},
-        {"W", Keyword::Axiom},
-        {"iterations", Keyword::Generations},
-        {"generations", Keyword::Generations},
-        {"depth", Keyword::Generations},
-        {"N", Keyword::Generations},
-        {"const", Keyword::Define},
-        {"let", Keyword::Define},
-        {"import", Keyword::Include},
-        {"consider", Keyword::Ignore},
-    }};
     for (const Synonym& synonym : kSynonyms) {
         if (synonym.word == word) {
             return synonym.keyword;

@@ -25,6 +25,8 @@ namespace lsys {
 
 [[nodiscard]] std::string_view spelling(Keyword keyword); // without `#`; empty for a label
 [[nodiscard]] Keyword find_keyword(std::string_view word);
+/// Whether `word` is what other programs call a keyword.
+[[nodiscard]] bool is_synonym(std::string_view word, Keyword keyword);
 /// What an author may have meant by `#word`: the nearest keyword, or the one that other programs
 /// call so.
 [[nodiscard]] std::optional<Keyword> suggest_keyword(std::string_view word);

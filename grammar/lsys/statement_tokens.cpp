@@ -107,7 +107,7 @@ Parser::symbol_type unknown_statement(ParseSession& session, std::string_view wo
 
 /// `#axiom : ...;` has a `:` like a production, but only one.
 bool is_axiom_by_another_name(const ParseSession& session, std::string_view word) {
-    return suggest_keyword(word) == Keyword::Axiom &&
+    return is_synonym(word, Keyword::Axiom) &&
            count_colons(session.scanned.text, session.scan.statement_begin) == 1;
 }
 
