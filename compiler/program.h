@@ -14,6 +14,7 @@
 #include "grammar/names.h"
 #include "grammar/source.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -183,5 +184,18 @@ struct Program {
         return symbols[static_cast<std::size_t>(id)];
     }
 };
+
+/// Calls visit(index in Program::modules, symbol) for each module of a word, in order. Words may
+/// have a hundred million modules: what is asked of each of them should be a look into one flat
+/// table.
+template <typename Visit>
+void for_each_symbol(const Program& program, const ProgramWord& word, Visit&& visit) {
+    std::size_t index = word.first_module;
+    for (const std::size_t end = index + word.module_count; index < end;) {
+        for (const ProgramModule module : program.modules.row(index, end - index)) {
+            visit(index++, module.symbol);
+        }
+    }
+}
 
 } // namespace lsys

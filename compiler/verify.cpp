@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <span>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace lsys {
 
@@ -80,6 +82,7 @@ private:
             if (symbol.parameter_count > (plain ? kMaxOperand : 0)) {
                 return fail("symbol {} has {} parameters", i, symbol.parameter_count);
             }
+            parameters_.push_back(symbol.parameter_count);
         }
         const std::uint64_t count =
             std::uint64_t{bytecode_.symbols.size()} + bytecode_.folded.size();
@@ -313,12 +316,13 @@ private:
             return fail("a successor's codes are out of place");
         }
         std::uint64_t stored = 0;
-        for (std::uint32_t i = word.codes.first; i < word.codes.first + word.codes.count; ++i) {
-            const Code code = bytecode_.template_codes[i];
-            if (code >= bytecode_.code_count()) {
+        const Code code_count = bytecode_.code_count();
+        for (const Code code :
+             std::span(bytecode_.template_codes).subspan(word.codes.first, word.codes.count)) {
+            if (code >= code_count) {
                 return fail("code {} does not exist", code);
             }
-            stored += bytecode_.stored_parameters(code);
+            stored += code < parameters_.size() ? parameters_[code] : 0;
         }
         if (stored != word.parameter_count || (stored == 0) != (word.arguments == kNone)) {
             return fail("a successor stores {} parameters, not {}", stored, word.parameter_count);
@@ -424,6 +428,7 @@ private:
     }
 
     const Bytecode& bytecode_;
+    std::vector<std::uint32_t> parameters_; // by symbol
     std::string problem_;
     std::uint64_t next_pattern_ = 0;
     std::uint64_t next_code_ = 0;

@@ -69,7 +69,7 @@ ModuleView ModuleCursor::view() const {
     const ModuleNode& node = ast_->modules[index_];
     const std::string_view source = sources_->file(file_).text();
     ModuleView view;
-    view.name = static_cast<NameId>(node.name_and_call & ~kCallBit);
+    view.name = name();
     view.quoted = source[node.begin] == '`';
     view.has_parentheses = (node.name_and_call & kCallBit) != 0;
     view.name_span = {file_, node.begin, name_end(source, node.begin, names_->text(view.name))};
@@ -80,6 +80,11 @@ ModuleView ModuleCursor::view() const {
         view.arguments = call.arguments;
     }
     return view;
+}
+
+NameId ModuleCursor::name() const {
+    LSYS_DCHECK(!done());
+    return static_cast<NameId>(ast_->modules[index_].name_and_call & ~kCallBit);
 }
 
 void ModuleCursor::next() {

@@ -269,6 +269,12 @@ public:
     /// The module at the cursor; precondition: not done().
     [[nodiscard]] ModuleView view() const;
     void next();
+    /// The module at the cursor, as an index of Ast::modules.
+    [[nodiscard]] std::uint32_t index() const { return index_; }
+    /// Its name.
+    [[nodiscard]] NameId name() const;
+    /// Moves on to `index`; no module on the way there has a `(`.
+    void skip_bare(std::uint32_t index) { index_ = index; }
 
 private:
     const Ast* ast_;

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -76,6 +77,24 @@ public:
     [[nodiscard]] iterator end() { return {this, size_}; }
     [[nodiscard]] const_iterator begin() const { return {this, 0}; }
     [[nodiscard]] const_iterator end() const { return {this, size_}; }
+    /// The elements from `index` to the end of their block, at most `count`: what a long walk goes
+    /// by. Precondition: index < size() and count is not 0.
+    [[nodiscard]] std::span<const T> row(std::size_t index, std::size_t count) const {
+        LSYS_CHECK(index < size_, index, size_);
+        const std::size_t at = index % kBlock;
+        return {blocks_[index / kBlock].get() + at, std::min({count, size_ - index, kBlock - at})};
+    }
+    /// Appends up to `count` elements that lie in one row, for the caller to set.
+    [[nodiscard]] std::span<T> extend(std::size_t count) {
+        if (size_ / kBlock == blocks_.size()) {
+            blocks_.push_back(std::make_unique<T[]>(kBlock));
+        }
+        const std::size_t at = size_ % kBlock;
+        const std::size_t made = std::min(count, kBlock - at);
+        T* const first = blocks_[size_ / kBlock].get() + at;
+        size_ += made;
+        return {first, made};
+    }
     /// Forgets all elements from `size` on.
     void truncate(std::size_t size) {
         LSYS_CHECK(size <= size_, size, size_);

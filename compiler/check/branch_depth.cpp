@@ -54,10 +54,9 @@ public:
 
     [[nodiscard]] Depth of(const ProgramWord& word) const {
         Depth total;
-        for (std::size_t i = 0; i < word.module_count; ++i) {
-            const SymbolId symbol = program_.modules[word.first_module + i].symbol;
+        for_each_symbol(program_, word, [&](std::size_t, SymbolId symbol) {
             total = after(total, depth_[static_cast<std::size_t>(symbol)]);
-        }
+        });
         return total;
     }
 
@@ -68,13 +67,12 @@ public:
         std::vector<bool> queued(program_.productions.size(), true);
         for (std::uint32_t p = 0; p < program_.productions.size(); ++p) {
             const ProgramWord& word = program_.productions[p].successor;
-            for (std::size_t i = 0; i < word.module_count; ++i) {
-                std::vector<std::uint32_t>& list =
-                    users[static_cast<std::size_t>(program_.modules[word.first_module + i].symbol)];
+            for_each_symbol(program_, word, [&](std::size_t, SymbolId symbol) {
+                std::vector<std::uint32_t>& list = users[static_cast<std::size_t>(symbol)];
                 if (list.empty() || list.back() != p) {
                     list.push_back(p);
                 }
-            }
+            });
             work.push_back(p);
         }
         while (!work.empty()) {
@@ -111,10 +109,10 @@ private:
 /// Brackets opened less brackets closed.
 std::int64_t balance(const Program& program, const ProgramWord& word) {
     std::int64_t sum = 0;
-    for (std::size_t i = 0; i < word.module_count; ++i) {
-        const SymbolKind kind = program.symbol(program.modules[word.first_module + i].symbol).kind;
+    for_each_symbol(program, word, [&](std::size_t, SymbolId symbol) {
+        const SymbolKind kind = program.symbol(symbol).kind;
         sum += kind == SymbolKind::BranchOpen ? 1 : kind == SymbolKind::BranchClose ? -1 : 0;
-    }
+    });
     return sum;
 }
 

@@ -4,35 +4,32 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 namespace lsys {
 
 namespace {
 
 void check_word(const CheckInput& input,
+                const std::vector<SymbolKind>& kinds,
                 const ProgramWord& word,
                 const char* where,
                 Diagnostics& diagnostics) {
-    const Program& program = input.program;
     std::vector<std::size_t> open;
     std::vector<std::size_t> extra; // the first ones
     std::uint64_t extra_count = 0;
-    for (std::size_t i = word.first_module; i < std::size_t{word.first_module} + word.module_count;
-         ++i) {
-        switch (program.symbol(program.modules[i].symbol).kind) {
-        case SymbolKind::BranchOpen:
-            open.push_back(i);
-            break;
-        case SymbolKind::BranchClose:
+    for_each_symbol(input.program, word, [&](std::size_t index, SymbolId symbol) {
+        const SymbolKind kind = kinds[static_cast<std::size_t>(symbol)];
+        if (kind == SymbolKind::BranchOpen) {
+            open.push_back(index);
+        } else if (kind == SymbolKind::BranchClose) {
             if (!open.empty()) {
                 open.pop_back();
             } else if (++extra_count == 1) {
-                extra.push_back(i);
+                extra.push_back(index);
             }
-            break;
-        default:
-            break;
         }
-    }
+    });
     const auto more = [](std::uint64_t count) {
         return count < 2 ? std::string() : fmt::format(", and {} more", count - 1);
     };
@@ -69,9 +66,19 @@ void check_word(const CheckInput& input,
 } // namespace
 
 void check_branches(const CheckInput& input, Diagnostics& diagnostics) {
-    check_word(input, input.program.axiom, "axiom", diagnostics);
+    std::vector<SymbolKind> kinds; // by symbol
+    bool any = false;
+    for (const Symbol& symbol : input.program.symbols) {
+        kinds.push_back(symbol.kind);
+        any =
+            any || symbol.kind == SymbolKind::BranchOpen || symbol.kind == SymbolKind::BranchClose;
+    }
+    if (!any) {
+        return;
+    }
+    check_word(input, kinds, input.program.axiom, "axiom", diagnostics);
     for (const Production& production : input.program.productions) {
-        check_word(input, production.successor, "successor", diagnostics);
+        check_word(input, kinds, production.successor, "successor", diagnostics);
     }
 }
 

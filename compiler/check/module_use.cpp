@@ -20,16 +20,17 @@ ModuleUse find_module_use(const Program& program) {
         use.by_name[static_cast<std::uint32_t>(program.symbols[s].name)].push_back(SymbolId{s});
     }
     const auto meet = [&](const ProgramWord& word, bool occurs) {
-        for (std::size_t i = 0; i < word.module_count; ++i) {
-            const std::size_t index = word.first_module + i;
-            const auto s = static_cast<std::size_t>(program.modules[index].symbol);
-            if (occurs && use.first_place[s].word == nullptr) {
-                use.first_place[s] = {&word, index};
+        // A symbol with a first place has any place as well.
+        std::vector<ModulePlace>& known = occurs ? use.first_place : use.any_place;
+        for_each_symbol(program, word, [&](std::size_t index, SymbolId symbol) {
+            const auto s = static_cast<std::size_t>(symbol);
+            if (known[s].word == nullptr) {
+                known[s] = {&word, index};
+                if (use.any_place[s].word == nullptr) {
+                    use.any_place[s] = {&word, index};
+                }
             }
-            if (use.any_place[s].word == nullptr) {
-                use.any_place[s] = {&word, index};
-            }
-        }
+        });
     };
     meet(program.axiom, true);
     for (std::uint32_t p = 0; p < program.productions.size(); ++p) {

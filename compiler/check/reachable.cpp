@@ -60,14 +60,13 @@ Reachable find_reachable(const Program& program) {
     const bool ordered = program.settings.rewriting != RewritingMode::Sequential;
     std::vector<SymbolId> queue; // in order of generations
     const auto reach = [&](const ProgramWord& word, std::uint32_t generation) {
-        for (std::size_t i = 0; i < word.module_count; ++i) {
-            const SymbolId symbol = program.modules[word.first_module + i].symbol;
+        for_each_symbol(program, word, [&](std::size_t, SymbolId symbol) {
             std::uint32_t& known = result.generation[static_cast<std::size_t>(symbol)];
             if (known == kNone) {
                 known = ordered ? generation : 0;
                 queue.push_back(symbol);
             }
-        }
+        });
     };
     reach(program.axiom, 0);
     for (std::size_t head = 0; head < queue.size(); ++head) {

@@ -74,8 +74,12 @@ public:
         for (const IgnoreNode& ignore : ast.ignores) {
             declarations_.ignore(ignore, splitter);
         }
-        ModuleReading reading{resolution_, symbols_, splitter, expressions_,
-                              SplitReport(resolution_)};
+        ModuleReading reading{resolution_,
+                              symbols_,
+                              splitter,
+                              expressions_,
+                              SplitReport(resolution_),
+                              std::vector<SymbolId>(resolution_.names.count(), kNoSymbol)};
         ProductionResolver productions(reading, constants_);
         for (const Statement& statement : ast.statements) {
             switch (statement.kind) {

@@ -5,16 +5,31 @@
 
 namespace lsys {
 
+namespace {
+
+/// By name: whether some module has it.
+std::vector<std::uint8_t> names_of_modules(const Resolution& resolution) {
+    std::vector<std::uint8_t> used(resolution.names.count());
+    const ChunkedVector<ModuleNode>& modules = resolution.ast.modules;
+    for (std::size_t first = 0; first < modules.size();) {
+        const std::span<const ModuleNode> row = modules.row(first, modules.size() - first);
+        for (const ModuleNode& module : row) {
+            used[module.name_and_call & 0x7FFFFFFF] = 1;
+        }
+        first += row.size();
+    }
+    return used;
+}
+
+} // namespace
+
 NameSplitter::NameSplitter(Resolution& resolution, const std::vector<bool>& known)
     : resolution_(resolution), unknown_(resolution.names.count()) {
     bool may_split = false;
-    for (const ModuleNode& module : resolution.ast.modules) {
-        const std::size_t name = module.name_and_call & 0x7FFFFFFF;
-        if (known[name] || unknown_[name]) {
-            continue;
-        }
+    const std::vector<std::uint8_t> used = names_of_modules(resolution);
+    for (std::size_t name = 0; name < used.size(); ++name) {
         const std::string_view text = resolution.text(static_cast<NameId>(name));
-        if (is_identifier(text)) {
+        if (used[name] != 0 && !known[name] && is_identifier(text)) {
             unknown_[name] = true;
             may_split = may_split || text.size() > 1;
         }
@@ -49,8 +64,8 @@ void NameSplitter::collect_uses() {
 void NameSplitter::add_uses(ModuleList list) {
     ModuleCursor cursor(resolution_.ast, resolution_.names, resolution_.sources, list);
     for (; !cursor.done(); cursor.next()) {
-        const ModuleView module = cursor.view();
-        if (unknown_[index_of(module.name)]) {
+        if (unknown_[index_of(cursor.name())]) {
+            const ModuleView module = cursor.view();
             uses_.insert({module.name, module.arguments.count, module.name_span.file});
             use_lengths_.insert(resolution_.text(module.name).size());
         }

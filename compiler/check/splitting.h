@@ -26,6 +26,8 @@ public:
     /// Precondition: no module of the Ast is released yet.
     NameSplitter(Resolution& resolution, const std::vector<bool>& known);
 
+    /// Whether parts() may have an answer for this name.
+    [[nodiscard]] bool may_split(NameId name) const { return unknown_[index_of(name)]; }
     /// The parts of a name, or nothing if it is one module. Not for names in back quotes.
     [[nodiscard]] std::span<const NamePart>
     parts(NameId name, std::uint32_t parameter_count, FileId file);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -40,13 +41,17 @@ std::optional<int> radians_degrees(float value) {
     return std::nullopt;
 }
 
+bool is_checked(const Symbol& symbol) {
+    return symbol.parameter_count != 0 &&
+           (turns(symbol.turtle) || symbol.turtle == TurtleOperation::SetWidth);
+}
+
 void check_word(const CheckInput& input, const ProgramWord& word, Diagnostics& diagnostics) {
     const Program& program = input.program;
     for_each_module(
         program, word, [&](std::size_t index, std::size_t argument, const ProgramModule& module) {
             const Symbol& symbol = program.symbol(module.symbol);
-            if (symbol.parameter_count == 0 ||
-                (!turns(symbol.turtle) && symbol.turtle != TurtleOperation::SetWidth)) {
+            if (!is_checked(symbol)) {
                 return;
             }
             const Value& value = program.value(program.arguments[argument]);
@@ -84,6 +89,10 @@ void check_word(const CheckInput& input, const ProgramWord& word, Diagnostics& d
 } // namespace
 
 void check_turtle_arguments(const CheckInput& input, Diagnostics& diagnostics) {
+    const std::vector<Symbol>& symbols = input.program.symbols;
+    if (std::none_of(symbols.begin(), symbols.end(), is_checked)) {
+        return;
+    }
     check_word(input, input.program.axiom, diagnostics);
     for (const Production& production : input.program.productions) {
         check_word(input, production.successor, diagnostics);

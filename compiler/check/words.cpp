@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace lsys {
 
 bool check_module(ModuleReading& reading, const ModuleView& module) {
@@ -31,7 +33,11 @@ void append_module(ModuleReading& reading, const ModuleView& module) {
         module.quoted ? std::span<const NamePart>{}
                       : reading.splitter.parts(module.name, count, module.span.file);
     if (parts.empty()) {
-        program.modules.push_back({reading.symbols.get(module.name, count), begin});
+        const SymbolId symbol = reading.symbols.get(module.name, count);
+        program.modules.push_back({symbol, begin});
+        if (count == 0 && !reading.splitter.may_split(module.name)) {
+            reading.bare[index_of(module.name)] = symbol;
+        }
         return;
     }
     reading.splits.add(module.name_span, module.span, parts);
@@ -40,6 +46,34 @@ void append_module(ModuleReading& reading, const ModuleView& module) {
         program.modules.push_back(
             {reading.symbols.get(part.name, is_last ? count : 0), begin + part.offset});
     }
+}
+
+/// Appends the modules from `index` on that are names met before and nothing else; returns the
+/// first that is not. Nearly all modules of a long word are.
+std::uint32_t append_bare(ModuleReading& reading, std::uint32_t index, std::uint32_t end) {
+    ChunkedVector<ProgramModule>& made = reading.resolution.program.modules;
+    const std::span<const SymbolId> bare = reading.bare;
+    while (index < end) {
+        const std::span<const ModuleNode> nodes =
+            std::as_const(reading.resolution.ast.modules).row(index, end - index);
+        const std::span<ProgramModule> row = made.extend(nodes.size());
+        std::size_t taken = 0;
+        for (; taken < row.size(); ++taken) {
+            const ModuleNode node = nodes[taken];
+            // The bit of a parenthesis makes it too great a number for a name.
+            if (node.name_and_call >= bare.size() || bare[node.name_and_call] == kNoSymbol) {
+                break;
+            }
+            row[taken] = {bare[node.name_and_call], node.begin};
+        }
+        index += static_cast<std::uint32_t>(taken);
+        if (taken != row.size()) {
+            made.truncate(made.size() - (row.size() - taken));
+            break;
+        }
+        reading.resolution.ast.modules.release_before(index);
+    }
+    return index;
 }
 
 } // namespace
@@ -53,8 +87,14 @@ ProgramWord resolve_word(ModuleReading& reading, ModuleList list, ExpressionPlac
     word.first_module = static_cast<std::uint32_t>(program.modules.size());
     word.first_argument = static_cast<std::uint32_t>(program.arguments.size());
     ModuleCursor cursor(resolution.ast, resolution.names, resolution.sources, list);
-    for (std::uint32_t index = list.first; !cursor.done(); cursor.next(), ++index) {
+    while (!cursor.done()) {
+        const std::uint32_t index = append_bare(reading, cursor.index(), list.first + list.count);
+        cursor.skip_bare(index);
+        if (cursor.done()) {
+            break;
+        }
         const ModuleView module = cursor.view();
+        cursor.next();
         const std::string_view name = resolution.text(module.name);
         const std::uint32_t count = module.arguments.count;
         if (count != 0 && name.size() == 1 && !check_module(reading, module)) {

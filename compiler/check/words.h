@@ -7,6 +7,8 @@
 #include "compiler/check/splitting.h"
 #include "compiler/check/symbols.h"
 
+#include <vector>
+
 namespace lsys {
 
 /// What the parts of a resolution that read module lists share.
@@ -16,6 +18,9 @@ struct ModuleReading {
     NameSplitter& splitter;
     ExpressionResolver& expressions;
     SplitReport splits;
+    /// By name: the symbol of its modules without arguments, once met, where the name is one module
+    /// however it is written.
+    std::vector<SymbolId> bare;
 };
 
 /// Reports parameters of a module that takes none. False: the module is wrong.

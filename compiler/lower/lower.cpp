@@ -24,6 +24,7 @@ public:
         bytecode_.group_count = program_.group_count;
         symbols();
         globals();
+        bytecode_.template_codes.reserve(program_.modules.size());
         bytecode_.axiom = word(program_.axiom);
         bytecode_.axiom_site = emitter_.add_site(program_.axiom.span);
         bytecode_.axiom_draw_position = program_.axiom_draw_position;
@@ -72,19 +73,22 @@ private:
         made.draw_count = word.draw_count;
         stored_.clear();
         std::size_t argument = word.first_argument;
-        for (std::uint32_t i = 0; i < word.module_count; ++i) {
-            const SymbolId symbol = program_.modules[word.first_module + i].symbol;
-            const std::uint32_t count = program_.symbol(symbol).parameter_count;
-            const Code code =
-                count == 0 ? static_cast<Code>(symbol) : folder_.code(symbol, argument);
-            if (code == static_cast<Code>(symbol)) {
-                for (std::uint32_t k = 0; k < count; ++k) {
-                    stored_.push_back(program_.arguments[argument + k]);
+        bytecode_.template_codes.resize(std::size_t{made.codes.first} + word.module_count);
+        Code* next = bytecode_.template_codes.data() + made.codes.first;
+        for_each_symbol(program_, word, [&](std::size_t, SymbolId symbol) {
+            const std::uint32_t count = bytecode_.symbol(symbol).parameter_count;
+            auto code = static_cast<Code>(symbol);
+            if (count != 0) {
+                code = folder_.code(symbol, argument);
+                if (code == static_cast<Code>(symbol)) {
+                    for (std::uint32_t k = 0; k < count; ++k) {
+                        stored_.push_back(program_.arguments[argument + k]);
+                    }
                 }
+                argument += count;
             }
-            argument += count;
-            bytecode_.template_codes.push_back(code);
-        }
+            *next++ = code;
+        });
         made.parameter_count = static_cast<std::uint32_t>(stored_.size());
         if (!stored_.empty()) {
             made.arguments = emitter_.arguments(stored_);
