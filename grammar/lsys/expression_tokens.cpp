@@ -70,7 +70,9 @@ std::size_t number_before_name(std::string_view text) {
     return is_suffix || is_hexadecimal || has_exponent ? 0 : length;
 }
 
-Parser::symbol_type supply_between_values(ParseSession& session) {
+namespace {
+
+Parser::symbol_type between_values(ParseSession& session) {
     ScanState& scan = session.scan;
     scan.after_operator();
     const SourceSpan place = session.supplied();
@@ -110,6 +112,14 @@ Parser::symbol_type supply_between_values(ParseSession& session) {
         }
     }
     return joins_conditions ? Parser::make_AND(place) : Parser::make_STAR(place);
+}
+
+} // namespace
+
+Parser::symbol_type supply_before_value(ParseSession& session) {
+    Parser::symbol_type token = between_values(session);
+    session.scan.end = session.scan.begin;
+    return token;
 }
 
 bool begins_bounds(const ScanState& scan) {

@@ -17,8 +17,9 @@ void report_malformed_number(ParseSession& session, std::string_view text, Sourc
 /// For `2x`: the length of the number, if a name follows it directly; else 0.
 [[nodiscard]] std::size_t number_before_name(std::string_view text);
 
-/// A `,` or an operator before the value at hand, which follows another one; reported.
-Parser::symbol_type supply_between_values(ParseSession& session);
+/// A `,` or an operator before the value at hand, which follows another one; reported. The value is
+/// still to be read.
+Parser::symbol_type supply_before_value(ParseSession& session);
 /// Whether a `{` here is that of the bounds of #param.
 [[nodiscard]] bool begins_bounds(const ScanState& scan);
 

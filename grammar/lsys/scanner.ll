@@ -31,8 +31,6 @@
         yyless(shortened);                                                                         \
         scan.end = scan.begin + static_cast<std::uint32_t>(shortened);                             \
     } while (false)
-/* The start condition follows the part of the statement. */
-#define FOLLOW() BEGIN(start_condition(scan))
 #define TEXT std::string_view(yytext, static_cast<std::size_t>(yyleng))
 #define OPERATOR(kind)                                                                             \
     do {                                                                                           \
@@ -44,10 +42,8 @@
 #define BEGIN_VALUE()                                                                              \
     do {                                                                                           \
         if (scan.value_before) {                                                                   \
-            Parser::symbol_type between = supply_between_values(session);                          \
-            SHORTEN(0);                                                                            \
-            FOLLOW();                                                                              \
-            return between;                                                                        \
+            yyless(0);                                                                             \
+            return supply_before_value(session);                                                   \
         }                                                                                          \
     } while (false)
 %}
@@ -110,10 +106,10 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
         return INITIAL;
     };
     if (scan.draining != Drain::Nothing) {
-        Parser::symbol_type token = drain(session);
-        FOLLOW();
-        return token;
+        return drain(session);
     }
+    /* The start condition follows the part of the statement, which changes only where a token is returned. */
+    BEGIN(start_condition(scan));
 %}
 
 <INITIAL,OPENING,OBJECT_NAME,OBJECT_VALUE,SETTING,MODULES,EXPRESSION>{
@@ -130,9 +126,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               const SourceSpan span = session.token();
                               return Parser::make_QUOTED(read_as_module(session, ";"), span);
                           }
-                          const std::optional<Parser::symbol_type> token = semicolon(session);
-                          FOLLOW();
-                          if (token) {
+                          if (const auto token = semicolon(session)) {
                               return *token;
                           }
                         }
@@ -164,19 +158,13 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           BEGIN(LINE_COMMENT);
                         }
   "#"[ \t]*{IDENT}      {
-                          const Parser::symbol_type token = start_statement(session, TEXT);
-                          FOLLOW();
-                          return token;
+                          return start_statement(session, TEXT);
                         }
   {IDENT}               {
-                          const Parser::symbol_type token = start_without_hash(session, TEXT);
-                          FOLLOW();
-                          return token;
+                          return start_without_hash(session, TEXT);
                         }
   [^#;A-Za-z_ \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF]|"#" {
-                          const Parser::symbol_type token = start_without_hash(session, {});
-                          FOLLOW();
-                          return token;
+                          return start_without_hash(session, {});
                         }
 }
 
@@ -190,10 +178,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           if (begins_statement(session.scanned.text, scan.begin)) {
                               scan.next_statement = scan.begin;
                               SHORTEN(0);
-                              Parser::symbol_type token =
-                                  start_drain(session, Drain::NextStatement, {});
-                              FOLLOW();
-                              return token;
+                              return start_drain(session, Drain::NextStatement, {});
                           }
                           if (YY_START == EXPRESSION || YY_START == SETTING) {
                               report_stray_hash(session);
@@ -215,29 +200,23 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
   ":"                   {
                           const SourceSpan span = session.token();
                           after_opening_colon(session);
-                          FOLLOW();
                           return Parser::make_COLON(span);
                         }
   "="                   {
-                          const Parser::symbol_type token = opening_equals(session);
-                          FOLLOW();
-                          return token;
+                          return opening_equals(session);
                         }
   {IDENT}               {
                           if (const auto missing = missing_opening(session)) {
                               SHORTEN(0);
-                              FOLLOW();
                               return *missing;
                           }
                           const SourceSpan span = session.token();
                           scan.enter(scan.keyword == Keyword::Set ? Part::Setting : Part::Value);
-                          FOLLOW();
                           return Parser::make_IDENTIFIER(session.builder.intern(TEXT), span);
                         }
   [^:;=#A-Za-z_ \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF] {
                           if (const auto missing = missing_opening(session)) {
                               SHORTEN(0);
-                              FOLLOW();
                               return *missing;
                           }
                           return Parser::make_OTHER(session.token());
@@ -250,13 +229,10 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
 <OBJECT_NAME>{
   {IDENT}|{SYMBOL}      {
                           if (yytext[0] == '"' && scan.keyword == Keyword::Include) {
-                              const Parser::symbol_type token = unclosed_quote(session);
-                              FOLLOW();
-                              return token;
+                              return unclosed_quote(session);
                           }
                           const SourceSpan span = session.token();
                           scan.enter(Part::ObjectValue);
-                          FOLLOW();
                           return Parser::make_NAMES({scan.begin, scan.end}, span);
                         }
 }
@@ -265,13 +241,10 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
   "("                   {
                           const SourceSpan span = session.token();
                           scan.push(OpenBracket::Kind::Module);
-                          FOLLOW();
                           return Parser::make_OPEN(span);
                         }
   "\""                  {
-                          const Parser::symbol_type token = unclosed_quote(session);
-                          FOLLOW();
-                          return token;
+                          return unclosed_quote(session);
                         }
   "`"                   { return Parser::make_OTHER(session.token()); }
 }
@@ -297,7 +270,6 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
   "("                   {
                           const SourceSpan span = session.token();
                           scan.push(OpenBracket::Kind::Group);
-                          FOLLOW();
                           return Parser::make_LPAREN(span);
                         }
   [=:]                  {
@@ -324,14 +296,11 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
   "("                   {
                           const SourceSpan span = session.token();
                           scan.push(OpenBracket::Kind::Module);
-                          FOLLOW();
                           return Parser::make_OPEN(span);
                         }
   ")"                   { report_extra_parenthesis(session); }
   ":"                   {
-                          const Parser::symbol_type token = colon_after_modules(session);
-                          FOLLOW();
-                          return token;
+                          return colon_after_modules(session);
                         }
   "<"                   {
                           if (scan.part == Part::Head) {
@@ -363,13 +332,10 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           case Stray::Colon: {
                               SHORTEN(0);
                               scan.enter(Part::Condition);
-                              FOLLOW();
                               return Parser::make_COLON(session.supplied());
                           }
                           case Stray::Lost: {
-                              const Parser::symbol_type token = lose_statement(session);
-                              FOLLOW();
-                              return token;
+                              return lose_statement(session);
                           }
                           }
                         }
@@ -389,7 +355,6 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           const NameId name = quoted_name(session, TEXT, span);
                           if (scan.part == Part::ObjectName) {
                               scan.enter(Part::ObjectValue);
-                              FOLLOW();
                           }
                           return Parser::make_QUOTED(name, span);
                         }
@@ -431,9 +396,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           const SourceSpan span = session.token();
                           scan.push(is_call ? OpenBracket::Kind::Call : OpenBracket::Kind::Group);
                           if (scan.depth > kMaxNesting) {
-                              const Parser::symbol_type token = too_deep(session);
-                              FOLLOW();
-                              return token;
+                              return too_deep(session);
                           }
                           return Parser::make_LPAREN(span);
                         }
@@ -444,9 +407,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           const SourceSpan span = session.token();
                           scan.push(OpenBracket::Kind::Brace);
                           if (scan.depth > kMaxNesting) {
-                              const Parser::symbol_type token = too_deep(session);
-                              FOLLOW();
-                              return token;
+                              return too_deep(session);
                           }
                           return Parser::make_LBRACE(span);
                         }
@@ -457,7 +418,6 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               if (token->location.begin == token->location.end) {
                                   SHORTEN(0);
                               }
-                              FOLLOW();
                               return *token;
                           }
                         }
@@ -480,27 +440,21 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           }
                           const SourceSpan span = session.token();
                           if (!lengthen_chain(session)) {
-                              const Parser::symbol_type token = too_deep(session);
-                              FOLLOW();
-                              return token;
+                              return too_deep(session);
                           }
                           return Parser::make_MINUS(span);
                         }
   "!"                   {
                           const SourceSpan span = session.token();
                           if (!lengthen_chain(session)) {
-                              const Parser::symbol_type token = too_deep(session);
-                              FOLLOW();
-                              return token;
+                              return too_deep(session);
                           }
                           return Parser::make_NOT(span);
                         }
   "^"                   {
                           const SourceSpan span = session.token();
                           if (!lengthen_chain(session)) {
-                              const Parser::symbol_type token = too_deep(session);
-                              FOLLOW();
-                              return token;
+                              return too_deep(session);
                           }
                           return Parser::make_CARET(span);
                         }
@@ -520,9 +474,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           report_wrong_operator(session, "^");
                           const SourceSpan span = session.token();
                           if (!lengthen_chain(session)) {
-                              const Parser::symbol_type token = too_deep(session);
-                              FOLLOW();
-                              return token;
+                              return too_deep(session);
                           }
                           return Parser::make_CARET(span);
                         }
@@ -547,9 +499,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                         }
   "//*"                 { SHORTEN(1); OPERATOR(SLASH); }
   ":"                   {
-                          const Parser::symbol_type token = colon_in_expression(session);
-                          FOLLOW();
-                          return token;
+                          return colon_in_expression(session);
                         }
   [[\]$"'.?@\\`]        { scan.after_operator(); return Parser::make_OTHER(session.token()); }
 }
@@ -573,10 +523,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               keep_comment(session);
                           }
                           scan.next_statement = scan.end;
-                          const Parser::symbol_type token =
-                              start_drain(session, Drain::EndOfFile, {});
-                          FOLLOW();
-                          return token;
+                          return start_drain(session, Drain::EndOfFile, {});
                         }
 
 %%
