@@ -27,15 +27,15 @@ bool is_word_character(char c) {
 
 } // namespace
 
-Parser::symbol_type number(ParseSession& session, std::string_view text, SourceSpan span) {
+Token number(ParseSession& session, std::string_view text, SourceSpan span) {
     const Literal literal = read_literal(text);
     if (literal.range != LiteralRange::Normal && session.wants_reports()) {
         report_literal_range(session.context.diagnostics, literal, text, span);
     }
     if (literal.range == LiteralRange::Overflow) {
-        return Parser::make_BAD_VALUE(span);
+        return Token(Parser::token::TOK_BAD_VALUE, span);
     }
-    return Parser::make_NUMBER(literal.value, span);
+    return Token(Parser::token::TOK_NUMBER, literal.value, span);
 }
 
 void report_malformed_number(ParseSession& session, std::string_view text, SourceSpan span) {
@@ -72,7 +72,7 @@ std::size_t number_before_name(std::string_view text) {
 
 namespace {
 
-Parser::symbol_type between_values(ParseSession& session) {
+Token between_values(ParseSession& session) {
     ScanState& scan = session.scan;
     scan.after_operator();
     const SourceSpan place = session.supplied();
@@ -88,7 +88,7 @@ Parser::symbol_type between_values(ParseSession& session) {
                 DiagnosticCode::MissingComma, place, "two values without a `,` between them");
             add_fix(diagnostic, "add `,`", place, ",");
         }
-        return Parser::make_COMMA(place);
+        return Token(Parser::token::TOK_COMMA, place);
     }
     const bool joins_conditions = scan.part == Part::Condition && scan.open.empty() && !adjacent;
     if (session.wants(DiagnosticCode::MissingOperator)) {
@@ -111,13 +111,13 @@ Parser::symbol_type between_values(ParseSession& session) {
                                              : "a product is written with `*`");
         }
     }
-    return joins_conditions ? Parser::make_AND(place) : Parser::make_STAR(place);
+    return joins_conditions ? Token(Parser::token::TOK_AND, place) : Token(Parser::token::TOK_STAR, place);
 }
 
 } // namespace
 
-Parser::symbol_type supply_before_value(ParseSession& session) {
-    Parser::symbol_type token = between_values(session);
+Token supply_before_value(ParseSession& session) {
+    Token token = between_values(session);
     session.scan.end = session.scan.begin;
     return token;
 }
@@ -127,7 +127,7 @@ bool begins_bounds(const ScanState& scan) {
            scan.open.empty();
 }
 
-std::optional<Parser::symbol_type> closing(ParseSession& session, char character) {
+std::optional<Token> closing(ParseSession& session, char character) {
     ScanState& scan = session.scan;
     const bool is_brace = character == '}';
     if (scan.open.empty() || (is_brace && scan.open_braces == 0)) {
@@ -142,9 +142,9 @@ std::optional<Parser::symbol_type> closing(ParseSession& session, char character
     if (is_brace == (scan.open.back().kind == OpenBracket::Kind::Brace)) {
         const SourceSpan span = session.token();
         const OpenBracket::Kind kind = scan.pop();
-        return is_brace                            ? Parser::make_RBRACE(span)
-               : kind == OpenBracket::Kind::Module ? Parser::make_CLOSE(span)
-                                                   : Parser::make_RPAREN(span);
+        return is_brace                            ? Token(Parser::token::TOK_RBRACE, span)
+               : kind == OpenBracket::Kind::Module ? Token(Parser::token::TOK_CLOSE, span)
+                                                   : Token(Parser::token::TOK_RPAREN, span);
     }
     // A bracket of the other kind was opened later and is closed first.
     const OpenBracket& inner = scan.open.back();
@@ -160,9 +160,9 @@ std::optional<Parser::symbol_type> closing(ParseSession& session, char character
         add_fix(diagnostic, "add `" + closer + "`", place, closer);
     }
     if (scan.pop() == OpenBracket::Kind::Brace) {
-        return Parser::make_RBRACE(place);
+        return Token(Parser::token::TOK_RBRACE, place);
     }
-    return Parser::make_RPAREN(place);
+    return Token(Parser::token::TOK_RPAREN, place);
 }
 
 bool lengthen_chain(ParseSession& session) {
@@ -173,7 +173,7 @@ bool lengthen_chain(ParseSession& session) {
     return ++scan.depth <= kMaxNesting;
 }
 
-Parser::symbol_type too_deep(ParseSession& session) {
+Token too_deep(ParseSession& session) {
     const ScanState& scan = session.scan;
     if (session.wants_reports()) {
         const bool is_operator = scan.chain != 0;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "grammar/lsys/parse_session.h"
-#include "lsys/parser.h"
+#include "grammar/lsys/token.h"
 
 #include <cstddef>
 #include <optional>
@@ -12,24 +12,24 @@
 namespace lsys::lsys_grammar {
 
 /// The token of a number; out of range it is reported.
-Parser::symbol_type number(ParseSession& session, std::string_view text, SourceSpan span);
+Token number(ParseSession& session, std::string_view text, SourceSpan span);
 void report_malformed_number(ParseSession& session, std::string_view text, SourceSpan span);
 /// For `2x`: the length of the number, if a name follows it directly; else 0.
 [[nodiscard]] std::size_t number_before_name(std::string_view text);
 
 /// A `,` or an operator before the value at hand, which follows another one; reported. The value is
 /// still to be read.
-Parser::symbol_type supply_before_value(ParseSession& session);
+Token supply_before_value(ParseSession& session);
 /// Whether a `{` here is that of the bounds of #param.
 [[nodiscard]] bool begins_bounds(const ScanState& scan);
 
 /// A `)` or `}`. Nothing if it closes nothing; an empty one if another bracket must be closed
 /// before.
-std::optional<Parser::symbol_type> closing(ParseSession& session, char character);
+std::optional<Token> closing(ParseSession& session, char character);
 /// A unary operator or `^`: false if they nest too deep.
 [[nodiscard]] bool lengthen_chain(ParseSession& session);
 /// Reports it and drops the statement.
-Parser::symbol_type too_deep(ParseSession& session);
+Token too_deep(ParseSession& session);
 
 void report_split_operator(ParseSession& session, std::string_view text);
 void report_wrong_operator(ParseSession& session, std::string_view right);

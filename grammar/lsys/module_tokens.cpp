@@ -186,7 +186,7 @@ void report_unclosed_back_quote(ParseSession& session) {
     }
 }
 
-Parser::symbol_type unclosed_quote(ParseSession& session) {
+Token unclosed_quote(ParseSession& session) {
     if (session.wants(DiagnosticCode::UnclosedQuote)) {
         Diagnostic& diagnostic =
             report(session, DiagnosticCode::UnclosedQuote, "this name is not closed on its line");

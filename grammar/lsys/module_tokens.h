@@ -3,7 +3,7 @@
 #pragma once
 
 #include "grammar/lsys/parse_session.h"
-#include "lsys/parser.h"
+#include "grammar/lsys/token.h"
 
 #include <cstdint>
 #include <string_view>
@@ -31,7 +31,7 @@ bool is_colour_symbol(ParseSession& session);
 /// The name in back quotes; `text` has the quotes.
 NameId quoted_name(ParseSession& session, std::string_view text, SourceSpan span);
 void report_unclosed_back_quote(ParseSession& session);
-Parser::symbol_type unclosed_quote(ParseSession& session);
+Token unclosed_quote(ParseSession& session);
 
 /// `text` is a run and a `*`: the length of the run, which does not reach into a comment.
 [[nodiscard]] int run_before_star(std::string_view text);

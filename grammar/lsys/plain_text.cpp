@@ -98,7 +98,7 @@ bool sets_letters(const ScannedText& scanned, const ParseContext& context) {
         } else if (matched == 0 || token.kind() != Kind::S_IDENTIFIER) {
             matched = 0;
         } else {
-            const auto word = token.value.as<NameId>();
+            const auto word = token.value.name;
             if (matched == 2) {
                 return word == letters;
             }

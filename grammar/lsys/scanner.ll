@@ -17,7 +17,7 @@
 #include "lsys/parser.h"
 
 #define YY_DECL                                                                                    \
-    lsys::lsys_grammar::Parser::symbol_type lsys::lsys_grammar::next_token(                        \
+    lsys::lsys_grammar::Token lsys::lsys_grammar::next_token(                        \
         lsys::ParseSession& session, void* yyscanner)
 
 #define YY_USER_ACTION                                                                             \
@@ -36,7 +36,7 @@
     do {                                                                                           \
         const SourceSpan span = session.token();                                                   \
         scan.after_operator();                                                                     \
-        return Parser::make_##kind(span);                                                          \
+        return Token(Parser::token::TOK_##kind, span);                                                          \
     } while (false)
 /* Two values side by side: an operator or comma is supplied first. */
 #define BEGIN_VALUE()                                                                              \
@@ -124,7 +124,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
   ";"                   {
                           if (is_colour_symbol(session)) {
                               const SourceSpan span = session.token();
-                              return Parser::make_QUOTED(read_as_module(session, ";"), span);
+                              return Token(Parser::token::TOK_QUOTED, read_as_module(session, ";"), span);
                           }
                           if (const auto token = semicolon(session)) {
                               return *token;
@@ -184,14 +184,14 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               report_stray_hash(session);
                               if (!scan.value_before) {
                                   scan.value_before = true;
-                                  return Parser::make_BAD_VALUE(session.token());
+                                  return Token(Parser::token::TOK_BAD_VALUE, session.token());
                               }
                           } else if (YY_START == MODULES) {
                               report_foreign_symbol(session, '#');
                               const SourceSpan span = session.token();
-                              return Parser::make_QUOTED(read_as_module(session, "#"), span);
+                              return Token(Parser::token::TOK_QUOTED, read_as_module(session, "#"), span);
                           } else if (YY_START != SKIP) {
-                              return Parser::make_OTHER(session.token());
+                              return Token(Parser::token::TOK_OTHER, session.token());
                           }
                         }
 }
@@ -200,7 +200,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
   ":"                   {
                           const SourceSpan span = session.token();
                           after_opening_colon(session);
-                          return Parser::make_COLON(span);
+                          return Token(Parser::token::TOK_COLON, span);
                         }
   "="                   {
                           return opening_equals(session);
@@ -212,19 +212,19 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           }
                           const SourceSpan span = session.token();
                           scan.enter(scan.keyword == Keyword::Set ? Part::Setting : Part::Value);
-                          return Parser::make_IDENTIFIER(session.builder.intern(TEXT), span);
+                          return Token(Parser::token::TOK_IDENTIFIER, session.builder.intern(TEXT), span);
                         }
   [^:;=#A-Za-z_ \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF] {
                           if (const auto missing = missing_opening(session)) {
                               SHORTEN(0);
                               return *missing;
                           }
-                          return Parser::make_OTHER(session.token());
+                          return Token(Parser::token::TOK_OTHER, session.token());
                         }
 }
 
 <OBJECT_NAME,OBJECT_VALUE>{
-  "\""[^"\n\0]*"\""     { return Parser::make_STRING(session.token()); }
+  "\""[^"\n\0]*"\""     { return Token(Parser::token::TOK_STRING, session.token()); }
 }
 <OBJECT_NAME>{
   {IDENT}|{SYMBOL}      {
@@ -233,30 +233,30 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           }
                           const SourceSpan span = session.token();
                           scan.enter(Part::ObjectValue);
-                          return Parser::make_NAMES({scan.begin, scan.end}, span);
+                          return Token(Parser::token::TOK_NAMES, {scan.begin, scan.end}, span);
                         }
 }
 <OBJECT_VALUE>{
-  {IDENT}               { return Parser::make_IDENTIFIER(session.builder.intern(TEXT), session.token()); }
+  {IDENT}               { return Token(Parser::token::TOK_IDENTIFIER, session.builder.intern(TEXT), session.token()); }
   "("                   {
                           const SourceSpan span = session.token();
                           scan.push(OpenBracket::Kind::Module);
-                          return Parser::make_OPEN(span);
+                          return Token(Parser::token::TOK_OPEN, span);
                         }
   "\""                  {
                           return unclosed_quote(session);
                         }
-  "`"                   { return Parser::make_OTHER(session.token()); }
+  "`"                   { return Token(Parser::token::TOK_OTHER, session.token()); }
 }
 <OBJECT_NAME,OBJECT_VALUE>{
-  ":"                   { return Parser::make_COLON(session.token()); }
+  ":"                   { return Token(Parser::token::TOK_COLON, session.token()); }
   [^:;#"`A-Za-z_ \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF] {
-                          return Parser::make_OTHER(session.token());
+                          return Token(Parser::token::TOK_OTHER, session.token());
                         }
 }
 
 <SETTING>{
-  {IDENT}               { return Parser::make_IDENTIFIER(session.builder.intern(TEXT), session.token()); }
+  {IDENT}               { return Token(Parser::token::TOK_IDENTIFIER, session.builder.intern(TEXT), session.token()); }
   {NUMBER}              {
                           const SourceSpan span = session.token();
                           return number(session, TEXT, span);
@@ -264,39 +264,39 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
   {LIKE}                {
                           const SourceSpan span = session.token();
                           report_malformed_number(session, TEXT, span);
-                          return Parser::make_BAD_VALUE(span);
+                          return Token(Parser::token::TOK_BAD_VALUE, span);
                         }
-  "-"                   { return Parser::make_MINUS(session.token()); }
+  "-"                   { return Token(Parser::token::TOK_MINUS, session.token()); }
   "("                   {
                           const SourceSpan span = session.token();
                           scan.push(OpenBracket::Kind::Group);
-                          return Parser::make_LPAREN(span);
+                          return Token(Parser::token::TOK_LPAREN, span);
                         }
   [=:]                  {
                           if (!is_needless_sign(session)) {
-                              return Parser::make_OTHER(session.token());
+                              return Token(Parser::token::TOK_OTHER, session.token());
                           }
                         }
   [^=:;#A-Za-z_0-9( \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF-] {
-                          return Parser::make_OTHER(session.token());
+                          return Token(Parser::token::TOK_OTHER, session.token());
                         }
 }
 
 <MODULES>{
   {RUN}                 {
                           const SourceSpan span = session.token();
-                          return Parser::make_NAMES({scan.begin, scan.end}, span);
+                          return Token(Parser::token::TOK_NAMES, {scan.begin, scan.end}, span);
                         }
   {RUN}"*"              {
                           /* A comment may begin here; the run does not reach into it. */
                           SHORTEN(run_before_star(TEXT));
                           const SourceSpan span = session.token();
-                          return Parser::make_NAMES({scan.begin, scan.end}, span);
+                          return Token(Parser::token::TOK_NAMES, {scan.begin, scan.end}, span);
                         }
   "("                   {
                           const SourceSpan span = session.token();
                           scan.push(OpenBracket::Kind::Module);
-                          return Parser::make_OPEN(span);
+                          return Token(Parser::token::TOK_OPEN, span);
                         }
   ")"                   { report_extra_parenthesis(session); }
   ":"                   {
@@ -304,19 +304,19 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                         }
   "<"                   {
                           if (scan.part == Part::Head) {
-                              return Parser::make_CLT(session.token());
+                              return Token(Parser::token::TOK_CLT, session.token());
                           }
                           report_foreign_symbol(session, yytext[0]);
                           const SourceSpan span = session.token();
-                          return Parser::make_QUOTED(read_as_module(session, TEXT), span);
+                          return Token(Parser::token::TOK_QUOTED, read_as_module(session, TEXT), span);
                         }
   ">"                   {
                           if (scan.part == Part::Head) {
-                              return Parser::make_CGT(session.token());
+                              return Token(Parser::token::TOK_CGT, session.token());
                           }
                           report_foreign_symbol(session, yytext[0]);
                           const SourceSpan span = session.token();
-                          return Parser::make_QUOTED(read_as_module(session, TEXT), span);
+                          return Token(Parser::token::TOK_QUOTED, read_as_module(session, TEXT), span);
                         }
   [@*~=?,]|{NUMBER}     {
                           switch (stray_in_modules(session, TEXT)) {
@@ -324,7 +324,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               break;
                           case Stray::Module: {
                               const SourceSpan span = session.token();
-                              return Parser::make_QUOTED(read_as_module(session, TEXT), span);
+                              return Token(Parser::token::TOK_QUOTED, read_as_module(session, TEXT), span);
                           }
                           case Stray::Range:
                               BEGIN(RANGE);
@@ -332,7 +332,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           case Stray::Colon: {
                               SHORTEN(0);
                               scan.enter(Part::Condition);
-                              return Parser::make_COLON(session.supplied());
+                              return Token(Parser::token::TOK_COLON, session.supplied());
                           }
                           case Stray::Lost: {
                               return lose_statement(session);
@@ -356,7 +356,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           if (scan.part == Part::ObjectName) {
                               scan.enter(Part::ObjectValue);
                           }
-                          return Parser::make_QUOTED(name, span);
+                          return Token(Parser::token::TOK_QUOTED, name, span);
                         }
   "`"                   { report_unclosed_back_quote(session); }
 }
@@ -379,14 +379,14 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           const SourceSpan span = session.token();
                           scan.value_before = true;
                           report_malformed_number(session, TEXT, span);
-                          return Parser::make_BAD_VALUE(span);
+                          return Token(Parser::token::TOK_BAD_VALUE, span);
                         }
   {IDENT}               {
                           BEGIN_VALUE();
                           const SourceSpan span = session.token();
                           scan.value_before = true;
                           scan.name_before = true;
-                          return Parser::make_IDENTIFIER(session.builder.intern(TEXT), span);
+                          return Token(Parser::token::TOK_IDENTIFIER, session.builder.intern(TEXT), span);
                         }
   "("                   {
                           const bool is_call = scan.name_before;
@@ -398,7 +398,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           if (scan.depth > kMaxNesting) {
                               return too_deep(session);
                           }
-                          return Parser::make_LPAREN(span);
+                          return Token(Parser::token::TOK_LPAREN, span);
                         }
   "{"                   {
                           if (!begins_bounds(scan)) {
@@ -409,10 +409,10 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           if (scan.depth > kMaxNesting) {
                               return too_deep(session);
                           }
-                          return Parser::make_LBRACE(span);
+                          return Token(Parser::token::TOK_LBRACE, span);
                         }
   [)}]                  {
-                          const std::optional<Parser::symbol_type> token =
+                          const std::optional<Token> token =
                               closing(session, yytext[0]);
                           if (token) {
                               if (token->location.begin == token->location.end) {
@@ -442,21 +442,21 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           if (!lengthen_chain(session)) {
                               return too_deep(session);
                           }
-                          return Parser::make_MINUS(span);
+                          return Token(Parser::token::TOK_MINUS, span);
                         }
   "!"                   {
                           const SourceSpan span = session.token();
                           if (!lengthen_chain(session)) {
                               return too_deep(session);
                           }
-                          return Parser::make_NOT(span);
+                          return Token(Parser::token::TOK_NOT, span);
                         }
   "^"                   {
                           const SourceSpan span = session.token();
                           if (!lengthen_chain(session)) {
                               return too_deep(session);
                           }
-                          return Parser::make_CARET(span);
+                          return Token(Parser::token::TOK_CARET, span);
                         }
   "!"{BLANK}+"="        { report_split_operator(session, TEXT); OPERATOR(NOT_EQUAL); }
   "="{BLANK}+"="        { report_split_operator(session, TEXT); OPERATOR(EQUAL); }
@@ -476,14 +476,14 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           if (!lengthen_chain(session)) {
                               return too_deep(session);
                           }
-                          return Parser::make_CARET(span);
+                          return Token(Parser::token::TOK_CARET, span);
                         }
   "%"                   {
                           if (scan.value_before) {
                               report_remainder_operator(session);
                               OPERATOR(SLASH);
                           }
-                          return Parser::make_OTHER(session.token());
+                          return Token(Parser::token::TOK_OTHER, session.token());
                         }
   "="                   {
                           if (!is_needless_sign(session)) {
@@ -501,7 +501,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
   ":"                   {
                           return colon_in_expression(session);
                         }
-  [[\]$"'.?@\\`]        { scan.after_operator(); return Parser::make_OTHER(session.token()); }
+  [[\]$"'.?@\\`]        { scan.after_operator(); return Token(Parser::token::TOK_OTHER, session.token()); }
 }
 
 <INITIAL,OPENING,OBJECT_NAME,OBJECT_VALUE,SETTING,MODULES,EXPRESSION>{

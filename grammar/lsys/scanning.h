@@ -3,12 +3,12 @@
 #pragma once
 
 #include "grammar/lsys/parse_session.h"
-#include "lsys/parser.h"
+#include "grammar/lsys/token.h"
 
 namespace lsys::lsys_grammar {
 
 /// The next token; END again and again after the last.
-Parser::symbol_type next_token(ParseSession& session, void* scanner);
+Token next_token(ParseSession& session, void* scanner);
 
 class Scanning {
 public:

@@ -18,30 +18,30 @@ void add_fix(Diagnostic& diagnostic, std::string title, SourceSpan span, std::st
     diagnostic.fixes.push_back({std::move(title), {{span, std::move(replacement)}}, true});
 }
 
-Parser::symbol_type keyword_token(ParseSession& session, std::string_view word, SourceSpan span) {
+Token keyword_token(ParseSession& session, std::string_view word, SourceSpan span) {
     switch (session.scan.keyword) {
     case Keyword::Label:
-        return Parser::make_LABEL(session.builder.intern(word), span);
+        return Token(Parser::token::TOK_LABEL, session.builder.intern(word), span);
     case Keyword::Generations:
-        return Parser::make_N(span);
+        return Token(Parser::token::TOK_N, span);
     case Keyword::Define:
-        return Parser::make_DEFINE(span);
+        return Token(Parser::token::TOK_DEFINE, span);
     case Keyword::Param:
-        return Parser::make_PARAM(span);
+        return Token(Parser::token::TOK_PARAM, span);
     case Keyword::Module:
-        return Parser::make_MODULE(span);
+        return Token(Parser::token::TOK_MODULE, span);
     case Keyword::Object:
-        return Parser::make_OBJECT(span);
+        return Token(Parser::token::TOK_OBJECT, span);
     case Keyword::Include:
-        return Parser::make_INCLUDE(span);
+        return Token(Parser::token::TOK_INCLUDE, span);
     case Keyword::Set:
-        return Parser::make_SET(span);
+        return Token(Parser::token::TOK_SET, span);
     case Keyword::Ignore:
-        return Parser::make_IGNORE(span);
+        return Token(Parser::token::TOK_IGNORE, span);
     case Keyword::Axiom:
-        return Parser::make_W(span);
+        return Token(Parser::token::TOK_W, span);
     }
-    return Parser::make_YYerror(span);
+    return Token(Parser::token::TOK_YYerror, span);
 }
 
 /// The part after `#word`, where `next` is the next character.
@@ -70,7 +70,7 @@ void open_statement(ScanState& scan, Keyword keyword) {
     scan.depth = 0;
 }
 
-Parser::symbol_type begin_parts(ParseSession& session, std::string_view word, char next) {
+Token begin_parts(ParseSession& session, std::string_view word, char next) {
     ScanState& scan = session.scan;
     const SourceSpan span = session.token();
     scan.enter(part_after(scan.keyword, next));
@@ -78,7 +78,7 @@ Parser::symbol_type begin_parts(ParseSession& session, std::string_view word, ch
 }
 
 /// `#word`, which is neither a keyword nor followed by `:`.
-Parser::symbol_type unknown_statement(ParseSession& session, std::string_view word, char next) {
+Token unknown_statement(ParseSession& session, std::string_view word, char next) {
     ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
     if (count_colons(text, scan.statement_begin) >= 2) {
@@ -111,7 +111,7 @@ bool is_axiom_by_another_name(const ParseSession& session, std::string_view word
            count_colons(session.scanned.text, session.scan.statement_begin) == 1;
 }
 
-Parser::symbol_type start(ParseSession& session, std::string_view word) {
+Token start(ParseSession& session, std::string_view word) {
     ScanState& scan = session.scan;
     open_statement(scan, find_keyword(word));
     const char next = next_character(session.scanned.text, scan.end);
@@ -133,7 +133,7 @@ Parser::symbol_type start(ParseSession& session, std::string_view word) {
 
 } // namespace
 
-Parser::symbol_type start_statement(ParseSession& session, std::string_view text) {
+Token start_statement(ParseSession& session, std::string_view text) {
     const std::size_t name = text.find_first_not_of(" \t", 1);
     if (name > 1) {
         const ScanState& scan = session.scan;
@@ -150,7 +150,7 @@ Parser::symbol_type start_statement(ParseSession& session, std::string_view text
     return start(session, text.substr(name));
 }
 
-Parser::symbol_type start_without_hash(ParseSession& session, std::string_view word) {
+Token start_without_hash(ParseSession& session, std::string_view word) {
     ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
     const Keyword keyword = find_keyword(word);
@@ -197,12 +197,12 @@ void after_opening_colon(ParseSession& session) {
                                                  : Part::Head);
 }
 
-Parser::symbol_type opening_equals(ParseSession& session) {
+Token opening_equals(ParseSession& session) {
     ScanState& scan = session.scan;
     if (scan.keyword == Keyword::Generations) {
         const SourceSpan span = session.token();
         scan.enter(Part::Value);
-        return Parser::make_ASSIGN(span);
+        return Token(Parser::token::TOK_ASSIGN, span);
     }
     if (scan.keyword == Keyword::Axiom || scan.keyword == Keyword::Ignore ||
         scan.keyword == Keyword::Label) {
@@ -214,12 +214,12 @@ Parser::symbol_type opening_equals(ParseSession& session) {
         }
         const SourceSpan span = session.token();
         after_opening_colon(session);
-        return Parser::make_COLON(span);
+        return Token(Parser::token::TOK_COLON, span);
     }
-    return Parser::make_OTHER(session.token());
+    return Token(Parser::token::TOK_OTHER, session.token());
 }
 
-std::optional<Parser::symbol_type> missing_opening(ParseSession& session) {
+std::optional<Token> missing_opening(ParseSession& session) {
     ScanState& scan = session.scan;
     const bool wants_equals = scan.keyword == Keyword::Generations;
     if (!wants_equals && scan.keyword != Keyword::Axiom && scan.keyword != Keyword::Ignore &&
@@ -239,10 +239,10 @@ std::optional<Parser::symbol_type> missing_opening(ParseSession& session) {
     scan.end = scan.begin; // what follows is still to be read
     if (wants_equals) {
         scan.enter(Part::Value);
-        return Parser::make_ASSIGN(place);
+        return Token(Parser::token::TOK_ASSIGN, place);
     }
     after_opening_colon(session);
-    return Parser::make_COLON(place);
+    return Token(Parser::token::TOK_COLON, place);
 }
 
 bool is_needless_sign(ParseSession& session) {
@@ -263,12 +263,12 @@ bool is_needless_sign(ParseSession& session) {
     return true;
 }
 
-Parser::symbol_type colon_after_modules(ParseSession& session) {
+Token colon_after_modules(ParseSession& session) {
     ScanState& scan = session.scan;
     if (scan.part == Part::Head) {
         const SourceSpan span = session.token();
         scan.enter(Part::Condition);
-        return Parser::make_COLON(span);
+        return Token(Parser::token::TOK_COLON, span);
     }
     if (session.wants(DiagnosticCode::ExtraColon)) {
         const std::string word(spelling(scan.keyword));
@@ -285,7 +285,7 @@ Parser::symbol_type colon_after_modules(ParseSession& session) {
     return lose_statement(session);
 }
 
-Parser::symbol_type colon_in_expression(ParseSession& session) {
+Token colon_in_expression(ParseSession& session) {
     ScanState& scan = session.scan;
     if (!scan.open.empty() && (scan.part == Part::Head || scan.part == Part::Condition)) {
         return start_drain(session, Drain::Colon, session.scanned.span(scan.begin, scan.end));
@@ -294,10 +294,10 @@ Parser::symbol_type colon_in_expression(ParseSession& session) {
     if (scan.part == Part::Condition) {
         scan.enter(Part::Successor);
     }
-    return Parser::make_COLON(span);
+    return Token(Parser::token::TOK_COLON, span);
 }
 
-std::optional<Parser::symbol_type> semicolon(ParseSession& session) {
+std::optional<Token> semicolon(ParseSession& session) {
     ScanState& scan = session.scan;
     if (scan.statement_open) {
         return start_drain(session, Drain::Semicolon, session.scanned.span(scan.begin, scan.end));
@@ -380,7 +380,7 @@ void report_missing_parts(ParseSession& session) {
 
 } // namespace
 
-Parser::symbol_type start_drain(ParseSession& session, Drain kind, SourceSpan own) {
+Token start_drain(ParseSession& session, Drain kind, SourceSpan own) {
     ScanState& scan = session.scan;
     scan.draining = kind;
     scan.drained = own;
@@ -397,18 +397,18 @@ Parser::symbol_type start_drain(ParseSession& session, Drain kind, SourceSpan ow
     return drain(session);
 }
 
-Parser::symbol_type drain(ParseSession& session) {
+Token drain(ParseSession& session) {
     ScanState& scan = session.scan;
     if (!scan.open.empty()) {
         const SourceSpan place = session.supplied();
         switch (scan.pop()) {
         case OpenBracket::Kind::Module:
-            return Parser::make_CLOSE(place);
+            return Token(Parser::token::TOK_CLOSE, place);
         case OpenBracket::Kind::Brace:
-            return Parser::make_RBRACE(place);
+            return Token(Parser::token::TOK_RBRACE, place);
         case OpenBracket::Kind::Call:
         case OpenBracket::Kind::Group:
-            return Parser::make_RPAREN(place);
+            return Token(Parser::token::TOK_RPAREN, place);
         }
     }
     if (scan.draining == Drain::Colon) {
@@ -416,15 +416,15 @@ Parser::symbol_type drain(ParseSession& session) {
         scan.draining = Drain::Nothing;
         scan.last_end = scan.end;
         scan.enter(scan.part == Part::Head ? Part::Condition : Part::Successor);
-        return Parser::make_COLON(colon);
+        return Token(Parser::token::TOK_COLON, colon);
     }
     if (scan.part == Part::Condition) {
         scan.enter(Part::Successor);
-        return Parser::make_COLON(session.supplied());
+        return Token(Parser::token::TOK_COLON, session.supplied());
     }
     if (scan.part == Part::Head) {
         scan.enter(Part::Successor); // nothing of it will come
-        return Parser::make_YYerror(session.supplied());
+        return Token(Parser::token::TOK_YYerror, session.supplied());
     }
     if (scan.statement_open) {
         const SourceSpan place = session.supplied();
@@ -434,24 +434,24 @@ Parser::symbol_type drain(ParseSession& session) {
         if (scan.draining == Drain::Semicolon) {
             scan.draining = Drain::Nothing;
             scan.last_end = scan.end;
-            return Parser::make_SEMICOLON(scan.drained);
+            return Token(Parser::token::TOK_SEMICOLON, scan.drained);
         }
         if (scan.draining == Drain::NextStatement) {
             scan.draining = Drain::Nothing;
         }
         scan.semicolon_supplied = true;
-        return Parser::make_SEMICOLON(place);
+        return Token(Parser::token::TOK_SEMICOLON, place);
     }
-    return Parser::make_END(session.supplied());
+    return Token(Parser::token::TOK_END, session.supplied());
 }
 
-Parser::symbol_type lose_statement(ParseSession& session) {
+Token lose_statement(ParseSession& session) {
     ScanState& scan = session.scan;
     const SourceSpan span = session.token();
     scan.skipping = true;
     scan.failed = true;
     session.builder.spoil();
-    return Parser::make_YYerror(span);
+    return Token(Parser::token::TOK_YYerror, span);
 }
 
 bool lacks_colon(ParseSession& session, std::string_view inserted) {

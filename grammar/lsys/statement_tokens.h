@@ -4,7 +4,7 @@
 #pragma once
 
 #include "grammar/lsys/parse_session.h"
-#include "lsys/parser.h"
+#include "grammar/lsys/token.h"
 
 #include <optional>
 #include <string_view>
@@ -12,29 +12,29 @@
 namespace lsys::lsys_grammar {
 
 /// `#word`, between statements.
-Parser::symbol_type start_statement(ParseSession& session, std::string_view text);
+Token start_statement(ParseSession& session, std::string_view text);
 /// A word or, if `word` is empty, any other character where a `#` should stand.
-Parser::symbol_type start_without_hash(ParseSession& session, std::string_view word);
+Token start_without_hash(ParseSession& session, std::string_view word);
 
 /// After `#word`: a `:`, a `=`, and what stands there instead of them (nothing if neither is due).
 void after_opening_colon(ParseSession& session);
-Parser::symbol_type opening_equals(ParseSession& session);
-std::optional<Parser::symbol_type> missing_opening(ParseSession& session);
+Token opening_equals(ParseSession& session);
+std::optional<Token> missing_opening(ParseSession& session);
 /// A `=` or `:` after the name in `#define NAME = 3;`: reported, to be skipped.
 bool is_needless_sign(ParseSession& session);
 
-Parser::symbol_type colon_after_modules(ParseSession& session);
-Parser::symbol_type colon_in_expression(ParseSession& session);
+Token colon_after_modules(ParseSession& session);
+Token colon_in_expression(ParseSession& session);
 /// Nothing for a `;` between statements.
-std::optional<Parser::symbol_type> semicolon(ParseSession& session);
+std::optional<Token> semicolon(ParseSession& session);
 
 /// Supplies what the statement lacks before `kind` takes effect. drain() goes on with it, token by
 /// token.
-Parser::symbol_type start_drain(ParseSession& session, Drain kind, SourceSpan own);
-Parser::symbol_type drain(ParseSession& session);
+Token start_drain(ParseSession& session, Drain kind, SourceSpan own);
+Token drain(ParseSession& session);
 
 /// Drops the rest of the statement.
-Parser::symbol_type lose_statement(ParseSession& session);
+Token lose_statement(ParseSession& session);
 /// Whether the production at hand has too few `:`. Reports that at the match at hand, once, and
 /// with the fix if there is one.
 bool lacks_colon(ParseSession& session, std::string_view inserted);
