@@ -161,6 +161,7 @@ std::string_view SetResolver::word_of(const SetNode& node, const char* choices) 
 template <typename Enum, std::size_t size>
 void SetResolver::choose(const SetNode& node, const std::array<Enum, size>& values, Enum& chosen) {
     std::vector<std::string_view> names;
+    names.reserve(size);
     for (const Enum value : values) {
         names.push_back(name_of(value));
     }
