@@ -265,8 +265,9 @@ std::vector<WholeRun> whole_runs(const std::vector<Workload>& all) {
         {"start: first module of a sample", bush, "dump -q -n 1 %"},
         {"read an axiom of 100,001 modules", all[5].grammar, "check -q %"},
         {"stats of W1, n=60", all[0].grammar, "stats -q -n 60 %"},
-        {"count W1, n=14 (12.2 G), streamed", all[0].grammar,
-         "dump -q --stream --count -n 14 --max-modules 100000000000 %"},
+        {"count W1, n=14 (12.2 G)", all[0].grammar,
+         "dump -q --count -n 14 --max-modules 100000000000 %"},
+        {"count W3, n=17 (1.16 G), streamed", all[2].grammar, "dump -q --stream --count -n 17 %"},
         {"text of W1, n=11 (97.7 MB)", all[0].grammar, "dump -q -n 11 %", 97'656'249.0},
         {"text of W3, n=13 (118 MB)", all[2].grammar, "dump -q -n 13 %", 0.0},
     };
