@@ -1,6 +1,7 @@
 #include "runtime/runtime_diagnostic.h"
 
 #include "runtime/random.h"
+#include "runtime/stream.h"
 #include "runtime/word_text.h"
 
 #include <fmt/format.h>
@@ -231,6 +232,9 @@ Diagnostic limit_diagnostic(const LimitReport& report,
         help += modules ? fmt::format(", or raise the limit: `--max-modules {}`",
                                       report.predicted_modules)
                         : ", or raise the limit with `--max-memory`";
+    }
+    if (!modules && !why_not_streamable(bytecode)) {
+        help += ", or store no word: `--stream`";
     }
     diagnostic.help.push_back(std::move(help));
     return diagnostic;

@@ -180,7 +180,9 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                       "What is written: what a step of the compiler made, or the derived word "
                       "(default word)");
     app.add_flag("--all", command.all, "One generation a line, 0 first");
-    app.add_flag("--count", command.count, "The number of modules instead of the modules");
+    app.add_flag("--count", command.count,
+                 "The number of modules instead of the modules; where the growth matrix tells "
+                 "it, nothing is derived");
     app.add_flag("--stream", command.stream,
                  "Derive without storing the word (no contexts, parallel rewriting only)");
     add_grammar(app, command.grammar);

@@ -1,6 +1,7 @@
 #include "runtime/cli/dump_word.h"
 
 #include "runtime/cli/files.h"
+#include "runtime/cli/foresight.h"
 #include "runtime/cli/progress.h"
 #include "runtime/derive.h"
 #include "runtime/runtime_diagnostic.h"
@@ -347,6 +348,35 @@ Status dump_streamed(const DumpCommand& command,
     return Status::Fine;
 }
 
+// -----------------------------------------------------------------------------------------
+// counts without words
+
+/// Prints the counts if they are known without deriving. The start of a derivation still shows
+/// whether the constants can be drawn.
+std::optional<Status> count_unseen(const DumpCommand& command,
+                                   const Plan& plan,
+                                   const Grammar& grammar,
+                                   const Console& console) {
+    const std::optional<std::vector<std::uint64_t>> counts =
+        foresee_counts(*grammar.bytecode, plan.last_age, plan.derive.limits);
+    if (!counts) {
+        return std::nullopt;
+    }
+    Derivation derivation(*grammar.bytecode, plan.derive);
+    const Status status =
+        tell(derivation.start(), derivation.error(), derivation.limit(), plan, grammar, console);
+    if (status != Status::Fine) {
+        return status;
+    }
+    console.detail("counted by the growth matrix");
+    std::string text;
+    for (std::size_t i = command.all ? 0 : counts->size() - 1; i < counts->size(); ++i) {
+        text += fmt::format("{}\n", (*counts)[i]);
+    }
+    const Result<Done> written = write_file(command.output, text, console);
+    return written ? Status::Fine : fail(written.error(), console);
+}
+
 } // namespace
 
 Status dump_word(const DumpCommand& command, Grammar& grammar, const Console& console) {
@@ -357,8 +387,25 @@ Status dump_word(const DumpCommand& command, Grammar& grammar, const Console& co
     Plan& plan = planned.value();
     console.detail(
         fmt::format("{} generations, seed {}", plan.derive.generations, plan.derive.seed));
-    Progress progress(console.shows_progress() ? &console.io().err : nullptr, plan.last_age,
-                      Progress::Clock::now());
+    const bool from_axiom = command.from.empty();
+    if (from_axiom && !command.stream) { // which stores no word of the generations before the last
+        const std::optional<LimitReport> limit =
+            foresee_limit(*grammar.bytecode, plan.last_age, plan.derive.limits);
+        if (limit) {
+            return show(limit_diagnostic(*limit, plan.derive.limits, *grammar.bytecode,
+                                         !grammar.is_module_file),
+                        Status::Limit, grammar, console);
+        }
+    }
+    if (from_axiom && command.count && command.save_state.empty()) {
+        if (const std::optional<Status> counted = count_unseen(command, plan, grammar, console)) {
+            return *counted;
+        }
+    }
+    const bool shows = console.shows_progress();
+    Progress progress(shows ? &console.io().err : nullptr, plan.last_age, Progress::Clock::now(),
+                      shows && from_axiom ? expect_modules(*grammar.bytecode, plan.last_age)
+                                          : std::vector<double>());
     plan.derive.progress = [&](std::uint32_t generation, std::uint64_t modules) {
         progress.update(generation, modules, Progress::Clock::now());
     };

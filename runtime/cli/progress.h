@@ -5,6 +5,9 @@
 #include <chrono>
 #include <cstdint>
 #include <iosfwd>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace lsys::lsc {
 
@@ -12,9 +15,15 @@ class Progress {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// Draws on `terminal`, or never if it is null. Work began at `begin`.
-    Progress(std::ostream* terminal, std::uint32_t generations, Clock::time_point begin)
-        : terminal_(terminal), generations_(generations), begin_(begin), last_(begin) {}
+    /// Draws on `terminal`, or never if it is null. Work began at `begin`. `expected`: modules of
+    /// each generation from 0 to `generations`, or nothing if that is not known, and then nothing
+    /// is said of the time that is left.
+    Progress(std::ostream* terminal,
+             std::uint32_t generations,
+             Clock::time_point begin,
+             std::vector<double> expected)
+        : terminal_(terminal), generations_(generations), begin_(begin), last_(begin),
+          expected_(std::move(expected)) {}
     ~Progress() { clear(); }
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -29,6 +38,13 @@ private:
     std::uint32_t generations_;
     Clock::time_point begin_;
     Clock::time_point last_;
+    [[nodiscard]] std::string
+    time_left(std::uint32_t generation, std::uint64_t modules, double seconds) const;
+
+    std::vector<double> expected_;
+    std::uint32_t generation_ = 0; // of the last update
+    std::uint64_t modules_ = 0;    // of that update
+    std::uint64_t before_ = 0;     // of all generations before it
     bool drawn_ = false;
 };
 

@@ -107,11 +107,11 @@ TEST_CASE("a word that the system has no memory for ends with 3") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 40; #w : F; #p : F : * : F F;");
     constexpr rlim_t kLittle = rlim_t{400} << 20;
-    CHECK(wait_for(
-              start({{"dump", "--count", "--threads", "1", "--max-memory", "1T", folder / "a.lsys"},
-                     "/dev/null",
-                     folder / "err",
-                     kLittle})) == 3);
+    CHECK(wait_for(start(
+              {{"dump", "-n", "33", "--threads", "1", "--max-memory", "1T", folder / "a.lsys"},
+               "/dev/null",
+               folder / "err",
+               kLittle})) == 3);
     CHECK(read_text(folder / "err").find("memory") != std::string::npos);
 }
 #endif

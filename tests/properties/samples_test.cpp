@@ -138,6 +138,17 @@ TEST_CASE("a derivation that is saved and continued ends as one in one go") {
     }
 }
 
+TEST_CASE("counts that need no word are those of the words") {
+    const ScratchFolder folder;
+    for (const Sample& sample : all_samples()) {
+        INFO(sample.file);
+        const std::string file = sample.file.string();
+        // a run that saves its state derives
+        CHECK(dump({"--count", "--all", file}) ==
+              dump({"--count", "--all", "--save-state", folder / "all.lss", file}));
+    }
+}
+
 TEST_CASE("a compiled grammar derives what its source does") {
     const ScratchFolder folder;
     const std::string compiled = folder / "sample.lsb";
