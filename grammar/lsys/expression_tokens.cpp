@@ -111,7 +111,8 @@ Token between_values(ParseSession& session) {
                                              : "a product is written with `*`");
         }
     }
-    return joins_conditions ? Token(Parser::token::TOK_AND, place) : Token(Parser::token::TOK_STAR, place);
+    return joins_conditions ? Token(Parser::token::TOK_AND, place)
+                            : Token(Parser::token::TOK_STAR, place);
 }
 
 } // namespace

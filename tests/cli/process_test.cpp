@@ -108,7 +108,7 @@ TEST_CASE("a word that the system has no memory for ends with 3") {
     write_text(folder / "a.lsys", "#n = 40; #w : F; #p : F : * : F F;");
     constexpr rlim_t kLittle = rlim_t{400} << 20;
     CHECK(wait_for(start(
-              {{"dump", "-n", "33", "--threads", "1", "--max-memory", "1T", folder / "a.lsys"},
+              {{"dump", "-n", "31", "--threads", "1", "--max-memory", "1T", folder / "a.lsys"},
                "/dev/null",
                folder / "err",
                kLittle})) == 3);
