@@ -1,59 +1,82 @@
 #include "runtime/derive/workers.h"
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
-#include <atomic>
-#include <optional>
-#include <thread>
-#include <vector>
+#include <system_error>
 
 namespace lsys {
 
 namespace {
 
-#if defined(__SANITIZE_THREAD__)
-constexpr bool kThreadSanitizer = true;
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-constexpr bool kThreadSanitizer = true;
-#else
-constexpr bool kThreadSanitizer = false;
+constexpr std::uint32_t kMaxThreads = 1024;
+// How often a helper looks for the next task before it sleeps: some tens of microseconds, as long
+// as the serial work between two passes over a word.
+constexpr int kLooks = 2000;
+
+void pause_a_moment() {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
 #endif
-#else
-constexpr bool kThreadSanitizer = false;
-#endif
+}
 
 } // namespace
 
-struct Workers::Arena {
-    explicit Arena(std::uint32_t threads) {
-        if (threads > std::thread::hardware_concurrency()) {
-            // without it TBB starts no more than the machine has, and says so on standard error
-            more.emplace(oneapi::tbb::global_control::max_allowed_parallelism, threads);
-        }
-        tasks.initialize(static_cast<int>(threads));
-    }
-
-    void run(std::uint32_t count, const std::function<void()>& task) {
-        tasks.execute([&] {
-            oneapi::tbb::parallel_for(
-                std::uint32_t{0}, count, [&task](std::uint32_t) { task(); },
-                oneapi::tbb::simple_partitioner());
-        });
-    }
-
-    std::optional<oneapi::tbb::global_control> more;
-    oneapi::tbb::task_arena tasks;
-};
-
 Workers::Workers(std::uint32_t threads)
-    : count_(threads != 0 ? std::min(threads, 1024U)
+    : count_(threads != 0 ? std::min(threads, kMaxThreads)
                           : std::max(1U, std::thread::hardware_concurrency())) {}
 
-Workers::~Workers() = default;
+Workers::~Workers() {
+    {
+        const std::lock_guard lock(mutex_);
+        stops_ = true;
+        ++tickets_;
+    }
+    begun_.notify_all();
+    for (std::thread& helper : helpers_) {
+        helper.join();
+    }
+}
+
+void Workers::start_helpers() {
+    helpers_.reserve(count_ - 1);
+    while (helpers_.size() + 1 < count_) {
+        try {
+            helpers_.emplace_back([this] { help(); });
+        } catch (const std::system_error&) {
+            count_ = static_cast<std::uint32_t>(helpers_.size()) + 1;
+        }
+    }
+}
+
+/// Returns whether there is a task after the last one seen; else the team ends.
+bool Workers::wait_for_task(std::uint64_t last) {
+    for (int i = 0; i < kLooks && tickets_.load(std::memory_order_relaxed) == last; ++i) {
+        pause_a_moment();
+    }
+    std::unique_lock lock(mutex_);
+    begun_.wait(lock, [&] { return tickets_ != last; });
+    return !stops_;
+}
+
+void Workers::help() {
+    std::uint64_t last = 0;
+    while (wait_for_task(last)) {
+        const Task* task = nullptr;
+        {
+            const std::lock_guard lock(mutex_);
+            last = tickets_;
+            task = task_;
+            busy_ += task != nullptr ? 1 : 0;
+        }
+        if (task == nullptr) {
+            continue; // woken too late
+        }
+        (*task)();
+        const std::lock_guard lock(mutex_);
+        if (--busy_ == 0) {
+            left_.notify_one();
+        }
+    }
+}
 
 void Workers::for_each(std::uint64_t pieces, const std::function<void(std::uint64_t)>& piece) {
     if (count_ == 1 || pieces <= 1) {
@@ -62,31 +85,27 @@ void Workers::for_each(std::uint64_t pieces, const std::function<void(std::uint6
         }
         return;
     }
-    // Each task takes the next piece until none is left, so that neighbours are done at about the
+    if (helpers_.empty()) {
+        start_helpers();
+    }
+    // Each thread takes the next piece until none is left, so that neighbours are done at about the
     // same time.
     std::atomic<std::uint64_t> next{0};
-    const std::function<void()> task = [&] {
+    const Task task = [&] {
         for (std::uint64_t i = next.fetch_add(1); i < pieces; i = next.fetch_add(1)) {
             piece(i);
         }
     };
-    const auto tasks = static_cast<std::uint32_t>(std::min<std::uint64_t>(count_, pieces));
-    if (kThreadSanitizer) {
-        // it cannot see how TBB's library orders its tasks, and would report every one of them
-        std::vector<std::thread> threads;
-        for (std::uint32_t i = 1; i < tasks; ++i) {
-            threads.emplace_back(task);
-        }
-        task();
-        for (std::thread& thread : threads) {
-            thread.join();
-        }
-        return;
+    {
+        const std::lock_guard lock(mutex_);
+        task_ = &task;
+        ++tickets_;
     }
-    if (!arena_) {
-        arena_ = std::make_unique<Arena>(count_);
-    }
-    arena_->run(tasks, task);
+    begun_.notify_all();
+    task();
+    std::unique_lock lock(mutex_);
+    task_ = nullptr;
+    left_.wait(lock, [&] { return busy_ == 0; });
 }
 
 } // namespace lsys

@@ -2,12 +2,18 @@
 // which piece never shows in a result.
 #pragma once
 
+#include <atomic>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
-#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
 
 namespace lsys {
 
+/// A team that is ready in microseconds, which counts for words that derive in milliseconds:
+/// oneTBB's arenas take one to two milliseconds before their first task.
 class Workers {
 public:
     /// 0: as many as the machine has. No thread is started before it is needed.
@@ -18,14 +24,26 @@ public:
 
     [[nodiscard]] std::uint32_t count() const { return count_; }
     /// Calls `piece` for 0 ... pieces - 1, begun in that order, and returns when all are done. With
-    /// one worker or one piece, on the calling thread.
+    /// one worker or one piece, on the calling thread. Where the system gives fewer threads than
+    /// asked for, those that there are do the work. `piece` throws nothing.
     void for_each(std::uint64_t pieces, const std::function<void(std::uint64_t)>& piece);
 
 private:
-    struct Arena;
+    using Task = std::function<void()>;
+
+    void start_helpers();
+    void help();
+    bool wait_for_task(std::uint64_t last);
 
     std::uint32_t count_;
-    std::unique_ptr<Arena> arena_;
+    std::vector<std::thread> helpers_;
+    std::mutex mutex_;
+    std::condition_variable begun_;
+    std::condition_variable left_;
+    std::atomic<std::uint64_t> tickets_{0}; // tasks begun so far
+    const Task* task_ = nullptr;            // none once its pieces are all taken
+    std::uint32_t busy_ = 0;                // helpers within the task
+    bool stops_ = false;
 };
 
 } // namespace lsys
