@@ -1,0 +1,101 @@
+#include "runtime/skeleton.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+namespace lsys {
+
+namespace {
+
+std::string parent_text(std::uint32_t parent) {
+    return parent == kNoSegment ? "-" : fmt::format("{}", parent);
+}
+
+std::string vector_text(const glm::vec3& v) {
+    return fmt::format("({}, {}, {})", v.x, v.y, v.z);
+}
+
+std::string frame_text(const glm::quat& q) {
+    return fmt::format("({}, {}, {}, {})", q.w, q.x, q.y, q.z);
+}
+
+} // namespace
+
+glm::quat local_frame(const Skeleton& skeleton, std::uint32_t segment) {
+    const Segment& own = skeleton.segments[segment];
+    return own.parent == kNoSegment
+               ? own.frame
+               : glm::conjugate(skeleton.segments[own.parent].frame) * own.frame;
+}
+
+SkeletonStats measure(const Skeleton& skeleton) {
+    SkeletonStats stats;
+    double farthest = 0.0;
+    const auto see = [&](const glm::vec3& point) {
+        stats.bounds.add(point);
+        farthest = std::max(farthest,
+                            std::hypot(static_cast<double>(point.x), static_cast<double>(point.z)));
+    };
+    for (const Segment& segment : skeleton.segments) {
+        see(segment.base);
+        see(tip(segment));
+        const double length = segment.length;
+        const double a = segment.base_radius;
+        const double b = segment.tip_radius;
+        stats.length += length;
+        stats.volume += std::numbers::pi / 3.0 * length * (a * a + a * b + b * b);
+        stats.mass += static_cast<double>(segment.mass);
+        if (segment.order >= stats.segments_by_order.size()) {
+            stats.segments_by_order.resize(segment.order + std::size_t{1});
+        }
+        ++stats.segments_by_order[segment.order];
+    }
+    for (const PlacedObject& object : skeleton.objects) {
+        see(object.position);
+    }
+    for (const glm::vec3& corner : skeleton.corners) {
+        see(corner);
+    }
+    stats.height = stats.bounds.high.y - stats.bounds.low.y;
+    stats.crown_width = 2.0 * farthest;
+    return stats;
+}
+
+void append_text(const Skeleton& skeleton, std::string& text) {
+    auto out = std::back_inserter(text);
+    for (std::size_t i = 0; i < skeleton.segments.size(); ++i) {
+        const Segment& s = skeleton.segments[i];
+        fmt::format_to(out,
+                       "segment {} parent {} order {} base {} frame {} length {} radius {} {} "
+                       "spring {} mass {} colour {} sides {}{}\n",
+                       i, parent_text(s.parent), s.order, vector_text(s.base), frame_text(s.frame),
+                       s.length, s.base_radius, s.tip_radius, s.spring, s.mass, s.colour, s.sides,
+                       s.linked ? " linked" : "");
+    }
+    for (std::size_t i = 0; i < skeleton.objects.size(); ++i) {
+        const PlacedObject& o = skeleton.objects[i];
+        const std::string name = o.kind == TurtleOperation::MeshFile
+                                     ? fmt::format("\"{}\"", skeleton.mesh_files[o.mesh_file])
+                                     : std::string(name_of(o.kind));
+        fmt::format_to(out, "object {} {} parent {} order {} at {} frame {} size {} colour {}\n", i,
+                       name, parent_text(o.parent), o.order, vector_text(o.position),
+                       frame_text(o.frame), o.size, o.colour);
+    }
+    for (std::size_t i = 0; i < skeleton.polygons.size(); ++i) {
+        const Polygon& p = skeleton.polygons[i];
+        fmt::format_to(out, "polygon {} parent {} order {} colour {}:", i, parent_text(p.parent),
+                       p.order, p.colour);
+        for (std::uint32_t c = 0; c < p.corner_count; ++c) {
+            fmt::format_to(out, " {}", vector_text(skeleton.corners[p.first_corner + c]));
+        }
+        text += '\n';
+    }
+}
+
+} // namespace lsys

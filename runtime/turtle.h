@@ -1,0 +1,79 @@
+// The turtle: reads modules of a derived word in order and draws the skeleton (LANGUAGE.md section
+// 7). Characters mean nothing here: which operation a symbol has was decided by the profile when
+// the grammar was compiled. State is in double precision, so that ten million rotations leave the
+// frame orthonormal and a far-off plant as exact as a near one.
+#pragma once
+
+#include "compiler/bytecode.h"
+#include "runtime/skeleton.h"
+#include "runtime/word.h"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+/// What a word may do that a turtle cannot, or only in part. The first three end the drawing.
+enum class TurtleFaultKind : std::uint8_t {
+    Unbalanced,      // a `]` without its `[`
+    NotFinite,       // position, length or width is infinite or not a number
+    TooMany,         // more than kMaxSkeletonItems segments, objects or corners
+    UnclosedBranch,  // a `[` without its `]`
+    NegativeWidth,   // drawn as 0
+    VertexOutside,   // a `.` outside of a polygon: nothing is drawn
+    EndOutside,      // a `}` without its `{`: nothing is drawn
+    FewCorners,      // a polygon with fewer than three corners: nothing is drawn
+    UnclosedPolygon, // nothing is drawn
+    SidesOutOfRange, // fewer than 3 or more than 64 sides: the nearest that there is
+};
+inline constexpr std::size_t kTurtleFaultKinds = 10;
+inline constexpr std::uint64_t kMaxSkeletonItems = 0xFFFFFFF0u;
+inline constexpr std::uint32_t kMinSides = 3;
+inline constexpr std::uint32_t kMaxSides = 64;
+
+struct TurtleFault {
+    std::uint64_t count = 0;    // times it happened
+    std::uint64_t position = 0; // of the module where it first did
+    Code code = 0;              // of that module
+};
+
+enum class TurtleStatus : std::uint8_t { Ok, Fault, Limit, OutOfMemory, Cancelled };
+
+struct TurtleOptions {
+    /// Lengths along +Y of the files of MeshFile symbols, by symbol; empty: 1 each.
+    std::vector<float> mesh_lengths;
+    std::uint64_t max_bytes = ~std::uint64_t{0}; // of the skeleton
+    const std::atomic<bool>* cancelled = nullptr;
+};
+
+/// Draws a word that comes in pieces.
+class Turtle {
+public:
+    /// `bytecode` outlives the turtle.
+    Turtle(const Bytecode& bytecode, TurtleOptions options);
+    ~Turtle();
+    Turtle(const Turtle&) = delete;
+    Turtle& operator=(const Turtle&) = delete;
+
+    /// Makes room for what these codes will draw; without it, room is made as it is needed.
+    [[nodiscard]] TurtleStatus reserve(const Word& word);
+    /// The next modules of the word. After anything but Ok nothing more is to be fed.
+    [[nodiscard]] TurtleStatus feed(const Word& word);
+    [[nodiscard]] TurtleStatus feed(std::span<const Code> codes, std::span<const float> parameters);
+    /// After the last module.
+    [[nodiscard]] TurtleStatus finish();
+
+    [[nodiscard]] const Skeleton& skeleton() const;
+    [[nodiscard]] Skeleton take_skeleton();
+    [[nodiscard]] const std::array<TurtleFault, kTurtleFaultKinds>& faults() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace lsys
