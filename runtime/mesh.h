@@ -36,12 +36,12 @@ struct MeshPart {
 };
 
 struct Mesh {
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;             // unit length
-    std::vector<glm::vec2> texture_coordinates; // empty if not asked for
-    std::vector<glm::vec4> tangents;            // empty if not asked for; w is the bitangent's sign
-    std::vector<std::uint16_t> colours; // palette index of each vertex; empty if not asked for
-    std::vector<std::uint32_t> indices;
+    LargeVector<glm::vec3> positions;
+    LargeVector<glm::vec3> normals;             // unit length
+    LargeVector<glm::vec2> texture_coordinates; // empty if not asked for
+    LargeVector<glm::vec4> tangents;            // empty if not asked for; w is the bitangent's sign
+    LargeVector<std::uint16_t> colours; // palette index of each vertex; empty if not asked for
+    LargeVector<std::uint32_t> indices;
     std::vector<MeshPart> parts; // one for each material in use, in order of indices
     std::vector<Material> materials;
 

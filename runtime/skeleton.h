@@ -5,6 +5,7 @@
 #pragma once
 
 #include "compiler/bytecode.h"
+#include "runtime/large_vector.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -56,10 +57,10 @@ struct Polygon {
 };
 
 struct Skeleton {
-    std::vector<Segment> segments;
-    std::vector<PlacedObject> objects;
-    std::vector<Polygon> polygons;
-    std::vector<glm::vec3> corners;
+    LargeVector<Segment> segments;
+    LargeVector<PlacedObject> objects;
+    LargeVector<Polygon> polygons;
+    LargeVector<glm::vec3> corners;
     std::vector<std::string> mesh_files; // as written in the grammar
 
     [[nodiscard]] std::uint64_t byte_count() const {
