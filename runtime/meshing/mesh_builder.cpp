@@ -15,8 +15,9 @@ constexpr std::uint64_t kMaxVertices = 0xFFFFFFFFu;
 
 /// `data` with room for `needed` elements of which the first `used` keep their values. What is new
 /// is exact if nothing is kept, else room grows by doubling.
-template <typename T>
-std::span<T> grow(std::vector<T>& data, std::uint64_t used, std::uint64_t needed) {
+template <typename Vector>
+std::span<typename Vector::value_type>
+grow(Vector& data, std::uint64_t used, std::uint64_t needed) {
     if (data.capacity() < needed) {
         if (used == 0) {
             data = {};
@@ -32,8 +33,8 @@ std::span<T> grow(std::vector<T>& data, std::uint64_t used, std::uint64_t needed
     return std::span(data).subspan(used, needed - used);
 }
 
-template <typename T>
-void use_or_clear(std::vector<T>& data, bool used) {
+template <typename Vector>
+void use_or_clear(Vector& data, bool used) {
     if (!used) {
         data = {};
     }

@@ -82,7 +82,7 @@ private:
     struct Part {
         MaterialKey material;
         std::uint64_t in_place = 0; // indices that reserve_parts() gave
-        std::vector<std::uint32_t> indices;
+        LargeVector<std::uint32_t> indices;
     };
 
     bool take(std::uint64_t vertices, std::uint64_t indices);
