@@ -180,7 +180,7 @@ bool MeshBuilder::reserve(std::uint32_t part,
     }
     block = {};
     grow_vertices(block, vertices);
-    std::vector<std::uint32_t>& data = parts_[part].indices;
+    LargeVector<std::uint32_t>& data = parts_[part].indices;
     block.indices = grow(data, data.size(), data.size() + indices);
     return true;
 }

@@ -51,7 +51,7 @@ TEST_CASE("parts made in place come first, the others by material", "[mesh]") {
         first += counts[i];
     }
     CHECK(mesh.indices ==
-          std::vector<std::uint32_t>{0, 1, 2, 9, 10, 11, 0, 1, 2, 0, 1, 2, 6, 7, 8, 3, 4, 5});
+          LargeVector<std::uint32_t>{0, 1, 2, 9, 10, 11, 0, 1, 2, 0, 1, 2, 6, 7, 8, 3, 4, 5});
     CHECK(mesh.positions.size() == 12);
     CHECK(mesh.colours[11] == 7);
 }
