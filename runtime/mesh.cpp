@@ -2,7 +2,6 @@
 
 #include "runtime/meshing/mesh_builder.h"
 
-#include <algorithm>
 #include <new>
 #include <stdexcept>
 
@@ -32,14 +31,6 @@ MeshStatus make_mesh(const Skeleton& skeleton,
         mesh = {};
     }
     return MeshStatus::OutOfMemory;
-}
-
-float UserMesh::length() const {
-    float greatest = 0.0F;
-    for (const glm::vec3& position : positions) {
-        greatest = std::max(greatest, position.y);
-    }
-    return greatest;
 }
 
 glm::vec3 palette_colour(std::uint32_t index) {
