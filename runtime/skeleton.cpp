@@ -25,6 +25,38 @@ std::string frame_text(const glm::quat& q) {
     return fmt::format("({}, {}, {}, {})", q.w, q.x, q.y, q.z);
 }
 
+void append_segment(const Skeleton& skeleton, std::uint64_t index, std::string& text) {
+    const Segment& s = skeleton.segments[index];
+    fmt::format_to(std::back_inserter(text),
+                   "segment {} parent {} order {} base {} frame {} length {} radius {} {} spring "
+                   "{} mass {} colour {} sides {}{}\n",
+                   index, parent_text(s.parent), s.order, vector_text(s.base), frame_text(s.frame),
+                   s.length, s.base_radius, s.tip_radius, s.spring, s.mass, s.colour, s.sides,
+                   s.linked ? " linked" : "");
+}
+
+void append_object(const Skeleton& skeleton, std::uint64_t index, std::string& text) {
+    const PlacedObject& o = skeleton.objects[index];
+    const std::string name = o.kind == TurtleOperation::MeshFile
+                                 ? fmt::format("\"{}\"", skeleton.mesh_files[o.mesh_file])
+                                 : std::string(name_of(o.kind));
+    fmt::format_to(std::back_inserter(text),
+                   "object {} {} parent {} order {} at {} frame {} size {} colour {}\n", index,
+                   name, parent_text(o.parent), o.order, vector_text(o.position),
+                   frame_text(o.frame), o.size, o.colour);
+}
+
+void append_polygon(const Skeleton& skeleton, std::uint64_t index, std::string& text) {
+    const Polygon& p = skeleton.polygons[index];
+    fmt::format_to(std::back_inserter(text), "polygon {} parent {} order {} colour {}:", index,
+                   parent_text(p.parent), p.order, p.colour);
+    for (std::uint32_t c = 0; c < p.corner_count; ++c) {
+        fmt::format_to(std::back_inserter(text), " {}",
+                       vector_text(skeleton.corners[p.first_corner + c]));
+    }
+    text += '\n';
+}
+
 } // namespace
 
 glm::quat local_frame(const Skeleton& skeleton, std::uint32_t segment) {
@@ -67,34 +99,17 @@ SkeletonStats measure(const Skeleton& skeleton) {
     return stats;
 }
 
-void append_text(const Skeleton& skeleton, std::string& text) {
-    auto out = std::back_inserter(text);
-    for (std::size_t i = 0; i < skeleton.segments.size(); ++i) {
-        const Segment& s = skeleton.segments[i];
-        fmt::format_to(out,
-                       "segment {} parent {} order {} base {} frame {} length {} radius {} {} "
-                       "spring {} mass {} colour {} sides {}{}\n",
-                       i, parent_text(s.parent), s.order, vector_text(s.base), frame_text(s.frame),
-                       s.length, s.base_radius, s.tip_radius, s.spring, s.mass, s.colour, s.sides,
-                       s.linked ? " linked" : "");
-    }
-    for (std::size_t i = 0; i < skeleton.objects.size(); ++i) {
-        const PlacedObject& o = skeleton.objects[i];
-        const std::string name = o.kind == TurtleOperation::MeshFile
-                                     ? fmt::format("\"{}\"", skeleton.mesh_files[o.mesh_file])
-                                     : std::string(name_of(o.kind));
-        fmt::format_to(out, "object {} {} parent {} order {} at {} frame {} size {} colour {}\n", i,
-                       name, parent_text(o.parent), o.order, vector_text(o.position),
-                       frame_text(o.frame), o.size, o.colour);
-    }
-    for (std::size_t i = 0; i < skeleton.polygons.size(); ++i) {
-        const Polygon& p = skeleton.polygons[i];
-        fmt::format_to(out, "polygon {} parent {} order {} colour {}:", i, parent_text(p.parent),
-                       p.order, p.colour);
-        for (std::uint32_t c = 0; c < p.corner_count; ++c) {
-            fmt::format_to(out, " {}", vector_text(skeleton.corners[p.first_corner + c]));
-        }
-        text += '\n';
+std::uint64_t line_count(const Skeleton& skeleton) {
+    return skeleton.segments.size() + skeleton.objects.size() + skeleton.polygons.size();
+}
+
+void append_line(const Skeleton& skeleton, std::uint64_t line, std::string& text) {
+    if (line < skeleton.segments.size()) {
+        append_segment(skeleton, line, text);
+    } else if (line -= skeleton.segments.size(); line < skeleton.objects.size()) {
+        append_object(skeleton, line, text);
+    } else {
+        append_polygon(skeleton, line - skeleton.objects.size(), text);
     }
 }
 

@@ -101,7 +101,9 @@ struct SkeletonStats {
 };
 [[nodiscard]] SkeletonStats measure(const Skeleton& skeleton);
 
-/// The skeleton as text, a line for each segment, object and polygon.
-void append_text(const Skeleton& skeleton, std::string& text);
+/// The skeleton as text, a line for each segment, then each object, then each polygon.
+[[nodiscard]] std::uint64_t line_count(const Skeleton& skeleton);
+/// Precondition: line < line_count().
+void append_line(const Skeleton& skeleton, std::uint64_t line, std::string& text);
 
 } // namespace lsys

@@ -19,18 +19,19 @@ namespace lsys {
 
 /// What a word may do that a turtle cannot, or only in part. The first three end the drawing.
 enum class TurtleFaultKind : std::uint8_t {
-    Unbalanced,      // a `]` without its `[`
-    NotFinite,       // position, length or width is infinite or not a number
-    TooMany,         // more than kMaxSkeletonItems segments, objects or corners
-    UnclosedBranch,  // a `[` without its `]`
-    NegativeWidth,   // drawn as 0
-    VertexOutside,   // a `.` outside of a polygon: nothing is drawn
-    EndOutside,      // a `}` without its `{`: nothing is drawn
-    FewCorners,      // a polygon with fewer than three corners: nothing is drawn
-    UnclosedPolygon, // nothing is drawn
-    SidesOutOfRange, // fewer than 3 or more than 64 sides: the nearest that there is
+    Unbalanced,       // a `]` without its `[`
+    NotFinite,        // position, length or width is infinite or not a number
+    TooMany,          // more than kMaxSkeletonItems segments, objects or corners
+    UnclosedBranch,   // a `[` without its `]`
+    NegativeWidth,    // drawn as 0
+    VertexOutside,    // a `.` outside of a polygon: nothing is drawn
+    EndOutside,       // a `}` without its `{`: nothing is drawn
+    FewCorners,       // a polygon with fewer than three corners: nothing is drawn
+    UnclosedPolygon,  // nothing is drawn
+    SidesOutOfRange,  // fewer than 3 or more than 64 sides: the nearest that there is
+    ColourOutOfRange, // below 0 or above 65,535: the nearest that there is
 };
-inline constexpr std::size_t kTurtleFaultKinds = 10;
+inline constexpr std::size_t kTurtleFaultKinds = 11;
 inline constexpr std::uint64_t kMaxSkeletonItems = 0xFFFFFFF0u;
 inline constexpr std::uint32_t kMinSides = 3;
 inline constexpr std::uint32_t kMaxSides = 64;

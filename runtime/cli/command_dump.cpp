@@ -6,6 +6,8 @@
 #include "runtime/cli/dump_word.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/grammar_file.h"
+#include "runtime/cli/plant.h"
+#include "runtime/cli/tell.h"
 
 #include <fmt/format.h>
 
@@ -19,6 +21,14 @@ namespace {
 /// Options that do not go together, in words; empty if all is well.
 std::string find_conflict(const DumpCommand& command) {
     const bool saves = command.steps || !command.save_state.empty() || !command.from.empty();
+    const bool draws = command.stage == Stage::Skeleton;
+    if (draws && (command.all || command.count || saves)) {
+        return "a plant is drawn from the last word, so --all, --count, --steps, --save-state and "
+               "--from do not go with --stage skeleton";
+    }
+    if (draws) {
+        return {};
+    }
     if (command.stage != Stage::Word) {
         const bool derives =
             command.all || command.count || command.stream || saves || command.seed;
@@ -34,11 +44,6 @@ std::string find_conflict(const DumpCommand& command) {
         return "--save-state - and the word cannot both go to standard output; say where with -o";
     }
     return {};
-}
-
-Status fail(const Error& error, const Console& console) {
-    console.error(error.message);
-    return Status::Failure;
 }
 
 Status write_stage(const DumpCommand& command, const std::string& text, const Console& console) {
@@ -66,6 +71,43 @@ Status dump_syntax(const DumpCommand& command, const Console& console) {
     return worse(console.show(diagnostics, sources), write_stage(command, text, console));
 }
 
+Status dump_skeleton(const DumpCommand& command, const Grammar& grammar, const Console& console) {
+    PlantRequest request;
+    request.file = command.file;
+    request.generations = command.grammar.generations;
+    request.seed = command.seed;
+    request.threads = command.threads;
+    request.max_modules = command.grammar.max_modules;
+    request.max_bytes = command.max_bytes;
+    request.stream = command.stream;
+    Plant plant;
+    const Status status = grow_plant(request, grammar, console, plant);
+    if (status != Status::Fine) {
+        return status;
+    }
+    Result<Output> output = Output::open(command.output, console);
+    if (!output) {
+        return fail(output.error(), console);
+    }
+    constexpr std::size_t kPieceOfText = std::size_t{1} << 18;
+    std::string text;
+    const std::uint64_t lines = line_count(plant.skeleton);
+    for (std::uint64_t line = 0; line < lines; ++line) {
+        append_line(plant.skeleton, line, text);
+        if (text.size() >= kPieceOfText || line + 1 == lines) {
+            if (console.interrupted()) {
+                return Status::Interrupted;
+            }
+            if (const Result<Done> written = output.value().write(text); !written) {
+                return fail(written.error(), console);
+            }
+            text.clear();
+        }
+    }
+    const Result<Done> done = output.value().commit();
+    return done ? Status::Fine : fail(done.error(), console);
+}
+
 } // namespace
 
 Status run_dump(const DumpCommand& command, const Console& console) {
@@ -91,6 +133,9 @@ Status run_dump(const DumpCommand& command, const Console& console) {
         return write_stage(command, dump_program(*grammar.program, grammar.names), console);
     case Stage::Bytecode:
         return write_stage(command, disassemble(*grammar.bytecode), console);
+    case Stage::Skeleton:
+        grammar.program.reset();
+        return dump_skeleton(command, grammar, console);
     case Stage::Tokens:
     case Stage::Ast:
     case Stage::Word:

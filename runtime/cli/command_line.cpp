@@ -176,9 +176,10 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                        {"ast", Stage::Ast},
                        {"program", Stage::Program},
                        {"bytecode", Stage::Bytecode},
-                       {"word", Stage::Word}},
-                      "What is written: what a step of the compiler made, or the derived word "
-                      "(default word)");
+                       {"word", Stage::Word},
+                       {"skeleton", Stage::Skeleton}},
+                      "What is written: what a step of the compiler made, the derived word, or "
+                      "what the turtle draws for it (default word)");
     app.add_flag("--all", command.all, "One generation a line, 0 first");
     app.add_flag("--count", command.count,
                  "The number of modules instead of the modules; where the growth matrix tells "

@@ -3,6 +3,7 @@
 #include "runtime/cli/files.h"
 #include "runtime/cli/foresight.h"
 #include "runtime/cli/progress.h"
+#include "runtime/cli/tell.h"
 #include "runtime/derive.h"
 #include "runtime/runtime_diagnostic.h"
 #include "runtime/state_file.h"
@@ -31,44 +32,6 @@ struct Plan {
     std::string saved_bytes; // of --from; empty: from the axiom
     std::uint64_t max_bytes = 0;
 };
-
-/// Shows a diagnostic of the run and returns what it makes of the exit status.
-Status show(Diagnostic diagnostic, Status status, const Grammar& grammar, const Console& console) {
-    Diagnostics diagnostics;
-    diagnostics.add(std::move(diagnostic));
-    static_cast<void>(console.show(diagnostics, grammar.sources));
-    return status;
-}
-
-Status fail(const Error& error, const Console& console) {
-    console.error(error.message);
-    return Status::Failure;
-}
-
-/// The exit status of a derivation that ended as `status`, after its message.
-Status tell(DeriveStatus status,
-            const RuntimeError& error,
-            const LimitReport& limit,
-            const Plan& plan,
-            const Grammar& grammar,
-            const Console& console) {
-    const Bytecode& bytecode = *grammar.bytecode;
-    const bool has_sources = !grammar.is_module_file;
-    switch (status) {
-    case DeriveStatus::Ok:
-        return Status::Fine;
-    case DeriveStatus::Error:
-        return show(runtime_diagnostic(error, bytecode, has_sources), Status::AuthorErrors, grammar,
-                    console);
-    case DeriveStatus::Limit:
-    case DeriveStatus::OutOfMemory:
-        return show(limit_diagnostic(limit, plan.derive.limits, bytecode, has_sources),
-                    Status::Limit, grammar, console);
-    case DeriveStatus::Cancelled:
-        return Status::Interrupted;
-    }
-    return Status::Failure;
-}
 
 Result<SavedState> read_saved(const Plan& plan, const std::string& path, const Bytecode& bytecode) {
     Result<SavedState> state = read_state(plan.saved_bytes, bytecode);
@@ -202,7 +165,8 @@ Status derive(Derivation& derivation,
         }
         status = derivation.step();
     }
-    return tell(status, derivation.error(), derivation.limit(), plan, grammar, console);
+    return tell(status, derivation.error(), derivation.limit(), plan.derive.limits, grammar,
+                console);
 }
 
 Result<Done> save_state(const Plan& plan,
@@ -295,7 +259,7 @@ Status stream(const Plan& plan,
               const StreamConsumer& consumer,
               StreamOutcome& outcome) {
     outcome = derive_streamed(*grammar.bytecode, plan.derive, consumer);
-    return tell(outcome.status, outcome.error, outcome.limit, plan, grammar, console);
+    return tell(outcome.status, outcome.error, outcome.limit, plan.derive.limits, grammar, console);
 }
 
 Status dump_streamed(const DumpCommand& command,
@@ -363,8 +327,8 @@ std::optional<Status> count_unseen(const DumpCommand& command,
         return std::nullopt;
     }
     Derivation derivation(*grammar.bytecode, plan.derive);
-    const Status status =
-        tell(derivation.start(), derivation.error(), derivation.limit(), plan, grammar, console);
+    const Status status = tell(derivation.start(), derivation.error(), derivation.limit(),
+                               plan.derive.limits, grammar, console);
     if (status != Status::Fine) {
         return status;
     }

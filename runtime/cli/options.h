@@ -46,7 +46,7 @@ struct CompileCommand {
     std::string output;
 };
 
-enum class Stage : std::uint8_t { Tokens, Ast, Program, Bytecode, Word };
+enum class Stage : std::uint8_t { Tokens, Ast, Program, Bytecode, Word, Skeleton };
 
 struct DumpCommand {
     MessageOptions messages;

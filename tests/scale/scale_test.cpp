@@ -12,8 +12,8 @@
 #include <string>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 #include <vector>
 
@@ -33,14 +33,12 @@ constexpr double kInstrumentedFactor = 2.0;
 struct Ended {
     int status = -1; // exit status, or -signal
     long peak_kib = 0;
-    double seconds = 0.0;
-    std::string errors; // standard error
+    double seconds = 0.0; // of processor time, which other processes do not lengthen
+    std::string errors;   // standard error
 };
 
-double now() {
-    timespec time{};
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+double seconds_of(const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
 Ended run(const std::vector<std::string>& command, const std::string& folder, const char* out) {
@@ -51,7 +49,6 @@ Ended run(const std::vector<std::string>& command, const std::string& folder, co
     }
     arguments.push_back(nullptr);
     Ended ended;
-    const double start = now();
     const pid_t child = fork();
     if (child == 0) {
         const int out_file = open(out, O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -64,7 +61,7 @@ Ended run(const std::vector<std::string>& command, const std::string& folder, co
     int status = 0;
     rusage usage{};
     wait4(child, &status, 0, &usage);
-    ended.seconds = now() - start;
+    ended.seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
     ended.peak_kib = usage.ru_maxrss;
     ended.status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     std::ifstream errors(error_path, std::ios::binary);

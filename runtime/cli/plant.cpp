@@ -1,0 +1,159 @@
+#include "runtime/cli/plant.h"
+
+#include "runtime/cli/files.h"
+#include "runtime/cli/foresight.h"
+#include "runtime/cli/progress.h"
+#include "runtime/cli/tell.h"
+#include "runtime/derive.h"
+#include "runtime/runtime_diagnostic.h"
+#include "runtime/stream.h"
+#include "runtime/turtle.h"
+#include "runtime/turtle_diagnostic.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+namespace lsys::lsc {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Shows the turtle's faults, and what ended it.
+Status tell_drawn(TurtleStatus status,
+                  const Turtle& turtle,
+                  const PlantRequest& request,
+                  const Grammar& grammar,
+                  const Console& console) {
+    Diagnostics diagnostics;
+    for (Diagnostic& diagnostic : turtle_diagnostics(turtle.faults(), *grammar.bytecode)) {
+        diagnostics.add(std::move(diagnostic));
+    }
+    if (status == TurtleStatus::Limit || status == TurtleStatus::OutOfMemory) {
+        diagnostics.add(plant_limit_diagnostic("the skeleton", request.max_bytes));
+    }
+    const Status shown = console.show(diagnostics, grammar.sources);
+    switch (status) {
+    case TurtleStatus::Ok:
+    case TurtleStatus::Fault:
+        return shown;
+    case TurtleStatus::Limit:
+    case TurtleStatus::OutOfMemory:
+        return Status::Limit;
+    case TurtleStatus::Cancelled:
+        return Status::Interrupted;
+    }
+    return Status::Failure;
+}
+
+/// The derivation, then the drawing of its last word.
+Status draw_stored(const DeriveOptions& options,
+                   const Grammar& grammar,
+                   const Console& console,
+                   Turtle& turtle,
+                   TurtleStatus& drawn,
+                   Plant& plant) {
+    const Clock::time_point start = Clock::now();
+    Derivation derivation(*grammar.bytecode, options);
+    DeriveStatus status = derivation.start();
+    if (status == DeriveStatus::Ok) {
+        status = derivation.run_to(options.generations);
+    }
+    if (status == DeriveStatus::Ok) {
+        status = derivation.check_brackets();
+    }
+    const Status told =
+        tell(status, derivation.error(), derivation.limit(), options.limits, grammar, console);
+    if (told != Status::Fine) {
+        return told;
+    }
+    plant.modules = derivation.word().module_count();
+    plant.derive_seconds = seconds_since(start);
+    const Clock::time_point drawing = Clock::now();
+    drawn = turtle.reserve(derivation.word());
+    if (drawn == TurtleStatus::Ok) {
+        drawn = turtle.feed(derivation.word());
+    }
+    plant.draw_seconds = seconds_since(drawing);
+    return Status::Fine;
+}
+
+/// Draws while it derives, and stores no word.
+Status draw_streamed(const DeriveOptions& options,
+                     const Grammar& grammar,
+                     const Console& console,
+                     Turtle& turtle,
+                     TurtleStatus& drawn,
+                     Plant& plant) {
+    const Clock::time_point start = Clock::now();
+    const StreamOutcome outcome =
+        derive_streamed(*grammar.bytecode, options, [&](const StreamChunk& chunk) {
+            drawn = turtle.feed(chunk.codes, chunk.parameters);
+            return drawn == TurtleStatus::Ok;
+        });
+    plant.modules = outcome.modules;
+    plant.derive_seconds = seconds_since(start);
+    if (drawn != TurtleStatus::Ok) {
+        return Status::Fine; // the turtle's end is told
+    }
+    return tell(outcome.status, outcome.error, outcome.limit, options.limits, grammar, console);
+}
+
+} // namespace
+
+Status grow_plant(const PlantRequest& request,
+                  const Grammar& grammar,
+                  const Console& console,
+                  Plant& plant) {
+    const Bytecode& bytecode = *grammar.bytecode;
+    DeriveOptions options;
+    options.generations = request.generations.value_or(bytecode.generations.value_or(0));
+    options.seed = request.seed.value_or(bytecode.settings.has_seed ? bytecode.settings.seed : 0);
+    options.threads = request.threads;
+    options.limits = {request.max_modules, request.max_bytes};
+    options.cancelled = console.io().interrupted;
+    plant.generations = options.generations;
+    plant.seed = options.seed;
+    if (request.stream) {
+        if (const std::optional<std::string> reason = why_not_streamable(bytecode)) {
+            return fail(Error{fmt::format("--stream: {}", *reason)}, console);
+        }
+    } else if (const std::optional<LimitReport> limit =
+                   foresee_limit(bytecode, options.generations, options.limits)) {
+        return show(limit_diagnostic(*limit, options.limits, bytecode, !grammar.is_module_file),
+                    Status::Limit, grammar, console);
+    }
+    const bool shows = console.shows_progress();
+    Progress progress(shows ? &console.io().err : nullptr, options.generations, Clock::now(),
+                      shows ? expect_modules(bytecode, options.generations)
+                            : std::vector<double>());
+    options.progress = [&](std::uint32_t generation, std::uint64_t modules) {
+        progress.update(generation, modules, Clock::now());
+    };
+    TurtleOptions turtle_options;
+    turtle_options.max_bytes = request.max_bytes;
+    turtle_options.cancelled = console.io().interrupted;
+    Turtle turtle(bytecode, turtle_options);
+    TurtleStatus drawn = TurtleStatus::Ok;
+    const Status status = request.stream
+                              ? draw_streamed(options, grammar, console, turtle, drawn, plant)
+                              : draw_stored(options, grammar, console, turtle, drawn, plant);
+    progress.clear();
+    if (status != Status::Fine) {
+        return status;
+    }
+    if (drawn == TurtleStatus::Ok) {
+        drawn = turtle.finish();
+    }
+    const Status told = tell_drawn(drawn, turtle, request, grammar, console);
+    plant.skeleton = turtle.take_skeleton();
+    return told;
+}
+
+} // namespace lsys::lsc

@@ -1,0 +1,44 @@
+// From a compiled grammar to a skeleton: derives, draws, tells what went wrong on the way.
+#pragma once
+
+#include "runtime/cli/console.h"
+#include "runtime/cli/grammar_file.h"
+#include "runtime/cli/options.h"
+#include "runtime/mesh.h"
+#include "runtime/skeleton.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys::lsc {
+
+struct PlantRequest {
+    std::string file; // the grammar's path: files of `#object` lie beside it
+    std::optional<std::uint32_t> generations;
+    std::optional<std::uint64_t> seed;
+    std::uint32_t threads = 0;
+    std::uint64_t max_modules = 0;
+    std::uint64_t max_bytes = 0;
+    bool stream = false; // store no word
+};
+
+/// A plant and how long its making took.
+struct Plant {
+    Skeleton skeleton;
+    std::vector<UserMesh> user_meshes; // of skeleton.mesh_files
+    std::uint64_t modules = 0;
+    std::uint32_t generations = 0;
+    std::uint64_t seed = 0;
+    double derive_seconds = 0.0; // with drawing, where no word is stored
+    double draw_seconds = 0.0;
+};
+
+/// Fine: the plant is there.
+[[nodiscard]] Status grow_plant(const PlantRequest& request,
+                                const Grammar& grammar,
+                                const Console& console,
+                                Plant& plant);
+
+} // namespace lsys::lsc

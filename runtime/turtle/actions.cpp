@@ -1,0 +1,73 @@
+#include "runtime/turtle/actions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lsys {
+
+namespace {
+
+constexpr double kHalfDegree = std::numbers::pi / 360.0;
+
+/// Profiles whose leaves are copied to the place of the turtle, which stays there.
+bool leaves_stay(TurtleProfile profile) {
+    return profile == TurtleProfile::Houdini || profile == TurtleProfile::L3d ||
+           profile == TurtleProfile::Lplus;
+}
+
+Action action_of(const BytecodeSymbol& symbol, TurtleProfile profile) {
+    Action action;
+    action.operation = symbol.turtle;
+    action.given = static_cast<std::uint8_t>(std::min(symbol.parameter_count, kTurtleArguments));
+    action.advances = !(symbol.turtle == TurtleOperation::Leaf && leaves_stay(profile));
+    action.unit_length = symbol.turtle == TurtleOperation::Disk ? 0.0F : 1.0F;
+    return action;
+}
+
+} // namespace
+
+HalfAngle half_angle(double degrees) {
+    // Whole turns drop out, and right angles are exact.
+    const double turn = std::remainder(degrees, 720.0);
+    if (std::abs(turn) == 180.0) {
+        return {0.0, turn > 0.0 ? 1.0 : -1.0};
+    }
+    if (std::abs(turn) == 360.0) {
+        return {-1.0, 0.0};
+    }
+    return {std::cos(turn * kHalfDegree), std::sin(turn * kHalfDegree)};
+}
+
+ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options) {
+    ActionTable table;
+    const std::size_t symbol_count = bytecode.symbols.size();
+    std::vector<Action> of_symbol;
+    of_symbol.reserve(symbol_count);
+    for (std::size_t i = 0; i < symbol_count; ++i) {
+        const BytecodeSymbol& symbol = bytecode.symbols[i];
+        Action action = action_of(symbol, bytecode.settings.turtle);
+        if (symbol.turtle == TurtleOperation::MeshFile) {
+            action.mesh_file = static_cast<std::uint32_t>(table.mesh_files.size());
+            action.unit_length = i < options.mesh_lengths.size() ? options.mesh_lengths[i] : 1.0F;
+            table.mesh_files.push_back(symbol.mesh_file);
+        }
+        of_symbol.push_back(action);
+    }
+    table.by_code.reserve(bytecode.code_count());
+    for (Code code = 0; code < bytecode.code_count(); ++code) {
+        Action action = of_symbol[static_cast<std::size_t>(bytecode.symbol_of(code))];
+        action.stored = bytecode.stored_parameters(code);
+        if (code >= symbol_count && action.given != 0) {
+            const std::uint32_t first = bytecode.folded[code - symbol_count].first_constant;
+            for (std::uint32_t i = 0; i < action.given; ++i) {
+                action.arguments[i] = bytecode.constants[first + i];
+            }
+            action.turn = half_angle(static_cast<double>(action.arguments[0]));
+        }
+        table.by_code.push_back(action);
+    }
+    return table;
+}
+
+} // namespace lsys

@@ -1,0 +1,42 @@
+// What the turtle does for each code of a word, with all that is constant worked out once.
+#pragma once
+
+#include "compiler/bytecode.h"
+#include "runtime/turtle.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+inline constexpr std::uint32_t kTurtleArguments = 3;
+
+/// Cosine and sine of half an angle: what a rotation of a quaternion needs.
+struct HalfAngle {
+    double cosine = 1.0;
+    double sine = 0.0;
+};
+[[nodiscard]] HalfAngle half_angle(double degrees);
+
+struct Action {
+    TurtleOperation operation = TurtleOperation::Nothing;
+    std::uint8_t given = 0;                          // arguments, of the first three
+    bool advances = false;                           // objects: by their length
+    std::uint32_t stored = 0;                        // parameters in the word, all of them
+    std::array<float, kTurtleArguments> arguments{}; // if none is stored
+    HalfAngle turn;                                  // rotations by a constant angle
+    float unit_length = 1.0F;                        // objects
+    std::uint32_t mesh_file = 0;                     // in Skeleton::mesh_files
+};
+
+struct ActionTable {
+    std::vector<Action> by_code;
+    std::vector<std::string> mesh_files;
+};
+
+/// Precondition: verified bytecode.
+[[nodiscard]] ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options);
+
+} // namespace lsys
