@@ -54,7 +54,10 @@ Material make_material(const MaterialKey& key) {
         material.name = key.palette == 0 ? "bark" : fmt::format("bark {}", key.palette);
         break;
     case MaterialKind::Leaf:
-        material.name = key.palette == 1 ? "leaf" : fmt::format("leaf {}", key.palette);
+        material.name = key.textured ? "leaf" : "polygon";
+        if (key.palette != 1) {
+            material.name += fmt::format(" {}", key.palette);
+        }
         break;
     case MaterialKind::Flower:
         material.name = fmt::format("flower {}", key.palette);

@@ -1,0 +1,57 @@
+// Triangles of a flat polygon, concave or not, by ear clipping with an index of corners in the
+// order of their interleaved bits, so that an ear is compared only with corners near to it (the
+// method of mapbox/earcut, after Held 2001, "FIST: Fast Industrial-Strength Triangulation of
+// Polygons", section 3.4). A convex polygon is a fan.
+//
+// A polygon that crosses itself gets triangles that are valid each, but may overlap.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+/// Keeps its memory from one polygon to the next.
+class Triangulator {
+public:
+    /// Appends triples of numbers of corners, counter-clockwise. The coordinates are finite; each
+    /// triangle has an area that is more than rounding.
+    void append(std::span<const glm::dvec2> corners, std::vector<std::uint32_t>& triangles);
+
+private:
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+    /// A corner of what is left, in rings of neighbours and in a list by `order`.
+    struct Node {
+        glm::dvec2 at{};
+        std::uint32_t corner = 0;
+        std::uint32_t previous = kNone;
+        std::uint32_t next = kNone;
+        std::uint32_t order = 0; // interleaved bits of the coordinates
+        std::uint32_t lower = kNone;
+        std::uint32_t higher = kNone;
+    };
+
+    [[nodiscard]] bool is_convex() const;
+    [[nodiscard]] double turn(std::uint32_t node) const;
+    [[nodiscard]] bool is_blocked_by(std::uint32_t node, std::uint32_t ear) const;
+    [[nodiscard]] bool is_ear(std::uint32_t node) const;
+    void load(std::span<const glm::dvec2> corners);
+    void append_fan(std::vector<std::uint32_t>& triangles) const;
+    void index_nodes();
+    void remove(std::uint32_t node);
+    std::uint32_t without_small_crossings(std::uint32_t start, std::vector<std::uint32_t>& out);
+    std::uint32_t cut_anyway(std::uint32_t start, std::vector<std::uint32_t>& out);
+    void cut(std::uint32_t node, std::vector<std::uint32_t>& triangles);
+    void clip(std::vector<std::uint32_t>& triangles);
+
+    std::vector<Node> nodes_;
+    std::vector<std::uint32_t> sorted_;
+    bool indexed_ = false;
+    std::uint32_t left_ = 0; // nodes in the ring
+};
+
+} // namespace lsys

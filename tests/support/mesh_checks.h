@@ -1,0 +1,147 @@
+// What is true of every mesh, and the sizes that tests compare.
+#pragma once
+
+#include "runtime/mesh.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace lsys::test {
+
+inline glm::dvec3 twice_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    return glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
+}
+
+/// Arrays in parallel, indices in range, unit normals, orthogonal unit tangents, no triangle
+/// without area, parts that cover the indices.
+inline void check_mesh(const Mesh& mesh, const MeshOptions& options) {
+    const std::size_t count = mesh.positions.size();
+    REQUIRE(mesh.normals.size() == count);
+    REQUIRE(mesh.texture_coordinates.size() == (options.texture_coordinates ? count : 0));
+    REQUIRE(mesh.tangents.size() == (options.tangents ? count : 0));
+    REQUIRE(mesh.colours.size() == (options.colours ? count : 0));
+    REQUIRE(mesh.indices.size() % 3 == 0);
+    std::uint64_t covered = 0;
+    for (const MeshPart& part : mesh.parts) {
+        REQUIRE(part.first_index == covered);
+        REQUIRE(part.material < mesh.materials.size());
+        covered += part.index_count;
+    }
+    REQUIRE(covered == mesh.indices.size());
+    std::size_t wrong = 0;
+    for (const glm::vec3& normal : mesh.normals) {
+        wrong += std::abs(glm::length(normal) - 1.0F) < 1e-4F ? 0U : 1U;
+    }
+    for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
+        const glm::vec3 tangent(mesh.tangents[i]);
+        wrong += std::abs(glm::length(tangent) - 1.0F) < 1e-4F &&
+                         std::abs(glm::dot(tangent, mesh.normals[i])) < 1e-3F &&
+                         std::abs(mesh.tangents[i].w) == 1.0F
+                     ? 0U
+                     : 1U;
+    }
+    for (const glm::vec2& place : mesh.texture_coordinates) {
+        wrong += std::isfinite(place.x) && std::isfinite(place.y) ? 0U : 1U;
+    }
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            REQUIRE(mesh.indices[i + j] < count);
+        }
+        const glm::dvec3 area =
+            twice_area(mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]],
+                       mesh.positions[mesh.indices[i + 2]]);
+        wrong += glm::dot(area, area) > 0.0 ? 0U : 1U;
+    }
+    CHECK(wrong == 0);
+}
+
+/// Triangles whose normals at the corners point away from their front.
+inline std::size_t triangles_turned_over(const Mesh& mesh) {
+    std::size_t turned = 0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const glm::dvec3 area =
+            twice_area(mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]],
+                       mesh.positions[mesh.indices[i + 2]]);
+        for (std::size_t j = 0; j < 3; ++j) {
+            turned += glm::dot(area, glm::dvec3(mesh.normals[mesh.indices[i + j]])) > 0.0 ? 0U : 1U;
+        }
+    }
+    return turned;
+}
+
+inline Bounds bounds_of(const Mesh& mesh) {
+    Bounds bounds;
+    for (const std::uint32_t index : mesh.indices) {
+        bounds.add(mesh.positions[index]);
+    }
+    return bounds;
+}
+
+inline double area_of(const Mesh& mesh) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const glm::dvec3 area =
+            twice_area(mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]],
+                       mesh.positions[mesh.indices[i + 2]]);
+        sum += 0.5 * std::sqrt(glm::dot(area, area));
+    }
+    return sum;
+}
+
+/// What is enclosed, for closed meshes.
+inline double volume_of(const Mesh& mesh) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const glm::dvec3 a(mesh.positions[mesh.indices[i]]);
+        const glm::dvec3 b(mesh.positions[mesh.indices[i + 1]]);
+        const glm::dvec3 c(mesh.positions[mesh.indices[i + 2]]);
+        sum += glm::dot(a, glm::cross(b, c)) / 6.0;
+    }
+    return sum;
+}
+
+/// Vertices, edges and faces with equal positions taken for one.
+struct Topology {
+    std::size_t vertices = 0;
+    std::size_t edges = 0;
+    std::size_t triangles = 0;
+    std::size_t open_edges = 0; // not once in each direction
+
+    [[nodiscard]] std::int64_t euler() const {
+        return static_cast<std::int64_t>(vertices + triangles) - static_cast<std::int64_t>(edges);
+    }
+};
+
+inline Topology topology_of(const Mesh& mesh) {
+    std::map<std::array<float, 3>, std::uint32_t> places;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<int, 2>> edges;
+    const auto place = [&](std::uint32_t index) {
+        const glm::vec3 p = mesh.positions[index] + 0.0F; // -0 is 0
+        return places.emplace(std::array{p.x, p.y, p.z}, static_cast<std::uint32_t>(places.size()))
+            .first->second;
+    };
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            const std::uint32_t a = place(mesh.indices[i + j]);
+            const std::uint32_t b = place(mesh.indices[i + (j + 1) % 3]);
+            ++edges[std::minmax(a, b)][a < b ? 0 : 1];
+        }
+    }
+    Topology topology;
+    topology.vertices = places.size();
+    topology.edges = edges.size();
+    topology.triangles = mesh.indices.size() / 3;
+    for (const auto& [edge, uses] : edges) {
+        topology.open_edges += uses == std::array{1, 1} ? 0U : 1U;
+    }
+    return topology;
+}
+
+} // namespace lsys::test
