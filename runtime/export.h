@@ -1,0 +1,59 @@
+// Export: a mesh, or for drawings the skeleton, as a file of somebody else's. Bytes go to a sink in
+// pieces and in order, large arrays straight from memory; the file as a whole exists nowhere. Made
+// from the results of make_mesh() and the turtle; read by the command line, which owns the files.
+// Units are metres and +Y is up in every format that has a say in it. Same input, same bytes.
+#pragma once
+
+#include "runtime/mesh.h"
+#include "runtime/skeleton.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+enum class ExportFormat : std::uint8_t { Obj, Ply, Off, OffPlus, Stl, Gltf, Glb, Svg, Usda };
+
+/// By the extension, in capitals or not.
+[[nodiscard]] std::optional<ExportFormat> format_of_path(std::string_view path);
+/// Svg is drawn from the skeleton; all others are made from the mesh, which it does not look at.
+[[nodiscard]] bool uses_mesh(ExportFormat format);
+
+/// Takes the next bytes; false stops the export.
+using ByteSink = std::function<bool(std::string_view)>;
+
+/// What a file says about where it comes from.
+struct ExportInfo {
+    std::string grammar; // its name
+    std::uint64_t seed = 0;
+    std::uint32_t generations = 0;
+    std::string generator; // the program and its version
+    std::string mtl_name;  // the file of write_mtl() beside an OBJ; empty: none
+    bool textures = true;  // glTF: images for the materials that are textured
+    /// Those of Skeleton::mesh_files, whose outlines Svg draws; it leaves out what is not here.
+    const std::vector<UserMesh>* user_meshes = nullptr;
+};
+
+enum class ExportStatus : std::uint8_t {
+    Ok,
+    Nothing,  // no triangle, or for Svg nothing drawn: no byte was written
+    TooLarge, // more than the format can hold: no byte was written
+    Stopped,  // the sink said so
+    OutOfMemory,
+};
+
+/// Writes one file to `sink`. Indices of the mesh must be below its number of vertices.
+[[nodiscard]] ExportStatus export_mesh(const Mesh& mesh,
+                                       const Skeleton& skeleton,
+                                       ExportFormat format,
+                                       const ExportInfo& info,
+                                       const ByteSink& sink);
+/// The materials of an OBJ. Colours are sRGB there.
+[[nodiscard]] ExportStatus
+write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink);
+
+} // namespace lsys

@@ -1,0 +1,347 @@
+// glTF 2.0 (Khronos, ISO/IEC 12113:2022): as GLB, and as JSON with the buffer in it as base64. One
+// mesh with a primitive for each part; all share the arrays of vertices. Metres and +Y up are the
+// format's own.
+#include "runtime/export/base64.h"
+#include "runtime/export/formats.h"
+#include "runtime/export/gltf_data.h"
+#include "runtime/export/text.h"
+#include "runtime/texture.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <new>
+#include <optional>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::uint64_t kMostBytes = 0xFFFFFFFFu; // of a GLB; buffers are held to the same
+
+/// Images of the file, in this order; none: not in it.
+struct Images {
+    std::optional<std::size_t> bark;
+    std::optional<std::size_t> bark_normals;
+    std::optional<std::size_t> leaf;
+    std::vector<std::string> names;
+    std::vector<std::string> bytes;
+};
+
+bool shows_texture(const Mesh& mesh, const Material& material, const ExportInfo& info) {
+    return info.textures && material.textured && has_texture(material.kind) &&
+           is_complete(mesh, mesh.texture_coordinates);
+}
+
+std::size_t add_image(Images& images, const char* name, const Texture& texture) {
+    images.names.emplace_back(name);
+    images.bytes.push_back(encode_png(texture));
+    if (images.bytes.back().empty()) {
+        throw std::bad_alloc();
+    }
+    return images.names.size() - 1;
+}
+
+Images make_images(const Mesh& mesh, const ExportInfo& info) {
+    Images images;
+    for (const MeshPart& part : mesh.parts) {
+        const Material& material = mesh.materials[part.material];
+        if (!shows_texture(mesh, material, info)) {
+            continue;
+        }
+        if (material.kind == MaterialKind::Bark && !images.bark) {
+            images.bark = add_image(images, "bark", material_texture(MaterialKind::Bark));
+            if (is_complete(mesh, mesh.tangents)) {
+                images.bark_normals = add_image(images, "bark normals", bark_normals());
+            }
+        } else if (material.kind == MaterialKind::Leaf && !images.leaf) {
+            images.leaf = add_image(images, "leaf", material_texture(MaterialKind::Leaf));
+        }
+    }
+    return images;
+}
+
+/// The document, up to its list of buffers.
+class Document {
+public:
+    Document(const Mesh& mesh, const ExportInfo& info, const GltfData& data, const Images& images)
+        : mesh_(mesh), info_(info), data_(data), images_(images) {}
+
+    [[nodiscard]] std::string text();
+
+private:
+    template <typename... Arguments>
+    void add(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+        fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
+    }
+    [[nodiscard]] const char* comma(std::size_t index) const { return index == 0 ? "" : ","; }
+    [[nodiscard]] bool has(GltfArray array) const {
+        return std::any_of(data_.views.begin(), data_.views.end(),
+                           [array](const GltfView& view) { return view.array == array; });
+    }
+
+    void add_node();
+    void add_primitives();
+    void add_materials();
+    void add_material(const Material& material, bool coloured);
+    void add_images();
+    void add_accessors();
+    void add_views();
+
+    const Mesh& mesh_;
+    const ExportInfo& info_;
+    const GltfData& data_;
+    const Images& images_;
+    std::string text_;
+};
+
+void Document::add_node() {
+    // Numbers beyond 2^53 are not safe with every reader of JSON.
+    const bool safe = info_.seed < std::uint64_t{1} << 53U;
+    add(R"("scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"name":"plant","mesh":0,)"
+        R"("extras":{{"grammar":"{}","seed":{},"n":{}}}}}],)",
+        json_text(info_.grammar),
+        safe ? fmt::format("{}", info_.seed) : fmt::format("\"{}\"", info_.seed),
+        info_.generations);
+}
+
+void Document::add_primitives() {
+    static constexpr std::array<std::pair<GltfArray, const char*>, 5> kAttributes{{
+        {GltfArray::Positions, "POSITION"},
+        {GltfArray::Normals, "NORMAL"},
+        {GltfArray::TextureCoordinates, "TEXCOORD_0"},
+        {GltfArray::Tangents, "TANGENT"},
+        {GltfArray::Colours, "COLOR_0"},
+    }};
+    add(R"("meshes":[{{"name":"plant","primitives":[)");
+    // Accessors: those of the attributes, then one for the indices of each part. Materials: one for
+    // each part.
+    std::size_t attributes = 0;
+    for (const auto& [array, name] : kAttributes) {
+        attributes += has(array) ? 1U : 0U;
+    }
+    std::size_t written = 0;
+    for (std::size_t i = 0; i < mesh_.parts.size(); ++i) {
+        if (mesh_.parts[i].index_count < 3) {
+            continue;
+        }
+        add(R"({}{{"attributes":{{)", comma(written));
+        std::size_t accessor = 0;
+        for (const auto& [array, name] : kAttributes) {
+            if (has(array)) {
+                if (array != GltfArray::Colours || data_.coloured[i]) {
+                    add(R"({}"{}":{})", comma(accessor), name, accessor);
+                }
+                ++accessor;
+            }
+        }
+        add(R"(}},"indices":{},"material":{}}})", attributes + written, written);
+        ++written;
+    }
+    add("]}}],");
+}
+
+void Document::add_material(const Material& material, bool coloured) {
+    const glm::vec4 colour = glm::clamp(
+        coloured ? glm::vec4(1.0F, 1.0F, 1.0F, material.colour.a) : material.colour, 0.0F, 1.0F);
+    add(R"({{"name":"{}","pbrMetallicRoughness":{{"baseColorFactor":[{},{},{},{}],)",
+        json_text(material.name), colour.r, colour.g, colour.b, colour.a);
+    const bool textured = shows_texture(mesh_, material, info_);
+    const bool bark = material.kind == MaterialKind::Bark;
+    if (textured) {
+        add(R"("baseColorTexture":{{"index":{}}},)", bark ? *images_.bark : *images_.leaf);
+    }
+    add(R"("metallicFactor":0,"roughnessFactor":{}}})", bark ? 0.95 : 0.7);
+    if (textured && bark && images_.bark_normals) {
+        add(R"(,"normalTexture":{{"index":{}}})", *images_.bark_normals);
+    }
+    if (material.cut_out) {
+        add(R"(,"alphaMode":"MASK","alphaCutoff":0.5)");
+    } else if (colour.a < 1.0F) {
+        add(R"(,"alphaMode":"BLEND")");
+    }
+    add("{}}}", material.two_sided ? R"(,"doubleSided":true)" : "");
+}
+
+void Document::add_materials() {
+    add(R"("materials":[)");
+    std::size_t written = 0;
+    for (std::size_t i = 0; i < mesh_.parts.size(); ++i) {
+        if (mesh_.parts[i].index_count >= 3) {
+            add("{}", comma(written++));
+            add_material(mesh_.materials[mesh_.parts[i].material], data_.coloured[i]);
+        }
+    }
+    add("],");
+}
+
+void Document::add_images() {
+    if (images_.names.empty()) {
+        return;
+    }
+    const auto image_views =
+        std::find_if(data_.views.begin(), data_.views.end(),
+                     [](const GltfView& view) { return view.array == GltfArray::Image; }) -
+        data_.views.begin();
+    // Sampler 0 repeats, 1 ends at the border; both with mipmaps.
+    const bool leaf = images_.leaf.has_value();
+    const bool bark = images_.bark.has_value();
+    add(R"("samplers":[)");
+    if (bark) {
+        add(R"({{"magFilter":9729,"minFilter":9987,"wrapS":10497,"wrapT":10497}})");
+    }
+    if (leaf) {
+        add(R"({}{{"magFilter":9729,"minFilter":9987,"wrapS":33071,"wrapT":33071}})",
+            comma(bark ? 1 : 0));
+    }
+    add(R"(],"textures":[)");
+    for (std::size_t i = 0; i < images_.names.size(); ++i) {
+        add(R"({}{{"sampler":{},"source":{}}})", comma(i), images_.leaf == i && bark ? 1 : 0, i);
+    }
+    add(R"(],"images":[)");
+    for (std::size_t i = 0; i < images_.names.size(); ++i) {
+        add(R"({}{{"name":"{}","mimeType":"image/png","bufferView":{}}})", comma(i),
+            images_.names[i], static_cast<std::size_t>(image_views) + i);
+    }
+    add("],");
+}
+
+void Document::add_accessors() {
+    constexpr int kByte = 5121;
+    constexpr int kUnsigned = 5125;
+    constexpr int kFloat = 5126;
+    Bounds bounds;
+    for (const glm::vec3& position : mesh_.positions) {
+        bounds.add(position);
+    }
+    add(R"("accessors":[)");
+    const std::size_t vertices = mesh_.positions.size();
+    std::size_t indices_view = 0;
+    for (std::size_t i = 0; i < data_.views.size(); ++i) {
+        const auto attribute = [&](int component, const char* type) {
+            add(R"({}{{"bufferView":{},"componentType":{},"count":{},"type":"{}")", comma(i), i,
+                component, vertices, type);
+        };
+        switch (data_.views[i].array) {
+        case GltfArray::Positions: {
+            attribute(kFloat, "VEC3");
+            // As exact as the data: the shortest text of a float reads back another double.
+            const glm::dvec3 low(bounds.low);
+            const glm::dvec3 high(bounds.high);
+            add(R"(,"min":[{},{},{}],"max":[{},{},{}]}})", low.x, low.y, low.z, high.x, high.y,
+                high.z);
+            break;
+        }
+        case GltfArray::Normals:
+            attribute(kFloat, "VEC3");
+            add("}}");
+            break;
+        case GltfArray::TextureCoordinates:
+            attribute(kFloat, "VEC2");
+            add("}}");
+            break;
+        case GltfArray::Tangents:
+            attribute(kFloat, "VEC4");
+            add("}}");
+            break;
+        case GltfArray::Colours:
+            attribute(kByte, "VEC4");
+            add(R"(,"normalized":true}})");
+            break;
+        case GltfArray::Indices:
+            indices_view = i;
+            break;
+        case GltfArray::Image:
+            break;
+        }
+    }
+    for (const MeshPart& part : mesh_.parts) {
+        if (part.index_count >= 3) {
+            add(R"(,{{"bufferView":{},"byteOffset":{},"componentType":{},"count":{},)"
+                R"("type":"SCALAR"}})",
+                indices_view, part.first_index * sizeof(std::uint32_t), kUnsigned,
+                part.index_count / 3 * 3);
+        }
+    }
+    add("],");
+}
+
+void Document::add_views() {
+    constexpr int kVertices = 34962;
+    constexpr int kIndices = 34963;
+    add(R"("bufferViews":[)");
+    for (std::size_t i = 0; i < data_.views.size(); ++i) {
+        const GltfView& view = data_.views[i];
+        add(R"({}{{"buffer":0,"byteOffset":{},"byteLength":{})", comma(i), view.offset, view.bytes);
+        if (view.array != GltfArray::Image) {
+            add(R"(,"target":{})", view.array == GltfArray::Indices ? kIndices : kVertices);
+        }
+        add("}}");
+    }
+    add("],");
+}
+
+std::string Document::text() {
+    text_.clear();
+    add(R"({{"asset":{{"version":"2.0","generator":"{}"}},)", json_text(info_.generator));
+    add_node();
+    add_primitives();
+    add_materials();
+    add_images();
+    add_accessors();
+    add_views();
+    add(R"("buffers":[{{"byteLength":{})", data_.bytes);
+    return std::move(text_);
+}
+
+void put_word(PieceWriter& out, std::uint64_t value) {
+    const auto word = static_cast<std::uint32_t>(value);
+    out.put_array(std::span(&word, 1));
+}
+
+} // namespace
+
+ExportStatus write_gltf(const Mesh& mesh, bool binary, const ExportInfo& info, PieceWriter& out) {
+    const Images images = make_images(mesh, info);
+    const GltfData data = plan_gltf_data(mesh, images.bytes);
+    if (data.bytes > kMostBytes) {
+        return ExportStatus::TooLarge;
+    }
+    std::string json = Document(mesh, info, data, images).text();
+    if (!binary) {
+        out.put(json);
+        out.put(R"(,"uri":"data:application/octet-stream;base64,)");
+        Base64Writer base64(out);
+        write_gltf_data(mesh, data,
+                        [&base64](std::span<const std::byte> bytes) { base64.put(bytes); });
+        base64.finish();
+        out.put("\"}]}\n");
+        return ExportStatus::Ok;
+    }
+    constexpr std::uint64_t kHeaders = 12 + 8 + 8;
+    constexpr std::uint32_t kMagic = 0x46546C67;     // "glTF"
+    constexpr std::uint32_t kJsonChunk = 0x4E4F534A; // "JSON"
+    constexpr std::uint32_t kDataChunk = 0x004E4942; // "BIN"
+    json += "}]}";
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const std::uint64_t total = kHeaders + json.size() + data.bytes;
+    if (total > kMostBytes) {
+        return ExportStatus::TooLarge;
+    }
+    put_word(out, kMagic);
+    put_word(out, 2);
+    put_word(out, total);
+    put_word(out, json.size());
+    put_word(out, kJsonChunk);
+    out.put(json);
+    put_word(out, data.bytes);
+    put_word(out, kDataChunk);
+    write_gltf_data(mesh, data, [&out](std::span<const std::byte> bytes) { out.put_bytes(bytes); });
+    return ExportStatus::Ok;
+}
+
+} // namespace lsys

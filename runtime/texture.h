@@ -1,0 +1,34 @@
+// Textures: small pictures that are computed, the same on every machine. They are made to be
+// multiplied by the colour of a material, so they are near white where the surface is plain. Read
+// by exporters and viewers.
+#pragma once
+
+#include "runtime/mesh.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+/// Rows from v = 0 on, four bytes a texel: sRGB and opacity. For normals: x, y, z and 255, where
+/// -1 ... 1 is 0 ... 255, x points along u and y against v, as in glTF.
+struct Texture {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<std::uint8_t> texels;
+};
+
+/// Bark and Leaf.
+[[nodiscard]] bool has_texture(MaterialKind kind);
+/// Bark: fissures along v; repeats in both directions. Leaf: opaque within a pointed ellipse that
+/// touches the borders of the picture in the middle of each, with a midrib along v and side veins
+/// that run towards v = 0. Empty for other kinds.
+[[nodiscard]] Texture material_texture(MaterialKind kind);
+/// The relief of the bark as normals.
+[[nodiscard]] Texture bark_normals();
+
+/// The bytes of a PNG file; without opacity where all is opaque. Empty if there is no memory.
+[[nodiscard]] std::string encode_png(const Texture& texture);
+
+} // namespace lsys

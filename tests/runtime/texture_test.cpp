@@ -1,0 +1,82 @@
+// Textures that are computed.
+#include "runtime/texture.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+
+using namespace lsys;
+
+namespace {
+
+int channel(const Texture& texture, std::uint32_t x, std::uint32_t y, std::uint32_t c) {
+    return texture.texels[std::size_t{4} * (y * texture.width + x) + c];
+}
+
+} // namespace
+
+TEST_CASE("only bark and leaves have textures") {
+    CHECK(has_texture(MaterialKind::Bark));
+    CHECK(has_texture(MaterialKind::Leaf));
+    CHECK_FALSE(has_texture(MaterialKind::Flower));
+    CHECK(material_texture(MaterialKind::Plain).texels.empty());
+    const Texture bark = material_texture(MaterialKind::Bark);
+    CHECK(bark.width == 256);
+    CHECK(bark.height == 256);
+    CHECK(bark.texels.size() == 256 * 256 * 4);
+    CHECK(bark.texels == material_texture(MaterialKind::Bark).texels);
+}
+
+TEST_CASE("bark repeats without a seam, and its fissures run along v") {
+    const Texture bark = material_texture(MaterialKind::Bark);
+    long seam = 0;
+    long inside = 0;
+    long along_u = 0;
+    long along_v = 0;
+    for (std::uint32_t i = 0; i < 256; ++i) {
+        CHECK(channel(bark, i, 7, 3) == 255);
+        seam += std::abs(channel(bark, 255, i, 0) - channel(bark, 0, i, 0)) +
+                std::abs(channel(bark, i, 255, 0) - channel(bark, i, 0, 0));
+        inside += std::abs(channel(bark, 127, i, 0) - channel(bark, 128, i, 0)) +
+                  std::abs(channel(bark, i, 127, 0) - channel(bark, i, 128, 0));
+        for (std::uint32_t j = 0; j < 248; ++j) {
+            along_u += std::abs(channel(bark, j, i, 0) - channel(bark, j + 8, i, 0));
+            along_v += std::abs(channel(bark, i, j, 0) - channel(bark, i, j + 8, 0));
+        }
+    }
+    CHECK(seam < 2 * inside);
+    CHECK(along_u > 2 * along_v);
+}
+
+TEST_CASE("a leaf is opaque within a pointed ellipse") {
+    const Texture leaf = material_texture(MaterialKind::Leaf);
+    CHECK(channel(leaf, 128, 128, 3) == 255);
+    CHECK(channel(leaf, 2, 128, 3) == 255);
+    CHECK(channel(leaf, 253, 128, 3) == 255);
+    CHECK(channel(leaf, 128, 4, 3) == 255);
+    CHECK(channel(leaf, 128, 251, 3) == 255);
+    for (const std::uint32_t x : {0U, 255U}) {
+        for (const std::uint32_t y : {0U, 255U}) {
+            CHECK(channel(leaf, x, y, 3) == 0);
+        }
+    }
+    CHECK(channel(leaf, 100, 8, 3) == 0);
+    // The midrib is lighter than the blade.
+    CHECK(channel(leaf, 128, 128, 1) > channel(leaf, 150, 128, 1));
+}
+
+TEST_CASE("normals of the bark point out of it") {
+    const Texture normals = bark_normals();
+    for (std::size_t i = 0; i < normals.texels.size(); i += 4) {
+        REQUIRE(normals.texels[i + 2] > 128);
+    }
+}
+
+TEST_CASE("a PNG says its size and whether it has opacity") {
+    const std::string bark = encode_png(material_texture(MaterialKind::Bark));
+    const std::string leaf = encode_png(material_texture(MaterialKind::Leaf));
+    CHECK(bark.substr(0, 8) == "\x89PNG\r\n\x1A\n");
+    CHECK(bark.substr(12, 14) == std::string("IHDR\0\0\1\0\0\0\1\0\10\2", 14));
+    CHECK(leaf.substr(12, 14) == std::string("IHDR\0\0\1\0\0\0\1\0\10\6", 14));
+    CHECK(bark.size() < 150000);
+}
