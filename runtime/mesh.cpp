@@ -1,6 +1,7 @@
 #include "runtime/mesh.h"
 
 #include "runtime/meshing/mesh_builder.h"
+#include "runtime/meshing/objects.h"
 #include "runtime/meshing/polygons.h"
 
 #include <new>
@@ -11,11 +12,12 @@ namespace lsys {
 namespace {
 
 MeshStatus build(const Skeleton& skeleton,
-                 const std::vector<UserMesh>& /*user_meshes*/,
+                 const std::vector<UserMesh>& user_meshes,
                  const MeshOptions& options,
                  Mesh& mesh) {
     MeshBuilder builder(options, mesh);
     append_polygons(skeleton, options, builder);
+    append_objects(skeleton, user_meshes, options, builder);
     return builder.finish();
 }
 

@@ -1,0 +1,29 @@
+// How a leaf bends by gravity: along its midrib each place is turned towards the ground, most of it
+// near the stem, so that nothing is stretched.
+#pragma once
+
+#include "runtime/meshing/shapes.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+class Droop {
+public:
+    explicit Droop(const ShapePart& part);
+
+    /// Moves the part, in its own space, for a leaf of this frame; with an `amount` of 1 the
+    /// tip points straight down, unless the leaf stands upright on its edge. `bent` takes
+    /// positions, normals and tangents.
+    void bend(const ShapePart& part, const glm::quat& frame, float amount, ShapePart& bent) const;
+
+private:
+    std::vector<float> rows_;           // distances from the base, rising from 0
+    std::vector<float> turn_parts_;     // of the whole turn, there
+    std::vector<std::uint32_t> row_of_; // of each vertex
+};
+
+} // namespace lsys
