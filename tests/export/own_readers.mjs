@@ -1,0 +1,210 @@
+// Readers of OFF+ and of the part of USDA that is written here. They know the formats from their
+// descriptions only: no other program has read these files.
+
+function assert(condition, message) {
+    if (!condition) {
+        throw new Error(message);
+    }
+}
+
+/// `OFF`, counts, `x y z u v` for each vertex, `3 a b c leaf` for each face.
+export function readOffPlus(text) {
+    const lines = text.split('\n');
+    assert(lines[0] === 'OFF', 'no OFF in the first line');
+    const [vertices, triangles] = lines[1].split(' ').map(Number);
+    assert(lines.length === 2 + vertices + triangles + 1 && lines.at(-1) === '',
+           'not as many lines as the counts say');
+    for (let i = 0; i < vertices; ++i) {
+        const numbers = lines[2 + i].split(' ').map(Number);
+        assert(numbers.length === 5 && numbers.every(Number.isFinite), `vertex ${i}`);
+    }
+    for (let i = 0; i < triangles; ++i) {
+        const numbers = lines[2 + vertices + i].split(' ').map(Number);
+        assert(numbers.length === 5 && numbers[0] === 3 && (numbers[4] === 0 || numbers[4] === 1) &&
+               numbers.slice(1, 4).every(n => Number.isInteger(n) && n >= 0 && n < vertices),
+               `face ${i}`);
+    }
+    return { vertices, triangles };
+}
+
+const token = /\s*(?:([A-Za-z_][\w:.]*(?:\[\])?)|(-?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)|("(?:[^"\\\n]|\\.)*")|(<[^<>]*>)|([()[\]{}=,]))/gy;
+
+/// Statements of a prim: `properties` by name, `children` by name.
+class Parser {
+    constructor(text) {
+        this.text = text;
+        token.lastIndex = 0;
+        this.next();
+    }
+    next() {
+        const begin = token.lastIndex;
+        const match = token.exec(this.text);
+        if (match === null) {
+            assert(this.text.slice(begin).trim() === '', `no token at byte ${begin}`);
+            this.kind = 'end';
+            return;
+        }
+        this.kind = ['name', 'number', 'string', 'path', 'sign'][match.slice(1).findIndex(
+            m => m !== undefined)];
+        this.value = match[0].trim();
+    }
+    take(value) {
+        const taken = this.value;
+        assert(this.kind !== 'end' && (value === undefined || taken === value),
+               `${value} expected, ${taken} found`);
+        this.next();
+        return taken;
+    }
+    at(value) {
+        return this.kind !== 'end' && this.value === value;
+    }
+    // Numbers, strings, paths, tuples, lists.
+    literal() {
+        if (this.kind === 'number') {
+            return Number(this.take());
+        }
+        for (const [open, close] of [['[', ']'], ['(', ')']]) {
+            if (this.at(open)) {
+                this.take();
+                const items = [];
+                while (!this.at(close)) {
+                    items.push(this.literal());
+                    if (!this.at(close)) {
+                        this.take(',');
+                    }
+                }
+                this.take();
+                return items;
+            }
+        }
+        assert(this.kind === 'string' || this.kind === 'path', `no value: ${this.value}`);
+        return this.take().slice(1, -1);
+    }
+    // `name = value`, `type name = value`, dictionaries, up to `close`.
+    fields(close) {
+        const fields = {};
+        while (!this.at(close)) {
+            const words = [];
+            while (this.kind === 'name') {
+                words.push(this.take());
+            }
+            assert(words.length > 0, `no field: ${this.value}`);
+            let value = null;
+            if (this.at('=')) {
+                this.take();
+                if (this.at('{')) {
+                    this.take();
+                    value = this.fields('}');
+                    this.take('}');
+                } else {
+                    value = this.literal();
+                }
+            }
+            const field = { type: words.slice(0, -1).join(' '), value };
+            if (this.at('(')) {
+                this.take();
+                field.metadata = this.fields(')');
+                this.take(')');
+            }
+            assert(!(words.at(-1) in fields), `${words.at(-1)} twice`);
+            fields[words.at(-1)] = field;
+        }
+        return fields;
+    }
+    prim() {
+        this.take('def');
+        const prim = { type: this.take(), name: this.literal(), metadata: {}, children: {} };
+        if (this.at('(')) {
+            this.take();
+            prim.metadata = this.fields(')');
+            this.take(')');
+        }
+        this.take('{');
+        const properties = [];
+        while (!this.at('}')) {
+            if (this.at('def')) {
+                const child = this.prim();
+                assert(!(child.name in prim.children), `two prims ${child.name}`);
+                assert(/^[A-Za-z_]\w*$/.test(child.name), `no name of a prim: ${child.name}`);
+                prim.children[child.name] = child;
+            } else {
+                properties.push(this.property());
+            }
+        }
+        this.take('}');
+        prim.properties = Object.fromEntries(properties);
+        assert(Object.keys(prim.properties).length === properties.length, 'a property twice');
+        return prim;
+    }
+    property() {
+        const words = [];
+        while (this.kind === 'name') {
+            words.push(this.take());
+        }
+        let value = null;
+        if (this.at('=')) {
+            this.take();
+            value = this.literal();
+        }
+        const property = { type: words.slice(0, -1).join(' '), value };
+        if (this.at('(')) {
+            this.take();
+            property.metadata = this.fields(')');
+            this.take(')');
+        }
+        return [words.at(-1), property];
+    }
+}
+
+export function readUsda(text) {
+    assert(text.startsWith('#usda 1.0\n'), 'no #usda 1.0 in the first line');
+    const parser = new Parser(text.slice('#usda 1.0'.length));
+    parser.take('(');
+    const layer = parser.fields(')');
+    parser.take(')');
+    assert(layer.upAxis.value === 'Y' && layer.metersPerUnit.value === 1, 'axis or unit');
+    assert(typeof layer.customLayerData.value.grammar.value === 'string', 'grammar');
+    const root = parser.prim();
+    assert(parser.kind === 'end', 'something behind the last prim');
+    assert(root.name === layer.defaultPrim.value, 'defaultPrim');
+
+    const mesh = root.children.Mesh;
+    const value = name => mesh.properties[name].value;
+    const vertices = value('points').length;
+    const indices = value('faceVertexIndices');
+    const triangles = value('faceVertexCounts').length;
+    assert(value('faceVertexCounts').every(n => n === 3), 'a face that is no triangle');
+    assert(indices.length === 3 * triangles, 'faceVertexIndices');
+    assert(indices.every(n => Number.isInteger(n) && n >= 0 && n < vertices), 'an index');
+    const widths = { points: 3, normals: 3, 'primvars:st': 2, 'primvars:displayColor': 3 };
+    for (const [name, width] of Object.entries(widths)) {
+        if (name in mesh.properties) {
+            assert(value(name).length === vertices &&
+                   value(name).every(t => t.length === width && t.every(Number.isFinite)), name);
+            assert(name === 'points' ||
+                   mesh.properties[name].metadata.interpolation.value === 'vertex',
+                   `interpolation of ${name}`);
+        }
+    }
+    const [low, high] = value('extent');
+    assert(value('points').every(p => p.every((x, i) => x >= low[i] && x <= high[i])), 'extent');
+
+    // Subsets share out all faces, and each names a material that is there.
+    const owned = new Uint8Array(triangles);
+    const subsets = Object.values(mesh.children);
+    for (const subset of subsets) {
+        assert(subset.type === 'GeomSubset', subset.type);
+        for (const face of subset.properties.indices.value) {
+            assert(face < triangles && owned[face] === 0, `face ${face} of ${subset.name}`);
+            owned[face] = 1;
+        }
+        const path = subset.properties['material:binding'].value.split('/').slice(2);
+        const material = path.reduce((prim, name) => prim.children[name], root);
+        assert(material.type === 'Material', 'material:binding');
+        const shader = `/Plant/${path.join('/')}/Surface.outputs:surface`;
+        assert(material.properties['outputs:surface.connect'].value === shader &&
+               material.children.Surface.type === 'Shader', 'connection of the surface');
+    }
+    assert(owned.every(n => n === 1), 'a face without a subset');
+    return { vertices, triangles, parts: subsets.length };
+}

@@ -1,0 +1,158 @@
+// Reads exported files with assimp and compares them, triangle by triangle, with the PLY of the
+// same name, whose plain binary layout is read here. Usage: read_assimp FOLDER
+//
+// assimp keeps the vertices of PLY and OFF, and must find as many as counts.txt says. Of OBJ, STL
+// and glTF it makes vertices of its own; there each corner must lie where the PLY has it.
+#include <array>
+#include <assimp/Importer.hpp>
+#include <assimp/scene.h>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace {
+
+using Point = std::array<float, 3>;
+
+struct Triangles {
+    std::vector<Point> corners; // three for each, in the order of the file
+    std::uint64_t vertices = 0;
+};
+
+int failures = 0;
+
+void fail(const std::filesystem::path& path, const std::string& what) {
+    std::printf("%s: %s\n", path.filename().c_str(), what.c_str());
+    ++failures;
+}
+
+/// The number behind `key` in a header.
+std::uint64_t number_after(const std::string& text, const std::string& key) {
+    return std::stoull(text.substr(text.find(key) + key.size()));
+}
+
+Triangles read_ply(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    const std::string mark = "end_header\n";
+    const std::size_t data = bytes.find(mark) + mark.size();
+    const std::string header = bytes.substr(0, data);
+    const bool textured = header.find("property float s") != std::string::npos;
+    const bool coloured = header.find("property uchar red") != std::string::npos;
+    const std::size_t stride = 24U + (textured ? 8U : 0U) + (coloured ? 3U : 0U);
+    Triangles triangles;
+    triangles.vertices = number_after(header, "element vertex ");
+    const std::uint64_t faces = number_after(header, "element face ");
+    const std::size_t first_face = data + triangles.vertices * stride;
+    if (bytes.size() != first_face + 13 * faces) {
+        fail(path, "not as long as its header says");
+        return triangles;
+    }
+    for (std::uint64_t i = 0; i < faces; ++i) {
+        std::array<std::uint32_t, 3> corners{};
+        std::memcpy(corners.data(), bytes.data() + first_face + 13 * i + 1, sizeof corners);
+        for (const std::uint32_t corner : corners) {
+            Point point{};
+            std::memcpy(point.data(), bytes.data() + data + corner * stride, sizeof point);
+            triangles.corners.push_back(point);
+        }
+    }
+    return triangles;
+}
+
+bool read_with_assimp(const std::filesystem::path& path, Triangles& triangles) {
+    Assimp::Importer importer;
+    const aiScene* const scene = importer.ReadFile(path.string(), 0);
+    if (scene == nullptr) {
+        fail(path, importer.GetErrorString());
+        return false;
+    }
+    for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+        const aiMesh& mesh = *scene->mMeshes[m];
+        triangles.vertices += mesh.mNumVertices;
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+            const aiFace& face = mesh.mFaces[f];
+            if (face.mNumIndices != 3) {
+                fail(path, "a face that is no triangle");
+                return false;
+            }
+            for (unsigned c = 0; c < 3; ++c) {
+                const aiVector3D& v = mesh.mVertices[face.mIndices[c]];
+                triangles.corners.push_back({v.x, v.y, v.z});
+            }
+        }
+    }
+    return true;
+}
+
+/// The greatest distance of corners, as a part of the extent.
+double difference(const Triangles& a, const Triangles& b) {
+    double extent = 0.0;
+    double worst = 0.0;
+    for (std::size_t i = 0; i < a.corners.size(); ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double x = static_cast<double>(a.corners[i][axis]);
+            extent = std::max(extent, std::abs(x));
+            worst = std::max(worst, std::abs(x - static_cast<double>(b.corners[i][axis])));
+        }
+    }
+    return extent == 0.0 ? worst : worst / extent;
+}
+
+void compare(const std::filesystem::path& path, const Triangles& expected) {
+    Triangles found;
+    if (!read_with_assimp(path, found)) {
+        return;
+    }
+    const std::string extension = path.extension().string();
+    if (found.corners.size() != expected.corners.size()) {
+        fail(path, std::to_string(found.corners.size() / 3) + " triangles instead of " +
+                       std::to_string(expected.corners.size() / 3));
+        return;
+    }
+    const bool keeps_vertices = extension == ".ply" || extension == ".off";
+    if (keeps_vertices && found.vertices != expected.vertices) {
+        fail(path, std::to_string(found.vertices) + " vertices instead of " +
+                       std::to_string(expected.vertices));
+    }
+    // assimp reads decimal numbers by a quick way that loses the last bits.
+    const double allowed = extension == ".obj" || extension == ".off" ? 1e-6 : 0.0;
+    if (difference(expected, found) > allowed) {
+        fail(path, "corners lie elsewhere");
+    }
+}
+
+} // namespace
+
+int main(int argument_count, char** arguments) {
+    if (argument_count != 2) {
+        std::fputs("usage: read_assimp FOLDER\n", stderr);
+        return 2;
+    }
+    const std::filesystem::path folder = arguments[1];
+    std::ifstream counts(folder / "counts.txt");
+    std::string name;
+    std::uint64_t vertices = 0;
+    std::uint64_t triangles = 0;
+    std::uint64_t parts = 0;
+    int files = 0;
+    while (counts >> name >> vertices >> triangles >> parts) {
+        const std::filesystem::path ply = folder / (name + ".ply");
+        const Triangles expected = read_ply(ply);
+        if (expected.vertices != vertices || expected.corners.size() != 3 * triangles) {
+            fail(ply, "other counts than counts.txt has");
+        }
+        for (const char* extension : {".ply", ".obj", ".off", ".stl", ".glb", ".gltf"}) {
+            compare(folder / (name + extension), expected);
+            ++files;
+        }
+    }
+    std::printf("%d files read, %d failures\n", files, failures);
+    return failures == 0 && files > 0 ? 0 : 1;
+}

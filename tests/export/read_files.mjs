@@ -1,0 +1,184 @@
+// Holds exported files against readers in JavaScript. Usage:
+//   node read_files.mjs MODULES (validator | three | svg | off+ | usda) FOLDER
+// MODULES is the node_modules of package.json beside this file. FOLDER has counts.txt, with a line
+// `NAME VERTICES TRIANGLES PARTS` for each mesh.
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { join, resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { readOffPlus, readUsda } from './own_readers.mjs';
+
+const [given, check, folder] = process.argv.slice(2);
+const modules = resolve(given ?? '.');
+if (!folder) {
+    console.error('usage: node read_files.mjs MODULES (validator|three|svg|off+|usda) FOLDER');
+    process.exit(2);
+}
+if (!existsSync(join(modules, 'three'))) {
+    console.error(`${modules} is missing: run scripts/install-packages --tools`);
+    process.exit(1);
+}
+const require = createRequire(join(modules, 'none.js'));
+const module = path => import(pathToFileURL(join(modules, path)));
+
+let failures = 0;
+let files = 0;
+function expect(file, what, found, expected) {
+    if (found !== expected) {
+        console.log(`${file}: ${what} is ${found}, not ${expected}`);
+        ++failures;
+    }
+}
+
+function counts() {
+    return readFileSync(join(folder, 'counts.txt'), 'utf8').trim().split('\n').filter(Boolean)
+        .map(line => {
+            const [name, ...numbers] = line.split(' ');
+            const [vertices, triangles, parts] = numbers.map(Number);
+            return { name, vertices, triangles, parts };
+        });
+}
+
+async function eachMesh(extensions, read) {
+    for (const mesh of counts()) {
+        for (const extension of extensions) {
+            const file = `${mesh.name}.${extension}`;
+            try {
+                await read(file, mesh);
+            } catch (error) {
+                console.log(`${file}: ${error.stack ?? error}`);
+                ++failures;
+            }
+            ++files;
+        }
+    }
+}
+
+const checks = {
+    async validator() {
+        const validator = require('gltf-validator');
+        const notes = new Map();
+        await eachMesh(['glb', 'gltf'], async file => {
+            const report = await validator.validateBytes(
+                new Uint8Array(readFileSync(join(folder, file))), { uri: file, maxIssues: 1000 });
+            expect(file, 'number of errors', report.issues.numErrors, 0);
+            expect(file, 'number of warnings', report.issues.numWarnings, 0);
+            for (const issue of report.issues.messages) {
+                if (issue.severity < 2) {
+                    console.log(`${file}: ${issue.code} ${issue.pointer}: ${issue.message}`);
+                } else {
+                    notes.set(issue.code, (notes.get(issue.code) ?? 0) + 1);
+                }
+            }
+        });
+        for (const [code, count] of notes) {
+            console.log(`information, no fault: ${code} ${count}`);
+        }
+    },
+
+    async three() {
+        globalThis.self = globalThis;
+        globalThis.ProgressEvent ??= class extends Event {};
+        const three = await module('three/build/three.module.js');
+        const { GLTFLoader } = await module('three/examples/jsm/loaders/GLTFLoader.js');
+        const { PNG } = require('pngjs');
+        await eachMesh(['glb', 'gltf'], async (file, mesh) => {
+            const loader = new GLTFLoader();
+            let textures = 0;
+            // There is no browser to decode images.
+            loader.register(parser => ({
+                name: 'images',
+                async loadTexture(index) {
+                    const image = parser.json.images[parser.json.textures[index].source];
+                    const bytes = await parser.getDependency('bufferView', image.bufferView);
+                    const png = PNG.sync.read(Buffer.from(bytes));
+                    expect(file, `width of ${image.name}`, png.width, 256);
+                    expect(file, `height of ${image.name}`, png.height, 256);
+                    ++textures;
+                    return new three.Texture();
+                },
+            }));
+            const bytes = readFileSync(join(folder, file));
+            const gltf = await loader.parseAsync(
+                bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), '');
+            const positions = new Map();
+            let triangles = 0;
+            let parts = 0;
+            let extras;
+            gltf.scene.traverse(object => {
+                extras = object.userData.grammar === undefined ? extras : object.userData;
+                if (object.isMesh) {
+                    const { array, count } = object.geometry.attributes.position;
+                    positions.set(array, count);
+                    triangles += object.geometry.index.count / 3;
+                    ++parts;
+                    const largest = object.geometry.index.array.reduce((a, b) => Math.max(a, b), 0);
+                    expect(file, 'an index within the vertices', largest < count, true);
+                }
+            });
+            const vertices = [...positions.values()].reduce((a, b) => a + b, 0);
+            expect(file, 'number of vertices', vertices, mesh.vertices);
+            expect(file, 'number of triangles', triangles, mesh.triangles);
+            expect(file, 'number of parts', parts, mesh.parts);
+            expect(file, 'number of textures read', textures,
+                   gltf.parser.json.textures?.length ?? 0);
+            expect(file, 'type of extras.grammar', typeof extras?.grammar, 'string');
+            expect(file, 'type of extras.n', typeof extras?.n, 'number');
+            expect(file, 'extras.seed', /^[0-9]+$/.test(`${extras?.seed}`), true);
+        });
+    },
+
+    async svg() {
+        const { SaxesParser } = require('saxes');
+        for (const file of readdirSync(folder).filter(name => name.endsWith('.svg'))) {
+            const parser = new SaxesParser({ xmlns: true });
+            const widths = [0];
+            let box;
+            let points = 0;
+            parser.on('error', error => { throw error; });
+            parser.on('closetag', () => widths.pop());
+            parser.on('opentag', tag => {
+                const value = name => tag.attributes[name]?.value;
+                if (box === undefined) {
+                    expect(file, 'first tag', `${tag.uri} ${tag.local}`,
+                           'http://www.w3.org/2000/svg svg');
+                    box = value('viewBox').split(' ').map(Number);
+                    expect(file, 'view box has area', box.length === 4 && box[2] * box[3] > 0, true);
+                }
+                widths.push(Number(value('stroke-width') ?? widths.at(-1)));
+                for (const point of value('points')?.split(' ') ?? []) {
+                    const [x, y] = point.split(',').map(Number);
+                    const half = widths.at(-1) / 2;
+                    const inside = x - half >= box[0] && x + half <= box[0] + box[2] &&
+                        y - half >= box[1] && y + half <= box[1] + box[3];
+                    expect(file, `${point} in the view box`, inside, true);
+                    ++points;
+                }
+            });
+            parser.write(readFileSync(join(folder, file), 'utf8')).close();
+            expect(file, 'something drawn', points > 0, true);
+            ++files;
+        }
+    },
+
+    async 'off+'() {
+        await eachMesh(['off+'], (file, mesh) => {
+            const found = readOffPlus(readFileSync(join(folder, file), 'utf8'));
+            expect(file, 'number of vertices', found.vertices, mesh.vertices);
+            expect(file, 'number of triangles', found.triangles, mesh.triangles);
+        });
+    },
+
+    async usda() {
+        await eachMesh(['usda'], (file, mesh) => {
+            const found = readUsda(readFileSync(join(folder, file), 'utf8'));
+            expect(file, 'number of vertices', found.vertices, mesh.vertices);
+            expect(file, 'number of triangles', found.triangles, mesh.triangles);
+            expect(file, 'number of parts', found.parts, mesh.parts);
+        });
+    },
+};
+
+await checks[check]();
+console.log(`${files} files read, ${failures} failures`);
+process.exit(failures === 0 && files > 0 ? 0 : 1);

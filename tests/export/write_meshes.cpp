@@ -1,0 +1,116 @@
+// Writes the meshes of tests/support and a drawing in every format. Usage: write_meshes FOLDER
+// counts.txt in it has a line `NAME VERTICES TRIANGLES PARTS` for each mesh.
+#include "runtime/export.h"
+#include "tests/support/meshes.h"
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+using namespace lsys;
+
+namespace {
+
+constexpr std::array<const char*, 8> kExtensions{"obj", "ply",  "off", "off+",
+                                                 "stl", "gltf", "glb", "usda"};
+
+bool write_file(const std::filesystem::path& path,
+                const Mesh& mesh,
+                const Skeleton& skeleton,
+                const ExportInfo& info) {
+    std::ofstream file(path, std::ios::binary);
+    const auto format = format_of_path(path.string());
+    const ExportStatus status =
+        format
+            ? export_mesh(mesh, skeleton, *format, info,
+                          [&file](std::string_view bytes) {
+                              file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+                              return file.good();
+                          })
+            : write_mtl(mesh, info, [&file](std::string_view bytes) {
+                  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+                  return file.good();
+              });
+    file.close();
+    if (status != ExportStatus::Ok || !file) {
+        std::fprintf(stderr, "%s: not written\n", path.c_str());
+        return false;
+    }
+    return true;
+}
+
+/// A crooked line with a branch, a polygon, and widths that fall.
+Skeleton drawing() {
+    Skeleton skeleton;
+    glm::vec3 at(0.0F);
+    for (int i = 0; i < 60; ++i) {
+        const float angle = 0.2F * static_cast<float>(i);
+        Segment segment;
+        segment.base = at;
+        segment.length = 1.0F + 0.1F * static_cast<float>(i);
+        segment.frame = glm::angleAxis(angle, glm::vec3(0.0F, 0.0F, 1.0F));
+        segment.base_radius = 0.4F - 0.1F * static_cast<float>(i / 20);
+        segment.tip_radius = segment.base_radius;
+        segment.parent = i == 0 ? kNoSegment : static_cast<std::uint32_t>(i - 1);
+        segment.linked = i != 0;
+        segment.colour = static_cast<std::uint16_t>(i / 15);
+        skeleton.segments.push_back(segment);
+        at = tip(segment);
+    }
+    skeleton.corners = {at, at + glm::vec3(9.0F, 3.0F, 0.0F), at + glm::vec3(5.0F, 9.0F, 2.0F)};
+    skeleton.polygons.push_back({.first_corner = 0, .corner_count = 3, .colour = 1});
+    return skeleton;
+}
+
+} // namespace
+
+int main(int argument_count, char** arguments) {
+    if (argument_count != 2) {
+        std::fputs("usage: write_meshes FOLDER\n", stderr);
+        return 2;
+    }
+    const std::filesystem::path folder = arguments[1];
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+
+    Mesh bare = test::plant_mesh();
+    bare.texture_coordinates.clear();
+    bare.tangents.clear();
+    bare.colours.clear();
+    Mesh unwieldy = test::plant_mesh();
+    unwieldy.normals[3] = glm::vec3(0.0F);
+    unwieldy.tangents[4] *= glm::vec4(2.0F, 2.0F, 2.0F, 0.0F);
+    for (Material& material : unwieldy.materials) {
+        material.name = "7 \"\\<\n\xC3\xA4\xFF";
+    }
+    const std::array<std::pair<const char*, Mesh>, 7> meshes{{
+        {"triangle", test::triangle_mesh()},
+        {"cube", test::cube_mesh()},
+        {"tube", test::tube_mesh(40, 12)},
+        {"plant", test::plant_mesh()},
+        {"bare", bare},
+        {"unwieldy", unwieldy},
+        {"large", test::large_mesh(100000)},
+    }};
+    ExportInfo info{.grammar = "hand \"made\" <&>.lsys",
+                    .seed = 7,
+                    .generations = 3,
+                    .generator = "write_meshes",
+                    .mtl_name = ""};
+    bool fine = true;
+    std::ofstream counts(folder / "counts.txt");
+    for (const auto& [name, mesh] : meshes) {
+        info.mtl_name = std::string(name) + ".mtl";
+        fine = write_file(folder / info.mtl_name, mesh, {}, info) && fine;
+        for (const char* extension : kExtensions) {
+            fine =
+                write_file(folder / (std::string(name) + '.' + extension), mesh, {}, info) && fine;
+        }
+        counts << name << ' ' << mesh.positions.size() << ' ' << mesh.indices.size() / 3 << ' '
+               << mesh.parts.size() << '\n';
+    }
+    fine = write_file(folder / "drawing.svg", {}, drawing(), info) && fine;
+    return fine && counts.good() ? 0 : 1;
+}
