@@ -1,0 +1,173 @@
+// Small matrices of the physics: symmetric ones (inertia) and those kept by rows (couplings).
+#pragma once
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace lsys {
+
+struct Symmetric {
+    double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
+
+    [[nodiscard]] double trace() const { return xx + yy + zz; }
+    void add_diagonal(double value) {
+        xx += value;
+        yy += value;
+        zz += value;
+    }
+    Symmetric& operator+=(const Symmetric& other) {
+        xx += other.xx;
+        yy += other.yy;
+        zz += other.zz;
+        xy += other.xy;
+        xz += other.xz;
+        yz += other.yz;
+        return *this;
+    }
+    [[nodiscard]] glm::dvec3 operator*(const glm::dvec3& v) const {
+        return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
+                xz * v.x + yz * v.y + zz * v.z};
+    }
+};
+
+[[nodiscard]] inline Symmetric scaled(const Symmetric& a, double factor) {
+    return {a.xx * factor, a.yy * factor, a.zz * factor,
+            a.xy * factor, a.xz * factor, a.yz * factor};
+}
+
+/// The inertia of a point mass: mass (|v|^2 - v v^T).
+[[nodiscard]] inline Symmetric point_inertia(double mass, const glm::dvec3& v) {
+    return {mass * (v.y * v.y + v.z * v.z),
+            mass * (v.x * v.x + v.z * v.z),
+            mass * (v.x * v.x + v.y * v.y),
+            -mass * v.x * v.y,
+            -mass * v.x * v.z,
+            -mass * v.y * v.z};
+}
+
+/// R a R^T.
+[[nodiscard]] inline Symmetric rotated(const Symmetric& a, const glm::dmat3& r) {
+    const glm::dvec3 x(r[0][0], r[1][0], r[2][0]); // rows
+    const glm::dvec3 y(r[0][1], r[1][1], r[2][1]);
+    const glm::dvec3 z(r[0][2], r[1][2], r[2][2]);
+    const glm::dvec3 ax = a * x;
+    const glm::dvec3 ay = a * y;
+    const glm::dvec3 az = a * z;
+    return {glm::dot(x, ax), glm::dot(y, ay), glm::dot(z, az),
+            glm::dot(x, ay), glm::dot(x, az), glm::dot(y, az)};
+}
+
+/// Whether a Cholesky decomposition goes through, with a margin for rounding.
+[[nodiscard]] inline bool is_positive(const Symmetric& a) {
+    const double least = 1e-12 * a.trace();
+    if (!(a.xx > least)) {
+        return false;
+    }
+    const double d1 = a.yy - a.xy * a.xy / a.xx;
+    const double e21 = a.yz - a.xz * a.xy / a.xx;
+    return least >= 0.0 && d1 > least && a.zz - a.xz * a.xz / a.xx - e21 * e21 / d1 > least;
+}
+
+/// The least eigenvalue of `a`, by Smith 1961, "Eigenvalues of a symmetric 3 x 3 matrix".
+[[nodiscard]] inline double least_eigenvalue(const Symmetric& a) {
+    const double mean = a.trace() / 3.0;
+    const double x = a.xx - mean;
+    const double y = a.yy - mean;
+    const double z = a.zz - mean;
+    const double spread =
+        std::sqrt((x * x + y * y + z * z + 2.0 * (a.xy * a.xy + a.xz * a.xz + a.yz * a.yz)) / 6.0);
+    if (!(spread > 0.0)) {
+        return mean;
+    }
+    const double determinant =
+        x / spread * (y / spread * (z / spread) - a.yz / spread * (a.yz / spread)) -
+        a.xy / spread * (a.xy / spread * (z / spread) - a.yz / spread * (a.xz / spread)) +
+        a.xz / spread * (a.xy / spread * (a.yz / spread) - y / spread * (a.xz / spread));
+    const double angle = std::acos(std::clamp(0.5 * determinant, -1.0, 1.0)) / 3.0;
+    return mean + 2.0 * spread * std::cos(angle + 2.0 * std::numbers::pi / 3.0);
+}
+
+/// The inverse of a positive definite matrix by L D L^T. A pivot that rounding has made too small
+/// is raised, so that the result is always positive definite. `a` has a positive trace.
+[[nodiscard]] inline Symmetric inverse(const Symmetric& a) {
+    constexpr double kLeastPivot = 1e-15; // of the trace
+    const double scale = 1.0 / a.trace();
+    const Symmetric s = scaled(a, scale);
+    const double d0 = std::max(s.xx, kLeastPivot);
+    const double l10 = s.xy / d0;
+    const double l20 = s.xz / d0;
+    const double d1 = std::max(s.yy - l10 * s.xy, kLeastPivot);
+    const double e21 = s.yz - l20 * s.xy;
+    const double l21 = e21 / d1;
+    const double d2 = std::max(s.zz - l20 * s.xz - l21 * e21, kLeastPivot);
+    const double m20 = l10 * l21 - l20; // of the inverse of L
+    const double i0 = scale / d0;
+    const double i1 = scale / d1;
+    const double i2 = scale / d2;
+    return {i0 + l10 * l10 * i1 + m20 * m20 * i2,
+            i1 + l21 * l21 * i2,
+            i2,
+            -l10 * i1 - m20 * l21 * i2,
+            m20 * i2,
+            -l21 * i2};
+}
+
+/// A 3 by 3 matrix by rows.
+struct Rows {
+    std::array<glm::dvec3, 3> row{};
+
+    [[nodiscard]] glm::dvec3 operator*(const glm::dvec3& v) const {
+        return {glm::dot(row[0], v), glm::dot(row[1], v), glm::dot(row[2], v)};
+    }
+    [[nodiscard]] glm::dvec3 transposed_times(const glm::dvec3& v) const {
+        return v.x * row[0] + v.y * row[1] + v.z * row[2];
+    }
+};
+
+[[nodiscard]] inline Rows rows_of(const Symmetric& a) {
+    return {
+        {glm::dvec3(a.xx, a.xy, a.xz), glm::dvec3(a.xy, a.yy, a.yz), glm::dvec3(a.xz, a.yz, a.zz)}};
+}
+/// The matrix that takes w to v x w.
+[[nodiscard]] inline Rows cross_rows(const glm::dvec3& v) {
+    return {{glm::dvec3(0.0, -v.z, v.y), glm::dvec3(v.z, 0.0, -v.x), glm::dvec3(-v.y, v.x, 0.0)}};
+}
+/// a b
+[[nodiscard]] inline Rows product(const Symmetric& a, const Rows& b) {
+    return {{a.xx * b.row[0] + a.xy * b.row[1] + a.xz * b.row[2],
+             a.xy * b.row[0] + a.yy * b.row[1] + a.yz * b.row[2],
+             a.xz * b.row[0] + a.yz * b.row[1] + a.zz * b.row[2]}};
+}
+/// a^T b
+[[nodiscard]] inline Rows transposed_product(const Rows& a, const Rows& b) {
+    Rows out;
+    for (int i = 0; i < 3; ++i) {
+        out.row[static_cast<std::size_t>(i)] =
+            a.row[0][i] * b.row[0] + a.row[1][i] * b.row[1] + a.row[2][i] * b.row[2];
+    }
+    return out;
+}
+/// The symmetric part of a^T b.
+[[nodiscard]] inline Symmetric symmetric_product(const Rows& a, const Rows& b) {
+    Symmetric out;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3& u = a.row[i];
+        const glm::dvec3& v = b.row[i];
+        out += {u.x * v.x,
+                u.y * v.y,
+                u.z * v.z,
+                0.5 * (u.x * v.y + u.y * v.x),
+                0.5 * (u.x * v.z + u.z * v.x),
+                0.5 * (u.y * v.z + u.z * v.y)};
+    }
+    return out;
+}
+
+} // namespace lsys
