@@ -1,5 +1,7 @@
 #include "runtime/texture.h"
 
+#include "runtime/meshing/shapes.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -99,9 +101,22 @@ std::array<float, 4> bark_texel(float u, float v) {
     return {light + warm, light, light - warm, 1.0F};
 }
 
+/// Half the width of the leaf in the picture, 0 to 1: that of the mesh, its corners rounded, and a
+/// margin, so that along most of its edge the mesh is what ends the leaf.
+float leaf_half(float distance) {
+    constexpr float kGreatest = 0.25F;
+    constexpr float kMargin = 0.04F;
+    constexpr int kSamples = 4;
+    float sum = 0.0F;
+    for (int i = -kSamples; i <= kSamples; ++i) {
+        sum += leaf_half_width(
+            std::clamp(distance + 0.05F * static_cast<float>(i) / kSamples, 0.0F, 1.0F));
+    }
+    return sum / (2 * kSamples + 1) / kGreatest + kMargin;
+}
+
 std::array<float, 4> leaf_texel(float u, float v) {
-    // Half the width is 1 in the middle and 0 at both ends.
-    const float half = 4.0F * v * (1.0F - v);
+    const float half = leaf_half(1.0F - v);
     const float side = std::abs(2.0F * u - 1.0F);
     // One texel of slope around the outline, for filters.
     const float opacity = smooth(-1.5F, 1.5F, (half - side) * static_cast<float>(kSize) / 2.0F);

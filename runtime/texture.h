@@ -21,9 +21,9 @@ struct Texture {
 
 /// Bark and Leaf.
 [[nodiscard]] bool has_texture(MaterialKind kind);
-/// Bark: fissures along v; repeats in both directions. Leaf: opaque within a pointed ellipse that
-/// touches the borders of the picture in the middle of each, with a midrib along v and side veins
-/// that run towards v = 0. Empty for other kinds.
+/// Bark: fissures along v; repeats in both directions. Leaf: opaque within the rounded outline of
+/// LEAF, whose base is at v = 1 and tip at v = 0, as wide as the picture; a midrib and side veins.
+/// Empty for other kinds.
 [[nodiscard]] Texture material_texture(MaterialKind kind);
 /// The relief of the bark as normals.
 [[nodiscard]] Texture bark_normals();

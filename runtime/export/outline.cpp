@@ -1,5 +1,7 @@
 #include "runtime/export/outline.h"
 
+#include "runtime/meshing/shapes.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -22,8 +24,7 @@ glm::vec3 direction(int i) {
 }
 
 /// The point that lies farthest in each of many directions, once each.
-template <typename Points>
-std::vector<glm::vec3> extreme_points(const Points& points) {
+std::vector<glm::vec3> extreme_points(const std::vector<glm::vec3>& points) {
     std::vector<std::size_t> extreme;
     for (int i = 0; i < kDirections && !points.empty(); ++i) {
         const glm::vec3 ahead = direction(i);
@@ -44,59 +45,29 @@ std::vector<glm::vec3> extreme_points(const Points& points) {
     return found;
 }
 
-/// What is seen of a card that is cut out by the texture of a leaf: the pointed ellipse in its box.
-std::vector<glm::vec3> leaf_outline(const Bounds& box) {
-    constexpr int kSteps = 8;
-    std::vector<glm::vec3> corners;
-    const glm::vec3 middle = 0.5F * (box.low + box.high);
-    for (int side = -1; side <= 1; side += 2) {
-        for (int i = 0; i <= kSteps; ++i) {
-            const float t = static_cast<float>(i) / kSteps;
-            const float half = 2.0F * t * (1.0F - t) * (box.high.x - box.low.x);
-            corners.emplace_back(middle.x + static_cast<float>(side) * half,
-                                 box.low.y + t * (box.high.y - box.low.y), middle.z);
-        }
-    }
-    return corners;
-}
-
 float turn(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 } // namespace
 
-Outline object_outline(const Skeleton& skeleton,
-                       const PlacedObject& object,
-                       const std::vector<UserMesh>& user_meshes) {
-    Skeleton alone;
-    alone.objects.push_back(object);
-    alone.objects[0].position = glm::vec3(0.0F);
-    alone.objects[0].frame = glm::quat(1.0F, 0.0F, 0.0F, 0.0F);
-    alone.objects[0].size = 1.0F;
-    alone.objects[0].parent = kNoSegment;
-    alone.mesh_files = skeleton.mesh_files;
-    MeshOptions options;
-    options.tangents = false;
-    options.colours = false;
-    options.threads = 1;
-    Mesh mesh;
-    Outline outline;
-    if (make_mesh(alone, user_meshes, options, mesh) != MeshStatus::Ok || mesh.parts.empty()) {
-        return outline;
+std::vector<Outline> object_outlines(const PlacedObject& object,
+                                     const std::vector<UserMesh>& user_meshes) {
+    Shape shape;
+    if (object.kind != TurtleOperation::MeshFile) {
+        shape = make_shape(object.kind, 0);
+    } else if (object.mesh_file < user_meshes.size()) {
+        shape = make_shape(user_meshes[object.mesh_file]);
     }
-    const Material& material = mesh.materials[mesh.parts[0].material];
-    outline.colour = glm::vec3(material.colour);
-    if (material.cut_out) {
-        Bounds box;
-        for (const glm::vec3& position : mesh.positions) {
-            box.add(position);
-        }
-        outline.corners = leaf_outline(box);
-    } else {
-        outline.corners = extreme_points(mesh.positions);
+    std::vector<Outline> outlines;
+    for (const ShapePart& part : shape.parts) {
+        const bool own = part.takes_colour && object.colour != 0;
+        outlines.push_back({extreme_points(part.positions),
+                            palette_colour(own ? object.colour : part.material.palette)});
     }
-    return outline;
+    // A flower's calyx comes last among its parts, and is hidden by the petals.
+    std::rotate(outlines.begin(), outlines.end() - (outlines.size() > 1 ? 1 : 0), outlines.end());
+    return outlines;
 }
 
 std::vector<glm::vec2> convex_hull(std::vector<glm::vec2>& points) {

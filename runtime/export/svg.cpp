@@ -30,6 +30,10 @@ float width_of(const Segment& segment) {
     return segment.base_radius + segment.tip_radius;
 }
 
+glm::vec3 placed(const PlacedObject& object, const glm::vec3& corner) {
+    return object.position + object.frame * (object.size * corner);
+}
+
 class Drawing {
 public:
     Drawing(const Skeleton& skeleton, const ExportInfo& info, PieceWriter& out)
@@ -40,8 +44,7 @@ public:
 private:
     using ObjectKey = std::tuple<TurtleOperation, std::uint32_t, std::uint16_t>;
 
-    const Outline& outline(const PlacedObject& object);
-    void place(const PlacedObject& object, std::vector<glm::vec2>& points);
+    const std::vector<Outline>& outlines(const PlacedObject& object);
     void find_bounds();
     void put_head();
     void put_point(const glm::vec2& point);
@@ -51,33 +54,21 @@ private:
     const Skeleton& skeleton_;
     const ExportInfo& info_;
     PieceWriter& out_;
-    std::map<ObjectKey, Outline> outlines_;
+    std::map<ObjectKey, std::vector<Outline>> outlines_;
     Bounds bounds_;
     float side_ = 0.0F; // the longer one
 };
 
-const Outline& Drawing::outline(const PlacedObject& object) {
+const std::vector<Outline>& Drawing::outlines(const PlacedObject& object) {
     const ObjectKey key{object.kind, object.mesh_file, object.colour};
     auto found = outlines_.find(key);
     if (found == outlines_.end()) {
         static const std::vector<UserMesh> kNone;
-        const std::vector<UserMesh>& user_meshes =
-            info_.user_meshes != nullptr ? *info_.user_meshes : kNone;
-        Outline made;
-        // A mesh file that nobody has read has no outline.
-        if (object.kind != TurtleOperation::MeshFile || object.mesh_file < user_meshes.size()) {
-            made = object_outline(skeleton_, object, user_meshes);
-        }
-        found = outlines_.emplace(key, std::move(made)).first;
+        const bool given = info_.user_meshes != nullptr;
+        found = outlines_.emplace(key, object_outlines(object, given ? *info_.user_meshes : kNone))
+                    .first;
     }
     return found->second;
-}
-
-void Drawing::place(const PlacedObject& object, std::vector<glm::vec2>& points) {
-    points.clear();
-    for (const glm::vec3& corner : outline(object).corners) {
-        points.emplace_back(object.position + object.frame * (object.size * corner));
-    }
 }
 
 void Drawing::find_bounds() {
@@ -91,12 +82,12 @@ void Drawing::find_bounds() {
     for (const glm::vec3& corner : skeleton_.corners) {
         bounds_.add(corner);
     }
-    std::vector<glm::vec2> points;
     for (const PlacedObject& object : skeleton_.objects) {
-        place(object, points);
         bounds_.add(object.position);
-        for (const glm::vec2& point : points) {
-            bounds_.add(glm::vec3(point, 0.0F));
+        for (const Outline& part : outlines(object)) {
+            for (const glm::vec3& corner : part.corners) {
+                bounds_.add(placed(object, corner));
+            }
         }
     }
     const glm::vec2 extent(bounds_.high - bounds_.low);
@@ -183,10 +174,15 @@ void Drawing::write() {
     }
     for (std::size_t i = 0; i < skeleton_.objects.size() && !out_.stopped(); ++i) {
         const PlacedObject& object = skeleton_.objects[i];
-        place(object, points);
-        const std::vector<glm::vec2> corners = convex_hull(points);
-        if (corners.size() >= 3) {
-            put_filled(colour_text(outline(object).colour), corners);
+        for (const Outline& part : outlines(object)) {
+            points.clear();
+            for (const glm::vec3& corner : part.corners) {
+                points.emplace_back(placed(object, corner));
+            }
+            const std::vector<glm::vec2> corners = convex_hull(points);
+            if (corners.size() >= 3) {
+                put_filled(colour_text(part.colour), corners);
+            }
         }
     }
     out_.put("</svg>\n");

@@ -10,15 +10,27 @@ using namespace lsys;
 
 namespace {
 
-std::string drawn(const Skeleton& skeleton) {
+std::string drawn(const Skeleton& skeleton, const std::vector<UserMesh>* meshes = nullptr) {
     std::string text;
-    const ExportInfo info{
-        .grammar = "a&b.lsys", .seed = 7, .generations = 3, .generator = "lsc 1", .mtl_name = ""};
+    const ExportInfo info{.grammar = "a&b.lsys",
+                          .seed = 7,
+                          .generations = 3,
+                          .generator = "lsc 1",
+                          .mtl_name = "",
+                          .user_meshes = meshes};
     REQUIRE(export_mesh({}, skeleton, ExportFormat::Svg, info, [&text](std::string_view piece) {
                 text += piece;
                 return true;
             }) == ExportStatus::Ok);
     return text;
+}
+
+int occurrences(const std::string& text, const std::string& part) {
+    int count = 0;
+    for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) {
+        ++count;
+    }
+    return count;
 }
 
 Segment upright(float base, std::uint32_t parent, float radius) {
@@ -83,6 +95,37 @@ TEST_CASE("a drawing without extent has a view box") {
     skeleton.segments = {upright(1.0F, kNoSegment, 0.0F)};
     skeleton.segments[0].length = 0.0F;
     CHECK(drawn(skeleton).find("viewBox=\"-0.02 -1.02 0.04 0.04\"") != std::string::npos);
+}
+
+TEST_CASE("objects are drawn as the outlines of their parts") {
+    Skeleton skeleton;
+    // 2 m in diameter, around (10, 1).
+    skeleton.objects = {
+        {.kind = TurtleOperation::Sphere, .position = {10.0F, 0.0F, 3.0F}, .size = 2.0F}};
+    std::string text = drawn(skeleton);
+    CHECK(text.find("viewBox=\"8.96 -2.04 2.08 2.08\"") != std::string::npos);
+    CHECK(occurrences(text, "<polygon") == 1);
+    CHECK(text.find("10,-2 ") != std::string::npos);
+
+    skeleton.objects[0].kind = TurtleOperation::Flower;
+    skeleton.objects[0].colour = 2;
+    text = drawn(skeleton);
+    CHECK(occurrences(text, "<polygon") == 3);
+    CHECK(occurrences(text, "<polygon fill=\"#cc2e34\"") == 1); // the petals
+}
+
+TEST_CASE("objects of mesh files are drawn if their meshes are known") {
+    Skeleton skeleton;
+    skeleton.mesh_files = {"a.obj", "b.obj"};
+    skeleton.objects = {{.kind = TurtleOperation::MeshFile, .mesh_file = 1}};
+    CHECK(occurrences(drawn(skeleton), "<polygon") == 0);
+    std::vector<UserMesh> meshes(2);
+    meshes[1].positions = {{0.0F, 0.0F, 0.0F}, {4.0F, 0.0F, 0.0F}, {0.0F, 2.0F, 0.0F}};
+    meshes[1].normals.assign(3, glm::vec3(0.0F, 0.0F, 1.0F));
+    meshes[1].indices = {0, 1, 2};
+    const std::string text = drawn(skeleton, &meshes);
+    CHECK(text.find("points=\"0,0 4,0 0,-2\"") != std::string::npos);
+    CHECK(text.find("viewBox=\"-0.08 -2.08 4.16 2.16\"") != std::string::npos);
 }
 
 TEST_CASE("the hull of points") {

@@ -1,8 +1,10 @@
 // Textures that are computed.
+#include "runtime/meshing/shapes.h"
 #include "runtime/texture.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 
 using namespace lsys;
@@ -48,21 +50,28 @@ TEST_CASE("bark repeats without a seam, and its fissures run along v") {
     CHECK(along_u > 2 * along_v);
 }
 
-TEST_CASE("a leaf is opaque within a pointed ellipse") {
+TEST_CASE("a leaf is opaque within the outline of the mesh") {
     const Texture leaf = material_texture(MaterialKind::Leaf);
-    CHECK(channel(leaf, 128, 128, 3) == 255);
-    CHECK(channel(leaf, 2, 128, 3) == 255);
-    CHECK(channel(leaf, 253, 128, 3) == 255);
-    CHECK(channel(leaf, 128, 4, 3) == 255);
-    CHECK(channel(leaf, 128, 251, 3) == 255);
+    for (std::uint32_t row = 0; row < 256; ++row) {
+        CAPTURE(row);
+        const float distance = 1.0F - (static_cast<float>(row) + 0.5F) / 256.0F;
+        const float half = leaf_half_width(distance) / 0.25F; // of half the picture
+        const auto column = [](float side) {
+            return static_cast<std::uint32_t>(std::clamp(128.0F + 128.0F * side, 0.0F, 255.0F));
+        };
+        CHECK(channel(leaf, column(0.9F * half), row, 3) == 255);
+        CHECK(channel(leaf, column(-0.9F * half), row, 3) == 255);
+        if (half < 0.8F) {
+            CHECK(channel(leaf, column(half + 0.2F), row, 3) == 0);
+        }
+    }
     for (const std::uint32_t x : {0U, 255U}) {
         for (const std::uint32_t y : {0U, 255U}) {
             CHECK(channel(leaf, x, y, 3) == 0);
         }
     }
-    CHECK(channel(leaf, 100, 8, 3) == 0);
     // The midrib is lighter than the blade.
-    CHECK(channel(leaf, 128, 128, 1) > channel(leaf, 150, 128, 1));
+    CHECK(channel(leaf, 128, 150, 1) > channel(leaf, 170, 150, 1));
 }
 
 TEST_CASE("normals of the bark point out of it") {
