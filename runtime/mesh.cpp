@@ -3,6 +3,7 @@
 #include "runtime/meshing/mesh_builder.h"
 #include "runtime/meshing/objects.h"
 #include "runtime/meshing/polygons.h"
+#include "runtime/meshing/tubes.h"
 
 #include <new>
 #include <stdexcept>
@@ -16,6 +17,14 @@ MeshStatus build(const Skeleton& skeleton,
                  const MeshOptions& options,
                  Mesh& mesh) {
     MeshBuilder builder(options, mesh);
+    switch (options.method) {
+    case MeshMethod::Tubes:
+        append_tubes(skeleton, options, builder);
+        break;
+    case MeshMethod::Cylinders:
+    case MeshMethod::Boxes:
+        break;
+    }
     append_polygons(skeleton, options, builder);
     append_objects(skeleton, user_meshes, options, builder);
     return builder.finish();

@@ -1,0 +1,301 @@
+#include "runtime/meshing/axis_reader.h"
+
+#include "runtime/meshing/axis_levels.h"
+#include "runtime/meshing/directions.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsys {
+
+namespace {
+
+// What lies nearer than this part of its coordinates is one point, in floats.
+constexpr float kResolution = 4e-6F;
+// A radius below this part of the coordinates is none; one that is larger is at least so large that
+// corners are apart.
+constexpr float kNoRadius = 1e-8F;
+constexpr float kRadiusOfSide = 4e-7F;
+// A ring is at least this part of what is around it, so that its triangles have an area.
+constexpr float kThinnest = 1e-9F;
+constexpr float kLeastRadius = 1e-36F;
+constexpr float kGreatestRadius = 1e36F;
+constexpr std::uint32_t kMostLevels = 8;
+// Part of the parent's inner radius that the hidden ring of a branch may fill.
+constexpr float kHidden = 0.9F;
+constexpr float kThickestBranch = 1.5F; // in radii of the parent; above, the base is closed
+constexpr float kCollarSlope = 0.13F;
+constexpr float kMostOfEdge = 0.7F; // that a collar may take
+constexpr float kMostParts = 16.0F; // of an edge that is cut for noise
+
+float greatest_coordinate(const glm::vec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// The radius as it can be drawn around `centre`; 0 if it cannot.
+float drawn_radius(float radius, const glm::vec3& centre, std::uint32_t sides) {
+    const float far = greatest_coordinate(centre);
+    if (!(radius > std::max(kNoRadius * far, kLeastRadius))) {
+        return 0.0F;
+    }
+    return std::min(std::max(radius, kRadiusOfSide * static_cast<float>(sides) * far),
+                    kGreatestRadius);
+}
+
+bool coincide(const glm::vec3& a, const glm::vec3& b, float radius) {
+    return !(greatest_coordinate(b - a) > kResolution * (greatest_coordinate(a) + radius));
+}
+
+/// Half of a side of the polygon with unit corners: sin(pi / sides).
+float half_side(std::uint32_t sides) {
+    const Direction& next = directions(sides)[1];
+    return 0.5F * std::sqrt((1.0F - next.cosine) * (1.0F - next.cosine) + next.sine * next.sine);
+}
+/// From its centre to the middle of a side: cos(pi / sides).
+float inner_radius(std::uint32_t sides) {
+    return std::sqrt(0.5F * (1.0F + directions(sides)[1].cosine));
+}
+
+} // namespace
+
+AxisReader::AxisReader(const Skeleton& skeleton, const Axes& axes, const MeshOptions& options)
+    : skeleton_(skeleton), axes_(axes), options_(options) {
+    const std::uint32_t level = std::min(options.level, kMostLevels);
+    for (std::uint32_t i = 0; i < sides_.size(); ++i) {
+        const std::uint32_t whole = usable_sides(options.sides != 0 ? options.sides : i);
+        const std::uint32_t fewer = std::max(whole >> level, kMinSides);
+        sides_[i] = static_cast<std::uint8_t>(fewer);
+        // The mean width of a convex shape is its circumference / pi (Cauchy), so a polygon of
+        // fewer sides is as wide as the first one if it is as long around.
+        widening_[i] = static_cast<float>(whole) * half_side(whole) /
+                       (static_cast<float>(fewer) * half_side(fewer));
+    }
+}
+
+void AxisReader::start(std::uint32_t first_segment) {
+    segment_ = first_segment;
+    attached_ = true;
+}
+
+bool AxisReader::next(Run& run) {
+    while (segment_ < kForked) {
+        if (read(run)) {
+            return true;
+        }
+        attached_ = false;
+    }
+    return false;
+}
+
+/// Reads joints up to where nothing is drawn or the axis ends. False: there are none.
+bool AxisReader::read(Run& run) {
+    joints_.clear();
+    stale_ = false;
+    const Segment* last = nullptr;
+    bool pointed = false;
+    std::uint32_t at = segment_;
+    for (; at < kForked; at = axes_.next[at]) {
+        const Segment& segment = skeleton_.segments[at];
+        if (!(segment.length > 0.0F)) {
+            continue;
+        }
+        const float widening = widening_[segment.sides];
+        const float radius =
+            drawn_radius(segment.base_radius * widening, segment.base, sides_of(segment));
+        const bool draws = radius > 0.0F || drawn_radius(segment.tip_radius * widening,
+                                                         segment.base, sides_of(segment)) > 0.0F;
+        pointed = last != nullptr && radius == 0.0F;
+        if (pointed || (last != nullptr && !draws)) {
+            pointed = draws;
+            break;
+        }
+        if (!draws) {
+            attached_ = false;
+            continue;
+        }
+        if (last == nullptr) {
+            run.first_segment = at;
+        }
+        add(segment, radius);
+        last = &segment;
+    }
+    segment_ = at;
+    if (last == nullptr) {
+        return false;
+    }
+    const glm::vec3 end = tip(*last);
+    const float end_radius =
+        pointed ? 0.0F
+                : drawn_radius(last->tip_radius * widening_[last->sides], end, sides_of(*last));
+    if (!add_end(end, end_radius)) {
+        return false;
+    }
+    const glm::quat& frame = skeleton_.segments[run.first_segment].frame;
+    run.side = frame * glm::vec3(1.0F, 0.0F, 0.0F);
+    run.end = joints_.back().radius == 0.0F ? TubeEnd::Point
+              : at == kForked               ? TubeEnd::Ball
+                                            : TubeEnd::Blunt;
+    const bool open = attached_ && begins_in_parent(run);
+    run.begin = joints_.front().radius == 0.0F ? TubeEnd::Point
+                : open                         ? TubeEnd::Open
+                                               : TubeEnd::Flat;
+    attached_ = false;
+    if (options_.level > 0) {
+        const float tolerance =
+            std::min(0.05F * static_cast<float>(1U << std::min(options_.level, kMostLevels)), 0.5F);
+        leave_out_joints(joints_, spare_, tolerance);
+    }
+    if (options_.bark_noise > 0.0F) {
+        subdivide();
+    }
+    set_rings();
+    run.joints = joints_;
+    return true;
+}
+
+void AxisReader::add(const Segment& segment, float radius) {
+    Joint joint{.centre = segment.base,
+                .radius = radius,
+                .heading = heading(segment.frame),
+                .length = segment.length,
+                .colour = segment.colour,
+                .sides = sides_of(segment)};
+    if (!joints_.empty()) {
+        Joint& before = joints_.back();
+        if (coincide(before.centre, segment.base, radius)) {
+            joint.centre = before.centre;
+            before = joint;
+            stale_ = true;
+            return;
+        }
+        if (stale_) {
+            aim(before, segment.base);
+            stale_ = false;
+        }
+    }
+    joints_.push_back(joint);
+}
+
+/// False: nothing is long or thick enough to be drawn.
+bool AxisReader::add_end(const glm::vec3& centre, float radius) {
+    while (joints_.size() > 1 && coincide(joints_.back().centre, centre, joints_.back().radius)) {
+        joints_.pop_back();
+        stale_ = true;
+    }
+    Joint& before = joints_.back();
+    if (coincide(before.centre, centre, std::max(before.radius, radius)) ||
+        (joints_.size() == 1 && before.radius == 0.0F && radius == 0.0F)) {
+        return false;
+    }
+    if (stale_) {
+        aim(before, centre);
+    }
+    Joint end = before;
+    end.centre = centre;
+    end.radius = radius;
+    end.length = 0.0F;
+    joints_.push_back(end);
+    if (joints_.front().radius == 0.0F) { // a pointed end has the sides of the ring beside it
+        joints_.front().sides = joints_[1].sides;
+    }
+    return true;
+}
+
+/// Whether the base lies within the tube that the axis branches from, and if so, fits it in.
+bool AxisReader::begins_in_parent(Run& run) {
+    const Segment& child = skeleton_.segments[run.first_segment];
+    if (child.parent >= run.first_segment) {
+        return false;
+    }
+    const Segment& parent = skeleton_.segments[child.parent];
+    if (!joins(parent, child)) {
+        return false;
+    }
+    const std::uint32_t after = axes_.next[child.parent];
+    const float radius =
+        widening_[parent.sides] *
+        (after < kForked ? skeleton_.segments[after].base_radius : parent.tip_radius);
+    const float hidden = kHidden * inner_radius(sides_of(parent)) * radius;
+    Joint& base = joints_.front();
+    if (!(parent.length > 0.0F) || base.radius > kThickestBranch * radius ||
+        drawn_radius(hidden, base.centre, base.sides) == 0.0F) {
+        return false;
+    }
+    if (options_.level == 0) {
+        add_collar(parent, radius);
+    }
+    joints_.front().radius = std::min(joints_.front().radius, hidden);
+    return true;
+}
+
+/// A branch is wider where it leaves its parent: a ring more makes a cone of its first piece.
+void AxisReader::add_collar(const Segment& parent, float parent_radius) {
+    Joint& base = joints_[0];
+    const float cosine = glm::dot(heading(parent.frame), base.heading);
+    const float sine = std::sqrt(std::max(1.0F - cosine * cosine, 0.25F));
+    const float reach = parent_radius / sine + 1.5F * base.radius;
+    if (!(reach < kMostOfEdge * base.length) || base.radius == 0.0F ||
+        coincide(base.centre, base.centre + reach * base.heading, base.radius)) {
+        return;
+    }
+    Joint collar = base;
+    collar.centre = base.centre + reach * base.heading;
+    collar.radius += (joints_[1].radius - base.radius) * (reach / base.length);
+    collar.length = base.length - reach;
+    base.length = reach;
+    base.radius += kCollarSlope * reach;
+    joints_.insert(joints_.begin() + 1, collar);
+}
+
+/// Cuts edges into pieces about as long as the tube is thick, so that noise has rings to move.
+void AxisReader::subdivide() {
+    spare_.clear();
+    for (std::size_t i = 0; i + 1 < joints_.size(); ++i) {
+        const Joint& from = joints_[i];
+        const Joint& to = joints_[i + 1];
+        const float thickness = std::max(from.radius, to.radius) *
+                                static_cast<float>(1U << std::min(options_.level, kMostLevels));
+        const float parts =
+            std::clamp(std::ceil(from.length / (2.0F * thickness)), 1.0F, kMostParts);
+        const float piece = from.length / parts;
+        for (float part = 0.0F; part < parts; part += 1.0F) {
+            Joint joint = from;
+            const float share = part / parts;
+            joint.centre = from.centre + share * (to.centre - from.centre);
+            joint.radius = from.radius + share * (to.radius - from.radius);
+            joint.length = piece;
+            if (part > 0.0F && (coincide(spare_.back().centre, joint.centre, joint.radius) ||
+                                coincide(joint.centre, to.centre, joint.radius) ||
+                                drawn_radius(joint.radius, joint.centre, joint.sides) == 0.0F)) {
+                spare_.back().length += piece;
+                continue;
+            }
+            spare_.push_back(joint);
+        }
+    }
+    spare_.push_back(joints_.back());
+    joints_.swap(spare_);
+}
+
+/// One ring at a joint that bends by at most 60 degrees, two by at most 120, else three. And none
+/// is too thin for its neighbours.
+void AxisReader::set_rings() {
+    const std::size_t last = joints_.size() - 1;
+    for (std::size_t i = 0; i <= last; ++i) {
+        Joint& joint = joints_[i];
+        const Joint& before = joints_[i == 0 ? 0 : i - 1];
+        const Joint& after = joints_[i == last ? i : i + 1];
+        const float cosine = glm::dot(before.heading, joint.heading);
+        joint.rings = cosine >= 0.5F || i == 0 || i == last ? 1 : cosine >= -0.5F ? 2 : 3;
+        if (joint.radius > 0.0F) {
+            const float around = std::max(std::max(before.length, joint.length),
+                                          std::max(before.radius, after.radius));
+            joint.radius = std::max(joint.radius, std::min(kThinnest * around, kGreatestRadius));
+        }
+    }
+}
+
+} // namespace lsys

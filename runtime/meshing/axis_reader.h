@@ -1,0 +1,75 @@
+// AxisReader: the joints of one axis, ready to be given rings. What cannot be drawn is left out
+// here, so that what follows need not look for it.
+#pragma once
+
+#include "runtime/mesh.h"
+#include "runtime/meshing/axes.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+/// A joint, and the edge from it to the next one.
+struct Joint {
+    glm::vec3 centre{};
+    float radius = 0.0F; // of the corners of the ring; 0 only at a pointed end
+    glm::vec3 heading{}; // unit, of the edge; at the last joint of the edge before
+    float length = 0.0F; // of the edge; 0 at the last joint
+    std::uint16_t colour = 0;
+    std::uint8_t sides = 0;
+    std::uint8_t rings = 1; // more where the axis bends by more than 60 degrees
+};
+
+enum class TubeEnd : std::uint8_t {
+    Point, // the radius is 0
+    Flat,  // closed by a disc
+    Blunt, // closed by a low cone
+    Ball,  // closed by a half ball, which branches leave
+    Open,  // inside of another tube
+};
+
+/// Joints without a gap, at least two.
+struct Run {
+    std::span<const Joint> joints;
+    TubeEnd begin = TubeEnd::Flat;
+    TubeEnd end = TubeEnd::Blunt;
+    glm::vec3 side{}; // about perpendicular to the first heading, where u is 0
+    std::uint32_t first_segment = 0;
+};
+
+class AxisReader {
+public:
+    AxisReader(const Skeleton& skeleton, const Axes& axes, const MeshOptions& options);
+
+    void start(std::uint32_t first_segment);
+    /// The next run of the axis; false after the last one. It is good until the next call.
+    [[nodiscard]] bool next(Run& run);
+
+private:
+    bool read(Run& run);
+    void add(const Segment& segment, float radius);
+    bool add_end(const glm::vec3& centre, float radius);
+    bool begins_in_parent(Run& run);
+    void add_collar(const Segment& parent, float parent_radius);
+    void subdivide();
+    void set_rings();
+    [[nodiscard]] std::uint8_t sides_of(const Segment& segment) const {
+        return sides_[segment.sides];
+    }
+
+    const Skeleton& skeleton_;
+    const Axes& axes_;
+    const MeshOptions& options_;
+    std::array<std::uint8_t, 256> sides_{}; // by those of the segment
+    std::array<float, 256> widening_{};     // of the radius, for fewer sides
+    std::vector<Joint> joints_;
+    std::vector<Joint> spare_;
+    std::uint32_t segment_ = kNoSegment; // the next one to read
+    bool attached_ = false;              // nothing of the axis was left out so far
+    bool stale_ = false;                 // the last joint's heading is not known
+};
+
+} // namespace lsys

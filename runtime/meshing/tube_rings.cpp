@@ -1,0 +1,203 @@
+// The part of TubeWriter that fills arrays.
+#include "runtime/meshing/bark_noise.h"
+#include "runtime/meshing/directions.h"
+#include "runtime/meshing/lanes.h"
+#include "runtime/meshing/tube_writer.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsys {
+
+namespace {
+
+/// Writes `columns` vectors centre + cosine * a + sine * b, three floats each. All but the last are
+/// written as four, the fourth of which the next one covers.
+void put_ellipse(glm::vec3* to,
+                 const Direction* at,
+                 std::uint32_t columns,
+                 const glm::vec3& centre,
+                 const glm::vec3& a,
+                 const glm::vec3& b) {
+    const Lanes middle = lanes(centre);
+    const Lanes first = lanes(a);
+    const Lanes second = lanes(b);
+    const std::uint32_t last = columns - 1;
+    for (std::uint32_t i = 0; i < last; ++i) {
+        store_four(to + i, middle + (lanes(at[i].cosine) * first + lanes(at[i].sine) * second));
+    }
+    store_three(to + last,
+                middle + (lanes(at[last].cosine) * first + lanes(at[last].sine) * second));
+}
+
+} // namespace
+
+void TubeWriter::put_ring(const Ring& ring) {
+    const std::uint64_t first = vertex_;
+    const std::uint32_t columns = columns_of(ring.sides, options_);
+    vertex_ += columns;
+    if (noise_ != nullptr) {
+        put_noise(ring, first);
+    } else {
+        const glm::vec3 binormal = glm::cross(tangent_, normal_);
+        const glm::vec3 wide = ring.stretch * ring.mitre;
+        const Direction* at = directions(ring.sides);
+        put_ellipse(block_.positions.data() + first, at, columns, ring.centre,
+                    ring.radius * (normal_ + glm::dot(normal_, ring.mitre) * wide),
+                    ring.radius * (binormal + glm::dot(binormal, ring.mitre) * wide));
+        const float part = 1.0F / std::sqrt(1.0F + ring.slope * ring.slope);
+        put_ellipse(block_.normals.data() + first, at, columns, (-ring.slope * part) * tangent_,
+                    part * normal_, part * binormal);
+    }
+    if (seam_) {
+        put_textured(ring, first);
+    }
+    if (options_.colours) {
+        std::fill_n(block_.colours.data() + first, columns, ring.colour);
+    }
+}
+
+void TubeWriter::put_textured(const Ring& ring, std::uint64_t first) {
+    const std::uint32_t columns = ring.sides + 1;
+    if (options_.texture_coordinates) {
+        glm::vec2* to = block_.texture_coordinates.data() + first;
+        const float v = v_of(ring.arc);
+        const float step = 1.0F / static_cast<float>(ring.sides);
+        for (std::uint32_t i = 0; i < columns; ++i) {
+            to[i] = {static_cast<float>(i) * step, v};
+        }
+        to[ring.sides].x = 1.0F;
+    }
+    if (!options_.tangents) {
+        return;
+    }
+    glm::vec4* to = block_.tangents.data() + first;
+    const Direction* at = directions(ring.sides);
+    const glm::vec3 binormal = glm::cross(tangent_, normal_);
+    if (noise_ == nullptr) {
+        const Lanes a = lanes(normal_);
+        const Lanes b = lanes(binormal);
+        const Lanes sign = lanes(glm::vec3(0.0F), 1.0F);
+        for (std::uint32_t i = 0; i < columns; ++i) {
+            store_four(to + i, sign + (lanes(at[i].cosine) * b - lanes(at[i].sine) * a));
+        }
+        return;
+    }
+    for (std::uint32_t i = 0; i < columns; ++i) {
+        const glm::vec3& normal = block_.normals[first + i];
+        const glm::vec3 around = at[i].cosine * binormal - at[i].sine * normal_;
+        to[i] = glm::vec4(glm::normalize(around - normal * glm::dot(normal, around)), 1.0F);
+    }
+}
+
+void TubeWriter::put_noise(const Ring& ring, std::uint64_t first) {
+    const Direction* at = directions(ring.sides);
+    const glm::vec3 binormal = glm::cross(tangent_, normal_);
+    const float amount = std::min(options_.bark_noise, 0.9F);
+    for (std::uint32_t i = 0; i < ring.sides; ++i) {
+        const glm::vec3 out = at[i].cosine * normal_ + at[i].sine * binormal;
+        const glm::vec3 around = at[i].cosine * binormal - at[i].sine * normal_;
+        const NoiseSample noise =
+            noise_->at(static_cast<float>(i) / static_cast<float>(ring.sides), ring.arc);
+        const float factor = 1.0F + amount * noise.value;
+        const glm::vec3 offset = out + (ring.stretch * glm::dot(out, ring.mitre)) * ring.mitre;
+        const float along =
+            std::clamp(ring.slope * factor + ring.radius * amount * noise.by_length, -8.0F, 8.0F);
+        block_.positions[first + i] = ring.centre + (ring.radius * factor) * offset;
+        block_.normals[first + i] =
+            glm::normalize(out - along * tangent_ - (amount * noise.by_angle / factor) * around);
+    }
+    if (seam_) {
+        block_.positions[first + ring.sides] = block_.positions[first];
+        block_.normals[first + ring.sides] = block_.normals[first];
+    }
+}
+
+void TubeWriter::put_tip(const glm::vec3& position,
+                         const glm::vec3& normal,
+                         double arc,
+                         const Ring& ring) {
+    block_.set(vertex_, {.position = position,
+                         .normal = normal,
+                         .texture_coordinate = {0.5F, v_of(arc)},
+                         .tangent = glm::vec4(normal_, 1.0F),
+                         .palette = ring.colour});
+    ++vertex_;
+}
+
+void TubeWriter::fan(std::uint64_t ring,
+                     std::uint32_t sides,
+                     std::uint64_t point,
+                     std::uint32_t step,
+                     bool upwards,
+                     std::uint32_t slot) {
+    std::uint32_t* to = block_.indices.data() + index_[slot];
+    index_[slot] += std::uint64_t{3} * sides;
+    const auto corner = static_cast<std::uint32_t>(block_.first_vertex + ring);
+    const auto middle = static_cast<std::uint32_t>(block_.first_vertex + point);
+    for (std::uint32_t i = 0; i < sides; ++i) {
+        const std::uint32_t after = corner + (i + 1 == sides && !seam_ ? 0 : i + 1);
+        *to++ = upwards ? corner + i : after;
+        *to++ = upwards ? after : corner + i;
+        *to++ = middle + i * step;
+    }
+}
+
+void TubeWriter::strip(std::uint64_t low,
+                       std::uint32_t low_sides,
+                       std::uint64_t high,
+                       std::uint32_t high_sides,
+                       std::uint32_t slot) {
+    const std::uint32_t columns = columns_of(high_sides, options_);
+    if (low_sides != high_sides || low + columns != high) {
+        uneven_strip(low, low_sides, high, high_sides, slot);
+        return;
+    }
+    std::vector<std::uint32_t>& pattern = patterns_[high_sides];
+    if (pattern.empty()) {
+        for (std::uint32_t i = 0; i < high_sides; ++i) {
+            const std::uint32_t after = i + 1 == high_sides && !seam_ ? 0 : i + 1;
+            pattern.insert(pattern.end(),
+                           {i, after, columns + after, i, columns + after, columns + i});
+        }
+    }
+    std::uint32_t* to = block_.indices.data() + index_[slot];
+    index_[slot] += pattern.size();
+    const auto base = static_cast<std::uint32_t>(block_.first_vertex + low);
+    const std::uint32_t* offset = pattern.data();
+    for (std::size_t i = 0; i < pattern.size(); ++i) {
+        to[i] = base + offset[i];
+    }
+}
+
+/// Goes around both rings at once; the one whose next corner comes first makes the next triangle.
+void TubeWriter::uneven_strip(std::uint64_t low,
+                              std::uint32_t low_sides,
+                              std::uint64_t high,
+                              std::uint32_t high_sides,
+                              std::uint32_t slot) {
+    std::uint32_t* to = block_.indices.data() + index_[slot];
+    index_[slot] += std::uint64_t{3} * (low_sides + high_sides);
+    const auto corner = [&](std::uint64_t ring, std::uint32_t sides, std::uint32_t i) {
+        return static_cast<std::uint32_t>(block_.first_vertex + ring +
+                                          (i == sides && !seam_ ? 0 : i));
+    };
+    std::uint32_t i = 0;
+    std::uint32_t j = 0;
+    while (i < low_sides || j < high_sides) {
+        *to++ = corner(low, low_sides, i);
+        if ((i + 1) * high_sides <= (j + 1) * low_sides && i < low_sides) {
+            ++i;
+            *to++ = corner(low, low_sides, i);
+            *to++ = corner(high, high_sides, j);
+        } else {
+            *to++ = corner(high, high_sides, j + 1);
+            *to++ = corner(high, high_sides, j);
+            ++j;
+        }
+    }
+}
+
+} // namespace lsys
