@@ -19,8 +19,16 @@ namespace {
 constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
 /// Programs of more codes are counted module by module.
 constexpr Code kCensusCodes = 4096;
-/// From this many chunks on, counting them by all threads costs less than it saves over the census.
-constexpr std::size_t kChunksInParallel = 64;
+/// From this many modules on, counting them by all threads costs less than it saves over the
+/// census.
+constexpr std::uint64_t kCountedInParallel = 1U << 22;
+/// Threads end at about the same time if they have several chunks each, of a size that is worth it.
+constexpr std::uint64_t kChunksPerThread = 6;
+constexpr std::uint64_t kLeastChunk = 1U << 14;
+/// Shorter words take one thread less time than two need to meet. Threads are started a few
+/// generations before, for that takes them as long as a word of this length.
+constexpr std::uint64_t kWorthSharing = 1U << 17;
+constexpr std::uint64_t kWorthStarting = 1U << 13;
 /// Modules between two reports of progress.
 constexpr std::uint64_t kProgressStride = std::uint64_t{1} << 24;
 
@@ -146,7 +154,7 @@ DeriveStatus Passes::run_recorded(const Word& in, Word& out, const PassKeys& key
     marks_.prepare(plan_, contexts());
 
     by_census_ = !dynamic && plan_.rows().size() <= kCensusCodes &&
-                 (workers_.count() == 1 || chunks_.size() < kChunksInParallel);
+                 (workers_.count() == 1 || word.count < kCountedInParallel);
     if (by_census_) {
         take_census(word);
     } else {
@@ -178,10 +186,20 @@ DeriveStatus Passes::run_recorded(const Word& in, Word& out, const PassKeys& key
     return DeriveStatus::Ok;
 }
 
-/// Chunks of the size asked for.
+/// Chunks of the size asked for; with several threads smaller ones if each would have few of them,
+/// and one chunk of a word that is not worth a second thread.
 template <typename C>
 void Passes::cut(const WordView<C>& word) {
-    const std::uint64_t size = std::max(options_.chunk_modules, 1U);
+    std::uint64_t size = std::max(options_.chunk_modules, 1U);
+    if (workers_.count() > 1 && size > kLeastChunk) {
+        if (word.count >= kWorthStarting) {
+            workers_.start();
+        }
+        size =
+            word.count < kWorthSharing
+                ? kWorthSharing
+                : std::clamp(word.count / (workers_.count() * kChunksPerThread), kLeastChunk, size);
+    }
     chunks_.assign((word.count + size - 1) / size, {});
     for (std::uint64_t i = 0; i < chunks_.size(); ++i) {
         chunks_[i].begin.index = i * size;

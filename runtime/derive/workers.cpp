@@ -36,7 +36,10 @@ Workers::~Workers() {
     }
 }
 
-void Workers::start_helpers() {
+void Workers::start() {
+    if (!helpers_.empty()) {
+        return;
+    }
     helpers_.reserve(count_ - 1);
     while (helpers_.size() + 1 < count_) {
         try {
@@ -85,9 +88,7 @@ void Workers::for_each(std::uint64_t pieces, const std::function<void(std::uint6
         }
         return;
     }
-    if (helpers_.empty()) {
-        start_helpers();
-    }
+    start();
     // Each thread takes the next piece until none is left, so that neighbours are done at about the
     // same time.
     std::atomic<std::uint64_t> next{0};

@@ -23,6 +23,8 @@ public:
     Workers& operator=(const Workers&) = delete;
 
     [[nodiscard]] std::uint32_t count() const { return count_; }
+    /// Has the threads ready for a for_each() to come.
+    void start();
     /// Calls `piece` for 0 ... pieces - 1, begun in that order, and returns when all are done. With
     /// one worker or one piece, on the calling thread. Where the system gives fewer threads than
     /// asked for, those that there are do the work. `piece` throws nothing.
@@ -31,7 +33,6 @@ public:
 private:
     using Task = std::function<void()>;
 
-    void start_helpers();
     void help();
     bool wait_for_task(std::uint64_t last);
 
