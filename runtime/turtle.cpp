@@ -26,9 +26,8 @@ bool is_relative(TurtleProfile profile) {
     return profile == TurtleProfile::L3d || profile == TurtleProfile::Lplus;
 }
 
-/// Everything that `[` saves.
-struct TurtleState {
-    Pose pose;
+/// What `[` saves beside the pose.
+struct Brush {
     float width = 0.0F; // m, diameter; of relative profiles radius / length
     float taper = 1.0F; // tip radius / base radius
     float step = 0.0F;  // m
@@ -40,6 +39,11 @@ struct TurtleState {
     bool moved = false; // since the segment was drawn
 };
 
+/// Two parts that are copied apart, since one of them lives in registers.
+struct TurtleState : Brush {
+    Pose pose;
+};
+
 } // namespace
 
 struct Turtle::State {
@@ -48,6 +52,8 @@ struct Turtle::State {
         const Settings& settings = bytecode.settings;
         skeleton.mesh_files = table.mesh_files;
         relative = is_relative(settings.turtle);
+        has_tropism = settings.has_tropism;
+        lines_only = options.lines_only;
         now.width = settings.width;
         now.taper = relative ? kRelativeTaper : 1.0F;
         now.step = settings.step;
@@ -65,9 +71,13 @@ struct Turtle::State {
     bool forward(const Action& action, const float* arguments, float part);
     bool tapered(const Action& action, const float* arguments);
     bool draw(double length, float base_width, float tip_width, float spring, const float* mass);
+    bool draw_line(double length);
+    float mass_of(double length, float base_width, float tip_width);
     bool place(const Action& action, const float* arguments);
     bool save();
     bool restore();
+    bool skip(const Action& action);
+    bool quick_forward(const Action& action, const float* arguments, Pose& pose);
     void close_polygon();
     void set_width(float width);
     void set_sides(float sides);
@@ -104,7 +114,15 @@ struct Turtle::State {
     Code code = 0;              // of that module
     std::uint64_t cut = 0;      // open brackets within a part that is cut off, and 1
     TurtleStatus status = TurtleStatus::Ok;
+    LargeVector<Line> lines; // instead of segments, if only they are wanted
+    bool lines_only = false;
     bool relative = false; // widths are factors of the length
+    bool has_tropism = false;
+    // The last segment whose mass was worked out.
+    double massed_length = -1.0;
+    float massed_base = -1.0F;
+    float massed_tip = -1.0F;
+    float massed = 0.0F;
 };
 
 void Turtle::State::note(TurtleFaultKind kind) {
@@ -138,7 +156,7 @@ bool Turtle::State::has_room(Items& items) {
     return true;
 }
 
-bool Turtle::State::is_fine_place() {
+inline bool Turtle::State::is_fine_place() {
     const Pose& p = now.pose;
     // The comparison is false for what is not a number, too.
     if (std::abs(p.x) <= kMaxFloat && std::abs(p.y) <= kMaxFloat && std::abs(p.z) <= kMaxFloat) {
@@ -147,25 +165,42 @@ bool Turtle::State::is_fine_place() {
     return fault(TurtleFaultKind::NotFinite);
 }
 
+/// Volume of a truncated cone times the density.
+float Turtle::State::mass_of(double length, float base_width, float tip_width) {
+    if (length != massed_length || base_width != massed_base || tip_width != massed_tip) {
+        massed_length = length;
+        massed_base = base_width;
+        massed_tip = tip_width;
+        const double a = 0.5 * static_cast<double>(base_width);
+        const double b = 0.5 * static_cast<double>(tip_width);
+        const double volume = std::numbers::pi / 3.0 * std::abs(length) * (a * a + a * b + b * b);
+        massed = static_cast<float>(
+            std::min(volume * static_cast<double>(bytecode.settings.density), kMaxFloat));
+    }
+    return massed;
+}
+
 /// A segment of `length` from here on. `mass`: kg, or null where volume and density give it.
-bool Turtle::State::draw(
+inline bool Turtle::State::draw(
     double length, float base_width, float tip_width, float spring, const float* mass) {
-    if (bytecode.settings.has_tropism) {
+    if (has_tropism) {
         bend(now.pose, bytecode.settings.tropism);
+    }
+    if (lines_only) {
+        return draw_line(length);
     }
     if (!has_room(skeleton.segments)) {
         return false;
     }
     const Pose base = now.pose;
     advance(now.pose, length);
-    const double width = static_cast<double>(base_width);
-    if (!(std::abs(width) <= kMaxFloat) || !is_fine_place()) {
+    if (!(base_width <= std::numeric_limits<float>::max()) || !is_fine_place()) {
         return fault(TurtleFaultKind::NotFinite);
     }
-    Segment segment;
+    Segment& segment = skeleton.segments.emplace_back();
     segment.base = position_of(base);
-    segment.frame = frame_of(base);
     segment.length = static_cast<float>(length);
+    segment.frame = frame_of(base);
     if (length < 0.0) { // half a turn about the right axis
         segment.length = -segment.length;
         segment.frame = segment.frame * glm::quat(0.0F, 1.0F, 0.0F, 0.0F);
@@ -173,26 +208,32 @@ bool Turtle::State::draw(
     segment.base_radius = base_width * 0.5F;
     segment.tip_radius = tip_width * 0.5F;
     segment.spring = spring;
-    const double a = static_cast<double>(segment.base_radius);
-    const double b = static_cast<double>(segment.tip_radius);
-    const double volume = std::numbers::pi / 3.0 * std::abs(length) * (a * a + a * b + b * b);
-    segment.mass = mass != nullptr
-                       ? *mass
-                       : static_cast<float>(std::min(
-                             volume * static_cast<double>(bytecode.settings.density), kMaxFloat));
+    segment.mass = mass != nullptr ? *mass : mass_of(length, base_width, tip_width);
     segment.parent = now.segment;
     segment.order = order();
     segment.colour = now.colour;
     segment.sides = now.sides;
     segment.linked = now.segment != kNoSegment && !now.moved;
-    now.segment = static_cast<std::uint32_t>(skeleton.segments.size());
+    now.segment = static_cast<std::uint32_t>(skeleton.segments.size() - 1);
     now.moved = false;
-    skeleton.segments.push_back(segment);
+    return true;
+}
+
+bool Turtle::State::draw_line(double length) {
+    if (!has_room(lines)) {
+        return false;
+    }
+    const glm::vec3 from = position_of(now.pose);
+    advance(now.pose, length);
+    if (!is_fine_place()) {
+        return fault(TurtleFaultKind::NotFinite);
+    }
+    lines.push_back({from, position_of(now.pose)});
     return true;
 }
 
 /// F and H: a whole or half of the length, and the physics' spring and mass.
-bool Turtle::State::forward(const Action& action, const float* arguments, float part) {
+inline bool Turtle::State::forward(const Action& action, const float* arguments, float part) {
     const float length = (action.given > 0 ? arguments[0] : now.step) * part;
     const float spring = action.given > 1 ? arguments[1] : bytecode.settings.spring;
     const float width = relative ? 2.0F * std::abs(length) * now.width : now.width;
@@ -331,14 +372,11 @@ void Turtle::State::scale_angle(float factor) {
     now.turn = half_angle(static_cast<double>(now.angle));
 }
 
-bool Turtle::State::obey(const Action& action, const float* arguments) {
+inline bool Turtle::State::obey(const Action& action, const float* arguments) {
     const Settings& settings = bytecode.settings;
-    // The angle of a turn: written, from the word, or the setting.
+    // The angle of a turn that is not constant: from the word, or the setting as it is now.
     const auto turn = [&]() -> HalfAngle {
-        if (action.given == 0) {
-            return now.turn;
-        }
-        return action.stored != 0 ? half_angle(static_cast<double>(arguments[0])) : action.turn;
+        return action.given == 0 ? now.turn : half_angle(static_cast<double>(arguments[0]));
     };
     const auto argument = [&](float otherwise) {
         return action.given != 0 ? arguments[0] : otherwise;
@@ -454,26 +492,114 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
     return true;
 }
 
+/// Draws if nothing is in the way; false: nothing has happened, and forward() finds out why.
+[[gnu::always_inline]] inline bool
+Turtle::State::quick_forward(const Action& action, const float* arguments, Pose& pose) {
+    const float length = action.given > 0 ? arguments[0] : now.step;
+    Pose end = pose;
+    advance(end, static_cast<double>(length));
+    // Also false for what is not a number.
+    const bool fits = std::abs(end.x) + std::abs(end.y) + std::abs(end.z) <= kMaxFloat &&
+                      now.width <= std::numeric_limits<float>::max() && length >= 0.0F;
+    if (lines_only) {
+        if (!fits || lines.size() == lines.capacity()) {
+            return false;
+        }
+        lines.emplace_back(Line{position_of(pose), position_of(end)});
+        pose = end;
+        return true;
+    }
+    LargeVector<Segment>& segments = skeleton.segments;
+    if (!fits || segments.size() == segments.capacity()) {
+        return false;
+    }
+    const auto index = static_cast<std::uint32_t>(segments.size());
+    Segment& segment = segments.emplace_back();
+    segment.base = position_of(pose);
+    segment.length = length;
+    segment.frame = frame_of(pose);
+    segment.base_radius = now.width * 0.5F;
+    segment.tip_radius = now.width * now.taper * 0.5F;
+    segment.spring = action.given > 1 ? arguments[1] : bytecode.settings.spring;
+    segment.mass = action.given > 2
+                       ? arguments[2]
+                       : mass_of(static_cast<double>(length), now.width, now.width * now.taper);
+    segment.parent = now.segment;
+    segment.order = order();
+    segment.colour = now.colour;
+    segment.sides = now.sides;
+    segment.linked = now.segment != kNoSegment && !now.moved;
+    now.segment = index;
+    now.moved = false;
+    pose = end;
+    return true;
+}
+
+/// After a `%`, until the `]` of its branch.
+bool Turtle::State::skip(const Action& action) {
+    cut += action.operation == TurtleOperation::Save ? 1 : 0;
+    return action.operation != TurtleOperation::Restore || --cut != 0 || restore();
+}
+
 template <typename C>
 TurtleStatus Turtle::State::run_some(std::span<const C> codes, const float*& parameters) {
     const Action* const actions = table.by_code.data();
-    for (const C at : codes) {
-        code = at;
-        const Action& action = actions[at];
+    const std::uint64_t first = position;
+    const C* const begin = codes.data();
+    const bool plain = !has_tropism && !relative;
+    Pose pose = now.pose; // in registers; now.pose is kept for all that is not quick
+    for (const C* at = begin; at != begin + codes.size(); ++at) {
+        const Action& action = actions[*at];
         const float* const arguments = action.stored != 0 ? parameters : action.arguments.data();
         parameters += action.stored;
-        if (cut != 0) { // after a `%`, until the `]` of its branch
-            cut += action.operation == TurtleOperation::Save ? 1 : 0;
-            if (action.operation == TurtleOperation::Restore && --cut == 0) {
-                if (!restore()) {
-                    return status;
+        if (cut == 0) {
+            switch (action.quick) {
+            case QuickAction::Nothing:
+                continue;
+            case QuickAction::Yaw:
+                yaw(pose, action.turn);
+                continue;
+            case QuickAction::Pitch:
+                pitch(pose, action.turn);
+                continue;
+            case QuickAction::Roll:
+                roll(pose, action.turn);
+                continue;
+            case QuickAction::Forward:
+                if (plain && !polygons.any() && quick_forward(action, arguments, pose)) {
+                    continue;
                 }
+                break;
+            case QuickAction::Save:
+                if (stack.size() < stack.capacity()) {
+                    TurtleState& saved = stack.emplace_back();
+                    static_cast<Brush&>(saved) = now;
+                    saved.pose = pose;
+                    continue;
+                }
+                break;
+            case QuickAction::Restore:
+                if (!stack.empty()) {
+                    static_cast<Brush&>(now) = stack.back();
+                    pose = stack.back().pose;
+                    stack.pop_back();
+                    continue;
+                }
+                break;
+            case QuickAction::None:
+                break;
             }
-        } else if (!obey(action, arguments)) {
+        }
+        position = first + static_cast<std::uint64_t>(at - begin);
+        code = *at;
+        now.pose = pose;
+        if (cut != 0 ? !skip(action) : !obey(action, arguments)) {
             return status;
         }
-        ++position;
+        pose = now.pose;
     }
+    now.pose = pose;
+    position = first + codes.size();
     return TurtleStatus::Ok;
 }
 
@@ -541,7 +667,11 @@ TurtleStatus Turtle::reserve(const Word& word) {
         return state.status = TurtleStatus::Limit;
     }
     try {
-        state.skeleton.segments.reserve(std::min(segments, kMaxSkeletonItems));
+        if (state.lines_only) {
+            state.lines.reserve(std::min(segments, kMaxSkeletonItems));
+        } else {
+            state.skeleton.segments.reserve(std::min(segments, kMaxSkeletonItems));
+        }
         state.skeleton.objects.reserve(std::min(objects, kMaxSkeletonItems));
     } catch (const std::bad_alloc&) {
         return state.status = TurtleStatus::OutOfMemory;
@@ -582,6 +712,9 @@ const Skeleton& Turtle::skeleton() const {
 }
 Skeleton Turtle::take_skeleton() {
     return std::move(state_->skeleton);
+}
+LargeVector<Line> Turtle::take_lines() {
+    return std::move(state_->lines);
 }
 const std::array<TurtleFault, kTurtleFaultKinds>& Turtle::faults() const {
     return state_->faults;

@@ -49,6 +49,13 @@ struct TurtleOptions {
     std::vector<float> mesh_lengths;
     std::uint64_t max_bytes = ~std::uint64_t{0}; // of the skeleton
     const std::atomic<bool>* cancelled = nullptr;
+    bool lines_only = false; // take_lines() instead of the segments of a skeleton
+};
+
+/// A segment without a body: where it begins and ends.
+struct Line {
+    glm::vec3 from{};
+    glm::vec3 to{};
 };
 
 /// Draws a word that comes in pieces.
@@ -70,6 +77,7 @@ public:
 
     [[nodiscard]] const Skeleton& skeleton() const;
     [[nodiscard]] Skeleton take_skeleton();
+    [[nodiscard]] LargeVector<Line> take_lines();
     [[nodiscard]] const std::array<TurtleFault, kTurtleFaultKinds>& faults() const;
 
 private:

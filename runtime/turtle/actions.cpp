@@ -16,6 +16,42 @@ bool leaves_stay(TurtleProfile profile) {
            profile == TurtleProfile::Lplus;
 }
 
+/// Rotations against the sense of yaw(), pitch() and roll().
+bool turns_back(TurtleOperation operation) {
+    return operation == TurtleOperation::YawRight || operation == TurtleOperation::PitchDown ||
+           operation == TurtleOperation::RollLeft;
+}
+
+/// What the walk does itself, if the module's arguments are constant.
+QuickAction quick_action(const Action& action, bool angle_is_constant) {
+    const bool turn_is_constant = action.stored == 0 && (action.given != 0 || angle_is_constant);
+    const auto if_constant = [&](QuickAction quick) {
+        return turn_is_constant ? quick : QuickAction::None;
+    };
+    switch (action.operation) {
+    case TurtleOperation::Nothing:
+        return QuickAction::Nothing;
+    case TurtleOperation::YawRight:
+    case TurtleOperation::YawLeft:
+        return if_constant(QuickAction::Yaw);
+    case TurtleOperation::PitchDown:
+    case TurtleOperation::PitchUp:
+        return if_constant(QuickAction::Pitch);
+    case TurtleOperation::RollLeft:
+    case TurtleOperation::RollRight:
+        return if_constant(QuickAction::Roll);
+    case TurtleOperation::Forward:
+    case TurtleOperation::Branch:
+        return QuickAction::Forward;
+    case TurtleOperation::Save:
+        return QuickAction::Save;
+    case TurtleOperation::Restore:
+        return QuickAction::Restore;
+    default:
+        return QuickAction::None;
+    }
+}
+
 Action action_of(const BytecodeSymbol& symbol, TurtleProfile profile) {
     Action action;
     action.operation = symbol.turtle;
@@ -42,6 +78,10 @@ HalfAngle half_angle(double degrees) {
 ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options) {
     ActionTable table;
     const std::size_t symbol_count = bytecode.symbols.size();
+    const bool angle_is_constant =
+        std::none_of(bytecode.symbols.begin(), bytecode.symbols.end(), [](const auto& symbol) {
+            return symbol.turtle == TurtleOperation::ScaleAngle;
+        });
     std::vector<Action> of_symbol;
     of_symbol.reserve(symbol_count);
     for (std::size_t i = 0; i < symbol_count; ++i) {
@@ -63,8 +103,14 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
             for (std::uint32_t i = 0; i < action.given; ++i) {
                 action.arguments[i] = bytecode.constants[first + i];
             }
-            action.turn = half_angle(static_cast<double>(action.arguments[0]));
         }
+        const bool has_argument = code >= symbol_count && action.given != 0;
+        action.turn = half_angle(
+            static_cast<double>(has_argument ? action.arguments[0] : bytecode.settings.angle));
+        if (turns_back(action.operation)) {
+            action.turn.sine = -action.turn.sine;
+        }
+        action.quick = quick_action(action, angle_is_constant);
         table.by_code.push_back(action);
     }
     return table;

@@ -20,13 +20,17 @@ struct HalfAngle {
 };
 [[nodiscard]] HalfAngle half_angle(double degrees);
 
+/// The few things that most modules ask for, which the walk does itself.
+enum class QuickAction : std::uint8_t { None, Nothing, Yaw, Pitch, Roll, Forward, Save, Restore };
+
 struct Action {
+    QuickAction quick = QuickAction::None;
     TurtleOperation operation = TurtleOperation::Nothing;
     std::uint8_t given = 0;                          // arguments, of the first three
     bool advances = false;                           // objects: by their length
     std::uint32_t stored = 0;                        // parameters in the word, all of them
     std::array<float, kTurtleArguments> arguments{}; // if none is stored
-    HalfAngle turn;                                  // rotations by a constant angle
+    HalfAngle turn;                                  // rotations by a constant angle, signed
     float unit_length = 1.0F;                        // objects
     std::uint32_t mesh_file = 0;                     // in Skeleton::mesh_files
 };
