@@ -1,5 +1,7 @@
 #include "tests/bench/limits.h"
 
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <sys/mman.h>
@@ -184,6 +186,105 @@ std::size_t derive_w6(int generations, std::size_t count, std::uint8_t* a, std::
     }
     const void* found = std::memchr(a, 'b', count + 1);
     return static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - a) - 1;
+}
+
+namespace {
+
+struct Vector {
+    float x = 0.0F;
+    float y = 0.0F;
+    float z = 0.0F;
+};
+
+struct TurtleFrame {
+    Vector position;
+    Vector heading{0.0F, 1.0F, 0.0F};
+    Vector left{-1.0F, 0.0F, 0.0F};
+    Vector up{0.0F, 0.0F, 1.0F};
+};
+
+/// Calls draw(frame, end) for every F.
+template <typename Draw>
+void walk(const std::uint8_t* word, std::size_t count, float degrees, Draw draw) {
+    const float angle = degrees * 3.14159265358979F / 180.0F;
+    const float cosine = std::cos(angle);
+    const float sine = std::sin(angle);
+    std::array<TurtleFrame, 4096> stack;
+    std::size_t depth = 0;
+    TurtleFrame t;
+    for (std::size_t i = 0; i < count; ++i) {
+        switch (word[i]) {
+        case 'F': {
+            const Vector end{t.position.x + t.heading.x, t.position.y + t.heading.y,
+                             t.position.z + t.heading.z};
+            draw(t, end);
+            t.position = end;
+            break;
+        }
+        case '+':
+        case '-': {
+            const float s = word[i] == '+' ? sine : -sine;
+            const Vector h = t.heading;
+            const Vector l = t.left;
+            t.heading = {cosine * h.x + s * l.x, cosine * h.y + s * l.y, cosine * h.z + s * l.z};
+            t.left = {cosine * l.x - s * h.x, cosine * l.y - s * h.y, cosine * l.z - s * h.z};
+            break;
+        }
+        case '[':
+            stack[depth++] = t;
+            break;
+        case ']':
+            t = stack[--depth];
+            break;
+        default:
+            break;
+        }
+    }
+}
+
+} // namespace
+
+std::size_t turtle_lines(const std::uint8_t* word, std::size_t count, float degrees, float* out) {
+    float* q = out;
+    walk(word, count, degrees, [&](const TurtleFrame& t, const Vector& end) {
+        q[0] = t.position.x;
+        q[1] = t.position.y;
+        q[2] = t.position.z;
+        q[3] = end.x;
+        q[4] = end.y;
+        q[5] = end.z;
+        q += 6;
+    });
+    return static_cast<std::size_t>(q - out) / 3;
+}
+
+std::size_t turtle_tubes(const std::uint8_t* word, std::size_t count, float degrees, float* out) {
+    constexpr float kRadius = 0.1F;
+    std::array<float, 8> cosines{};
+    std::array<float, 8> sines{};
+    for (std::size_t k = 0; k < 8; ++k) {
+        const float angle = static_cast<float>(k) * 3.14159265358979F / 4.0F;
+        cosines[k] = std::cos(angle);
+        sines[k] = std::sin(angle);
+    }
+    float* q = out;
+    walk(word, count, degrees, [&](const TurtleFrame& t, const Vector& end) {
+        for (std::size_t k = 0; k < 8; ++k) {
+            const Vector n{t.left.x * cosines[k] + t.up.x * sines[k],
+                           t.left.y * cosines[k] + t.up.y * sines[k],
+                           t.left.z * cosines[k] + t.up.z * sines[k]};
+            for (const Vector& at : {t.position, end}) {
+                q[0] = at.x + kRadius * n.x;
+                q[1] = at.y + kRadius * n.y;
+                q[2] = at.z + kRadius * n.z;
+                q[3] = n.x;
+                q[4] = n.y;
+                q[5] = n.z;
+                q += 6;
+            }
+        }
+    });
+    return static_cast<std::size_t>(q - out) / 6;
 }
 
 } // namespace lsys::bench

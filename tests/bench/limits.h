@@ -48,4 +48,12 @@ derive_plain(const PlainSystem& system, int generations, std::uint8_t* a, std::u
 [[nodiscard]] std::size_t
 derive_w6(int generations, std::size_t count, std::uint8_t* a, std::uint8_t* b);
 
+/// Turtles over a word of F + - [ ] for one angle in the plane of two axes. Each writes its
+/// vertices to `out` and returns their number: 2 of 3 floats a segment, or two rings of 8 with
+/// normals, 6 floats.
+[[nodiscard]] std::size_t
+turtle_lines(const std::uint8_t* word, std::size_t count, float degrees, float* out);
+[[nodiscard]] std::size_t
+turtle_tubes(const std::uint8_t* word, std::size_t count, float degrees, float* out);
+
 } // namespace lsys::bench
