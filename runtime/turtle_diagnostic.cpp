@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace lsys {
 
 namespace {
@@ -89,13 +91,18 @@ std::vector<Diagnostic> turtle_diagnostics(const std::array<TurtleFault, kTurtle
     return diagnostics;
 }
 
-Diagnostic plant_limit_diagnostic(std::string_view what, std::uint64_t max_bytes) {
-    Diagnostic diagnostic =
-        make_diagnostic(DiagnosticCode::LimitReached, {},
-                        fmt::format("{} does not fit into {}", what, byte_size_text(max_bytes)));
-    diagnostic.help.emplace_back(
-        "ask for fewer generations with `-n`, or raise the limit with `--max-memory`");
+Diagnostic
+plant_limit_diagnostic(std::string_view what, std::string_view limit, std::string help) {
+    Diagnostic diagnostic = make_diagnostic(DiagnosticCode::LimitReached, {},
+                                            fmt::format("{} does not fit into {}", what, limit));
+    diagnostic.help.push_back(std::move(help));
     return diagnostic;
+}
+
+Diagnostic plant_limit_diagnostic(std::string_view what, std::uint64_t max_bytes) {
+    return plant_limit_diagnostic(
+        what, byte_size_text(max_bytes),
+        "ask for fewer generations with `-n`, or raise the limit with `--max-memory`");
 }
 
 } // namespace lsys

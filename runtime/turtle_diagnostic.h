@@ -5,6 +5,8 @@
 #include "grammar/diagnostic.h"
 #include "runtime/turtle.h"
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace lsys {
@@ -17,5 +19,8 @@ turtle_diagnostics(const std::array<TurtleFault, kTurtleFaultKinds>& faults,
 
 /// A plant that does not fit into `max_bytes`, of which `what` ("the skeleton") needs more.
 [[nodiscard]] Diagnostic plant_limit_diagnostic(std::string_view what, std::uint64_t max_bytes);
+/// The same of another limit, in words, with what helps.
+[[nodiscard]] Diagnostic
+plant_limit_diagnostic(std::string_view what, std::string_view limit, std::string help);
 
 } // namespace lsys

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -38,6 +39,35 @@ Result<std::uint64_t> parse_whole(std::string_view text, std::uint64_t low, std:
         return Error{fmt::format("`{}` is not a whole number from {} to {}", text, low, high)};
     }
     return parsed.value;
+}
+
+Result<float> parse_number(std::string_view text, float low, float high) {
+    const Parsed<float> parsed = parse_all<float>(text);
+    if (parsed.error != std::errc() || !(parsed.value >= low && parsed.value <= high)) {
+        return Error{fmt::format("`{}` is not a number from {} to {}", text, low, high)};
+    }
+    return parsed.value;
+}
+
+Result<Wind> parse_wind(std::string_view text) {
+    std::array<float, 4> values{};
+    std::size_t count = 0;
+    std::string_view rest = text;
+    bool more = true;
+    while (more && count < values.size()) {
+        const std::size_t comma = rest.find(',');
+        const Parsed<float> parsed = parse_all<float>(rest.substr(0, comma));
+        if (parsed.error != std::errc() || !std::isfinite(parsed.value)) {
+            return Error{fmt::format("`{}` is not a wind such as 5,0,0 or 5,0,0,0.5", text)};
+        }
+        values[count++] = parsed.value;
+        more = comma != std::string_view::npos;
+        rest = more ? rest.substr(comma + 1) : std::string_view();
+    }
+    if (more || count < 3 || values[3] < 0.0F) {
+        return Error{fmt::format("`{}` is not a wind such as 5,0,0 or 5,0,0,0.5", text)};
+    }
+    return Wind{{values[0], values[1], values[2]}, values[3]};
 }
 
 Result<std::uint64_t> parse_size(std::string_view text) {

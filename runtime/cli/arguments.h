@@ -3,6 +3,7 @@
 
 #include "compiler/compile.h"
 #include "grammar/result.h"
+#include "runtime/physics.h"
 
 #include <cstdint>
 #include <string>
@@ -16,6 +17,12 @@ inline constexpr std::uint64_t kMaxGenerations = 0xFFFF'FFFEu;
 /// A whole number from `low` to `high`, in decimal digits.
 [[nodiscard]] Result<std::uint64_t>
 parse_whole(std::string_view text, std::uint64_t low, std::uint64_t high);
+
+/// A number from `low` to `high`.
+[[nodiscard]] Result<float> parse_number(std::string_view text, float low, float high);
+
+/// `x,y,z` or `x,y,z,gust`: metres a second, and the gusts' part of it.
+[[nodiscard]] Result<Wind> parse_wind(std::string_view text);
 
 /// Bytes: a whole number, or one with a fraction and a suffix K, M, G or T (powers of 1024; `KiB`
 /// and `KB` mean the same as `K`).

@@ -2,6 +2,7 @@
 
 #include "grammar/diagnostic.h"
 #include "runtime/cli/arguments.h"
+#include "runtime/turtle.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -23,6 +24,7 @@ struct AllCommands {
     CheckCommand check;
     CompileCommand compile;
     DumpCommand dump;
+    ExportCommand exported;
     StatsCommand stats;
     FormatCommand format;
     ExplainCommand explain;
@@ -71,6 +73,11 @@ CLI::Option* add_choice(CLI::App& app,
 
 auto whole(std::uint64_t low, std::uint64_t high) {
     return [low, high](const std::string& text) { return parse_whole(text, low, high); };
+}
+
+/// A number from 0 to 1.
+Result<float> fraction(const std::string& text) {
+    return parse_number(text, 0.0F, 1.0F);
 }
 
 void add_messages(CLI::App& app, MessageOptions& options) {
@@ -166,6 +173,21 @@ void add_compile(CLI::App& app, CompileCommand& command) {
                "Example: lsc compile tree.lsys -o tree.lsb");
 }
 
+void add_run_limits(CLI::App& app, std::uint64_t& max_bytes, std::uint32_t& threads) {
+    max_bytes = half_of_memory();
+    add_parsed(
+        app, "--max-memory", max_bytes, parse_size,
+        "The most memory each of word, skeleton and mesh may take: 500M, 2G (default half of "
+        "the machine's)")
+        ->type_name("SIZE")
+        ->group("Limits");
+    constexpr std::uint64_t kMaxThreads = 1024;
+    add_parsed(app, "--threads", threads, whole(1, kMaxThreads),
+               "Threads to work with; the result is the same (default all cores)")
+        ->type_name("N")
+        ->group("Limits");
+}
+
 void add_dump(CLI::App& app, DumpCommand& command) {
     app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
         ->required();
@@ -188,16 +210,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                  "Derive without storing the word (no contexts, parallel rewriting only)");
     add_grammar(app, command.grammar);
     add_seed(app, command.seed);
-    command.max_bytes = half_of_memory();
-    add_parsed(app, "--max-memory", command.max_bytes, parse_size,
-               "The most memory the words may take: 500M, 2G (default half of the machine's)")
-        ->type_name("SIZE")
-        ->group("Limits");
-    constexpr std::uint64_t kMaxThreads = 1024;
-    add_parsed(app, "--threads", command.threads, whole(1, kMaxThreads),
-               "Threads to derive with; the result is the same (default all cores)")
-        ->type_name("N")
-        ->group("Limits");
+    add_run_limits(app, command.max_bytes, command.threads);
     add_parsed(app, "--steps", command.steps, whole(0, kMaxGenerations),
                "Make only K of the generations in this run")
         ->type_name("K")
@@ -214,6 +227,89 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                "          lsc dump --all --count tree.lsys\n"
                "          lsc dump -n 10 --steps 5 --save-state half.lss --count tree.lsys\n"
                "          lsc dump --from half.lss tree.lsys");
+}
+
+void add_export(CLI::App& app, ExportCommand& command) {
+    app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
+        ->required();
+    app.add_option("-o,--output", command.output,
+                   "The file, whose name tells the format; `-` is standard output")
+        ->required()
+        ->type_name("FILE");
+    add_choice<std::optional<ExportFormat>>(app, "--format", command.format,
+                                            {{"obj", ExportFormat::Obj},
+                                             {"ply", ExportFormat::Ply},
+                                             {"off", ExportFormat::Off},
+                                             {"off+", ExportFormat::OffPlus},
+                                             {"stl", ExportFormat::Stl},
+                                             {"gltf", ExportFormat::Gltf},
+                                             {"glb", ExportFormat::Glb},
+                                             {"svg", ExportFormat::Svg},
+                                             {"usda", ExportFormat::Usda}},
+                                            "The format (default by the name of the file)");
+    app.add_flag("--stream", command.stream,
+                 "Draw without storing the word (no contexts, parallel rewriting only)");
+    app.add_flag("--stats", command.stats,
+                 "Print segments, sizes, vertices, triangles, bytes and the time of each stage");
+    add_choice<MeshMethod>(app, "--method", command.mesh.method,
+                           {{"tubes", MeshMethod::Tubes},
+                            {"cylinders", MeshMethod::Cylinders},
+                            {"boxes", MeshMethod::Boxes}},
+                           "Branches as tubes without joints, as a cylinder a segment, or as "
+                           "joined boxes that are smoothed (default tubes)")
+        ->group("Mesh");
+    add_parsed(app, "--sides", command.mesh.sides, whole(kMinSides, kMaxSides),
+               "Sides of every cross-section, instead of the grammar's")
+        ->type_name("N")
+        ->group("Mesh");
+    constexpr std::uint64_t kMaxLevel = 8;
+    add_parsed(app, "--level", command.mesh.level, whole(0, kMaxLevel),
+               "Level of detail: 0 the finest, each next one with about half the sides (default 0)")
+        ->type_name("K")
+        ->group("Mesh");
+    constexpr std::uint64_t kMaxSubdivisions = 5;
+    add_parsed(app, "--subdivisions", command.mesh.subdivisions, whole(0, kMaxSubdivisions),
+               "Rounds of smoothing of --method boxes (default 2)")
+        ->type_name("N")
+        ->group("Mesh");
+    add_parsed(app, "--bark-noise", command.mesh.bark_noise, fraction,
+               "Unevenness of the bark, as part of the radius, 0 to 1 (default 0)")
+        ->type_name("A")
+        ->group("Mesh");
+    add_parsed(app, "--droop", command.mesh.droop, fraction,
+               "Bending of leaves by gravity, 0 to 1 (default 0)")
+        ->type_name("D")
+        ->group("Mesh");
+    const auto gravity = [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); };
+    add_parsed(app, "--gravity", command.gravity, gravity,
+               "Let the plant bend under its weight, in m/s2 (on Earth 9.81)")
+        ->type_name("G")
+        ->group("Physics");
+    add_parsed(app, "--wind", command.wind, parse_wind,
+               "Let it bend in wind, in m/s; GUST is the part of it that comes and goes")
+        ->type_name("X,Y,Z[,GUST]")
+        ->group("Physics");
+    app.add_flag("--settle", command.settle,
+                 "Start from where it comes to rest; without --frames that is what is written")
+        ->group("Physics");
+    constexpr std::uint64_t kMaxFrames = 1'000'000;
+    add_parsed(app, "--frames", command.frames, whole(1, kMaxFrames),
+               "A numbered file for each of N moments: tree.0001.glb, tree.0002.glb, ...")
+        ->type_name("N")
+        ->group("Physics");
+    const auto rate = [](const std::string& text) { return parse_number(text, 0.1F, 1000.0F); };
+    add_parsed(app, "--fps", command.frames_per_second, rate, "Frames a second (default 24)")
+        ->type_name("F")
+        ->group("Physics");
+    add_grammar(app, command.grammar);
+    add_seed(app, command.seed);
+    add_run_limits(app, command.max_bytes, command.threads);
+    add_messages(app, command.messages);
+    add_deny(app, command.messages);
+    app.footer(
+        "Metres, +Y up. The file is complete or absent. OBJ gets a .mtl beside it; SVG is the "
+        "drawing in\nthe plane of X and Y.\n"
+        "Example: lsc export tree.lsys -o tree.glb");
 }
 
 void add_stats(CLI::App& app, StatsCommand& command) {
@@ -323,12 +419,14 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
     CLI::App& check = *app.add_subcommand("check", "Check grammars, and mend what is certain");
     CLI::App& compile = *app.add_subcommand("compile", "Compile a grammar to a .lsb file");
     CLI::App& dump = *app.add_subcommand("dump", "Derive a word and print it");
+    CLI::App& exported = *app.add_subcommand("export", "Write one plant as a 3D file or a drawing");
     CLI::App& stats = *app.add_subcommand("stats", "Predict the size of every generation");
     CLI::App& format = *app.add_subcommand("fmt", "Lay out grammars in the common style");
     CLI::App& explain = *app.add_subcommand("explain", "Explain a diagnostic, with examples");
     add_check(check, all.check);
     add_compile(compile, all.compile);
     add_dump(dump, all.dump);
+    add_export(exported, all.exported);
     add_stats(stats, all.stats);
     add_format(format, all.format);
     add_explain(explain, all.explain);
@@ -356,6 +454,9 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
     }
     if (dump.parsed()) {
         return std::move(all.dump);
+    }
+    if (exported.parsed()) {
+        return std::move(all.exported);
     }
     if (stats.parsed()) {
         return std::move(all.stats);

@@ -26,6 +26,7 @@ using CommandLine = std::variant<PrintText,
                                  CheckCommand,
                                  CompileCommand,
                                  DumpCommand,
+                                 ExportCommand,
                                  StatsCommand,
                                  FormatCommand,
                                  ExplainCommand>;

@@ -43,6 +43,9 @@ struct Dispatch {
     Status operator()(const DumpCommand& command) const {
         return run_dump(command, {io, command.messages});
     }
+    Status operator()(const ExportCommand& command) const {
+        return run_export(command, {io, command.messages});
+    }
     Status operator()(const StatsCommand& command) const {
         return run_stats(command, {io, command.messages});
     }

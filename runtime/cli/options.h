@@ -4,6 +4,9 @@
 
 #include "compiler/compile.h"
 #include "grammar/render_diagnostic.h"
+#include "runtime/export.h"
+#include "runtime/mesh.h"
+#include "runtime/physics.h"
 
 #include <cstdint>
 #include <optional>
@@ -63,6 +66,25 @@ struct DumpCommand {
     std::optional<std::uint32_t> steps; // generations of this run
     std::string save_state;
     std::string from;
+};
+
+struct ExportCommand {
+    MessageOptions messages;
+    GrammarOptions grammar;
+    std::optional<std::uint64_t> seed;
+    std::uint32_t threads = 0; // 0: as many as the machine has
+    std::uint64_t max_bytes = 0;
+    std::string file;
+    std::string output;
+    std::optional<ExportFormat> format; // none: by the output's name
+    MeshOptions mesh;
+    std::optional<float> gravity; // m/s^2; any of these three: the plant bends
+    std::optional<Wind> wind;
+    bool settle = false;
+    std::uint32_t frames = 0; // of a numbered series; 0: one file
+    float frames_per_second = 24.0F;
+    bool stream = false;
+    bool stats = false;
 };
 
 struct StatsCommand {

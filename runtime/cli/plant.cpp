@@ -9,10 +9,12 @@
 #include "runtime/stream.h"
 #include "runtime/turtle.h"
 #include "runtime/turtle_diagnostic.h"
+#include "runtime/user_mesh.h"
 
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
 #include <utility>
 
 namespace lsys::lsc {
@@ -50,6 +52,35 @@ Status tell_drawn(TurtleStatus status,
         return Status::Interrupted;
     }
     return Status::Failure;
+}
+
+/// Reads the mesh files of `#object`, which lie beside the grammar unless their path is absolute.
+/// `lengths` are those of the symbols.
+Result<Done> read_user_meshes(const std::string& grammar_file,
+                              const Bytecode& bytecode,
+                              const Console& console,
+                              std::vector<UserMesh>& meshes,
+                              std::vector<float>& lengths) {
+    const std::filesystem::path folder = std::filesystem::path(grammar_file).parent_path();
+    for (std::size_t i = 0; i < bytecode.symbols.size(); ++i) {
+        const BytecodeSymbol& symbol = bytecode.symbols[i];
+        if (symbol.turtle != TurtleOperation::MeshFile) {
+            continue;
+        }
+        const std::string path = (folder / symbol.mesh_file).string();
+        Result<std::string> text = read_file(path, ~std::uint64_t{0}, console);
+        if (!text) {
+            return text.error();
+        }
+        Result<UserMesh> mesh = read_obj(text.value());
+        if (!mesh) {
+            return Error{fmt::format("cannot use `{}`: {}", path, mesh.error().message)};
+        }
+        lengths.resize(bytecode.symbols.size(), 1.0F);
+        lengths[i] = mesh.value().length();
+        meshes.push_back(std::move(mesh.value()));
+    }
+    return Done{};
 }
 
 /// The derivation, then the drawing of its last word.
@@ -137,6 +168,11 @@ Status grow_plant(const PlantRequest& request,
         progress.update(generation, modules, Clock::now());
     };
     TurtleOptions turtle_options;
+    if (const Result<Done> read = read_user_meshes(request.file, bytecode, console,
+                                                   plant.user_meshes, turtle_options.mesh_lengths);
+        !read) {
+        return fail(read.error(), console);
+    }
     turtle_options.max_bytes = request.max_bytes;
     turtle_options.cancelled = console.io().interrupted;
     Turtle turtle(bytecode, turtle_options);

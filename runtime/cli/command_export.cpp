@@ -1,0 +1,321 @@
+#include "runtime/cli/commands.h"
+#include "runtime/cli/files.h"
+#include "runtime/cli/plant.h"
+#include "runtime/cli/tell.h"
+#include "runtime/export.h"
+#include "runtime/mesh.h"
+#include "runtime/runtime_diagnostic.h"
+#include "runtime/turtle_diagnostic.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <sys/resource.h>
+#include <utility>
+
+namespace lsys::lsc {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What --stats prints.
+struct Timing {
+    double mesh_seconds = 0.0;
+    double write_seconds = 0.0;
+    std::uint64_t bytes = 0;
+};
+
+std::string number_text(double value) {
+    return fmt::format("{:.4g}", value);
+}
+
+std::string stats_text(const Plant& plant, const Mesh& mesh, const Timing& timing) {
+    const Skeleton& skeleton = plant.skeleton;
+    const SkeletonStats stats = measure(skeleton);
+    std::string text;
+    const auto row = [&text](const char* name, const std::string& value) {
+        text += fmt::format("{:<18}{}\n", name, value);
+    };
+    row("generations", fmt::format("{}", plant.generations));
+    row("seed", fmt::format("{}", plant.seed));
+    row("modules", grouped_digits(plant.modules));
+    row("segments", grouped_digits(skeleton.segments.size()));
+    for (std::size_t order = 0; order < stats.segments_by_order.size(); ++order) {
+        row(fmt::format("  of order {}", order).c_str(),
+            grouped_digits(stats.segments_by_order[order]));
+    }
+    row("objects", grouped_digits(skeleton.objects.size()));
+    row("polygons", grouped_digits(skeleton.polygons.size()));
+    row("height", number_text(stats.height) + " m");
+    row("crown width", number_text(stats.crown_width) + " m");
+    row("length", number_text(stats.length) + " m");
+    row("volume", number_text(stats.volume) + " m3");
+    row("mass", number_text(stats.mass) + " kg");
+    row("vertices", grouped_digits(mesh.positions.size()));
+    row("triangles", grouped_digits(mesh.indices.size() / 3));
+    row("bytes", grouped_digits(timing.bytes));
+    const auto milliseconds = [](double seconds) {
+        return fmt::format("{:.1f} ms", 1e3 * seconds);
+    };
+    row("derivation", milliseconds(plant.derive_seconds));
+    row("turtle", milliseconds(plant.draw_seconds));
+    row("mesh", milliseconds(timing.mesh_seconds));
+    row("file", milliseconds(timing.write_seconds));
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    row("peak memory", byte_size_text(static_cast<std::uint64_t>(usage.ru_maxrss) << 10));
+    return text;
+}
+
+/// Hands bytes to an output until it refuses them.
+class Sink {
+public:
+    Sink(Output& output, const Console& console) : output_(output), console_(console) {}
+
+    [[nodiscard]] bool operator()(std::string_view bytes) {
+        if (console_.interrupted()) {
+            return false;
+        }
+        written_ += bytes.size();
+        const Result<Done> done = output_.write(bytes);
+        if (!done) {
+            failure_ = done.error();
+        }
+        return !failure_;
+    }
+    [[nodiscard]] std::uint64_t written() const { return written_; }
+    [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
+
+private:
+    Output& output_;
+    const Console& console_;
+    std::uint64_t written_ = 0;
+    std::optional<Error> failure_;
+};
+
+/// What the end of an export makes of the run.
+Status tell_exported(ExportStatus status,
+                     const Sink& sink,
+                     const ExportCommand& command,
+                     const Grammar& grammar,
+                     const Console& console) {
+    switch (status) {
+    case ExportStatus::Ok:
+        return Status::Fine;
+    case ExportStatus::Nothing:
+        return fail(Error{"the plant has nothing to draw, so no file is written"}, console);
+    case ExportStatus::TooLarge:
+        return fail(Error{"the plant is larger than a file of this format can be; another format, "
+                          "fewer sides or a coarser --level may hold it"},
+                    console);
+    case ExportStatus::Stopped:
+        return sink.failure() ? fail(*sink.failure(), console) : Status::Interrupted;
+    case ExportStatus::OutOfMemory:
+        return show(plant_limit_diagnostic("the file", command.max_bytes), Status::Limit, grammar,
+                    console);
+    }
+    return Status::Failure;
+}
+
+Status tell_meshed(MeshStatus status,
+                   const ExportCommand& command,
+                   const Grammar& grammar,
+                   const Console& console) {
+    switch (status) {
+    case MeshStatus::Ok:
+        return Status::Fine;
+    case MeshStatus::TooManyVertices:
+        return show(plant_limit_diagnostic("the mesh", "4,294,967,295 vertices",
+                                           "ask for fewer sides with `--sides`, for a coarser "
+                                           "`--level`, or for fewer generations with `-n`"),
+                    Status::Limit, grammar, console);
+    case MeshStatus::Limit:
+    case MeshStatus::OutOfMemory:
+        return show(plant_limit_diagnostic("the mesh", command.max_bytes), Status::Limit, grammar,
+                    console);
+    }
+    return Status::Failure;
+}
+
+/// One file, complete or absent.
+Status write_one(const std::string& path,
+                 const ExportCommand& command,
+                 const Grammar& grammar,
+                 const Console& console,
+                 Timing& timing,
+                 const std::function<ExportStatus(const ByteSink&)>& write) {
+    Result<Output> output = Output::open(path, console);
+    if (!output) {
+        return fail(output.error(), console);
+    }
+    Sink sink(output.value(), console);
+    const ExportStatus status = write([&sink](std::string_view bytes) { return sink(bytes); });
+    timing.bytes += sink.written();
+    const Status told = tell_exported(status, sink, command, grammar, console);
+    if (told != Status::Fine) {
+        return told;
+    }
+    const Result<Done> done = output.value().commit();
+    return done ? Status::Fine : fail(done.error(), console);
+}
+
+/// One export: what all its files share.
+struct Export {
+    const ExportCommand& command;
+    ExportFormat format;
+    const Grammar& grammar;
+    const Console& console;
+    const Plant& plant;
+    Timing timing;
+    Mesh mesh; // of the last file
+};
+
+/// Meshes `skeleton` and writes it to `path`.
+Status write_plant(Export& run, const Skeleton& skeleton, const std::string& path) {
+    const ExportCommand& command = run.command;
+    Clock::time_point start = Clock::now();
+    if (uses_mesh(run.format)) {
+        MeshOptions options = command.mesh;
+        options.threads = command.threads;
+        options.max_bytes = command.max_bytes;
+        run.mesh = {};
+        const Status status =
+            tell_meshed(make_mesh(skeleton, run.plant.user_meshes, options, run.mesh), command,
+                        run.grammar, run.console);
+        if (status != Status::Fine) {
+            return status;
+        }
+    }
+    run.timing.mesh_seconds += seconds_since(start);
+    start = Clock::now();
+    ExportInfo info;
+    info.grammar = std::filesystem::path(command.file).filename().string();
+    info.seed = run.plant.seed;
+    info.generations = run.plant.generations;
+    info.generator = "lsc " LSC_VERSION;
+    if (run.format == ExportFormat::Obj && path != "-") {
+        const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
+        info.mtl_name = library.filename().string();
+        const Status status =
+            write_one(library.string(), command, run.grammar, run.console, run.timing,
+                      [&](const ByteSink& sink) { return write_mtl(run.mesh, info, sink); });
+        if (status != Status::Fine) {
+            return status;
+        }
+    }
+    const Status status =
+        write_one(path, command, run.grammar, run.console, run.timing, [&](const ByteSink& sink) {
+            return export_mesh(run.mesh, skeleton, run.format, info, sink);
+        });
+    run.timing.write_seconds += seconds_since(start);
+    return status;
+}
+
+/// tree.glb and 12: tree.0012.glb
+std::string numbered(const std::string& output, std::uint32_t number) {
+    const std::filesystem::path path(output);
+    const std::string extension = path.extension().string();
+    std::filesystem::path name = path;
+    return name.replace_extension(fmt::format(".{:04}{}", number, extension)).string();
+}
+
+/// The plant bent by its weight and by wind: at rest, or at moments of its motion.
+Status write_bent(Export& run) {
+    const ExportCommand& command = run.command;
+    constexpr double kRadians = 1e-6;
+    constexpr std::uint32_t kRounds = 10'000;
+    constexpr float kStepsPerSecond = 60.0F;
+    PhysicsOptions options;
+    options.gravity = command.gravity.value_or(0.0F);
+    options.wind = command.wind.value_or(Wind{});
+    options.damping = run.grammar.bytecode->settings.damping;
+    options.threads = command.threads;
+    // Whole steps from one frame to the next.
+    const float steps = std::max(1.0F, std::ceil(kStepsPerSecond / command.frames_per_second));
+    options.time_step = 1.0F / (command.frames_per_second * steps);
+    PlantPhysics physics(run.plant.skeleton, options);
+    if ((command.settle || command.frames == 0) && !physics.settle(kRadians, kRounds)) {
+        run.console.info("the plant has not quite come to rest");
+    }
+    Skeleton bent;
+    if (command.frames == 0) {
+        physics.pose(bent);
+        return write_plant(run, bent, command.output);
+    }
+    for (std::uint32_t frame = 1; frame <= command.frames; ++frame) {
+        physics.pose(bent);
+        const Status status = write_plant(run, bent, numbered(command.output, frame));
+        if (status != Status::Fine) {
+            return status;
+        }
+        for (float step = 0.0F; step < steps; ++step) {
+            physics.step();
+        }
+    }
+    return Status::Fine;
+}
+
+} // namespace
+
+Status run_export(const ExportCommand& command, const Console& console) {
+    const std::optional<ExportFormat> format =
+        command.format ? command.format : format_of_path(command.output);
+    if (!format) {
+        return fail(Error{fmt::format("the name `{}` does not tell a format; say which with "
+                                      "--format",
+                                      command.output)},
+                    console);
+    }
+    const bool bends = command.gravity || command.wind;
+    if ((command.settle || command.frames != 0) && !bends) {
+        return fail(Error{"--settle and --frames need a force: --gravity or --wind"}, console);
+    }
+    if (command.frames != 0 && command.output == "-") {
+        return fail(Error{"--frames writes several files, which do not go to standard output"},
+                    console);
+    }
+    Grammar grammar;
+    Status status = load_grammar(command.file, command.grammar, console, grammar);
+    if (status != Status::Fine) {
+        return status;
+    }
+    grammar.program.reset(); // the plant wants its memory
+    PlantRequest request;
+    request.file = command.file;
+    request.generations = command.grammar.generations;
+    request.seed = command.seed;
+    request.threads = command.threads;
+    request.max_modules = command.grammar.max_modules;
+    request.max_bytes = command.max_bytes;
+    request.stream = command.stream;
+    Plant plant;
+    status = grow_plant(request, grammar, console, plant);
+    if (status != Status::Fine) {
+        return status;
+    }
+    Export run{command, *format, grammar, console, plant, {}, {}};
+    status = bends ? write_bent(run) : write_plant(run, plant.skeleton, command.output);
+    if (status != Status::Fine || !command.stats) {
+        return status;
+    }
+    const std::string text = stats_text(plant, run.mesh, run.timing);
+    if (command.output == "-") { // which the plant itself is on
+        console.line(text);
+        return status;
+    }
+    const Result<Done> written = console.write(text);
+    return written ? status : fail(written.error(), console);
+}
+
+} // namespace lsys::lsc
