@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace lsys::test {
@@ -107,7 +108,6 @@ inline double volume_of(const Mesh& mesh) {
     return sum;
 }
 
-/// Vertices, edges and faces with equal positions taken for one.
 struct Topology {
     std::size_t vertices = 0;
     std::size_t edges = 0;
@@ -119,29 +119,41 @@ struct Topology {
     }
 };
 
-inline Topology topology_of(const Mesh& mesh) {
-    std::map<std::array<float, 3>, std::uint32_t> places;
+/// `place` numbers the vertex of an index.
+template <typename Place>
+Topology count_edges(const Mesh& mesh, const Place& place) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<int, 2>> edges;
-    const auto place = [&](std::uint32_t index) {
-        const glm::vec3 p = mesh.positions[index] + 0.0F; // -0 is 0
-        return places.emplace(std::array{p.x, p.y, p.z}, static_cast<std::uint32_t>(places.size()))
-            .first->second;
-    };
+    std::set<std::uint32_t> vertices;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         for (std::size_t j = 0; j < 3; ++j) {
             const std::uint32_t a = place(mesh.indices[i + j]);
             const std::uint32_t b = place(mesh.indices[i + (j + 1) % 3]);
             ++edges[std::minmax(a, b)][a < b ? 0 : 1];
+            vertices.insert(a);
         }
     }
     Topology topology;
-    topology.vertices = places.size();
+    topology.vertices = vertices.size();
     topology.edges = edges.size();
     topology.triangles = mesh.indices.size() / 3;
     for (const auto& [edge, uses] : edges) {
         topology.open_edges += uses == std::array{1, 1} ? 0U : 1U;
     }
     return topology;
+}
+
+/// With equal positions taken for one vertex.
+inline Topology topology_of(const Mesh& mesh) {
+    std::map<std::array<float, 3>, std::uint32_t> places;
+    return count_edges(mesh, [&](std::uint32_t index) {
+        const glm::vec3 p = mesh.positions[index] + 0.0F; // -0 is 0
+        return places.emplace(std::array{p.x, p.y, p.z}, static_cast<std::uint32_t>(places.size()))
+            .first->second;
+    });
+}
+
+inline Topology topology_by_index(const Mesh& mesh) {
+    return count_edges(mesh, [](std::uint32_t index) { return index; });
 }
 
 } // namespace lsys::test
