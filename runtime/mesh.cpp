@@ -1,5 +1,7 @@
 #include "runtime/mesh.h"
 
+#include "runtime/meshing/boxes.h"
+#include "runtime/meshing/cylinders.h"
 #include "runtime/meshing/mesh_builder.h"
 #include "runtime/meshing/objects.h"
 #include "runtime/meshing/polygons.h"
@@ -22,7 +24,10 @@ MeshStatus build(const Skeleton& skeleton,
         append_tubes(skeleton, options, builder);
         break;
     case MeshMethod::Cylinders:
+        append_cylinders(skeleton, options, builder);
+        break;
     case MeshMethod::Boxes:
+        append_boxes(skeleton, options, builder);
         break;
     }
     append_polygons(skeleton, options, builder);
