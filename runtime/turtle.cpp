@@ -194,7 +194,10 @@ inline bool Turtle::State::draw(
     }
     const Pose base = now.pose;
     advance(now.pose, length);
-    if (!(base_width <= std::numeric_limits<float>::max()) || !is_fine_place()) {
+    if (!is_fine_place()) {
+        return false;
+    }
+    if (!(base_width <= std::numeric_limits<float>::max())) {
         return fault(TurtleFaultKind::NotFinite);
     }
     Segment& segment = skeleton.segments.emplace_back();
@@ -226,7 +229,7 @@ bool Turtle::State::draw_line(double length) {
     const glm::vec3 from = position_of(now.pose);
     advance(now.pose, length);
     if (!is_fine_place()) {
-        return fault(TurtleFaultKind::NotFinite);
+        return false;
     }
     lines.push_back({from, position_of(now.pose)});
     return true;

@@ -81,7 +81,9 @@ std::vector<Diagnostic> turtle_diagnostics(const std::array<TurtleFault, kTurtle
         diagnostic.notes.emplace_back("modules are counted from 0");
         if (fault.count > 1) {
             diagnostic.notes.push_back(
-                fmt::format("{} modules more do so", grouped_digits(fault.count - 1)));
+                fault.count == 2
+                    ? std::string("1 more module does so")
+                    : fmt::format("{} more modules do so", grouped_digits(fault.count - 1)));
         }
         if (*wording.help != '\0') {
             diagnostic.help.emplace_back(wording.help);
@@ -91,8 +93,7 @@ std::vector<Diagnostic> turtle_diagnostics(const std::array<TurtleFault, kTurtle
     return diagnostics;
 }
 
-Diagnostic
-plant_limit_diagnostic(std::string_view what, std::string_view limit, std::string help) {
+Diagnostic plant_limit_diagnostic(std::string_view what, std::string_view limit, std::string help) {
     Diagnostic diagnostic = make_diagnostic(DiagnosticCode::LimitReached, {},
                                             fmt::format("{} does not fit into {}", what, limit));
     diagnostic.help.push_back(std::move(help));
