@@ -95,7 +95,9 @@ struct UserMesh {
                                    const MeshOptions& options,
                                    Mesh& mesh);
 
-/// Colour of a palette index (linear RGB): 0 bark, 1 leaf green, then a fixed round of colours.
+/// Colour of a palette index (linear RGB): 0 bark, 1 leaf green, 2 to 15 lighter and lighter
+/// greens, 16 to 24 light brown, red, amber, cream, pink, violet, blue, teal, grey; then again
+/// from 2.
 [[nodiscard]] glm::vec3 palette_colour(std::uint32_t index);
 
 } // namespace lsys

@@ -100,12 +100,12 @@ TEST_CASE("what does not fit is refused before room is made", "[mesh]") {
 }
 
 TEST_CASE("palette colours are told apart and repeat", "[mesh]") {
-    for (std::uint32_t i = 0; i < 12; ++i) {
+    for (std::uint32_t i = 0; i < 25; ++i) {
         for (std::uint32_t j = 0; j < i; ++j) {
             CHECK(palette_colour(i) != palette_colour(j));
         }
     }
-    CHECK(palette_colour(12) == palette_colour(2));
+    CHECK(palette_colour(25) == palette_colour(2));
     CHECK(palette_colour(65535) != palette_colour(0));
 }
 
