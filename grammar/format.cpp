@@ -49,7 +49,7 @@ public:
             const std::size_t begin = reader.offset() - first.text.size();
             rows_.push_back(measure(text_, begin, beside_comment ? column_ : 0));
             find_comments(rows_.back());
-            const Row& row = rows_.back();
+            const LayoutRow& row = rows_.back();
             at = row.comments_end;
             if (text_.substr(row.end, row.comments_end - row.end).find('\n') != text_.npos) {
                 flush(); // a comment of several lines parts its neighbours
@@ -78,7 +78,7 @@ private:
         column_ = 0;
     }
 
-    void find_comments(Row& row) const {
+    void find_comments(LayoutRow& row) const {
         LexemeReader reader(text_, row.end);
         for (Lexeme lexeme;
              reader.next(lexeme) && is_comment(lexeme) && lexeme.newlines_before == 0;) {
@@ -96,8 +96,9 @@ private:
     /// Writes the statements that wait in rows_.
     void flush() {
         line_up(rows_);
-        const bool commented = std::any_of(
-            rows_.begin(), rows_.end(), [](const Row& row) { return row.comments_end != row.end; });
+        const bool commented = std::any_of(rows_.begin(), rows_.end(), [](const LayoutRow& row) {
+            return row.comments_end != row.end;
+        });
         if (!commented) {
             for (std::size_t i = 0; i < rows_.size(); ++i) {
                 out_ += i > 0 ? "\n" : "";
@@ -114,7 +115,7 @@ private:
         bool one = false;         // the statement has one line
     };
 
-    Line write_statement(const Row& row, std::string& out) const {
+    Line write_statement(const LayoutRow& row, std::string& out) const {
         PieceReader reader(text_, row.begin);
         LineWriter writer(out, row.column);
         const bool breaks_head = row.head > kColumns;
@@ -139,7 +140,7 @@ private:
         std::string statements;
         std::vector<std::size_t> ends;
         std::vector<Line> lines;
-        for (const Row& row : rows_) {
+        for (const LayoutRow& row : rows_) {
             lines.push_back(write_statement(row, statements));
             ends.push_back(statements.size());
         }
@@ -189,8 +190,8 @@ private:
 
     std::string_view text_;
     std::string out_;
-    std::uint32_t column_ = 0; // of out_, behind a comment
-    std::vector<Row> rows_;    // of one group, not yet in out_
+    std::uint32_t column_ = 0;    // of out_, behind a comment
+    std::vector<LayoutRow> rows_; // of one group, not yet in out_
 };
 
 bool has_crlf(std::string_view text) {

@@ -12,7 +12,7 @@ namespace {
 
 /// Two neighbouring constant arguments that would be one random range: R(0, 100) for R({0, 100}).
 std::optional<Fix> range_fix(const CheckInput& input,
-                             const ModulePlace& place,
+                             const ModuleMention& place,
                              std::uint32_t wanted,
                              std::uint32_t used) {
     if (used != wanted + 1) {
@@ -82,7 +82,7 @@ void check_arities(const CheckInput& input, ModuleUse& use, Diagnostics& diagnos
         if (nearest == kNoSymbol || (row.turtle != TurtleOperation::Nothing && any_used)) {
             continue;
         }
-        const ModulePlace place = use.first_place[s];
+        const ModuleMention place = use.first_place[s];
         const std::uint32_t wanted = program.symbol(nearest).parameter_count;
         const Production& production =
             program.productions[use.first_production[static_cast<std::size_t>(nearest)]];

@@ -102,7 +102,7 @@ private:
     bool note_other_counts(Diagnostic& diagnostic, SymbolId symbol) const {
         for (const SymbolId other : use_.same_name(program_, symbol)) {
             if (use_.reachable.occurs(other)) {
-                const ModulePlace place = use_.first_place[static_cast<std::size_t>(other)];
+                const ModuleMention place = use_.first_place[static_cast<std::size_t>(other)];
                 diagnostic.labels.push_back(
                     {module_span(input_, *place.word, place.index),
                      fmt::format("it occurs with {} here",

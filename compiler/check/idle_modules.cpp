@@ -66,7 +66,7 @@ void check_unused_objects(const CheckInput& input, ModuleUse& use, Diagnostics& 
         if (meant != kNoSymbol) {
             const auto m = static_cast<std::size_t>(meant);
             const std::string_view target = input.name(meant);
-            const ModulePlace place = use.first_place[m];
+            const ModuleMention place = use.first_place[m];
             diagnostic.labels.push_back({module_span(input, *place.word, place.index),
                                          fmt::format("{} is never drawn", quoted(target))});
             Fix fix;
@@ -101,7 +101,7 @@ void check_idle_modules(const CheckInput& input, ModuleUse& use, Diagnostics& di
             candidates = working_names(input, use);
         }
         const std::string_view name = input.name(symbol);
-        const ModulePlace place = use.first_place[s];
+        const ModuleMention place = use.first_place[s];
         const SourceSpan span = module_name_span(input, *place.word, place.index);
         Diagnostic& diagnostic = diagnostics.add(
             DiagnosticCode::IdleModule, span,

@@ -21,7 +21,7 @@ ModuleUse find_module_use(const Program& program) {
     }
     const auto meet = [&](const ProgramWord& word, bool occurs) {
         // A symbol with a first place has any place as well.
-        std::vector<ModulePlace>& known = occurs ? use.first_place : use.any_place;
+        std::vector<ModuleMention>& known = occurs ? use.first_place : use.any_place;
         for_each_symbol(program, word, [&](std::size_t index, SymbolId symbol) {
             const auto s = static_cast<std::size_t>(symbol);
             if (known[s].word == nullptr) {

@@ -14,7 +14,7 @@
 namespace lsys {
 
 /// A module in the axiom or in a successor.
-struct ModulePlace {
+struct ModuleMention {
     const ProgramWord* word = nullptr;
     std::size_t index = 0; // in Program::modules
 };
@@ -22,8 +22,8 @@ struct ModulePlace {
 struct ModuleUse {
     Reachable reachable;
     /// By symbol: the first place in a word that can come about, and in any word.
-    std::vector<ModulePlace> first_place;
-    std::vector<ModulePlace> any_place;
+    std::vector<ModuleMention> first_place;
+    std::vector<ModuleMention> any_place;
     std::vector<std::uint32_t> first_production; // by symbol: that rewrites it, or kNone
     std::vector<bool> in_context;                // by symbol
     std::vector<bool> declared;                  // by symbol: #module

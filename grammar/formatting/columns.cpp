@@ -14,24 +14,24 @@ constexpr std::uint32_t kWidestGap = 24;
 /// A longer head leaves too little of the line for modules that do not fit.
 constexpr std::uint32_t kLongHead = 50;
 
-bool has_columns(const Row& row) {
+bool has_columns(const LayoutRow& row) {
     const bool of_cells = row.shape != StatementShape::List && row.shape != StatementShape::Other;
     return of_cells && !row.list_below && !row.several_lines && row.column == 0 &&
            row.head <= kColumns;
 }
 
 /// `widths` is scratch space.
-void line_up_block(std::span<Row> rows, std::vector<std::uint32_t>& widths) {
+void line_up_block(std::span<LayoutRow> rows, std::vector<std::uint32_t>& widths) {
     for (std::size_t cell = 0; cell + 1 < kCells; ++cell) {
         widths.clear();
-        for (const Row& row : rows) {
+        for (const LayoutRow& row : rows) {
             if (cell + 1 < row.cell_count) {
                 widths.push_back(row.cells[cell]);
             }
         }
         pad(widths);
         std::size_t next = 0;
-        for (Row& row : rows) {
+        for (LayoutRow& row : rows) {
             std::uint32_t blanks = 0;
             if (cell + 1 < row.cell_count) {
                 blanks = widths[next++];
@@ -43,7 +43,7 @@ void line_up_block(std::span<Row> rows, std::vector<std::uint32_t>& widths) {
             row.cells[cell] = blanks;
         }
     }
-    for (Row& row : rows) {
+    for (LayoutRow& row : rows) {
         std::uint32_t added = 0;
         for (const std::uint32_t blanks : row.cells) {
             added += blanks;
@@ -58,8 +58,8 @@ void line_up_block(std::span<Row> rows, std::vector<std::uint32_t>& widths) {
 
 } // namespace
 
-Row measure(std::string_view text, std::size_t begin, std::uint32_t column) {
-    Row row;
+LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column) {
+    LayoutRow row;
     row.begin = static_cast<std::uint32_t>(begin);
     row.column = column;
     PieceReader reader(text, begin);
@@ -112,7 +112,7 @@ Row measure(std::string_view text, std::size_t begin, std::uint32_t column) {
     return row;
 }
 
-void line_up(std::span<Row> rows) {
+void line_up(std::span<LayoutRow> rows) {
     std::vector<std::uint32_t> widths;
     for (std::size_t i = 0; i < rows.size();) {
         std::size_t end = i + 1;

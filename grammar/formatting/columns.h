@@ -17,7 +17,7 @@ namespace lsys {
 inline constexpr std::size_t kCells = 4;
 
 /// A statement, measured as it is written without columns.
-struct Row {
+struct LayoutRow {
     std::uint32_t begin = 0; // its bytes
     std::uint32_t end = 0;
     std::uint32_t comments_end = 0; // of what follows it on its line; `end` if nothing does
@@ -32,10 +32,10 @@ struct Row {
     bool several_lines = false; // a comment in it has line ends
 };
 
-[[nodiscard]] Row measure(std::string_view text, std::size_t begin, std::uint32_t column);
+[[nodiscard]] LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column);
 
 /// Turns the widths of cells into blanks.
-void line_up(std::span<Row> rows);
+void line_up(std::span<LayoutRow> rows);
 
 inline constexpr std::uint32_t kAlone = 0xFFFFFFFFu;
 

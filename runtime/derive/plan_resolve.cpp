@@ -44,12 +44,12 @@ void Plan::shape_condition(Candidate& candidate) {
         return;
     }
     candidate.condition = ConditionKind::Expression;
-    const std::vector<Shape> shapes =
+    const std::vector<ValueShape> shapes =
         shapes_of(bytecode_, production.condition, knowledge(candidate));
     if (shapes.size() != 1) {
         return;
     }
-    const Shape& shape = shapes[0];
+    const ValueShape& shape = shapes[0];
     if (shape.kind == ShapeKind::Constant && std::isfinite(shape.constant)) {
         candidate.condition = shape.constant != 0.0F ? ConditionKind::Always : ConditionKind::Never;
     } else if (shape.kind == ShapeKind::Comparisons) {
@@ -74,7 +74,7 @@ void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
         finish(entry);
         return;
     }
-    const std::vector<Shape> shapes =
+    const std::vector<ValueShape> shapes =
         shapes_of(bytecode_, successor.arguments, knowledge(candidate));
     entry.general = shapes.size() != successor.parameter_count;
     for (std::uint32_t i = 0; i < shapes.size() && !entry.general; ++i) {

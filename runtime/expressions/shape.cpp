@@ -88,9 +88,9 @@ public:
     }
     void swap() { std::swap(stack_[stack_.size() - 1], stack_[stack_.size() - 2]); }
 
-    Shape take() {
+    ValueShape take() {
         const Term term = pop();
-        Shape shape;
+        ValueShape shape;
         shape.kind = term.kind;
         shape.constant = term.constant;
         shape.lane = term.lane;
@@ -194,9 +194,9 @@ private:
 
 } // namespace
 
-std::vector<Shape>
+std::vector<ValueShape>
 shapes_of(const Bytecode& bytecode, std::uint32_t first, const ShapeKnowledge& knowledge) {
-    std::vector<Shape> shapes;
+    std::vector<ValueShape> shapes;
     Shaper shaper(knowledge);
     const std::uint32_t* at = bytecode.instructions.data() + first;
     for (std::uint32_t count = 0; count < kMaxShapedInstructions; ++count, ++at) {

@@ -56,7 +56,7 @@ struct ShapeKnowledge {
 enum class ShapeKind : std::uint8_t { Constant, Affine, Comparisons, Other };
 
 /// What one Emit or Test takes.
-struct Shape {
+struct ValueShape {
     ShapeKind kind = ShapeKind::Other;
     float constant = 0.0F;               // Constant; may be infinite or not a number
     Lane lane;                           // Affine
@@ -66,7 +66,7 @@ struct Shape {
 /// The shapes of the values of the expression at `first`, in order. Expressions longer than
 /// kMaxShapedInstructions have only shapes Other, and may then be cut off: an empty list.
 inline constexpr std::uint32_t kMaxShapedInstructions = 4096;
-[[nodiscard]] std::vector<Shape>
+[[nodiscard]] std::vector<ValueShape>
 shapes_of(const Bytecode& bytecode, std::uint32_t first, const ShapeKnowledge& knowledge);
 
 /// Whether the expression at `first` contains `opcode`.

@@ -39,7 +39,7 @@ T read(const std::string& bytes, std::size_t at) {
 Mesh textured_triangle() {
     Mesh mesh = test::triangle_mesh();
     mesh.texture_coordinates = {{0.0F, 1.0F}, {1.0F, 1.0F}, {0.0F, 0.25F}};
-    mesh.colours = {0, 1, 2};
+    mesh.colours = {0, 1, 17};
     mesh.materials[0].kind = MaterialKind::Leaf;
     return mesh;
 }

@@ -48,7 +48,7 @@ TEST_CASE("runs of equal segments are one polyline") {
     Skeleton skeleton;
     skeleton.segments = {upright(0.0F, kNoSegment, 0.25F), upright(1.0F, 0, 0.25F),
                          upright(2.0F, 1, 0.125F), upright(1.0F, 0, 0.125F)};
-    skeleton.segments[3].colour = 2;
+    skeleton.segments[3].colour = 17;
     CHECK(drawn(skeleton) ==
           "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
           "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"145\" height=\"800\" "
@@ -108,7 +108,7 @@ TEST_CASE("objects are drawn as the outlines of their parts") {
     CHECK(text.find("10,-2 ") != std::string::npos);
 
     skeleton.objects[0].kind = TurtleOperation::Flower;
-    skeleton.objects[0].colour = 2;
+    skeleton.objects[0].colour = 17;
     text = drawn(skeleton);
     CHECK(occurrences(text, "<polygon") == 3);
     CHECK(occurrences(text, "<polygon fill=\"#cc2e34\"") == 1); // the petals

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace lsys {
+
+struct Twice {
+    char b;
+};
+
+} // namespace lsys
