@@ -60,6 +60,9 @@ TEST_CASE("energy does not grow without wind, whatever the plant and the step") 
                 CAPTURE(plant_number, i, range, seen.energy, seen.terms);
                 REQUIRE(is_sound(bent));
                 REQUIRE(seen.energy <= 2e-6 * std::abs(seen.terms));
+                physics.set(options); // adds up anew
+                REQUIRE(physics.energy() <= energy + 1e-9 * std::abs(seen.terms));
+                energy = physics.energy();
             }
         }
     }
@@ -109,6 +112,41 @@ TEST_CASE("the same motion for any number of threads") {
         }
         CHECK((seen == expected));
     }
+}
+
+TEST_CASE("among many plants each moves as if it were alone") {
+    std::mt19937 numbers(5);
+    Skeleton single = random_plant(numbers, 6, 0.5);
+    single.objects.clear();
+    Skeleton many;
+    constexpr std::uint32_t kCount = 300; // wide enough for pieces
+    for (std::uint32_t copy = 0; copy < kCount; ++copy) {
+        for (Segment segment : single.segments) {
+            segment.parent += segment.parent == kNoSegment ? 0 : copy * 6;
+            many.segments.push_back(segment);
+        }
+    }
+    PhysicsOptions options;
+    options.threads = 3;
+    PlantPhysics one(single, options);
+    PlantPhysics all(many, options);
+    for (int i = 0; i < 10; ++i) {
+        one.step();
+        all.step();
+    }
+    Skeleton bent;
+    Skeleton bent_many;
+    one.pose(bent);
+    all.pose(bent_many);
+    const std::string expected = place_bytes(bent);
+    for (std::uint32_t copy = 0; copy < kCount; ++copy) {
+        Skeleton part;
+        part.segments.assign(bent_many.segments.begin() + copy * 6,
+                             bent_many.segments.begin() + (copy + 1) * 6);
+        REQUIRE((place_bytes(part) == expected));
+    }
+    CHECK(all.energy() == Approx(kCount * one.energy()));
+    CHECK(one.energy() < 0.0);
 }
 
 TEST_CASE("a million segments on end need no stack") {

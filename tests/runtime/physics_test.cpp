@@ -286,6 +286,59 @@ TEST_CASE("with short steps and nothing that brakes a tree keeps its energy") {
     CHECK(lost[1] < 0.35 * lost[0]);
 }
 
+TEST_CASE("a body that turns freely keeps its angular momentum") {
+    // Three points on a joint without spring, set in motion by weight, which then ends.
+    Skeleton plant;
+    add_segment(plant, kNoSegment, leaning(0.3F), rod(1.0F, 0.0F, 0.0F, 0.0F));
+    for (const glm::vec3& place :
+         {glm::vec3(1.0F, 0.2F, 0.0F), glm::vec3(0.1F, 0.3F, 1.2F), glm::vec3(0.3F, 1.5F, 0.2F)}) {
+        PlacedObject point;
+        point.kind = TurtleOperation::Sphere;
+        point.position = place;
+        point.size = 1e-3F;
+        point.parent = 0;
+        plant.objects.push_back(point);
+    }
+    PhysicsOptions options = in_vacuum();
+    options.damping = 0.0F;
+    options.time_step = 1e-3F;
+    PlantPhysics physics(plant, options);
+    for (int i = 0; i < 800; ++i) {
+        physics.step();
+    }
+    options.gravity = 0.0F;
+    options.time_step = 2.5e-4F;
+    physics.set(options);
+    Skeleton before;
+    Skeleton after;
+    const auto momentum = [&] {
+        glm::dvec3 sum(0.0);
+        physics.pose(before);
+        for (int i = 0; i < 8; ++i) {
+            physics.step();
+        }
+        physics.pose(after);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::dvec3 from(before.objects[i].position);
+            const glm::dvec3 to(after.objects[i].position);
+            sum += glm::cross(0.5 * (from + to), (to - from) / 2e-3);
+        }
+        return sum;
+    };
+    const glm::dvec3 first = momentum();
+    const glm::vec3 axis_first = heading(after.segments[0].frame);
+    double farthest = 0.0;
+    double turned = 0.0;
+    for (int i = 0; i < 500; ++i) { // 1 s
+        farthest = std::max(farthest, glm::length(momentum() - first));
+        turned = std::max(turned, static_cast<double>(
+                                      glm::length(heading(after.segments[0].frame) - axis_first)));
+    }
+    CAPTURE(glm::length(first), farthest, turned);
+    CHECK(turned > 0.5);
+    CHECK(farthest < 0.02 * glm::length(first));
+}
+
 TEST_CASE("without wind and gravity nothing moves") {
     std::mt19937 numbers(11);
     const Skeleton plant = random_plant(numbers, 200, 2.0);
