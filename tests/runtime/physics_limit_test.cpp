@@ -141,8 +141,9 @@ TEST_CASE("among many plants each moves as if it were alone") {
     const std::string expected = place_bytes(bent);
     for (std::uint32_t copy = 0; copy < kCount; ++copy) {
         Skeleton part;
-        part.segments.assign(bent_many.segments.begin() + copy * 6,
-                             bent_many.segments.begin() + (copy + 1) * 6);
+        for (std::uint32_t i = 0; i < 6; ++i) {
+            part.segments.push_back(bent_many.segments[copy * 6 + i]);
+        }
         REQUIRE((place_bytes(part) == expected));
     }
     CHECK(all.energy() == Approx(kCount * one.energy()));
