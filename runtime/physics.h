@@ -27,7 +27,7 @@ struct PhysicsOptions {
     float gravity = 9.81F; // m/s^2, downwards; 0: none
     Wind wind;
     float damping = 1.0F;           // N m s/rad, of every joint
-    float time_step = 1.0F / 60.0F; // s, 1e-6 to 10
+    float time_step = 1.0F / 60.0F; // s, 1e-6 to 10; not finite: 1/60
     float air_density = 1.225F;     // kg/m^3; 0: neither wind nor drag
     float surface_mass = 0.2F;      // kg/m^2, of leaves, flowers, other objects and polygons
     std::uint32_t threads = 0;      // 0: as many as the machine has
@@ -43,6 +43,7 @@ public:
 
     /// Other forces from now on, as from sliders; the motion goes on. `threads` stays as it was.
     void set(const PhysicsOptions& options);
+    /// As they are in use.
     [[nodiscard]] const PhysicsOptions& options() const;
 
     /// One time step.

@@ -17,7 +17,6 @@ namespace lsys {
 struct Forces {
     double step = 0.0;       // s
     glm::dvec3 gravity{0.0}; // m/s^2
-    double weight = 0.0;     // |gravity|
     double damping = 0.0;    // N m s/rad
     glm::dvec3 wind{0.0};    // m/s
     double drag = 0.0;       // half the air's density times the drag coefficient

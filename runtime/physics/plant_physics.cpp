@@ -48,11 +48,24 @@ constexpr double kRounding = 1e-12;
 constexpr double kLeastDoubt = 1e-3; // about the true stiffness in settle(), where there is any
 constexpr double kRestStep = 1e3;    // s, of rounds of settle(): inertia does not matter
 
-double finite_or(float value, double other) {
-    return std::isfinite(value) ? static_cast<double>(value) : other;
+float finite_or(float value, float other) {
+    return std::isfinite(value) ? value : other;
 }
-double not_negative(float value) {
-    return std::max(finite_or(value, 0.0), 0.0);
+float not_negative(float value) {
+    return std::max(finite_or(value, 0.0F), 0.0F);
+}
+
+/// What of the options counts.
+PhysicsOptions usable(PhysicsOptions options) {
+    options.gravity = finite_or(options.gravity, 0.0F);
+    glm::vec3& wind = options.wind.velocity;
+    wind = {finite_or(wind.x, 0.0F), finite_or(wind.y, 0.0F), finite_or(wind.z, 0.0F)};
+    options.wind.gust = not_negative(options.wind.gust);
+    options.damping = not_negative(options.damping);
+    options.time_step = std::clamp(finite_or(options.time_step, 1.0F / 60.0F), 1e-6F, 10.0F);
+    options.air_density = not_negative(options.air_density);
+    options.surface_mass = not_negative(options.surface_mass);
+    return options;
 }
 
 /// Between -1 and 1, smooth, 0 at time 0.
@@ -63,13 +76,11 @@ double gust_at(double time) {
 
 Forces forces_of(const PhysicsOptions& options) {
     Forces forces;
-    forces.step = std::clamp(finite_or(options.time_step, 1.0 / 60.0), 1e-6, 10.0);
-    forces.gravity = {0.0, -finite_or(options.gravity, 0.0), 0.0};
-    forces.weight = glm::length(forces.gravity);
-    forces.damping = not_negative(options.damping);
-    forces.wind = {finite_or(options.wind.velocity.x, 0.0), finite_or(options.wind.velocity.y, 0.0),
-                   finite_or(options.wind.velocity.z, 0.0)};
-    forces.drag = 0.5 * kDragCoefficient * not_negative(options.air_density);
+    forces.step = options.time_step;
+    forces.gravity = {0.0, -options.gravity, 0.0};
+    forces.damping = options.damping;
+    forces.wind = glm::dvec3(options.wind.velocity);
+    forces.drag = 0.5 * kDragCoefficient * static_cast<double>(options.air_density);
     forces.windy = forces.drag > 0.0 && glm::length(forces.wind) > 0.0;
     return forces;
 }
@@ -97,8 +108,8 @@ Plant plant_of(const Skeleton& rest, double surface_mass) {
 
 struct PlantPhysics::State {
     State(const Skeleton& skeleton, const PhysicsOptions& given)
-        : rest(skeleton), options(given), forces(forces_of(given)), workers(given.threads),
-          plant(plant_of(skeleton, not_negative(given.surface_mass))) {}
+        : rest(skeleton), options(usable(given)), forces(forces_of(options)),
+          workers(given.threads), plant(plant_of(skeleton, options.surface_mass)) {}
 
     Skeleton rest;
     PhysicsOptions options;
@@ -156,13 +167,12 @@ PlantPhysics::~PlantPhysics() = default;
 
 void PlantPhysics::set(const PhysicsOptions& options) {
     State& s = *state_;
-    const float surface_mass = s.options.surface_mass;
-    const std::uint32_t threads = s.options.threads;
-    s.options = options;
-    s.options.threads = threads;
-    s.forces = forces_of(options);
-    if (!(options.surface_mass == surface_mass)) {
-        s.plant.rest = make_bodies(s.rest, not_negative(options.surface_mass));
+    const PhysicsOptions before = s.options;
+    s.options = usable(options);
+    s.options.threads = before.threads;
+    s.forces = forces_of(s.options);
+    if (s.options.surface_mass != before.surface_mass) {
+        s.plant.rest = make_bodies(s.rest, s.options.surface_mass);
     }
     s.look();
 }
@@ -174,7 +184,7 @@ const PhysicsOptions& PlantPhysics::options() const {
 void PlantPhysics::step() {
     State& s = *state_;
     Forces now = s.forces;
-    const double gust = not_negative(s.options.wind.gust);
+    const double gust = s.options.wind.gust;
     now.wind *= std::max(1.0 + gust * gust_at(s.time), 0.0);
     s.advance(now, true);
     s.time += now.step;

@@ -33,7 +33,7 @@ TEST_CASE("an animation is the poses at its frames") {
             stepped.step();
         }
     }
-    CHECK(glm::length(animation.frame(4)[5].base - animation.frame(0)[5].base) > 1e-4F);
+    CHECK(glm::length(animation.frame(4)[5].base - animation.frame(0)[5].base) > 1e-5F);
 }
 
 TEST_CASE("between frames no step is longer than the plant's, which stays as it was") {

@@ -228,6 +228,10 @@ TEST_CASE("values that are no values count as none") {
     physics.pose(bent);
     CHECK(is_sound(bent));
 
+    CHECK(physics.options().damping == 0.0F);
+    CHECK(physics.options().time_step == 1.0F / 60.0F);
+    CHECK(physics.options().wind.velocity == glm::vec3(0.0F));
+
     PlantPhysics nothing(Skeleton{}, {});
     nothing.step();
     CHECK(nothing.settle(1e-3, 1));
