@@ -16,10 +16,10 @@ namespace {
 
 // Palette indices of materials that have no colour of their own.
 constexpr std::uint16_t kLeafGreen = 1;
-constexpr std::uint16_t kYellow = 3;
-constexpr std::uint16_t kPink = 5;
-constexpr std::uint16_t kPaleGreen = 9;
-constexpr std::uint16_t kGrey = 11;
+constexpr std::uint16_t kYellow = 18;
+constexpr std::uint16_t kPink = 20;
+constexpr std::uint16_t kPaleGreen = 14;
+constexpr std::uint16_t kGrey = 24;
 
 std::uint32_t halved(std::uint32_t finest, std::uint32_t level, std::uint32_t least) {
     return std::max(level < 32 ? finest >> level : 0, least);
