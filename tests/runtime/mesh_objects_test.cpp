@@ -106,8 +106,11 @@ TEST_CASE("objects have a part for each material and colour") {
         names.push_back(material.name);
     }
     // Leaves of colour 0 and 1 are one part; the centre and the calyx of flowers keep their colour.
-    CHECK(names == std::vector<std::string>{"leaf", "leaf 7", "flower 1", "flower 3", "flower 5",
-                                            "flower 7", "colour 9, two-sided"});
+    CHECK(names == std::vector<std::string>{"leaf", "leaf 7", "flower 1", "flower 7", "flower 18",
+                                            "flower 20", "colour 14, two-sided"});
+    // Yellow in pink.
+    CHECK(palette_colour(18).g > palette_colour(20).g);
+    CHECK(palette_colour(18).b < palette_colour(20).b);
     const std::size_t leaf = make_shape(TurtleOperation::Leaf, 0).parts[0].indices.size();
     CHECK(mesh.parts[0].index_count == 3 * leaf);
     CHECK(mesh.parts[1].index_count == leaf);
