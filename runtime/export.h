@@ -52,7 +52,7 @@ enum class ExportStatus : std::uint8_t {
                                        ExportFormat format,
                                        const ExportInfo& info,
                                        const ByteSink& sink);
-/// The materials of an OBJ. Colours are sRGB there.
+/// The materials of an OBJ, whose colours are sRGB. Nothing where there is no OBJ.
 [[nodiscard]] ExportStatus
 write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink);
 

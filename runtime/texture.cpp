@@ -33,17 +33,23 @@ float mix(float a, float b, float t) {
     return a + (b - a) * t;
 }
 
+/// What is above the next whole number below. Rounding down by the library takes most of the time.
+float fraction(float x) {
+    const auto whole = static_cast<float>(static_cast<std::int32_t>(x));
+    return x - (whole > x ? whole - 1.0F : whole);
+}
+
 /// Value noise (Ebert et al., "Texturing and Modeling", 2003, chapter 2) of `columns` by `rows`
 /// cells in the unit square, which it tiles.
 float noise(float u, float v, std::uint32_t columns, std::uint32_t rows, std::uint32_t layer) {
-    const float x = (u - std::floor(u)) * static_cast<float>(columns);
-    const float y = (v - std::floor(v)) * static_cast<float>(rows);
+    const float x = fraction(u) * static_cast<float>(columns);
+    const float y = fraction(v) * static_cast<float>(rows);
     const auto left = static_cast<std::uint32_t>(x) % columns;
     const auto top = static_cast<std::uint32_t>(y) % rows;
     const std::uint32_t right = (left + 1) % columns;
     const std::uint32_t bottom = (top + 1) % rows;
-    const float s = smooth(0.0F, 1.0F, x - std::floor(x));
-    const float t = smooth(0.0F, 1.0F, y - std::floor(y));
+    const float s = smooth(0.0F, 1.0F, fraction(x));
+    const float t = smooth(0.0F, 1.0F, fraction(y));
     return mix(mix(lattice(left, top, layer), lattice(right, top, layer), s),
                mix(lattice(left, bottom, layer), lattice(right, bottom, layer), s), t);
 }
@@ -54,7 +60,7 @@ float from_lines(float u, float v, std::uint32_t count, std::uint32_t rows, std:
     const float bend = 1.5F * (noise(u, v, count, rows, layer) - 0.5F) +
                        0.25F * noise(u, v, 4 * count, 5 * rows, layer + 1);
     const float place = u * static_cast<float>(count) + bend;
-    return std::abs(2.0F * (place - std::floor(place)) - 1.0F);
+    return std::abs(2.0F * fraction(place) - 1.0F);
 }
 
 /// Height of the bark, 0 in the fissures to 1 on the ridges. Two families of lines that cross make
@@ -71,19 +77,22 @@ float bark_height(float u, float v) {
 }
 
 std::uint8_t byte(float value) {
-    return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 1.0F) * 255.0F + 0.5F);
+    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255.0F));
 }
 
-/// Calls `texel(u, v)` for the middle of each texel.
+/// Of a texel, in the picture.
+float middle(std::uint32_t texel) {
+    return (static_cast<float>(texel) + 0.5F) / static_cast<float>(kSize);
+}
+
+/// Four channels for each texel, by column and row.
 template <typename Texel>
 Texture paint(const Texel& texel) {
     Texture texture{kSize, kSize, {}};
     texture.texels.reserve(std::size_t{4} * kSize * kSize);
     for (std::uint32_t row = 0; row < kSize; ++row) {
         for (std::uint32_t column = 0; column < kSize; ++column) {
-            const std::array<float, 4> rgba =
-                texel((static_cast<float>(column) + 0.5F) / static_cast<float>(kSize),
-                      (static_cast<float>(row) + 0.5F) / static_cast<float>(kSize));
+            const std::array<float, 4> rgba = texel(column, row);
             for (const float channel : rgba) {
                 texture.texels.push_back(byte(channel));
             }
@@ -92,7 +101,9 @@ Texture paint(const Texel& texel) {
     return texture;
 }
 
-std::array<float, 4> bark_texel(float u, float v) {
+std::array<float, 4> bark_texel(std::uint32_t column, std::uint32_t row) {
+    const float u = middle(column);
+    const float v = middle(row);
     const float height = bark_height(u, v);
     const float spots = 0.9F + 0.1F * noise(u, v, 5, 5, 10);
     const float light = (0.42F + 0.58F * height) * spots;
@@ -115,7 +126,9 @@ float leaf_half(float distance) {
     return sum / (2 * kSamples + 1) / kGreatest + kMargin;
 }
 
-std::array<float, 4> leaf_texel(float u, float v) {
+std::array<float, 4> leaf_texel(std::uint32_t column, std::uint32_t row) {
+    const float u = middle(column);
+    const float v = middle(row);
     const float half = leaf_half(1.0F - v);
     const float side = std::abs(2.0F * u - 1.0F);
     // One texel of slope around the outline, for filters.
@@ -123,22 +136,13 @@ std::array<float, 4> leaf_texel(float u, float v) {
     const float midrib = 1.0F - smooth(0.012F, 0.03F + 0.03F * v, side);
     // Veins leave the midrib and lean towards v = 0; the first number is how many there are.
     const float along = 8.0F * (v + 0.45F * side) + 0.3F * noise(u, v, 6, 6, 11);
-    const float from_vein = std::abs(along - std::floor(along) - 0.5F);
+    const float from_vein = std::abs(fraction(along) - 0.5F);
     const float vein = (1.0F - smooth(0.04F, 0.16F, from_vein)) * (1.0F - 0.5F * side);
     const float blade = 0.68F + 0.10F * noise(u, v, 24, 24, 12) + 0.12F * from_vein;
     const float light = mix(blade, 1.0F, std::max(0.95F * midrib, 0.7F * vein));
     const float edge = 0.88F + 0.12F * smooth(0.0F, 0.2F, half - side);
     const float yellow = 0.12F * std::max(midrib, vein);
     return {light * edge, light * edge, (light - yellow) * edge, opacity};
-}
-
-std::array<float, 4> normal_texel(float u, float v) {
-    constexpr float kTexel = 1.0F / static_cast<float>(kSize);
-    constexpr float kSteepness = 5.0F; // in texels of height
-    const float x = kSteepness * (bark_height(u - kTexel, v) - bark_height(u + kTexel, v)) / 2.0F;
-    const float y = kSteepness * (bark_height(u, v + kTexel) - bark_height(u, v - kTexel)) / 2.0F;
-    const float length = std::sqrt(x * x + y * y + 1.0F);
-    return {0.5F + 0.5F * x / length, 0.5F + 0.5F * y / length, 0.5F + 0.5F / length, 1.0F};
 }
 
 } // namespace
@@ -159,7 +163,25 @@ Texture material_texture(MaterialKind kind) {
 }
 
 Texture bark_normals() {
-    return paint(normal_texel);
+    constexpr float kSteepness = 5.0F; // in texels of height
+    std::vector<float> heights(std::size_t{kSize} * kSize);
+    const auto height = [&heights](std::uint32_t column, std::uint32_t row) -> float& {
+        return heights[std::size_t{row % kSize} * kSize + column % kSize];
+    };
+    for (std::uint32_t row = 0; row < kSize; ++row) {
+        for (std::uint32_t column = 0; column < kSize; ++column) {
+            height(column, row) = bark_height(middle(column), middle(row));
+        }
+    }
+    return paint([&height](std::uint32_t column, std::uint32_t row) {
+        const float x =
+            kSteepness * (height(column + kSize - 1, row) - height(column + 1, row)) / 2.0F;
+        const float y =
+            kSteepness * (height(column, row + 1) - height(column, row + kSize - 1)) / 2.0F;
+        const float length = std::sqrt(x * x + y * y + 1.0F);
+        return std::array{0.5F + 0.5F * x / length, 0.5F + 0.5F * y / length, 0.5F + 0.5F / length,
+                          1.0F};
+    });
 }
 
 std::string encode_png(const Texture& texture) {

@@ -204,6 +204,7 @@ Status write_plant(Export& run, const Skeleton& skeleton, const std::string& pat
     info.seed = run.plant.seed;
     info.generations = run.plant.generations;
     info.generator = "lsc " LSC_VERSION;
+    info.user_meshes = &run.plant.user_meshes;
     if (run.format == ExportFormat::Obj && path != "-") {
         const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
         info.mtl_name = library.filename().string();

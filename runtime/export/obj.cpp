@@ -89,6 +89,9 @@ void write_obj(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
 }
 
 ExportStatus write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink) {
+    if (triangle_count(mesh) == 0) {
+        return ExportStatus::Nothing;
+    }
     try {
         PieceWriter out(sink);
         out.put(fmt::format("# {}\n# {}\n", one_line(info.generator), origin_line(info)));

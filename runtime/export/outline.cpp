@@ -39,6 +39,7 @@ std::vector<glm::vec3> extreme_points(const std::vector<glm::vec3>& points) {
     std::sort(extreme.begin(), extreme.end());
     extreme.erase(std::unique(extreme.begin(), extreme.end()), extreme.end());
     std::vector<glm::vec3> found;
+    found.reserve(extreme.size());
     for (const std::size_t p : extreme) {
         found.push_back(points[p]);
     }

@@ -63,9 +63,9 @@ const std::vector<Outline>& Drawing::outlines(const PlacedObject& object) {
     const ObjectKey key{object.kind, object.mesh_file, object.colour};
     auto found = outlines_.find(key);
     if (found == outlines_.end()) {
-        static const std::vector<UserMesh> kNone;
+        const std::vector<UserMesh> none;
         const bool given = info_.user_meshes != nullptr;
-        found = outlines_.emplace(key, object_outlines(object, given ? *info_.user_meshes : kNone))
+        found = outlines_.emplace(key, object_outlines(object, given ? *info_.user_meshes : none))
                     .first;
     }
     return found->second;

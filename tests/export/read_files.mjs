@@ -1,5 +1,5 @@
 // Holds exported files against readers in JavaScript. Usage:
-//   node read_files.mjs MODULES (validator | three | svg | off+ | usda) FOLDER
+//   node read_files.mjs MODULES (validator | three | obj | svg | off+ | usda) FOLDER
 // MODULES is the node_modules of package.json beside this file. FOLDER has counts.txt, with a line
 // `NAME VERTICES TRIANGLES PARTS` for each mesh.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
@@ -11,7 +11,7 @@ import { readOffPlus, readUsda } from './own_readers.mjs';
 const [given, check, folder] = process.argv.slice(2);
 const modules = resolve(given ?? '.');
 if (!folder) {
-    console.error('usage: node read_files.mjs MODULES (validator|three|svg|off+|usda) FOLDER');
+    console.error('usage: node read_files.mjs MODULES (validator|three|obj|svg|off+|usda) FOLDER');
     process.exit(2);
 }
 if (!existsSync(join(modules, 'three'))) {
@@ -125,6 +125,31 @@ const checks = {
             expect(file, 'type of extras.grammar', typeof extras?.grammar, 'string');
             expect(file, 'type of extras.n', typeof extras?.n, 'number');
             expect(file, 'extras.seed', /^[0-9]+$/.test(`${extras?.seed}`), true);
+        });
+    },
+
+    // assimp counts what is in an OBJ; this is about its materials.
+    async obj() {
+        const { OBJLoader } = await module('three/examples/jsm/loaders/OBJLoader.js');
+        const { MTLLoader } = await module('three/examples/jsm/loaders/MTLLoader.js');
+        await eachMesh(['obj'], (file, mesh) => {
+            const group = new OBJLoader().parse(readFileSync(join(folder, file), 'utf8'));
+            const [library] = group.materialLibraries;
+            expect(file, 'mtllib', library, `${mesh.name}.mtl`);
+            const { materialsInfo } = new MTLLoader().parse(
+                readFileSync(join(folder, library), 'utf8'), '');
+            let triangles = 0;
+            let parts = 0;
+            for (const child of group.children) {
+                triangles += child.geometry.attributes.position.count / 3;
+                const materials = [child.material].flat();
+                parts += materials.length;
+                for (const { name } of materials) {
+                    expect(file, `Kd of ${name}`, materialsInfo[name]?.kd?.length, 3);
+                }
+            }
+            expect(file, 'number of triangles', triangles, mesh.triangles);
+            expect(file, 'number of parts', parts, mesh.parts);
         });
     },
 

@@ -109,6 +109,7 @@ TEST_CASE("where nothing is drawn nothing is written") {
         CAPTURE(static_cast<int>(format));
         CHECK(without_bytes({}, format) == ExportStatus::Nothing);
     }
+    CHECK(write_mtl({}, info(), [](std::string_view) { return true; }) == ExportStatus::Nothing);
     Mesh points = test::triangle_mesh();
     points.parts[0].index_count = 0;
     CHECK(without_bytes(points, ExportFormat::Glb) == ExportStatus::Nothing);

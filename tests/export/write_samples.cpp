@@ -1,0 +1,104 @@
+// Exports every sample in every format, by `lsc export`. Usage: write_samples FOLDER
+// counts.txt in it has a line `NAME VERTICES TRIANGLES PARTS` for each sample. Plants with more
+// than kMostVertices are exported after as many generations as have no more.
+#include "tests/support/lsc_run.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using lsys::tests::LscRun;
+using lsys::tests::run_lsc;
+using lsys::tests::Sample;
+
+constexpr long kMostVertices = 20000;
+constexpr std::array<const char*, 9> kExtensions{"ply",  "obj", "off",  "off+", "stl",
+                                                 "gltf", "glb", "usda", "svg"};
+
+/// The number in a row of `lsc export --stats`; -1: no such row.
+long stated(const std::string& stats, const std::string& row) {
+    const std::size_t at = ("\n" + stats).find("\n" + row + ' ');
+    if (at == std::string::npos) {
+        return -1;
+    }
+    std::string digits;
+    for (std::size_t i = at + row.size(); i < stats.size() && stats[i] != '\n'; ++i) {
+        if (stats[i] >= '0' && stats[i] <= '9') {
+            digits += stats[i];
+        }
+    }
+    return digits.empty() ? -1 : std::stol(digits);
+}
+
+long occurrences(const std::string& text, const std::string& part) {
+    long count = 0;
+    for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) {
+        ++count;
+    }
+    return count;
+}
+
+bool failed(const Sample& sample, const LscRun& run) {
+    if (run.status != 0) {
+        std::fprintf(stderr, "%s: status %d\n%s", sample.file.c_str(), run.status, run.err.c_str());
+    }
+    return run.status != 0;
+}
+
+bool export_sample(const Sample& sample, const fs::path& folder, std::ofstream& counts) {
+    const std::string name = sample.file.stem().string();
+    const auto file = [&](const char* extension) {
+        return (folder / (name + '.' + extension)).string();
+    };
+    const std::string source = sample.file.string();
+    LscRun run = run_lsc({"export", source, "-o", file("ply"), "--stats"}, "");
+    if (failed(sample, run)) {
+        return false;
+    }
+    long generations = stated(run.out, "generations");
+    while (stated(run.out, "vertices") > kMostVertices && generations > 1) {
+        --generations;
+        run = run_lsc(
+            {"export", source, "-n", std::to_string(generations), "-o", file("ply"), "--stats"},
+            "");
+        if (failed(sample, run)) {
+            return false;
+        }
+    }
+    const std::string n = std::to_string(generations);
+    for (const char* extension : kExtensions) {
+        const LscRun written = run_lsc({"export", source, "-n", n, "-o", file(extension)}, "");
+        if (failed(sample, written)) {
+            return false;
+        }
+    }
+    counts << name << ' ' << stated(run.out, "vertices") << ' ' << stated(run.out, "triangles")
+           << ' ' << occurrences(lsys::tests::read_text(file("obj")), "\nusemtl ") << '\n';
+    return true;
+}
+
+} // namespace
+
+int main(int argument_count, char** arguments) {
+    if (argument_count != 2) {
+        std::fputs("usage: write_samples FOLDER\n", stderr);
+        return 2;
+    }
+    const fs::path folder = arguments[1];
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    std::ofstream counts(folder / "counts.txt");
+    const std::vector<Sample> samples = lsys::tests::all_samples();
+    bool fine = samples.size() > 40;
+    for (const Sample& sample : samples) {
+        fine = export_sample(sample, folder, counts) && fine;
+    }
+    return fine && counts.good() ? 0 : 1;
+}
