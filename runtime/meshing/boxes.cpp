@@ -57,8 +57,13 @@ Parts find_parts(const PolygonMesh& mesh, std::uint32_t steps) {
 }
 
 glm::vec3 face_area(const PolygonMesh& mesh, std::uint32_t begin, std::uint32_t end) {
-    glm::vec3 area(0.0F);
     const glm::vec3& first = mesh.positions[mesh.corners[begin]];
+    if (end - begin == 4) {
+        return glm::cross(mesh.positions[mesh.corners[begin + 2]] - first,
+                          mesh.positions[mesh.corners[begin + 3]] -
+                              mesh.positions[mesh.corners[begin + 1]]);
+    }
+    glm::vec3 area(0.0F);
     for (std::uint32_t i = begin + 1; i + 1 < end; ++i) {
         area += glm::cross(mesh.positions[mesh.corners[i]] - first,
                            mesh.positions[mesh.corners[i + 1]] - first);
@@ -66,43 +71,39 @@ glm::vec3 face_area(const PolygonMesh& mesh, std::uint32_t begin, std::uint32_t 
     return area;
 }
 
-/// Direction of rising u at a corner, times what is the same for all corners.
-glm::vec3 along_u(const PolygonMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const glm::vec3 p = mesh.positions[b] - mesh.positions[a];
-    const glm::vec3 q = mesh.positions[c] - mesh.positions[a];
-    const glm::vec2 s = mesh.texture_coordinates[b] - mesh.texture_coordinates[a];
-    const glm::vec2 t = mesh.texture_coordinates[c] - mesh.texture_coordinates[a];
-    const float side = s.x * t.y - s.y * t.x;
-    return side < 0.0F ? q * s.y - p * t.y : p * t.y - q * s.y;
-}
-
 glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
     const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     return largest > 0.0F ? glm::normalize(v / largest) : otherwise;
 }
 
-/// Normal, tangent and colour of a vertex, from the faces around it.
+/// Normal, tangent along rising u and colour of a vertex, from the faces around it.
 void write_vertex(const CatmullClark& surface, std::uint32_t vertex, const MeshBlock& block) {
     const PolygonMesh& mesh = surface.mesh();
     glm::vec3 area(0.0F);
     glm::vec3 tangent(0.0F);
     glm::vec3 edge(0.0F);
     std::uint32_t lowest = 0xFFFFFFFFu;
-    float tangents = 0.0F; // the sum without direction
+    float tangents = 0.0F; // the sum of sizes
     float mirrored = 0.0F;
     surface.visit_faces(vertex, [&](std::uint32_t face, std::uint32_t half) {
         const std::uint32_t begin = face == 0 ? 0 : mesh.face_ends[face - 1];
         area += face_area(mesh, begin, mesh.face_ends[face]);
+        lowest = std::min(lowest, face);
+        if (block.tangents.empty()) {
+            return;
+        }
         const std::uint32_t b = mesh.corners[surface.next(half)];
         const std::uint32_t c = mesh.corners[surface.previous(half)];
+        const glm::vec3 p = mesh.positions[b] - mesh.positions[vertex];
+        const glm::vec3 q = mesh.positions[c] - mesh.positions[vertex];
         const glm::vec2 s = mesh.texture_coordinates[b] - mesh.texture_coordinates[vertex];
         const glm::vec2 t = mesh.texture_coordinates[c] - mesh.texture_coordinates[vertex];
-        mirrored += s.x * t.y - s.y * t.x;
-        const glm::vec3 own_tangent = along_u(mesh, vertex, b, c);
-        tangent += own_tangent;
-        tangents += glm::length(own_tangent);
-        edge = mesh.positions[b] - mesh.positions[vertex];
-        lowest = std::min(lowest, face);
+        const float turn = s.x * t.y - s.y * t.x;
+        const glm::vec3 along_u = (turn < 0.0F ? -1.0F : 1.0F) * (p * t.y - q * s.y);
+        mirrored += turn;
+        tangent += along_u;
+        tangents += std::abs(along_u.x) + std::abs(along_u.y) + std::abs(along_u.z);
+        edge = p;
     });
     const glm::vec3 normal = unit_or(area, glm::vec3(0.0F, 1.0F, 0.0F));
     const glm::vec3 across = edge - glm::dot(edge, normal) * normal;
