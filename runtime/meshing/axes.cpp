@@ -10,7 +10,7 @@ namespace lsys {
 namespace {
 
 float straightness(const Segment& a, const Segment& b) {
-    return glm::dot(heading(a.frame), heading(b.frame));
+    return glm::dot(direction(a.frame), direction(b.frame));
 }
 
 } // namespace
@@ -19,10 +19,11 @@ bool joins(const Segment& parent, const Segment& child) {
     if (!child.linked) {
         return false;
     }
-    const glm::vec3 gap = glm::abs(tip(parent) - child.base);
+    const glm::vec3 end = parent.base + parent.length * direction(parent.frame);
+    const glm::vec3 gap = glm::abs(end - child.base);
     const glm::vec3 place = glm::abs(child.base);
-    const float far = std::max({place.x, place.y, place.z});
-    return std::max({gap.x, gap.y, gap.z}) <=
+    const float far = std::max(std::max(place.x, place.y), place.z);
+    return std::max(std::max(gap.x, gap.y), gap.z) <=
            1e-2F * (parent.length + child.base_radius) + 1e-5F * far;
 }
 

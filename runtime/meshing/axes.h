@@ -17,6 +17,12 @@ struct Axes {
     std::vector<std::uint16_t> colours; // that segments have, rising
 };
 
+/// heading() of a unit quaternion in half the operations.
+[[nodiscard]] inline glm::vec3 direction(const glm::quat& q) {
+    return {2.0F * (q.x * q.y - q.w * q.z), 1.0F - 2.0F * (q.x * q.x + q.z * q.z),
+            2.0F * (q.y * q.z + q.w * q.x)};
+}
+
 /// Whether `child` begins where `parent`, its parent, ends, as far as floats can tell. A segment
 /// drawn backwards was turned around and ends elsewhere.
 [[nodiscard]] bool joins(const Segment& parent, const Segment& child);

@@ -32,7 +32,7 @@ constexpr float kMostOfEdge = 0.7F; // that a collar may take
 constexpr float kMostParts = 16.0F; // of an edge that is cut for noise
 
 float greatest_coordinate(const glm::vec3& v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
 }
 
 /// The radius as it can be drawn around `centre`; 0 if it cannot.
@@ -43,6 +43,16 @@ float drawn_radius(float radius, const glm::vec3& centre, std::uint32_t sides) {
     }
     return std::min(std::max(radius, kRadiusOfSide * static_cast<float>(sides) * far),
                     kGreatestRadius);
+}
+
+bool thick_beside(float radius, const Joint& before, float length) {
+    return radius >= kThinnest * std::max(std::max(before.radius, before.length), length);
+}
+
+/// One at a joint that bends by at most 60 degrees, two by at most 120, else three.
+std::uint8_t rings_of_bend(const glm::vec3& before, const glm::vec3& after) {
+    const float cosine = glm::dot(before, after);
+    return cosine >= 0.5F ? 1 : cosine >= -0.5F ? 2 : 3;
 }
 
 bool coincide(const glm::vec3& a, const glm::vec3& b, float radius) {
@@ -94,6 +104,7 @@ bool AxisReader::next(Run& run) {
 bool AxisReader::read(Run& run) {
     joints_.clear();
     stale_ = false;
+    plain_ = true;
     const Segment* last = nullptr;
     bool pointed = false;
     std::uint32_t at = segment_;
@@ -151,32 +162,41 @@ bool AxisReader::read(Run& run) {
     if (options_.bark_noise > 0.0F) {
         subdivide();
     }
-    set_rings();
+    if (!plain_ || options_.level > 0 || options_.bark_noise > 0.0F) {
+        set_rings();
+    }
     run.joints = joints_;
     return true;
 }
 
 void AxisReader::add(const Segment& segment, float radius) {
-    Joint joint{.centre = segment.base,
-                .radius = radius,
-                .heading = heading(segment.frame),
-                .length = segment.length,
-                .colour = segment.colour,
-                .sides = sides_of(segment)};
+    glm::vec3 centre = segment.base;
     if (!joints_.empty()) {
         Joint& before = joints_.back();
-        if (coincide(before.centre, segment.base, radius)) {
-            joint.centre = before.centre;
-            before = joint;
+        if (coincide(before.centre, centre, radius)) {
+            centre = before.centre;
+            joints_.pop_back();
             stale_ = true;
-            return;
-        }
-        if (stale_) {
-            aim(before, segment.base);
+            plain_ = false;
+        } else if (stale_) {
+            aim(before, centre);
             stale_ = false;
         }
     }
-    joints_.push_back(joint);
+    // In place: a joint made elsewhere is copied while its parts are still on their way.
+    Joint& joint = joints_.emplace_back();
+    joint.centre = centre;
+    joint.radius = radius;
+    joint.heading = direction(segment.frame);
+    joint.length = segment.length;
+    joint.colour = segment.colour;
+    joint.sides = sides_of(segment);
+    if (joints_.size() > 1) {
+        const Joint& before = joints_[joints_.size() - 2];
+        joint.rings = rings_of_bend(before.heading, joint.heading);
+        plain_ = plain_ && thick_beside(radius, before, joint.length) &&
+                 before.radius >= kThinnest * radius;
+    }
 }
 
 /// False: nothing is long or thick enough to be drawn.
@@ -184,6 +204,7 @@ bool AxisReader::add_end(const glm::vec3& centre, float radius) {
     while (joints_.size() > 1 && coincide(joints_.back().centre, centre, joints_.back().radius)) {
         joints_.pop_back();
         stale_ = true;
+        plain_ = false;
     }
     Joint& before = joints_.back();
     if (coincide(before.centre, centre, std::max(before.radius, radius)) ||
@@ -197,6 +218,9 @@ bool AxisReader::add_end(const glm::vec3& centre, float radius) {
     end.centre = centre;
     end.radius = radius;
     end.length = 0.0F;
+    end.rings = 1;
+    plain_ = plain_ && (radius == 0.0F || thick_beside(radius, before, 0.0F)) &&
+             before.radius >= kThinnest * std::max(radius, before.length);
     joints_.push_back(end);
     if (joints_.front().radius == 0.0F) { // a pointed end has the sides of the ring beside it
         joints_.front().sides = joints_[1].sides;
@@ -280,16 +304,15 @@ void AxisReader::subdivide() {
     joints_.swap(spare_);
 }
 
-/// One ring at a joint that bends by at most 60 degrees, two by at most 120, else three. And none
-/// is too thin for its neighbours.
+/// For joints that are not plain: how they bend, and none too thin for its neighbours.
 void AxisReader::set_rings() {
     const std::size_t last = joints_.size() - 1;
     for (std::size_t i = 0; i <= last; ++i) {
         Joint& joint = joints_[i];
         const Joint& before = joints_[i == 0 ? 0 : i - 1];
         const Joint& after = joints_[i == last ? i : i + 1];
-        const float cosine = glm::dot(before.heading, joint.heading);
-        joint.rings = cosine >= 0.5F || i == 0 || i == last ? 1 : cosine >= -0.5F ? 2 : 3;
+        joint.rings =
+            i == 0 || i == last ? std::uint8_t{1} : rings_of_bend(before.heading, joint.heading);
         if (joint.radius > 0.0F) {
             const float around = std::max(std::max(before.length, joint.length),
                                           std::max(before.radius, after.radius));

@@ -69,6 +69,7 @@ private:
     std::vector<Joint> spare_;
     std::uint32_t segment_ = kNoSegment; // the next one to read
     bool attached_ = false;              // nothing of the axis was left out so far
+    bool plain_ = true;                  // no joint has to be looked at again
     bool stale_ = false;                 // the last joint's heading is not known
 };
 

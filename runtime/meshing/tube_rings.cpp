@@ -13,23 +13,36 @@ namespace lsys {
 
 namespace {
 
-/// Writes `columns` vectors centre + cosine * a + sine * b, three floats each. All but the last are
-/// written as four, the fourth of which the next one covers.
-void put_ellipse(glm::vec3* to,
-                 const Direction* at,
-                 std::uint32_t columns,
-                 const glm::vec3& centre,
-                 const glm::vec3& a,
-                 const glm::vec3& b) {
-    const Lanes middle = lanes(centre);
-    const Lanes first = lanes(a);
-    const Lanes second = lanes(b);
+/// An ellipse in space, or the cone of directions across it.
+struct Ellipse {
+    Lanes centre;
+    Lanes at_cosine;
+    Lanes at_sine;
+
+    [[nodiscard]] Lanes at(Lanes cosine, Lanes sine) const {
+        return centre + (cosine * at_cosine + sine * at_sine);
+    }
+};
+
+/// Writes `columns` vectors of both, three floats each. All but the last are written as four, the
+/// fourth of which the next one covers.
+void put_ellipses(glm::vec3* positions,
+                  const Ellipse& position,
+                  glm::vec3* normals,
+                  const Ellipse& normal,
+                  const Direction* at,
+                  std::uint32_t columns) {
     const std::uint32_t last = columns - 1;
     for (std::uint32_t i = 0; i < last; ++i) {
-        store_four(to + i, middle + (lanes(at[i].cosine) * first + lanes(at[i].sine) * second));
+        const Lanes cosine = lanes(at[i].cosine);
+        const Lanes sine = lanes(at[i].sine);
+        store_four(positions + i, position.at(cosine, sine));
+        store_four(normals + i, normal.at(cosine, sine));
     }
-    store_three(to + last,
-                middle + (lanes(at[last].cosine) * first + lanes(at[last].sine) * second));
+    const Lanes cosine = lanes(at[last].cosine);
+    const Lanes sine = lanes(at[last].sine);
+    store_three(positions + last, position.at(cosine, sine));
+    store_three(normals + last, normal.at(cosine, sine));
 }
 
 } // namespace
@@ -43,13 +56,15 @@ void TubeWriter::put_ring(const Ring& ring) {
     } else {
         const glm::vec3 binormal = glm::cross(tangent_, normal_);
         const glm::vec3 wide = ring.stretch * ring.mitre;
-        const Direction* at = directions(ring.sides);
-        put_ellipse(block_.positions.data() + first, at, columns, ring.centre,
-                    ring.radius * (normal_ + glm::dot(normal_, ring.mitre) * wide),
-                    ring.radius * (binormal + glm::dot(binormal, ring.mitre) * wide));
         const float part = 1.0F / std::sqrt(1.0F + ring.slope * ring.slope);
-        put_ellipse(block_.normals.data() + first, at, columns, (-ring.slope * part) * tangent_,
-                    part * normal_, part * binormal);
+        const Ellipse position{
+            lanes(ring.centre),
+            lanes(ring.radius * (normal_ + glm::dot(normal_, ring.mitre) * wide)),
+            lanes(ring.radius * (binormal + glm::dot(binormal, ring.mitre) * wide))};
+        const Ellipse normal{lanes((-ring.slope * part) * tangent_), lanes(part * normal_),
+                             lanes(part * binormal)};
+        put_ellipses(block_.positions.data() + first, position, block_.normals.data() + first,
+                     normal, directions(ring.sides), columns);
     }
     if (seam_) {
         put_textured(ring, first);

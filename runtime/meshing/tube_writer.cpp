@@ -14,7 +14,8 @@ namespace lsys {
 namespace {
 
 constexpr float kGreatestSlope = 8.0F;
-constexpr float kSpread = 0.2F; // of the rings of one bend, in radii
+constexpr std::uint32_t kStepsToDrift = 16; // of a frame, by some units in the last place
+constexpr float kSpread = 0.2F;             // of the rings of one bend, in radii
 constexpr float kBluntHeight = 0.35F;
 // The ring between the end of a tube and the top of its half ball, in radii.
 constexpr float kBallRing = 0.75F;
@@ -131,6 +132,7 @@ void TubeWriter::write(const Run& run) {
     const std::size_t last = joints.size() - 1;
     tangent_ = joints[0].heading;
     normal_ = across(run.side, tangent_);
+    steps_ = 0;
     std::optional<BarkNoise> noise;
     if (seam_ || options_.bark_noise > 0.0F) {
         const double circumference = mean_circumference(run);
@@ -182,10 +184,12 @@ void TubeWriter::carry(const glm::vec3& edge, const glm::vec3& tangent) {
     const glm::vec3 mirror = tangent - left_tangent;
     const float scale = 2.0F / glm::dot(mirror, mirror);
     normal_ = left - mirror * (scale * glm::dot(mirror, left));
-    // A million steps leave it a unit vector across the tangent.
-    normal_ -= tangent * glm::dot(tangent, normal_);
-    normal_ *= 1.5F - 0.5F * glm::dot(normal_, normal_);
     tangent_ = tangent;
+    // A million steps leave it a unit vector across the tangent.
+    if (++steps_ % kStepsToDrift == 0) {
+        normal_ -= tangent * glm::dot(tangent, normal_);
+        normal_ *= 1.5F - 0.5F * glm::dot(normal_, normal_);
+    }
 }
 
 /// Two or three rings around a joint, each bending by at most 60 degrees. They lie a little apart,

@@ -98,6 +98,7 @@ private:
     // Of the run that is being written:
     glm::vec3 tangent_{};
     glm::vec3 normal_{}; // where the first corner is seen from the axis
+    std::uint32_t steps_ = 0;
     double v_scale_ = 0.0;
     const BarkNoise* noise_ = nullptr;
     std::uint64_t ring_ = 0; // first vertex of the last ring
