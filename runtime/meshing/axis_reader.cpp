@@ -64,6 +64,12 @@ float half_side(std::uint32_t sides) {
     const Direction& next = directions(sides)[1];
     return 0.5F * std::sqrt((1.0F - next.cosine) * (1.0F - next.cosine) + next.sine * next.sine);
 }
+/// An odd number near `sides`. The width of a polygon varies with the view by 1 / cos(pi / 2n) for
+/// odd n and by 1 / cos(pi / n) for even n: five sides are nearer to round than eight, three than
+/// six.
+std::uint32_t fewer_sides(std::uint32_t sides) {
+    return sides <= 3 ? 3 : sides == 4 ? 5 : (sides - 1) | 1U;
+}
 /// From its centre to the middle of a side: cos(pi / sides).
 float inner_radius(std::uint32_t sides) {
     return std::sqrt(0.5F * (1.0F + directions(sides)[1].cosine));
@@ -76,7 +82,7 @@ AxisReader::AxisReader(const Skeleton& skeleton, const Axes& axes, const MeshOpt
     const std::uint32_t level = std::min(options.level, kMostLevels);
     for (std::uint32_t i = 0; i < sides_.size(); ++i) {
         const std::uint32_t whole = usable_sides(options.sides != 0 ? options.sides : i);
-        const std::uint32_t fewer = std::max(whole >> level, kMinSides);
+        const std::uint32_t fewer = level == 0 ? whole : fewer_sides(whole >> level);
         sides_[i] = static_cast<std::uint8_t>(fewer);
         // The mean width of a convex shape is its circumference / pi (Cauchy), so a polygon of
         // fewer sides is as wide as the first one if it is as long around.

@@ -5,9 +5,9 @@
 
 #include "runtime/mesh.h"
 
-#include <compare>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace lsys {
@@ -19,7 +19,11 @@ struct MaterialKey {
     bool two_sided = false;
     bool cut_out = false;
     bool textured = false;
-    friend auto operator<=>(const MaterialKey&, const MaterialKey&) = default;
+    friend bool operator==(const MaterialKey&, const MaterialKey&) = default;
+    friend bool operator<(const MaterialKey& a, const MaterialKey& b) {
+        return std::tie(a.kind, a.palette, a.two_sided, a.cut_out, a.textured) <
+               std::tie(b.kind, b.palette, b.two_sided, b.cut_out, b.textured);
+    }
 };
 /// Textured bark for palette index 0, the plain colour for any other: what wood is made of.
 [[nodiscard]] MaterialKey wood_material(std::uint16_t palette);
