@@ -291,15 +291,15 @@ void AxisReader::subdivide() {
         const float parts =
             std::clamp(std::ceil(from.length / (2.0F * thickness)), 1.0F, kMostParts);
         const float piece = from.length / parts;
-        for (float part = 0.0F; part < parts; part += 1.0F) {
+        for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(parts); ++k) {
             Joint joint = from;
-            const float share = part / parts;
+            const float share = static_cast<float>(k) / parts;
             joint.centre = from.centre + share * (to.centre - from.centre);
             joint.radius = from.radius + share * (to.radius - from.radius);
             joint.length = piece;
-            if (part > 0.0F && (coincide(spare_.back().centre, joint.centre, joint.radius) ||
-                                coincide(joint.centre, to.centre, joint.radius) ||
-                                drawn_radius(joint.radius, joint.centre, joint.sides) == 0.0F)) {
+            if (k > 0 && (coincide(spare_.back().centre, joint.centre, joint.radius) ||
+                          coincide(joint.centre, to.centre, joint.radius) ||
+                          drawn_radius(joint.radius, joint.centre, joint.sides) == 0.0F)) {
                 spare_.back().length += piece;
                 continue;
             }

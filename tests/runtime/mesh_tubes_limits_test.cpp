@@ -17,7 +17,7 @@ using test::Plant;
 
 namespace {
 
-const MeshOptions kBare{
+constexpr MeshOptions kBare{
     .texture_coordinates = false, .tangents = false, .colours = false, .threads = 1};
 
 Mesh tubes(const Skeleton& skeleton, const MeshOptions& options) {
@@ -97,7 +97,7 @@ TEST_CASE("tubes are the same for any number of threads", "[mesh][tubes]") {
     for (std::size_t i = 0; i < skeleton.segments.size(); i += 50) {
         skeleton.segments[i].colour = static_cast<std::uint16_t>(i % 7);
     }
-    REQUIRE(skeleton.segments.size() > 3 * 4096); // pieces of work
+    REQUIRE(skeleton.segments.size() > std::size_t{3} * 4096); // pieces of work
     MeshOptions options{.threads = 1};
     Mesh one;
     REQUIRE(make_mesh(skeleton, {}, options, one) == MeshStatus::Ok);
@@ -120,7 +120,7 @@ TEST_CASE("segments of length 0 leave no hole", "[mesh][tubes]") {
     last = plant.add(last, {1, 1, 0}, 1.0F);
     plant.add(last, {0, 0, 1}, 0.0F);
     const Mesh mesh = tubes(plant.skeleton(), kBare);
-    CHECK(mesh.positions.size() == 3 * 8 + 2);
+    CHECK(mesh.positions.size() == std::size_t{3} * 8 + 2);
     CHECK(test::topology_of(mesh).open_edges == 0);
 }
 
@@ -129,9 +129,9 @@ TEST_CASE("segments of radius 0 draw nothing", "[mesh][tubes]") {
     const Plant::Look nothing{.base_radius = 0.0F, .tip_radius = 0.0F};
     std::uint32_t last = plant.add(kNoSegment, {0, 1, 0}, 1.0F);
     last = plant.add(last, {0, 1, 0}, 5.0F, nothing);
-    last = plant.add(last, {0, 1, 0}, 1.0F);
+    plant.add(last, {0, 1, 0}, 1.0F);
     const Mesh mesh = tubes(plant.skeleton(), kBare);
-    CHECK(mesh.positions.size() == 2 * (2 * 8 + 2));
+    CHECK(mesh.positions.size() == std::size_t{2} * 18);
     CHECK(test::topology_of(mesh).open_edges == 0);
     for (const glm::vec3& p : mesh.positions) {
         CHECK((p.y < 1.1F || p.y > 5.9F));
@@ -147,7 +147,7 @@ TEST_CASE("radii that pass through 0 make points", "[mesh][tubes]") {
     std::uint32_t last =
         plant.add(kNoSegment, {0, 1, 0}, 1.0F, {.base_radius = 0.0F, .tip_radius = 0.1F});
     last = plant.add(last, {0, 1, 0}, 1.0F, {.base_radius = 0.1F, .tip_radius = 0.0F});
-    last = plant.add(last, {0, 1, 0}, 1.0F, {.base_radius = 0.0F, .tip_radius = 0.1F});
+    plant.add(last, {0, 1, 0}, 1.0F, {.base_radius = 0.0F, .tip_radius = 0.1F});
     const Mesh mesh = tubes(plant.skeleton(), kBare);
     CHECK(test::topology_of(mesh).open_edges == 0);
 }
@@ -199,7 +199,7 @@ TEST_CASE("a segment drawn backwards begins an axis", "[mesh][tubes]") {
     const std::uint32_t third = plant.add(second, {1, 0, 0}, 1.0F);
     plant.skeleton().segments[third].base = {0, 0.5F, 0};
     const Mesh mesh = tubes(plant.skeleton(), kBare);
-    CHECK(mesh.positions.size() == 3 * (2 * 8 + 2));
+    CHECK(mesh.positions.size() == std::size_t{3} * 18);
     CHECK(test::topology_of(mesh).open_edges == 0);
 }
 
