@@ -81,8 +81,8 @@ float slope_of(const Run& run, std::size_t i) {
     const std::size_t low = i == 0 ? 0 : i - 1;
     const std::size_t high = std::min(i + 1, run.joints.size() - 1);
     const float length = (i == 0 ? 0.0F : run.joints[low].length) + run.joints[i].length;
-    return std::clamp((run.joints[high].radius - run.joints[low].radius) / length, -kGreatestSlope,
-                      kGreatestSlope);
+    const float slope = (run.joints[high].radius - run.joints[low].radius) / length;
+    return std::min(std::max(slope, -kGreatestSlope), kGreatestSlope); // without branches
 }
 
 } // namespace
@@ -166,7 +166,7 @@ void TubeWriter::write(const Run& run) {
             const glm::vec3 sum = before.heading + joint.heading;
             const float twice = std::sqrt(glm::dot(sum, sum));
             const float half_cosine = 0.5F * twice;
-            carry(before.heading, sum / twice);
+            carry(before.heading, sum * (1.0F / twice));
             ring.mitre = joint.heading - before.heading;
             ring.stretch = 0.25F / (half_cosine * (1.0F + half_cosine));
             link_ring(ring, slots_[before.colour], from_point);
