@@ -153,25 +153,4 @@ Mesh large_mesh(std::uint64_t vertices) {
     return mesh;
 }
 
-void append(const Mesh& other, Mesh& mesh) {
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    const auto add = [](auto& to, const auto& from) {
-        to.insert(to.end(), from.begin(), from.end());
-    };
-    add(mesh.positions, other.positions);
-    add(mesh.normals, other.normals);
-    add(mesh.texture_coordinates, other.texture_coordinates);
-    add(mesh.tangents, other.tangents);
-    add(mesh.colours, other.colours);
-    for (MeshPart part : other.parts) {
-        part.material += static_cast<std::uint32_t>(mesh.materials.size());
-        part.first_index += mesh.indices.size();
-        mesh.parts.push_back(part);
-    }
-    for (const std::uint32_t index : other.indices) {
-        mesh.indices.push_back(first + index);
-    }
-    add(mesh.materials, other.materials);
-}
-
 } // namespace lsys::test

@@ -18,7 +18,4 @@ namespace lsys::test {
 /// A mesh of many tubes with about this many vertices.
 [[nodiscard]] Mesh large_mesh(std::uint64_t vertices);
 
-/// Adds the triangles of `other` as parts of their own.
-void append(const Mesh& other, Mesh& mesh);
-
 } // namespace lsys::test
