@@ -56,7 +56,7 @@ bool Workers::wait_for_task(std::uint64_t last) {
         pause_a_moment();
     }
     std::unique_lock lock(mutex_);
-    begun_.wait(lock, [&] { return tickets_ != last; });
+    begun_.wait(lock, [&] { return stops_ || tickets_ != last; });
     return !stops_;
 }
 

@@ -56,3 +56,13 @@ TEST_CASE("workers who have nothing to do end") {
     std::this_thread::sleep_for(std::chrono::milliseconds(5)); // past looking, now asleep
     resting.for_each(2, [](std::uint64_t) {});
 }
+
+TEST_CASE("workers end whatever they are about to do") {
+    // The team is sent home while a helper is on its way to a task that the others have done.
+    for (int round = 0; round < 20'000; ++round) {
+        Workers workers(2);
+        std::atomic<int> done{0};
+        workers.for_each(2, [&](std::uint64_t) { ++done; });
+        REQUIRE(done == 2);
+    }
+}
