@@ -1,0 +1,142 @@
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace {
+
+using lsys::tests::LscRun;
+using lsys::tests::read_text;
+using lsys::tests::run_lsc;
+using lsys::tests::ScratchFolder;
+using lsys::tests::write_text;
+
+const char* const kTree = "#n = 4; #set angle 25; #w : !(0.1) F(1) X;"
+                          "#p : X : * : !(0.08) F(0.6, 400) [ + X ] /(120) [ & X ] /(120) [ ^ X ];";
+
+std::size_t count_files(const ScratchFolder& folder) {
+    std::size_t files = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        ++files;
+    }
+    return files;
+}
+
+} // namespace
+
+TEST_CASE("the name of the file tells the format, or --format does") {
+    const ScratchFolder folder;
+    for (const char* name :
+         {"a.obj", "a.PLY", "a.off", "a.off+", "a.stl", "a.gltf", "a.glb", "a.svg", "a.usda"}) {
+        INFO(name);
+        const LscRun run = run_lsc({"export", "-", "-o", folder / name}, kTree);
+        CHECK(run.err.empty());
+        REQUIRE(run.status == 0);
+        CHECK(std::filesystem::file_size(folder / name) > 1000);
+    }
+    CHECK(std::filesystem::exists(folder / "a.mtl"));
+    CHECK(read_text(folder / "a.obj").find("mtllib a.mtl") != std::string::npos);
+    const LscRun unknown = run_lsc({"export", "-", "-o", folder / "a.xyz"}, kTree);
+    CHECK(unknown.status == 2);
+    CHECK(unknown.err.find("--format") != std::string::npos);
+    const LscRun streamed = run_lsc({"export", "-", "-o", "-", "--format", "stl"}, kTree);
+    REQUIRE(streamed.status == 0);
+    CHECK(streamed.out == read_text(folder / "a.stl"));
+}
+
+TEST_CASE("a stored and a streamed word, and any threads, give the same file") {
+    const std::vector<std::string> command{"export", "-", "-o", "-", "--format", "glb"};
+    const std::string file = run_lsc(command, kTree).out;
+    REQUIRE(!file.empty());
+    for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
+             {"--stream"}, {"--threads", "1"}, {"--threads", "3"}}) {
+        std::vector<std::string> arguments = command;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        CHECK(run_lsc(arguments, kTree).out == file);
+    }
+}
+
+TEST_CASE("a plant without anything to draw is told and writes no file") {
+    const ScratchFolder folder;
+    const LscRun run =
+        run_lsc({"export", "-q", "-", "-o", folder / "a.glb"}, "#n = 1; #w : A; #p : A : * : A A;");
+    CHECK(run.status == 2);
+    CHECK(run.err.find("nothing to draw") != std::string::npos);
+    CHECK(count_files(folder) == 0);
+}
+
+TEST_CASE("a mesh over the memory that it may take ends with 3 and no file") {
+    const ScratchFolder folder;
+    const LscRun run =
+        run_lsc({"export", "-", "-o", folder / "a.glb", "--max-memory", "50K"}, kTree);
+    CHECK(run.status == 3);
+    CHECK(run.err.find("the mesh does not fit") != std::string::npos);
+    CHECK(count_files(folder) == 0);
+}
+
+TEST_CASE("physics bends a plant, and without force leaves it as it is") {
+    const std::vector<std::string> command{"export", "-", "-o", "-", "--format", "stl"};
+    const auto with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = command;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_lsc(arguments, kTree);
+    };
+    const std::string rest = with({}).out;
+    CHECK(with({"--gravity", "0"}).out == rest);
+    CHECK(with({"--gravity", "9.81"}).out != rest);
+    CHECK(with({"--wind", "8,0,0"}).out != rest);
+    CHECK(with({"--settle"}).status == 2);
+    CHECK(with({"--frames", "2"}).status == 2);
+    CHECK(with({"--frames", "2", "--gravity", "9.81"}).status == 2); // to standard output
+    for (const char* wrong : {"1", "1,2", "1,2,3,4,5", "a,b,c", "1,2,3,-1", "1,2,3,"}) {
+        const LscRun run = with({"--wind", wrong});
+        CHECK(run.status == 2);
+        CHECK(run.err.find(wrong) != std::string::npos);
+    }
+}
+
+TEST_CASE("frames are numbered files that begin at rest") {
+    const ScratchFolder folder;
+    const LscRun run = run_lsc({"export", "-", "-o", folder / "tree.stl", "--frames", "3",
+                                "--gravity", "9.81", "--wind", "8,0,0,0.5"},
+                               kTree);
+    REQUIRE(run.status == 0);
+    CHECK(count_files(folder) == 3);
+    const std::string rest = run_lsc({"export", "-", "-o", "-", "--format", "stl"}, kTree).out;
+    CHECK(read_text(folder / "tree.0001.stl") == rest);
+    CHECK(read_text(folder / "tree.0002.stl") != rest);
+    CHECK(read_text(folder / "tree.0003.stl") != read_text(folder / "tree.0002.stl"));
+}
+
+TEST_CASE("statistics of an export go to standard output, or beside the plant that is there") {
+    const ScratchFolder folder;
+    const LscRun run = run_lsc({"export", "-", "-o", folder / "a.ply", "--stats"}, kTree);
+    REQUIRE(run.status == 0);
+    CHECK(run.out.find("segments          41\n") != std::string::npos);
+    CHECK(run.out.find("triangles") != std::string::npos);
+    const LscRun both = run_lsc({"export", "-", "-o", "-", "--format", "ply", "--stats"}, kTree);
+    CHECK(both.out == read_text(folder / "a.ply"));
+    CHECK(both.err.find("triangles") != std::string::npos);
+}
+
+TEST_CASE("a mesh file of #object lies beside its grammar") {
+    const ScratchFolder folder;
+    write_text(folder / "plant.lsys", "#n = 1; #object L \"leaf.obj\"; #w : F(1) L(2) L;");
+    const std::string out = folder / "plant.ply";
+    const LscRun missing = run_lsc({"export", folder / "plant.lsys", "-o", out}, "");
+    CHECK(missing.status == 2);
+    CHECK(missing.err.find("leaf.obj") != std::string::npos);
+    write_text(folder / "leaf.obj", "v 0 0 0\nv 1 0 0\nv 0 3 0\nf 1 2 4\n");
+    const LscRun wrong = run_lsc({"export", folder / "plant.lsys", "-o", out}, "");
+    CHECK(wrong.status == 2);
+    CHECK(wrong.err.find("line 4") != std::string::npos);
+    write_text(folder / "leaf.obj", "v 0 0 0\nv 1 0 0\nv 0 3 0\nf 1 2 3\n");
+    REQUIRE(run_lsc({"export", folder / "plant.lsys", "-o", out}, "").status == 0);
+    // The first leaf is as long as its extent times its size.
+    const LscRun drawn = run_lsc({"dump", "--stage", "skeleton", folder / "plant.lsys"}, "");
+    CHECK(drawn.out.find("object 1 \"leaf.obj\" parent 0 order 0 at (0, 7, 0)") !=
+          std::string::npos);
+}
