@@ -243,8 +243,9 @@ Status write_bent(Export& run) {
     options.damping = run.grammar.bytecode->settings.damping;
     options.threads = command.threads;
     // Whole steps from one frame to the next.
-    const float steps = std::max(1.0F, std::ceil(kStepsPerSecond / command.frames_per_second));
-    options.time_step = 1.0F / (command.frames_per_second * steps);
+    const auto steps = static_cast<std::uint32_t>(
+        std::max(1.0F, std::ceil(kStepsPerSecond / command.frames_per_second)));
+    options.time_step = 1.0F / (command.frames_per_second * static_cast<float>(steps));
     PlantPhysics physics(run.plant.skeleton, options);
     if ((command.settle || command.frames == 0) && !physics.settle(kRadians, kRounds)) {
         run.console.info("the plant has not quite come to rest");
@@ -260,7 +261,7 @@ Status write_bent(Export& run) {
         if (status != Status::Fine) {
             return status;
         }
-        for (float step = 0.0F; step < steps; ++step) {
+        for (std::uint32_t step = 0; step < steps; ++step) {
             physics.step();
         }
     }
