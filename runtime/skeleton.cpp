@@ -77,9 +77,9 @@ SkeletonStats measure(const Skeleton& skeleton) {
     for (const Segment& segment : skeleton.segments) {
         see(segment.base);
         see(tip(segment));
-        const double length = segment.length;
-        const double a = segment.base_radius;
-        const double b = segment.tip_radius;
+        const auto length = static_cast<double>(segment.length);
+        const auto a = static_cast<double>(segment.base_radius);
+        const auto b = static_cast<double>(segment.tip_radius);
         stats.length += length;
         stats.volume += std::numbers::pi / 3.0 * length * (a * a + a * b + b * b);
         stats.mass += static_cast<double>(segment.mass);
@@ -94,7 +94,7 @@ SkeletonStats measure(const Skeleton& skeleton) {
     for (const glm::vec3& corner : skeleton.corners) {
         see(corner);
     }
-    stats.height = stats.bounds.high.y - stats.bounds.low.y;
+    stats.height = static_cast<double>(stats.bounds.high.y - stats.bounds.low.y);
     stats.crown_width = 2.0 * farthest;
     return stats;
 }

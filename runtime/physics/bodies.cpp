@@ -24,7 +24,7 @@ namespace {
 constexpr double kShown = 0.5; // part of a sheet that the wind sees
 
 double magnitude(float value) {
-    const double greatest = std::numeric_limits<float>::max();
+    const auto greatest = static_cast<double>(std::numeric_limits<float>::max());
     const auto given = static_cast<double>(value);
     return given > 0.0 ? std::min(given, greatest) : 0.0;
 }

@@ -76,9 +76,9 @@ double gust_at(double time) {
 
 Forces forces_of(const PhysicsOptions& options) {
     Forces forces;
-    forces.step = options.time_step;
+    forces.step = static_cast<double>(options.time_step);
     forces.gravity = {0.0, -options.gravity, 0.0};
-    forces.damping = options.damping;
+    forces.damping = static_cast<double>(options.damping);
     forces.wind = glm::dvec3(options.wind.velocity);
     forces.drag = 0.5 * kDragCoefficient * static_cast<double>(options.air_density);
     forces.windy = forces.drag > 0.0 && glm::length(forces.wind) > 0.0;
@@ -109,7 +109,8 @@ Plant plant_of(const Skeleton& rest, double surface_mass) {
 struct PlantPhysics::State {
     State(const Skeleton& skeleton, const PhysicsOptions& given)
         : rest(skeleton), options(usable(given)), forces(forces_of(options)),
-          workers(given.threads), plant(plant_of(skeleton, options.surface_mass)) {}
+          workers(given.threads),
+          plant(plant_of(skeleton, static_cast<double>(options.surface_mass))) {}
 
     Skeleton rest;
     PhysicsOptions options;
@@ -172,7 +173,7 @@ void PlantPhysics::set(const PhysicsOptions& options) {
     s.options.threads = before.threads;
     s.forces = forces_of(s.options);
     if (s.options.surface_mass != before.surface_mass) {
-        s.plant.rest = make_bodies(s.rest, s.options.surface_mass);
+        s.plant.rest = make_bodies(s.rest, static_cast<double>(s.options.surface_mass));
     }
     s.look();
 }
@@ -184,7 +185,7 @@ const PhysicsOptions& PlantPhysics::options() const {
 void PlantPhysics::step() {
     State& s = *state_;
     Forces now = s.forces;
-    const double gust = s.options.wind.gust;
+    const auto gust = static_cast<double>(s.options.wind.gust);
     now.wind *= std::max(1.0 + gust * gust_at(s.time), 0.0);
     s.advance(now, true);
     s.time += now.step;

@@ -48,7 +48,8 @@ TEST_CASE("a cylinder is closed and has its volume and its sides") {
         options.sides = sides;
         for (const float tip : {0.5F, 0.2F, 0.0F}) {
             const Mesh mesh = meshed(one(2.0F, 0.5F, tip), options);
-            CHECK(test::volume_of(mesh) == Approx(volume(sides, 2.0, 0.5, tip)).epsilon(1e-4));
+            CHECK(test::volume_of(mesh) ==
+                  Approx(volume(sides, 2.0, 0.5, static_cast<double>(tip))).epsilon(1e-4));
             const test::Topology topology = test::topology_of(mesh);
             CHECK(topology.open_edges == 0);
             CHECK(topology.euler() == 2);

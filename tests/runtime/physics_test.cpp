@@ -185,7 +185,7 @@ TEST_CASE("a free rod swings with the period of a compound pendulum") {
     while (physics.time() < 5.0) {
         physics.step();
         physics.pose(bent);
-        const double side = tip(bent.segments[0]).x;
+        const auto side = static_cast<double>(tip(bent.segments[0]).x);
         if (before > 0.0 && side <= 0.0) {
             crossings.push_back(physics.time());
         }

@@ -146,8 +146,8 @@ inline Potential potential(const Skeleton& rest, const Skeleton& bent, double gr
         const double sine = std::sqrt(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z);
         const double angle = 2.0 * std::atan2(sine, std::abs(turn.w));
         const double stretched = 0.5 * static_cast<double>(a.spring) * angle * angle;
-        const double r = a.base_radius;
-        const double s = a.tip_radius;
+        const auto r = static_cast<double>(a.base_radius);
+        const auto s = static_cast<double>(a.tip_radius);
         const double squares = r * r + r * s + s * s;
         const double along =
             static_cast<double>(a.length) *
