@@ -1,0 +1,164 @@
+// What a turtle is while it draws: the state of Turtle. The walk over a word is in turtle.cpp, what
+// each command does in commands.cpp.
+#pragma once
+
+#include "runtime/turtle.h"
+#include "runtime/turtle/actions.h"
+#include "runtime/turtle/polygons.h"
+#include "runtime/turtle/pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <numbers>
+#include <utility>
+
+namespace lsys {
+
+inline constexpr std::size_t kModulesBetweenLooks = std::size_t{1} << 16;
+inline constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
+/// Reduction of a segment's radius along it where the profile has one: DIALECTS.md 1.3.
+inline constexpr float kRelativeTaper = 0.95F;
+inline constexpr float kPercent = 0.01F;
+
+[[nodiscard]] inline bool is_relative(TurtleProfile profile) {
+    return profile == TurtleProfile::L3d || profile == TurtleProfile::Lplus;
+}
+
+/// What `[` saves beside the pose.
+struct Brush {
+    float width = 0.0F; // m, diameter; of relative profiles radius / length
+    float taper = 1.0F; // tip radius / base radius
+    float step = 0.0F;  // m
+    float angle = 0.0F; // degrees
+    HalfAngle turn;     // of `angle`
+    std::uint32_t segment = kNoSegment;
+    std::uint16_t colour = 0;
+    std::uint8_t sides = 0;
+    bool moved = false; // since the segment was drawn
+};
+
+/// Two parts that are copied apart, since one of them lives in registers.
+struct TurtleState : Brush {
+    Pose pose;
+};
+
+struct Turtle::State {
+    State(const Bytecode& program, TurtleOptions wanted)
+        : bytecode(program), options(std::move(wanted)), table(make_actions(program, options)) {
+        const Settings& settings = bytecode.settings;
+        skeleton.mesh_files = table.mesh_files;
+        relative = is_relative(settings.turtle);
+        has_tropism = settings.has_tropism;
+        lines_only = options.lines_only;
+        now.width = settings.width;
+        now.taper = relative ? kRelativeTaper : 1.0F;
+        now.step = settings.step;
+        now.angle = settings.angle;
+        now.turn = half_angle(static_cast<double>(settings.angle));
+        now.sides = static_cast<std::uint8_t>(std::clamp(settings.sides, kMinSides, kMaxSides));
+    }
+
+    template <typename C>
+    TurtleStatus run(std::span<const C> codes, std::span<const float> parameters);
+    template <typename C>
+    TurtleStatus run_some(std::span<const C> codes, const float*& parameters);
+    /// False: the drawing has ended as `status`.
+    bool obey(const Action& action, const float* arguments);
+    bool forward(const Action& action, const float* arguments, float part);
+    bool tapered(const Action& action, const float* arguments);
+    bool draw(double length, float base_width, float tip_width, float spring, const float* mass);
+    bool draw_line(double length);
+    float mass_of(double length, float base_width, float tip_width);
+    bool place(const Action& action, const float* arguments);
+    bool save();
+    bool restore();
+    bool skip(const Action& action);
+    bool quick_forward(const Action& action, const float* arguments, Pose& pose);
+    void close_polygon();
+    void set_width(float width);
+    void set_sides(float sides);
+    void set_colour(double index);
+    void scale_angle(float factor);
+
+    void note(TurtleFaultKind kind);
+    bool stop(TurtleStatus why) {
+        status = why;
+        return false;
+    }
+    bool fault(TurtleFaultKind kind) {
+        note(kind);
+        return stop(TurtleStatus::Fault);
+    }
+    /// Makes room in `items` for one more; false: the drawing has ended.
+    template <typename Items>
+    bool has_room(Items& items);
+    bool is_fine_place();
+    [[nodiscard]] std::uint16_t order() const {
+        constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
+        return static_cast<std::uint16_t>(std::min(stack.size(), kMost));
+    }
+
+    const Bytecode& bytecode;
+    TurtleOptions options;
+    ActionTable table;
+    Skeleton skeleton;
+    TurtleState now;
+    std::vector<TurtleState> stack;
+    OpenPolygons polygons;
+    std::array<TurtleFault, kTurtleFaultKinds> faults{};
+    std::uint64_t position = 0; // of the module at hand
+    Code code = 0;              // of that module
+    std::uint64_t cut = 0;      // open brackets within a part that is cut off, and 1
+    TurtleStatus status = TurtleStatus::Ok;
+    LargeVector<Line> lines; // instead of segments, if only they are wanted
+    bool lines_only = false;
+    bool relative = false; // widths are factors of the length
+    bool has_tropism = false;
+    // The last segment whose mass was worked out.
+    double massed_length = -1.0;
+    float massed_base = -1.0F;
+    float massed_tip = -1.0F;
+    float massed = 0.0F;
+};
+
+template <typename Items>
+bool Turtle::State::has_room(Items& items) {
+    if (items.size() < items.capacity()) {
+        return true;
+    }
+    if (items.size() >= kMaxSkeletonItems) {
+        return fault(TurtleFaultKind::TooMany);
+    }
+    constexpr std::size_t kFirst = 256;
+    const std::uint64_t room =
+        std::min<std::uint64_t>(std::max(kFirst, items.size() * 2), kMaxSkeletonItems);
+    const std::uint64_t item = sizeof(typename Items::value_type);
+    if (skeleton.byte_count() + (room - items.size()) * item > options.max_bytes) {
+        return stop(TurtleStatus::Limit);
+    }
+    try {
+        items.reserve(room);
+    } catch (const std::bad_alloc&) {
+        return stop(TurtleStatus::OutOfMemory);
+    }
+    return true;
+}
+
+/// Volume of a truncated cone times the density.
+inline float Turtle::State::mass_of(double length, float base_width, float tip_width) {
+    if (length != massed_length || base_width != massed_base || tip_width != massed_tip) {
+        massed_length = length;
+        massed_base = base_width;
+        massed_tip = tip_width;
+        const double a = 0.5 * static_cast<double>(base_width);
+        const double b = 0.5 * static_cast<double>(tip_width);
+        const double volume = std::numbers::pi / 3.0 * std::abs(length) * (a * a + a * b + b * b);
+        massed = static_cast<float>(
+            std::min(volume * static_cast<double>(bytecode.settings.density), kMaxFloat));
+    }
+    return massed;
+}
+
+} // namespace lsys
