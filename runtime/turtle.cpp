@@ -21,28 +21,14 @@ Turtle::State::quick_forward(const Action& action, const float* arguments, Pose&
         pose = end;
         return true;
     }
-    LargeVector<Segment>& segments = skeleton.segments;
-    if (!fits || segments.size() == segments.capacity()) {
+    if (!fits || skeleton.segments.size() == skeleton.segments.capacity()) {
         return false;
     }
-    const auto index = static_cast<std::uint32_t>(segments.size());
-    Segment& segment = segments.emplace_back();
-    segment.base = position_of(pose);
-    segment.length = length;
-    segment.frame = frame_of(pose);
-    segment.base_radius = now.width * 0.5F;
-    segment.tip_radius = now.width * now.taper * 0.5F;
-    segment.spring = action.given > 1 ? arguments[1] : bytecode.settings.spring;
-    segment.mass = action.given > 2
-                       ? arguments[2]
-                       : mass_of(static_cast<double>(length), now.width, now.width * now.taper);
-    segment.parent = now.segment;
-    segment.order = order();
-    segment.colour = now.colour;
-    segment.sides = now.sides;
-    segment.linked = now.segment != kNoSegment && !now.moved;
-    now.segment = index;
-    now.moved = false;
+    const float tip_width = now.width * now.taper;
+    put_segment(pose, length, now.width, tip_width,
+                action.given > 1 ? arguments[1] : bytecode.settings.spring,
+                action.given > 2 ? arguments[2]
+                                 : mass_of(static_cast<double>(length), now.width, tip_width));
     pose = end;
     return true;
 }

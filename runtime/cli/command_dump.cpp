@@ -72,16 +72,8 @@ Status dump_syntax(const DumpCommand& command, const Console& console) {
 }
 
 Status dump_skeleton(const DumpCommand& command, const Grammar& grammar, const Console& console) {
-    PlantRequest request;
-    request.file = command.file;
-    request.generations = command.grammar.generations;
-    request.seed = command.seed;
-    request.threads = command.threads;
-    request.max_modules = command.grammar.max_modules;
-    request.max_bytes = command.max_bytes;
-    request.stream = command.stream;
     Plant plant;
-    const Status status = grow_plant(request, grammar, console, plant);
+    const Status status = grow_plant(plant_request(command), grammar, console, plant);
     if (status != Status::Fine) {
         return status;
     }

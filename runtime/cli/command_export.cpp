@@ -293,16 +293,8 @@ Status run_export(const ExportCommand& command, const Console& console) {
         return status;
     }
     grammar.program.reset(); // the plant wants its memory
-    PlantRequest request;
-    request.file = command.file;
-    request.generations = command.grammar.generations;
-    request.seed = command.seed;
-    request.threads = command.threads;
-    request.max_modules = command.grammar.max_modules;
-    request.max_bytes = command.max_bytes;
-    request.stream = command.stream;
     Plant plant;
-    status = grow_plant(request, grammar, console, plant);
+    status = grow_plant(plant_request(command), grammar, console, plant);
     if (status != Status::Fine) {
         return status;
     }

@@ -24,6 +24,20 @@ struct PlantRequest {
     bool stream = false; // store no word
 };
 
+/// What a command that draws asks for.
+template <typename Command>
+[[nodiscard]] PlantRequest plant_request(const Command& command) {
+    PlantRequest request;
+    request.file = command.file;
+    request.generations = command.grammar.generations;
+    request.seed = command.seed;
+    request.threads = command.threads;
+    request.max_modules = command.grammar.max_modules;
+    request.max_bytes = command.max_bytes;
+    request.stream = command.stream;
+    return request;
+}
+
 /// A plant and how long its making took.
 struct Plant {
     Skeleton skeleton;

@@ -40,25 +40,12 @@ bool Turtle::State::draw(
     if (!(base_width <= std::numeric_limits<float>::max())) {
         return fault(TurtleFaultKind::NotFinite);
     }
-    Segment& segment = skeleton.segments.emplace_back();
-    segment.base = position_of(base);
-    segment.length = static_cast<float>(length);
-    segment.frame = frame_of(base);
+    Segment& segment =
+        put_segment(base, static_cast<float>(std::abs(length)), base_width, tip_width, spring,
+                    mass != nullptr ? *mass : mass_of(length, base_width, tip_width));
     if (length < 0.0) { // half a turn about the right axis
-        segment.length = -segment.length;
         segment.frame = segment.frame * glm::quat(0.0F, 1.0F, 0.0F, 0.0F);
     }
-    segment.base_radius = base_width * 0.5F;
-    segment.tip_radius = tip_width * 0.5F;
-    segment.spring = spring;
-    segment.mass = mass != nullptr ? *mass : mass_of(length, base_width, tip_width);
-    segment.parent = now.segment;
-    segment.order = order();
-    segment.colour = now.colour;
-    segment.sides = now.sides;
-    segment.linked = now.segment != kNoSegment && !now.moved;
-    now.segment = static_cast<std::uint32_t>(skeleton.segments.size() - 1);
-    now.moved = false;
     return true;
 }
 

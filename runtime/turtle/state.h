@@ -70,6 +70,12 @@ struct Turtle::State {
     bool tapered(const Action& action, const float* arguments);
     bool draw(double length, float base_width, float tip_width, float spring, const float* mass);
     bool draw_line(double length);
+    Segment& put_segment(const Pose& base,
+                         float length,
+                         float base_width,
+                         float tip_width,
+                         float spring,
+                         float mass);
     float mass_of(double length, float base_width, float tip_width);
     bool place(const Action& action, const float* arguments);
     bool save();
@@ -159,6 +165,28 @@ inline float Turtle::State::mass_of(double length, float base_width, float tip_w
             std::min(volume * static_cast<double>(bytecode.settings.density), kMaxFloat));
     }
     return massed;
+}
+
+/// The next segment of the path, for which there is room.
+[[gnu::always_inline]] inline Segment& Turtle::State::put_segment(
+    const Pose& base, float length, float base_width, float tip_width, float spring, float mass) {
+    const auto index = static_cast<std::uint32_t>(skeleton.segments.size());
+    Segment& segment = skeleton.segments.emplace_back();
+    segment.base = position_of(base);
+    segment.length = length;
+    segment.frame = frame_of(base);
+    segment.base_radius = base_width * 0.5F;
+    segment.tip_radius = tip_width * 0.5F;
+    segment.spring = spring;
+    segment.mass = mass;
+    segment.parent = now.segment;
+    segment.order = order();
+    segment.colour = now.colour;
+    segment.sides = now.sides;
+    segment.linked = now.segment != kNoSegment && !now.moved;
+    now.segment = index;
+    now.moved = false;
+    return segment;
 }
 
 } // namespace lsys
