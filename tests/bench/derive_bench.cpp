@@ -5,17 +5,15 @@
 //
 // "cold" is the first derivation of a process: memory comes fresh from the system. "warm" derives
 // again with the memory of the time before.
-#include "compiler/compile.h"
-#include "grammar/parse.h"
 #include "runtime/derive.h"
 #include "tests/bench/limits.h"
+#include "tests/bench/measure.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -28,42 +26,12 @@
 
 namespace {
 
+using lsys::bench::compile_text;
+using lsys::bench::fail;
 using lsys::bench::FreshPages;
+using lsys::bench::median;
 using lsys::bench::PageSize;
-
-double seconds(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    return spent.count();
-}
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
-
-[[noreturn]] void fail(const std::string& what) {
-    fmt::print(stderr, "derive_bench: {}\n", what);
-    std::exit(1);
-}
-
-lsys::Bytecode compile(const std::string& text) {
-    lsys::SourceMap sources;
-    lsys::Names names;
-    lsys::Diagnostics diagnostics;
-    const lsys::FileLoader no_files = [](const std::string&) -> lsys::Result<std::string> {
-        return lsys::Error{"no such file"};
-    };
-    const lsys::FileId file = sources.add("bench.lsys", text);
-    lsys::Ast ast = lsys::parse_lsys(file, {sources, names, diagnostics, no_files});
-    lsys::CompileOutcome outcome =
-        lsys::compile(std::move(ast), names, sources, lsys::CompileOptions{}, diagnostics);
-    if (!outcome.bytecode) {
-        fail("a workload does not compile");
-    }
-    return std::move(*outcome.bytecode);
-}
+using lsys::bench::seconds;
 
 /// Derives into buffers of codes a and b and of parameters; returns a number that is not 0.
 using LimitProgram = std::function<std::size_t(const FreshPages& a,
@@ -164,7 +132,7 @@ int derive_as_child(const std::string& name, const std::string& threads) {
         if (workload.name != name) {
             continue;
         }
-        const lsys::Bytecode bytecode = compile(workload.grammar);
+        const lsys::Bytecode bytecode = compile_text(workload.grammar);
         const double before = peak_bytes();
         lsys::Derivation derivation(
             bytecode, options_for(workload, static_cast<std::uint32_t>(std::stoul(threads))));
@@ -241,7 +209,7 @@ void add_lsc(const std::string& self, const Workload& workload, std::uint32_t th
         state.counters["peak_bytes_per_module"] = run.peak / run.modules;
     });
     add(fmt::format("{}/lsc warm {}", workload.name, threads), [=](benchmark::State& state) {
-        const lsys::Bytecode bytecode = compile(workload.grammar);
+        const lsys::Bytecode bytecode = compile_text(workload.grammar);
         lsys::Derivation derivation(bytecode, options_for(workload, threads));
         derive(derivation, workload.generations);
         state.SetIterationTime(seconds([&] { derive(derivation, workload.generations); }));

@@ -2,18 +2,16 @@
 // run on one machine: million vertices a second, medians, memory fresh from the system each time.
 // `lines` are the segments of a skeleton, two vertices each; `tubes` have eight sides, positions
 // and normals. `export` is GLB of the same mesh into memory that is thrown away. Asserts nothing.
-#include "compiler/compile.h"
-#include "grammar/parse.h"
 #include "runtime/derive.h"
 #include "runtime/export.h"
 #include "runtime/mesh.h"
 #include "runtime/turtle.h"
 #include "tests/bench/limits.h"
+#include "tests/bench/measure.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -24,21 +22,14 @@
 namespace {
 
 using namespace lsys;
+using bench::compile_text;
+using bench::fail;
 using bench::FreshPages;
+using bench::median;
 using bench::PageSize;
+using bench::seconds;
 
 constexpr int kRuns = 7;
-
-double seconds(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
 
 /// Median of what `run` says, which is seconds of one run.
 double median_of(const std::function<double()>& run) {
@@ -47,27 +38,6 @@ double median_of(const std::function<double()>& run) {
         values.push_back(run());
     }
     return median(std::move(values));
-}
-
-[[noreturn]] void fail(const std::string& what) {
-    fmt::print(stderr, "plant_bench: {}\n", what);
-    std::exit(1);
-}
-
-Bytecode compile_text(const std::string& text) {
-    SourceMap sources;
-    Names names;
-    Diagnostics diagnostics;
-    const FileLoader no_files = [](const std::string&) -> Result<std::string> {
-        return Error{"no such file"};
-    };
-    const FileId file = sources.add("bench.lsys", text);
-    Ast ast = parse_lsys(file, {sources, names, diagnostics, no_files});
-    CompileOutcome outcome = compile(std::move(ast), names, sources, {}, diagnostics);
-    if (!outcome.bytecode) {
-        fail("a grammar does not compile");
-    }
-    return std::move(*outcome.bytecode);
 }
 
 struct Plant {
