@@ -108,6 +108,37 @@ std::uint32_t site_of(const Bytecode& bytecode, std::uint32_t instruction) {
     return after == bytecode.site_marks.begin() ? kNone : (after - 1)->site;
 }
 
+ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index) {
+    LSYS_CHECK(index < bytecode.template_codes.size(), index);
+    if (index - bytecode.axiom.codes.first < bytecode.axiom.codes.count) {
+        return kNoProduction;
+    }
+    // of several that begin there only the last is not empty
+    const auto after = std::upper_bound(
+        bytecode.productions.begin(), bytecode.productions.end(), index,
+        [](std::uint32_t at, const BytecodeProduction& p) { return at < p.successor.codes.first; });
+    return static_cast<ProductionId>(after - bytecode.productions.begin() - 1);
+}
+
+std::optional<Site> place_of(const Bytecode& bytecode, std::uint32_t index) {
+    const ProductionId writer = writer_of(bytecode, index);
+    const std::uint32_t site =
+        writer == kNoProduction ? bytecode.axiom_site
+                                : bytecode.productions[static_cast<std::size_t>(writer)].name_site;
+    const auto after =
+        std::upper_bound(bytecode.template_places.begin(), bytecode.template_places.end(), index,
+                         [](std::uint32_t at, const PlaceRun& run) { return at < run.first; });
+    if (site == kNone || after == bytecode.template_places.begin()) {
+        return std::nullopt;
+    }
+    const PlaceRun& run = *(after - 1);
+    const std::uint32_t distance = (index - run.first) * run.stride;
+    const std::uint32_t begin = run.begin + distance;
+    return Site{{bytecode.sites[site].span.file, begin, begin + run.length},
+                run.line,
+                run.column + distance};
+}
+
 std::uint64_t checksum(std::string_view bytes) {
     Mixer mixer;
     mixer.text(bytes);

@@ -15,6 +15,7 @@
 //   template_codes  of the axiom, then of each production's successor
 //   instructions    of each global, of the axiom's arguments, then of each production its condition
 //                   and its successor's arguments
+//   template_places of the modules of template_codes, or empty: then nobody knows where they stand
 #pragma once
 
 #include "compiler/settings.h"
@@ -109,6 +110,18 @@ struct SiteMark {
     std::uint32_t site = 0; // in sites
 };
 
+/// Where modules of template_codes stand in the text: one after the other at equal distances, in
+/// one line and without a character beyond ASCII, so that a long axiom takes few rows. The file is
+/// that of the axiom's or the production's site. The first module of each word begins a run.
+struct PlaceRun {
+    std::uint32_t first = 0;  // in template_codes; the run ends where the next begins
+    std::uint32_t begin = 0;  // offset of its first module
+    std::uint32_t length = 0; // bytes of each module, arguments included
+    std::uint32_t stride = 0; // bytes from one to the next; 0 if there is one only
+    std::uint32_t line = 0;
+    std::uint32_t column = 0; // of the first
+};
+
 enum class PatternKind : std::uint8_t { Module, Open, Close };
 
 /// One element of a context or predecessor. A module's parameters become formals first_formal, ...
@@ -175,6 +188,7 @@ struct Bytecode {
     std::vector<std::uint32_t> instructions;
     std::vector<Site> sites;
     std::vector<SiteMark> site_marks;            // ascending
+    std::vector<PlaceRun> template_places;       // ascending
     std::vector<BytecodeProduction> productions; // in file order
     std::uint32_t rule_count = 0;
     std::uint32_t group_count = 0;
@@ -208,11 +222,19 @@ struct Bytecode {
 /// The site of an instruction, or kNone.
 [[nodiscard]] std::uint32_t site_of(const Bytecode& bytecode, std::uint32_t instruction);
 
+/// The production whose successor holds template_codes[index]; kNoProduction: the axiom does.
+/// Precondition: index < template_codes.size().
+[[nodiscard]] ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index);
+/// Where the module of template_codes[index] stands, with its arguments, if that is known.
+/// Precondition: index < template_codes.size().
+[[nodiscard]] std::optional<Site> place_of(const Bytecode& bytecode, std::uint32_t index);
+
 /// A 64-bit checksum of bytes, for .lsb and state files: any change within one aligned group of
 /// eight bytes changes it.
 [[nodiscard]] std::uint64_t checksum(std::string_view bytes);
 
-/// A 64-bit digest of everything that decides the derived word; equal programs have equal digests.
+/// A 64-bit digest of everything that decides the derived word; equal programs have equal digests,
+/// however their text is laid out.
 [[nodiscard]] std::uint64_t digest(const Bytecode& bytecode);
 
 } // namespace lsys

@@ -9,7 +9,10 @@
 //       24     8  checksum() of all that follows
 //       32        the contents, in order:
 //                   settings, generations, files, symbols, folded, constants, globals, patterns,
-//                   template codes, instructions, sites, site marks, productions, counts, axiom
+//                   template codes, instructions, sites, site marks, template places, productions,
+//                   counts, axiom
+//
+// Version 2 added the template places.
 //
 // A table is its number of rows (u64) and the rows; a text is its number of bytes (u32) and the
 // bytes; a truth is one byte, 0 or 1; an enumerator is one byte. A template code takes
@@ -295,6 +298,14 @@ void contents(Stream& stream, Value& bytecode) {
     stream.table(bytecode.site_marks, 8, [](Stream& s, auto& row) {
         s.number(row.instruction);
         s.number(row.site);
+    });
+    stream.table(bytecode.template_places, 24, [](Stream& s, auto& run) {
+        s.number(run.first);
+        s.number(run.begin);
+        s.number(run.length);
+        s.number(run.stride);
+        s.number(run.line);
+        s.number(run.column);
     });
     stream.table(bytecode.productions, 75, [](Stream& s, auto& row) { production_row(s, row); });
     stream.number(bytecode.rule_count);

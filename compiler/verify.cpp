@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <type_traits>
@@ -32,7 +33,7 @@ public:
     explicit Verifier(const Bytecode& bytecode) : bytecode_(bytecode) {}
 
     std::optional<std::string> run() {
-        if (settings() && symbols() && folded() && sites() && globals() && axiom() &&
+        if (settings() && symbols() && folded() && sites() && places() && globals() && axiom() &&
             productions() && ends()) {
             return std::nullopt;
         }
@@ -142,6 +143,42 @@ private:
         return true;
     }
 
+    /// That the first module of each word begins a run is seen to by word().
+    bool places() {
+        const std::vector<PlaceRun>& runs = bytecode_.template_places;
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            const PlaceRun& run = runs[i];
+            const std::uint64_t end =
+                i + 1 < runs.size() ? runs[i + 1].first : bytecode_.template_codes.size();
+            if (run.first >= end) {
+                return fail("place run {} is empty", i);
+            }
+            const std::uint64_t count = end - run.first;
+            if (run.line == 0 || run.column == 0 || run.length == 0 ||
+                (run.stride < run.length && (count > 1 || run.stride != 0))) {
+                return fail("place run {} is malformed", i);
+            }
+            // of its last module
+            const std::uint64_t distance = (count - 1) * run.stride;
+            if (distance + run.begin + run.length > kNone || distance + run.column > kNone) {
+                return fail("place run {} ends beyond every file", i);
+            }
+        }
+        return true;
+    }
+
+    /// Whether a word's places begin with it, and its file is known.
+    bool has_places(const WordTemplate& word, std::uint32_t site) {
+        const std::vector<PlaceRun>& runs = bytecode_.template_places;
+        if (runs.empty() || word.codes.count == 0) {
+            return true;
+        }
+        const auto run = std::lower_bound(
+            runs.begin(), runs.end(), word.codes.first,
+            [](const PlaceRun& each, std::uint32_t first) { return each.first < first; });
+        return site != kNone && run != runs.end() && run->first == word.codes.first;
+    }
+
     bool site(std::uint32_t index) const {
         return index == kNone || index < bytecode_.sites.size();
     }
@@ -174,6 +211,9 @@ private:
         if (bytecode_.axiom.codes.count == 0) {
             return fail("the axiom is empty");
         }
+        if (!has_places(bytecode_.axiom, bytecode_.axiom_site)) {
+            return fail("the axiom's modules have no places");
+        }
         return word(CodePlace::Axiom, bytecode_.axiom, 0);
     }
 
@@ -203,6 +243,9 @@ private:
             }
             if (!word(CodePlace::Successor, p.successor, p.formal_count)) {
                 return false;
+            }
+            if (!has_places(p.successor, p.name_site)) {
+                return fail("the modules of production {} have no places", i);
             }
         }
         if (rule_example.size() != bytecode_.rule_count ||

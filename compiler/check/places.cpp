@@ -1,5 +1,7 @@
 #include "compiler/check/places.h"
 
+#include "compiler/check/module_text.h"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -9,30 +11,9 @@ namespace lsys {
 
 namespace {
 
-/// Past blanks and comments.
-std::size_t skip_blanks(std::string_view text, std::size_t at) {
-    while (at < text.size()) {
-        const char c = text[at];
-        if (c == ' ' || c == '\t' || c == '\n' || c == '\r') {
-            ++at;
-        } else if (text.substr(at, 2) == "/*") {
-            const std::size_t end = text.find("*/", at + 2);
-            at = end == std::string_view::npos ? text.size() : end + 2;
-        } else {
-            break;
-        }
-    }
-    return at;
-}
-
-struct Call {
-    std::size_t end; // one past the `)`
+/// The arguments within the parenthesis that begins at `open`.
+std::vector<SourceSpan> read_call(std::string_view text, FileId file, std::size_t open) {
     std::vector<SourceSpan> arguments;
-};
-
-/// The parenthesis that begins at `open`.
-Call read_call(std::string_view text, FileId file, std::size_t open) {
-    Call call{open, {}};
     std::uint32_t depth = 0;
     std::size_t first = open + 1;
     const auto close_argument = [&](std::size_t end) {
@@ -42,7 +23,7 @@ Call read_call(std::string_view text, FileId file, std::size_t open) {
             --end;
         }
         if (begin < end) {
-            call.arguments.push_back(
+            arguments.push_back(
                 {file, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)});
         }
         first = end + 1;
@@ -59,8 +40,7 @@ Call read_call(std::string_view text, FileId file, std::size_t open) {
         } else if (c == ')' || c == '}') {
             if (--depth == 0) {
                 close_argument(at);
-                call.end = at + 1;
-                return call;
+                return arguments;
             }
         } else if (c == ',' && depth == 1) {
             close_argument(at);
@@ -70,18 +50,17 @@ Call read_call(std::string_view text, FileId file, std::size_t open) {
         }
         ++at;
     }
-    return call;
+    return arguments;
 }
 
 } // namespace
 
 SourceSpan module_span(const CheckInput& input, const ProgramWord& word, std::size_t index) {
     SourceSpan span = module_name_span(input, word, index);
-    const std::string_view text = input.sources.file(word.file).text();
-    const std::size_t open = skip_blanks(text, span.end);
     const Symbol& symbol = input.program.symbol(input.program.modules[index].symbol);
-    if (symbol.parameter_count != 0 && open < text.size() && text[open] == '(') {
-        span.end = static_cast<std::uint32_t>(read_call(text, word.file, open).end);
+    if (symbol.parameter_count != 0) {
+        span.end = static_cast<std::uint32_t>(
+            end_of_arguments(input.sources.file(word.file).text(), span.end));
     }
     return span;
 }
@@ -93,7 +72,7 @@ argument_spans(const CheckInput& input, const ProgramWord& word, std::size_t ind
     if (open >= text.size() || text[open] != '(') {
         return {};
     }
-    return read_call(text, word.file, open).arguments;
+    return read_call(text, word.file, open);
 }
 
 SourceSpan item_span(const Production& production, const ProgramPatternItem& item) {

@@ -2,6 +2,7 @@
 
 #include "compiler/lower/code_emitter.h"
 #include "compiler/lower/module_folder.h"
+#include "compiler/lower/place_writer.h"
 #include "grammar/contract.h"
 
 #include <utility>
@@ -14,7 +15,7 @@ class Lowerer {
 public:
     Lowerer(const Program& program, const Names& names, const SourceMap& sources)
         : program_(program), names_(names), emitter_(program, sources, bytecode_),
-          folder_(program, bytecode_) {}
+          folder_(program, bytecode_), places_(program, names, sources, bytecode_) {}
 
     std::optional<Bytecode> run() {
         bytecode_.settings = program_.settings;
@@ -89,6 +90,7 @@ private:
             }
             *next++ = code;
         });
+        places_.word(word, made.codes.first);
         made.parameter_count = static_cast<std::uint32_t>(stored_.size());
         if (!stored_.empty()) {
             made.arguments = emitter_.arguments(stored_);
@@ -132,6 +134,7 @@ private:
     Bytecode bytecode_;
     CodeEmitter emitter_;
     ModuleFolder folder_;
+    PlaceWriter places_;
     std::vector<ValueId> stored_; // of the word in work
 };
 

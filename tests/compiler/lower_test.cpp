@@ -156,3 +156,74 @@ TEST_CASE("nothing is lowered where there are errors, or when it is not wanted")
     CHECK(c.outcome.program);
     CHECK_FALSE(c.outcome.bytecode);
 }
+
+namespace {
+
+/// The text of every module of axiom and successors, as the bytecode places it, and who wrote it:
+/// "p 3:7 F(x)".
+std::vector<std::string> placed(const test::Compiled& c) {
+    REQUIRE(c.outcome.bytecode);
+    const Bytecode& b = *c.outcome.bytecode;
+    std::vector<std::string> all;
+    for (std::uint32_t i = 0; i < b.template_codes.size(); ++i) {
+        const ProductionId writer = writer_of(b, i);
+        const std::optional<Site> place = place_of(b, i);
+        REQUIRE(place);
+        const SourceFile& file = c.sources.file(place->span.file);
+        CHECK(b.files[static_cast<std::size_t>(place->span.file)] == file.path());
+        const LineColumn at = file.line_column(place->span.begin);
+        CHECK(at.line == place->line);
+        CHECK(at.column == place->column);
+        all.push_back((writer == kNoProduction
+                           ? std::string("-")
+                           : b.productions[static_cast<std::size_t>(writer)].name) +
+                      " " + std::to_string(place->line) + ":" + std::to_string(place->column) +
+                      " " + std::string(c.sources.text(place->span)));
+    }
+    return all;
+}
+
+using Places = std::vector<std::string>;
+
+} // namespace
+
+TEST_CASE("every module of axiom and successors has its place") {
+    CHECK(placed(compile_text("#w : A(1) /* ) */ F\n  F [ `é` ] F;\n"
+                              "#e : F : * : ;\n"
+                              "#p : A(x) : x > 1 : F A (x /*)*/ + {1, 2}) F();\n"
+                              "#q : A(x) : x < 1 : ;\n")) ==
+          Places{"- 1:6 A(1)", "- 1:19 F", "- 2:3 F", "- 2:5 [", "- 2:7 `é`", "- 2:11 ]",
+                 "- 2:13 F", "p 4:21 F", "p 4:23 A (x /*)*/ + {1, 2})", "p 4:44 F"});
+    CHECK(placed(compile_text("#w : AS(1) A;\n#p : A : * : A;\n#q : S(x) : * : A;\n")) ==
+          Places{"- 1:6 A", "- 1:7 S(1)", "- 1:12 A", "p 2:14 A", "q 3:17 A"});
+    CHECK(placed(compile_text("#set names letters;\n#w : FAF(1);\n")) ==
+          Places{"- 2:6 F", "- 2:7 A", "- 2:8 F(1)"});
+}
+
+TEST_CASE("modules of an included file are placed in it") {
+    const test::Compiled c =
+        test::compile_files({{"main.lsys", "#include \"leaf.lsys\";\n#w : A F;\n"},
+                             {"leaf.lsys", "// one\n#p : A : * : F\n A;\n"}},
+                            {});
+    CHECK(placed(c) == Places{"- 2:6 A", "- 2:8 F", "p 2:14 F", "p 3:2 A"});
+    const std::optional<Site> last = place_of(*c.outcome.bytecode, 3);
+    REQUIRE(last);
+    CHECK(c.outcome.bytecode->files[static_cast<std::size_t>(last->span.file)] == "leaf.lsys");
+}
+
+TEST_CASE("modules at equal distances share a row of places") {
+    std::string text = "#w : ";
+    for (int i = 0; i < 1'000; ++i) {
+        text += "F +";
+    }
+    const test::Compiled c = compile_text(text + ";\n#p : F : * : F(1)F(2)F(3);\n");
+    const Places all = placed(c);
+    REQUIRE(all.size() == 2'003);
+    CHECK(all[1'998] == "- 1:3003 F");
+    CHECK(all[2'001] == "p 2:18 F(2)");
+    // blanks stand on one side only, so that two modules make a row
+    CHECK(c.outcome.bytecode->template_places.size() == 1'001);
+    const test::Compiled dense = compile_text("#w : F+F+F+F+F-F-F;\n#p : F : * : F(1)F(2)F(3);\n");
+    CHECK(placed(dense).size() == 16);
+    CHECK(dense.outcome.bytecode->template_places.size() == 2);
+}

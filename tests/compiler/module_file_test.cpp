@@ -41,6 +41,7 @@ TEST_CASE("a module file reads back as what was written") {
     CHECK(read.value().symbols[2].turtle == TurtleOperation::Move);
     CHECK(read.value().generations == 6U);
     CHECK(read.value().sites[3].column == 20);
+    CHECK(read.value().template_places[1].stride == 2);
 }
 
 TEST_CASE("every truncation of a module file is refused") {
@@ -69,7 +70,7 @@ TEST_CASE("foreign, older, newer and longer files are told apart") {
     const std::string bytes = write_module_file(test::small_bytecode());
     CHECK(refusal("#w : A;\n") == "not a compiled grammar (.lsb)");
     std::string newer = bytes;
-    newer[8] = 2;
+    newer[8] = static_cast<char>(kModuleFileVersion + 1);
     CHECK(refusal(newer).find("a newer version") != std::string::npos);
     std::string older = bytes;
     older[8] = 0;

@@ -106,6 +106,7 @@ inline Bytecode small_bytecode() {
     p2.successor.codes = {7, 1};
     b.template_codes.push_back(1);
     b.productions = {p1, p2};
+    b.template_places = {{0, 34, 6, 7, 3, 4}, {3, 66, 2, 2, 4, 26}, {7, 82, 1, 0, 5, 14}};
     b.rule_count = 1;
     b.group_count = 1;
     return b;

@@ -142,6 +142,48 @@ TEST_CASE("sites are checked") {
           "site mark 1 is out of place");
 }
 
+TEST_CASE("places of modules are checked") {
+    CHECK(said_of([](Bytecode& b) { b.template_places.clear(); }).empty());
+    CHECK(said_of([](Bytecode& b) { b.template_places[1].first = 0; }) == "place run 0 is empty");
+    CHECK(said_of([](Bytecode& b) { b.template_places[2].first = 8; }) == "place run 2 is empty");
+    CHECK(said_of([](Bytecode& b) { b.template_places[0].line = 0; }) ==
+          "place run 0 is malformed");
+    CHECK(said_of([](Bytecode& b) { b.template_places[0].column = 0; }) ==
+          "place run 0 is malformed");
+    CHECK(said_of([](Bytecode& b) { b.template_places[0].length = 0; }) ==
+          "place run 0 is malformed");
+    CHECK(said_of([](Bytecode& b) { b.template_places[0].stride = 1; }) ==
+          "place run 0 is malformed");
+    CHECK(said_of([](Bytecode& b) { b.template_places[1].begin = kNone - 2; }) ==
+          "place run 1 ends beyond every file");
+    CHECK(said_of([](Bytecode& b) { b.template_places[1].column = kNone - 2; }) ==
+          "place run 1 ends beyond every file");
+    CHECK(said_of([](Bytecode& b) { b.template_places[0].first = 1; }) ==
+          "the axiom's modules have no places");
+    CHECK(said_of([](Bytecode& b) { b.axiom_site = kNone; }) ==
+          "the axiom's modules have no places");
+    CHECK(said_of([](Bytecode& b) { b.template_places.pop_back(); }) ==
+          "the modules of production 1 have no places");
+    CHECK(said_of([](Bytecode& b) { b.productions[1].name_site = kNone; }) ==
+          "the modules of production 1 have no places");
+}
+
+TEST_CASE("a module's writer and place are found") {
+    const Bytecode bytecode = test::small_bytecode();
+    CHECK(writer_of(bytecode, 2) == kNoProduction);
+    CHECK(writer_of(bytecode, 3) == ProductionId{0});
+    CHECK(writer_of(bytecode, 6) == ProductionId{0});
+    CHECK(writer_of(bytecode, 7) == ProductionId{1});
+    const std::optional<Site> place = place_of(bytecode, 2);
+    REQUIRE(place);
+    CHECK(place->span == SourceSpan{FileId{0}, 48, 54});
+    CHECK(place->line == 3);
+    CHECK(place->column == 18);
+    Bytecode without = bytecode;
+    without.template_places.clear();
+    CHECK(place_of(without, 2) == std::nullopt);
+}
+
 TEST_CASE("the digest follows what decides the word and nothing else") {
     const Bytecode bytecode = test::small_bytecode();
     const auto changed = [&](const std::function<void(Bytecode&)>& change) {
@@ -154,6 +196,7 @@ TEST_CASE("the digest follows what decides the word and nothing else") {
     CHECK_FALSE(changed([](Bytecode& b) { b.settings.angle = 30.0F; }));
     CHECK_FALSE(changed([](Bytecode& b) { b.productions[0].name = "q"; }));
     CHECK_FALSE(changed([](Bytecode& b) { b.generations = 7; }));
+    CHECK_FALSE(changed([](Bytecode& b) { b.template_places[0].line = 7; }));
     CHECK(changed([](Bytecode& b) { b.symbols[0].name = "C"; }));
     CHECK(changed([](Bytecode& b) { b.symbols[2].ignored = false; }));
     CHECK(changed([](Bytecode& b) { b.constants[0] = 0.25F; }));
