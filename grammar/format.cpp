@@ -79,6 +79,13 @@ private:
     }
 
     void find_comments(LayoutRow& row) const {
+        std::size_t next = row.end;
+        while (next < text_.size() && (text_[next] == ' ' || text_[next] == '\t')) {
+            ++next;
+        }
+        if (next == text_.size() || text_[next] != '/') {
+            return;
+        }
         LexemeReader reader(text_, row.end);
         for (Lexeme lexeme;
              reader.next(lexeme) && is_comment(lexeme) && lexeme.newlines_before == 0;) {

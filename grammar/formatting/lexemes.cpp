@@ -24,17 +24,18 @@ bool LexemeReader::next(Lexeme& lexeme) {
     if (!skip_blanks()) {
         return false;
     }
-    if (starts("/*")) {
+    const char c = text_[at_];
+    if (c == '/' && starts('/', '*')) {
         const std::size_t end = text_.find("*/", at_ + 2);
         take(LexemeKind::BlockComment, end == text_.npos ? rest() : end + 2 - at_);
-    } else if (area_ == Area::Between && starts("//")) {
+    } else if (c == '/' && area_ == Area::Between && starts('/', '/')) {
         line_comment();
-    } else if (text_[at_] == '#') {
+    } else if (c == '#') {
         keyword();
-    } else if (text_[at_] == ';') {
+    } else if (c == ';') {
         take(LexemeKind::Semicolon, 1);
         area_ = Area::Between;
-    } else if (text_[at_] == ':' && depth_ == 0) {
+    } else if (c == ':' && depth_ == 0) {
         take(LexemeKind::Colon, 1);
         next_part();
     } else {
@@ -46,12 +47,13 @@ bool LexemeReader::next(Lexeme& lexeme) {
 
 bool LexemeReader::skip_blanks() {
     newlines_ = 0;
-    blank_ = false;
-    for (; at_ < text_.size() && is_blank(text_[at_]); ++at_) {
-        blank_ = true;
-        newlines_ += text_[at_] == '\n' ? 1U : 0U;
+    std::size_t at = at_;
+    for (; at < text_.size() && is_blank(text_[at]); ++at) {
+        newlines_ += text_[at] == '\n' ? 1U : 0U;
     }
-    return at_ < text_.size();
+    blank_ = at > at_;
+    at_ = at;
+    return at < text_.size();
 }
 
 void LexemeReader::take(LexemeKind kind, std::size_t length) {
@@ -235,14 +237,13 @@ std::size_t LexemeReader::number_length() const {
 }
 
 void LexemeReader::operation() {
-    for (const std::string_view two : {"==", "!=", "<=", ">=", "&&", "||"}) {
-        if (starts(two)) {
-            take(LexemeKind::Operator, 2);
-            after_value_ = false;
-            return;
-        }
-    }
     const char c = text_[at_];
+    const bool compares = (c == '=' || c == '!' || c == '<' || c == '>') && starts(c, '=');
+    if (compares || ((c == '&' || c == '|') && starts(c, c))) {
+        take(LexemeKind::Operator, 2);
+        after_value_ = false;
+        return;
+    }
     const bool unary = !after_value_ && (c == '-' || c == '!');
     const bool any = !after_value_ && c == '*';
     take(unary ? LexemeKind::Unary : any ? LexemeKind::Any : LexemeKind::Operator, 1);

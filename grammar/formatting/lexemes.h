@@ -68,8 +68,8 @@ public:
 private:
     enum class Area : std::uint8_t { Between, Modules, Object, Set, Name, Expression };
 
-    [[nodiscard]] bool starts(std::string_view prefix) const {
-        return text_.substr(at_).starts_with(prefix);
+    [[nodiscard]] bool starts(char first, char second) const {
+        return rest() >= 2 && text_[at_] == first && text_[at_ + 1] == second;
     }
     [[nodiscard]] std::size_t rest() const { return text_.size() - at_; }
     [[nodiscard]] std::size_t word_length(std::size_t from) const;

@@ -26,8 +26,10 @@ void LineWriter::add(const Piece& piece, std::uint32_t blanks, bool may_break) {
             places_.push_back({line_.size(), line_.size() + blanks, column_, column_ + blanks,
                                piece.rank, piece.depth, piece.break_class});
         }
-        line_.append(blanks, ' ');
-        column_ += blanks;
+        if (blanks > 0) {
+            line_.append(blanks, ' ');
+            column_ += blanks;
+        }
     }
     at_begin_ = false;
     line_ += piece.text;
