@@ -71,7 +71,7 @@ Status dump_syntax(const DumpCommand& command, const Console& console) {
     return worse(console.show(diagnostics, sources), write_stage(command, text, console));
 }
 
-Status dump_skeleton(const DumpCommand& command, const Grammar& grammar, const Console& console) {
+Status dump_skeleton(const DumpCommand& command, Grammar& grammar, const Console& console) {
     Plant plant;
     const Status status = grow_plant(plant_request(command), grammar, console, plant);
     if (status != Status::Fine) {

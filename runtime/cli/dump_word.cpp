@@ -2,6 +2,7 @@
 
 #include "runtime/cli/files.h"
 #include "runtime/cli/foresight.h"
+#include "runtime/cli/plant.h"
 #include "runtime/cli/progress.h"
 #include "runtime/cli/tell.h"
 #include "runtime/derive.h"
@@ -365,6 +366,9 @@ Status dump_word(const DumpCommand& command, Grammar& grammar, const Console& co
         if (const std::optional<Status> counted = count_unseen(command, plan, grammar, console)) {
             return *counted;
         }
+    }
+    if (from_axiom && command.save_state.empty()) { // a state file has the codes of the grammar
+        fold_modules(plan.derive, grammar);
     }
     const bool shows = console.shows_progress();
     Progress progress(shows ? &console.io().err : nullptr, plan.last_age, Progress::Clock::now(),

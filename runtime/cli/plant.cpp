@@ -5,6 +5,7 @@
 #include "runtime/cli/progress.h"
 #include "runtime/cli/tell.h"
 #include "runtime/derive.h"
+#include "runtime/fold_reached.h"
 #include "runtime/runtime_diagnostic.h"
 #include "runtime/stream.h"
 #include "runtime/turtle.h"
@@ -138,10 +139,15 @@ Status draw_streamed(const DeriveOptions& options,
 
 } // namespace
 
-Status grow_plant(const PlantRequest& request,
-                  const Grammar& grammar,
-                  const Console& console,
-                  Plant& plant) {
+void fold_modules(const DeriveOptions& options, Grammar& grammar) {
+    if (std::optional<Bytecode> folded =
+            fold_reached(*grammar.bytecode, options.seed, options.generations)) {
+        grammar.bytecode = std::move(*folded);
+    }
+}
+
+Status
+grow_plant(const PlantRequest& request, Grammar& grammar, const Console& console, Plant& plant) {
     const Bytecode& bytecode = *grammar.bytecode;
     DeriveOptions options;
     options.generations = request.generations.value_or(bytecode.generations.value_or(0));
@@ -160,6 +166,7 @@ Status grow_plant(const PlantRequest& request,
         return show(limit_diagnostic(*limit, options.limits, bytecode, !grammar.is_module_file),
                     Status::Limit, grammar, console);
     }
+    fold_modules(options, grammar);
     const bool shows = console.shows_progress();
     Progress progress(shows ? &console.io().err : nullptr, options.generations, Clock::now(),
                       shows ? expect_modules(bytecode, options.generations)

@@ -4,6 +4,7 @@
 #include "runtime/cli/console.h"
 #include "runtime/cli/grammar_file.h"
 #include "runtime/cli/options.h"
+#include "runtime/derive.h"
 #include "runtime/mesh.h"
 #include "runtime/skeleton.h"
 
@@ -49,10 +50,12 @@ struct Plant {
     double draw_seconds = 0.0;
 };
 
+/// Folds what a derivation from the axiom can reach: grammar.bytecode becomes a program that
+/// derives the same words faster, with codes of its own.
+void fold_modules(const DeriveOptions& options, Grammar& grammar);
+
 /// Fine: the plant is there.
-[[nodiscard]] Status grow_plant(const PlantRequest& request,
-                                const Grammar& grammar,
-                                const Console& console,
-                                Plant& plant);
+[[nodiscard]] Status
+grow_plant(const PlantRequest& request, Grammar& grammar, const Console& console, Plant& plant);
 
 } // namespace lsys::lsc

@@ -159,7 +159,7 @@ DeriveStatus Passes::run_recorded(const Word& in, Word& out, const PassKeys& key
         take_census(word);
     } else {
         census_known_ = false;
-        place_chunks(word);
+        place_chunks(word, !in.parameters().empty());
         const DeriveStatus status = count<C, R>(word, keys);
         if (status != DeriveStatus::Ok) {
             return status;
@@ -207,10 +207,11 @@ void Passes::cut(const WordView<C>& word) {
     }
 }
 
-/// Where the parameters of each chunk begin, if several threads are to read them.
+/// Where the parameters of each chunk begin, if the word stores any and several threads are to read
+/// them.
 template <typename C>
-void Passes::place_chunks(const WordView<C>& word) {
-    if (!plan_.has_parameters() || workers_.count() == 1 || chunks_.size() == 1) {
+void Passes::place_chunks(const WordView<C>& word, bool stores) {
+    if (!stores || workers_.count() == 1 || chunks_.size() == 1) {
         return;
     }
     const Row* const rows = plan_.rows().data();
@@ -454,7 +455,6 @@ void Passes::take_census(const WordView<C>& word) {
 
 /// The census of the word that was written, by the growth matrix.
 void Passes::advance_census() {
-    const Bytecode& bytecode = plan_.bytecode();
     std::vector<std::uint64_t> next(census_.size(), 0);
     for (Code code = 0; code < census_.size(); ++code) {
         if (census_[code] == 0) {
@@ -466,7 +466,7 @@ void Passes::advance_census() {
             continue;
         }
         for (std::uint32_t i = 0; i < entry.code_count; ++i) {
-            next[bytecode.template_codes[entry.first_code + i]] += census_[code];
+            next[plan_.pool_code(entry.first_code + i)] += census_[code];
         }
     }
     census_ = std::move(next);

@@ -57,7 +57,7 @@ private:
     template <typename C>
     void cut(const WordView<C>& word);
     template <typename C>
-    void place_chunks(const WordView<C>& word);
+    void place_chunks(const WordView<C>& word, bool stores);
     template <typename C>
     [[nodiscard]] bool marks_pay(const WordView<C>& word, const Chunk& chunk) const;
     template <typename C, typename R>

@@ -5,48 +5,34 @@
 #include "runtime/word.h"
 
 #include <algorithm>
-#include <cstring>
+#include <array>
+#include <bit>
 
 namespace lsys {
 
 namespace {
 
-template <typename C>
-void fill_pool(std::byte* out, const Bytecode& bytecode) {
-    for (const Code code : bytecode.template_codes) {
-        const C narrow = static_cast<C>(code);
-        std::memcpy(out, &narrow, sizeof narrow);
-        out += sizeof narrow;
-    }
-    for (Code code = 0; code < bytecode.code_count(); ++code) {
-        const C narrow = static_cast<C>(code);
-        std::memcpy(out, &narrow, sizeof narrow);
-        out += sizeof narrow;
+/// Appends a code at the word's width.
+void append_code(Code code, std::uint32_t width, std::vector<std::byte>& pool) {
+    const auto append = [&pool](auto narrow) {
+        const auto bytes = std::bit_cast<std::array<std::byte, sizeof narrow>>(narrow);
+        pool.insert(pool.end(), bytes.begin(), bytes.end());
+    };
+    switch (width) {
+    case 1:
+        append(static_cast<std::uint8_t>(code));
+        break;
+    case 2:
+        append(static_cast<std::uint16_t>(code));
+        break;
+    default:
+        append(code);
+        break;
     }
 }
 
-/// Whether the expression at `first` (kNone: none) uses a formal outside [begin, end).
-bool uses_formal_outside(const Bytecode& bytecode,
-                         std::uint32_t first,
-                         std::uint32_t begin,
-                         std::uint32_t end) {
-    if (first == kNone) {
-        return false;
-    }
-    for (const std::uint32_t* at = bytecode.instructions.data() + first;; ++at) {
-        const auto opcode = static_cast<Opcode>(*at & 0xFF);
-        const std::uint32_t operand = *at >> 8;
-        if (opcode == Opcode::Formal && (operand < begin || operand >= end)) {
-            return true;
-        }
-        if (opcode == Opcode::End) {
-            return false;
-        }
-        if (opcode == Opcode::Literal) {
-            ++at;
-        }
-    }
-}
+/// Programs of more codes are rewritten without folding templates.
+constexpr Code kMostFoldedCodes = 4096;
 
 bool uses_step(const Bytecode& bytecode, std::uint32_t first) {
     return first != kNone && contains(bytecode, first, Opcode::Step);
@@ -66,6 +52,9 @@ Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generat
     make_guards();
     make_entries();
     if (bytecode_.settings.rewriting == RewritingMode::Parallel) {
+        if (has_parameters_ && bytecode_.code_count() <= kMostFoldedCodes) {
+            folded_index_.emplace(bytecode_);
+        }
         for (std::uint32_t i = 0; i < families_.size(); ++i) {
             put_in_force(i);
         }
@@ -76,18 +65,14 @@ void Plan::make_codes() {
     const Code count = bytecode_.code_count();
     code_width_ = lsys::code_width(count);
     identity_first_ = static_cast<std::uint32_t>(bytecode_.template_codes.size());
-    pool_.resize((std::size_t{identity_first_} + count) * code_width_ + kWordSlack);
-    switch (code_width_) {
-    case 1:
-        fill_pool<std::uint8_t>(pool_.data(), bytecode_);
-        break;
-    case 2:
-        fill_pool<std::uint16_t>(pool_.data(), bytecode_);
-        break;
-    default:
-        fill_pool<std::uint32_t>(pool_.data(), bytecode_);
-        break;
+    pool_.reserve((std::size_t{identity_first_} + count) * code_width_ + kWordSlack);
+    for (const Code code : bytecode_.template_codes) {
+        append_code(code, code_width_, pool_);
     }
+    for (Code code = 0; code < count; ++code) {
+        append_code(code, code_width_, pool_);
+    }
+    pool_.resize(pool_.size() + kWordSlack);
 
     std::uint32_t most_stored = 0;
     for (const BytecodeSymbol& symbol : bytecode_.symbols) {
@@ -247,6 +232,7 @@ void Plan::make_guards() {
 void Plan::make_entries() {
     const Code count = bytecode_.code_count();
     rows_.resize(count);
+    block_of_code_.assign(count, kNone);
     choice_of_code_.assign(count, kNone);
     tests_of_code_.assign(count, kNone);
     entries_.resize(std::size_t{count} + candidates_.size());
@@ -270,6 +256,26 @@ void Plan::make_entries() {
             lanes_.resize(lanes_.size() + entry.parameter_count);
         }
     }
+}
+
+Code Plan::pool_code(std::uint32_t index) const {
+    if (index < identity_first_) {
+        return bytecode_.template_codes[index];
+    }
+    const Code code = index - identity_first_;
+    return code < bytecode_.code_count() ? code : folded_codes_[code - bytecode_.code_count()];
+}
+
+/// Puts a template behind the others; returns where it begins.
+std::uint32_t Plan::add_template(const std::vector<Code>& codes) {
+    pool_.resize(pool_.size() - kWordSlack);
+    const auto first = static_cast<std::uint32_t>(pool_.size() / code_width_);
+    for (const Code code : codes) {
+        append_code(code, code_width_, pool_);
+    }
+    pool_.resize(pool_.size() + kWordSlack);
+    folded_codes_.insert(folded_codes_.end(), codes.begin(), codes.end());
+    return first;
 }
 
 Entry Plan::identity_entry(Code code) const {
@@ -346,7 +352,7 @@ std::uint64_t Plan::held_bytes() const {
            bytes_of(thresholds_) + bytes_of(choice_records_) + bytes_of(pool_) +
            bytes_of(codes_of_first_) + bytes_of(codes_of_) + bytes_of(choice_of_code_) +
            bytes_of(tests_of_code_) + bytes_of(test_lists_) + bytes_of(tests_) + bytes_of(guards_) +
-           bytes_of(varying_families_);
+           bytes_of(varying_families_) + bytes_of(folded_codes_) + bytes_of(block_of_code_);
 }
 
 } // namespace lsys

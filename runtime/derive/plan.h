@@ -8,10 +8,12 @@
 // one way: the codes to copy, and for each parameter a lane (expressions/shape.h), or general code.
 // Entry c < code_count belongs to code c: what a Fixed row writes, and the copy that stands for no
 // match in other rows. The others follow in the order of the families, so that record r > 0 of a
-// module means entry row.base + r.
+// module means entry row.base + r. A code whose entries differ from those of its family, because
+// its arguments are known and what it writes is folded (fold_reached.h), has a block of its own.
 #pragma once
 
 #include "compiler/bytecode.h"
+#include "runtime/derive/folded_index.h"
 #include "runtime/expressions/eval.h"
 #include "runtime/expressions/shape.h"
 
@@ -20,6 +22,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 namespace lsys {
@@ -156,10 +159,10 @@ public:
     }
     /// guards()[guard + code]: whether a module of that code may be the neighbour.
     [[nodiscard]] const std::uint8_t* guards() const { return guards_.data(); }
-    /// Codes at the word's width: those of the templates, then every code once; with slack.
+    /// Codes at the word's width: those of the templates, then every code once, then templates with
+    /// folded modules; with slack.
     [[nodiscard]] const std::byte* pool() const { return pool_.data(); }
-    /// Where the one-code templates begin.
-    [[nodiscard]] std::uint32_t identity_first() const { return identity_first_; }
+    [[nodiscard]] Code pool_code(std::uint32_t index) const;
 
     /// Bytes of codes that one wide store writes: 16 or 32.
     [[nodiscard]] std::uint32_t wide_bytes() const { return wide_bytes_; }
@@ -204,6 +207,10 @@ private:
     void resolve_fixed(Code code, const Entry& entry);
     [[nodiscard]] bool resolve_tests(const Family& family, Code code);
     [[nodiscard]] bool bake(const Row& row, Entry& entry) const;
+    [[nodiscard]] bool fold(Code code, Entry& entry);
+    void fold_records(const Family& family, Code code);
+    [[nodiscard]] std::uint32_t folded_template(const Candidate& candidate, const float* own);
+    [[nodiscard]] std::uint32_t add_template(const std::vector<Code>& codes);
     [[nodiscard]] ConditionKind
     condition_for(const Family& family, const Candidate& candidate, const float* own) const;
     [[nodiscard]] const float* own_constants(const Row& row) const;
@@ -237,6 +244,10 @@ private:
     std::vector<std::uint32_t> choice_of_code_; // kNone: none yet
     std::vector<std::uint32_t> tests_of_code_;
     std::vector<std::uint32_t> varying_families_;
+    std::optional<FoldedIndex> folded_index_; // where templates are folded
+    std::vector<Code> folded_codes_;          // of folded templates, at the end of the pool
+    std::unordered_map<std::uint64_t, std::uint32_t> templates_; // by code and candidate
+    std::vector<std::uint32_t> block_of_code_; // entries of its own; kNone: those of the family
     std::uint32_t identity_first_ = 0;
     std::uint32_t dynamic_rows_ = 0;
     std::uint32_t predecessor_count_ = 1;

@@ -181,6 +181,7 @@ void Plan::resolve(std::uint32_t family_index, Code code) {
         }
         if (candidate.has_context || condition != ConditionKind::Always) {
             set_kind(code, resolve_tests(family, code) ? RowKind::Tests : RowKind::General);
+            fold_records(family, code);
             return;
         }
         if (candidate.stochastic) {
@@ -261,6 +262,7 @@ void Plan::resolve_choice(const Family& family, std::uint32_t first_match, Code 
         }
         if (condition != ConditionKind::Always) {
             set_kind(code, RowKind::General);
+            fold_records(family, code);
             return;
         }
         records.push_back(i + 1);
@@ -307,13 +309,14 @@ void Plan::resolve_choice(const Family& family, std::uint32_t first_match, Code 
     std::copy(records.begin(), records.end(), choice_records_.begin() + choice.first);
     row.source = index;
     set_kind(code, RowKind::Choice);
+    fold_records(family, code);
 }
 
 void Plan::resolve_fixed(Code code, const Entry& taken) {
     Row& row = rows_[code];
     Entry entry = taken;
     row.slow = false;
-    if (own_constants(row) != nullptr && (entry.reads_own || entry.general)) {
+    if (!fold(code, entry) && own_constants(row) != nullptr && (entry.reads_own || entry.general)) {
         row.slow = !bake(row, entry);
     }
     row.copies = false;

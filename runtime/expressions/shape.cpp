@@ -261,4 +261,26 @@ bool contains(const Bytecode& bytecode, std::uint32_t first, Opcode opcode) {
     }
 }
 
+bool uses_formal_outside(const Bytecode& bytecode,
+                         std::uint32_t first,
+                         std::uint32_t begin,
+                         std::uint32_t end) {
+    if (first == kNone) {
+        return false;
+    }
+    for (const std::uint32_t* at = bytecode.instructions.data() + first;; ++at) {
+        const auto opcode = static_cast<Opcode>(*at & 0xFF);
+        const std::uint32_t operand = *at >> 8;
+        if (opcode == Opcode::Formal && (operand < begin || operand >= end)) {
+            return true;
+        }
+        if (opcode == Opcode::End) {
+            return false;
+        }
+        if (opcode == Opcode::Literal) {
+            ++at;
+        }
+    }
+}
+
 } // namespace lsys

@@ -71,5 +71,10 @@ shapes_of(const Bytecode& bytecode, std::uint32_t first, const ShapeKnowledge& k
 
 /// Whether the expression at `first` contains `opcode`.
 [[nodiscard]] bool contains(const Bytecode& bytecode, std::uint32_t first, Opcode opcode);
+/// Whether the expression at `first` (kNone: none) uses a formal outside [begin, end).
+[[nodiscard]] bool uses_formal_outside(const Bytecode& bytecode,
+                                       std::uint32_t first,
+                                       std::uint32_t begin,
+                                       std::uint32_t end);
 
 } // namespace lsys

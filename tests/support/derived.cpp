@@ -1,11 +1,13 @@
 #include "tests/support/derived.h"
 
+#include "runtime/fold_reached.h"
 #include "runtime/stream.h"
 #include "runtime/word_text.h"
 
 #include <catch2/catch.hpp>
 
 #include <array>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -57,6 +59,19 @@ bool same(const RuntimeError& a, const RuntimeError& b) {
            a.parameters == b.parameters && a.in_condition == b.in_condition;
 }
 
+/// Calls `visit` for the program, and for the one with what it can reach folded.
+template <typename Visit>
+void for_each_program(const Bytecode& bytecode,
+                      std::uint32_t generations,
+                      std::uint64_t seed,
+                      const Visit& visit) {
+    visit(bytecode);
+    if (const std::optional<Bytecode> folded = fold_reached(bytecode, seed, generations)) {
+        INFO("folded");
+        visit(*folded);
+    }
+}
+
 } // namespace
 
 std::string text_of(const Bytecode& bytecode, const Word& word) {
@@ -82,40 +97,42 @@ std::string derived(const Bytecode& bytecode, std::uint32_t generations, std::ui
 std::string
 derived_every_way(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t seed) {
     const std::string expected = derived(bytecode, generations, seed);
-    for (const std::uint32_t threads : kThreads) {
-        for (const std::uint32_t chunk : kChunks) {
-            INFO(threads << " threads, chunks of " << chunk);
-            CHECK(derived_with(bytecode, options_for(generations, seed, threads, chunk)) ==
-                  expected);
+    for_each_program(bytecode, generations, seed, [&](const Bytecode& program) {
+        for (const std::uint32_t threads : kThreads) {
+            for (const std::uint32_t chunk : kChunks) {
+                INFO(threads << " threads, chunks of " << chunk);
+                CHECK(derived_with(program, options_for(generations, seed, threads, chunk)) ==
+                      expected);
+            }
         }
-    }
-    if (!why_not_streamable(bytecode)) {
-        CHECK(streamed(bytecode, generations, seed) == expected);
-    }
+        if (!why_not_streamable(program)) {
+            CHECK(streamed(program, generations, seed) == expected);
+        }
+    });
     return expected;
 }
 
 RuntimeError
 error_every_way(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t seed) {
-    RuntimeError expected;
-    bool first = true;
-    for (const std::uint32_t threads : kThreads) {
-        for (const std::uint32_t chunk : kChunks) {
-            INFO(threads << " threads, chunks of " << chunk);
-            Derivation derivation(bytecode, options_for(generations, seed, threads, chunk));
-            DeriveStatus status = derivation.start();
-            if (status == DeriveStatus::Ok) {
-                status = derivation.run_to(generations);
+    std::optional<RuntimeError> expected;
+    for_each_program(bytecode, generations, seed, [&](const Bytecode& program) {
+        for (const std::uint32_t threads : kThreads) {
+            for (const std::uint32_t chunk : kChunks) {
+                INFO(threads << " threads, chunks of " << chunk);
+                Derivation derivation(program, options_for(generations, seed, threads, chunk));
+                DeriveStatus status = derivation.start();
+                if (status == DeriveStatus::Ok) {
+                    status = derivation.run_to(generations);
+                }
+                REQUIRE(status == DeriveStatus::Error);
+                if (!expected) {
+                    expected = derivation.error();
+                }
+                CHECK(same(derivation.error(), *expected));
             }
-            REQUIRE(status == DeriveStatus::Error);
-            if (first) {
-                expected = derivation.error();
-                first = false;
-            }
-            CHECK(same(derivation.error(), expected));
         }
-    }
-    return expected;
+    });
+    return *expected;
 }
 
 } // namespace lsys::test

@@ -1,5 +1,5 @@
 // Derived words as text, by every way the runtime has: any number of threads, any size of chunks,
-// stored or streamed. All must agree.
+// stored or streamed, modules that can be reached folded or not. All must agree.
 #pragma once
 
 #include "compiler/bytecode.h"
