@@ -76,7 +76,7 @@ ExportStatus write(const Mesh& mesh,
         break;
     case ExportFormat::Gltf:
     case ExportFormat::Glb:
-        status = write_gltf(mesh, format == ExportFormat::Glb, info, out);
+        status = write_gltf(mesh, skeleton, format == ExportFormat::Glb, info, out);
         break;
     case ExportFormat::Svg:
         write_svg(skeleton, info, out);

@@ -16,6 +16,8 @@
 
 namespace lsys {
 
+struct PlantAnimation;
+
 enum class ExportFormat : std::uint8_t { Obj, Ply, Off, OffPlus, Stl, Gltf, Glb, Svg, Usda };
 
 /// By the extension, in capitals or not.
@@ -25,6 +27,9 @@ enum class ExportFormat : std::uint8_t { Obj, Ply, Off, OffPlus, Stl, Gltf, Glb,
 
 /// Takes the next bytes; false stops the export.
 using ByteSink = std::function<bool(std::string_view)>;
+
+/// Of a skin: glTF counts joints in 16 bits, and one of them is that of what stands still.
+inline constexpr std::uint32_t kMostJoints = 65'535;
 
 /// What a file says about where it comes from.
 struct ExportInfo {
@@ -36,13 +41,17 @@ struct ExportInfo {
     bool textures = true;  // glTF: images for the materials that are textured
     /// Those of Skeleton::mesh_files, whose outlines Svg draws; it leaves out what is not here.
     const std::vector<UserMesh>* user_meshes = nullptr;
+    /// glTF: the mesh is a skin that these poses move, of which the skeleton is the first. The mesh
+    /// has its segments.
+    const PlantAnimation* animation = nullptr;
 };
 
 enum class ExportStatus : std::uint8_t {
     Ok,
-    Nothing,  // no triangle, or for Svg nothing drawn: no byte was written
-    TooLarge, // more than the format can hold: no byte was written
-    Stopped,  // the sink said so
+    Nothing,       // no triangle, or for Svg nothing drawn: no byte was written
+    TooLarge,      // more than the format can hold: no byte was written
+    TooManyJoints, // of a skin, more than kMostJoints: no byte was written
+    Stopped,       // the sink said so
     OutOfMemory,
 };
 

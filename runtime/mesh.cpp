@@ -5,6 +5,7 @@
 #include "runtime/meshing/mesh_builder.h"
 #include "runtime/meshing/objects.h"
 #include "runtime/meshing/polygons.h"
+#include "runtime/meshing/ring_segments.h"
 #include "runtime/meshing/tubes.h"
 
 #include <new>
@@ -22,6 +23,9 @@ MeshStatus build(const Skeleton& skeleton,
     switch (options.method) {
     case MeshMethod::Tubes:
         append_tubes(skeleton, options, builder);
+        if (options.segments && builder.status() == MeshStatus::Ok) {
+            name_ring_segments(skeleton, options, builder.segments());
+        }
         break;
     case MeshMethod::Cylinders:
         append_cylinders(skeleton, options, builder);

@@ -35,12 +35,16 @@ struct MeshPart {
     std::uint64_t index_count = 0;
 };
 
+/// The segments that carry a vertex, half each; twice the same where it is one, kNoSegment: none.
+using VertexSegments = std::array<std::uint32_t, 2>;
+
 struct Mesh {
     LargeVector<glm::vec3> positions;
     LargeVector<glm::vec3> normals;             // unit length
     LargeVector<glm::vec2> texture_coordinates; // empty if not asked for
     LargeVector<glm::vec4> tangents;            // empty if not asked for; w is the bitangent's sign
-    LargeVector<std::uint16_t> colours; // palette index of each vertex; empty if not asked for
+    LargeVector<std::uint16_t> colours;   // palette index of each vertex; empty if not asked for
+    LargeVector<VertexSegments> segments; // empty if not asked for
     LargeVector<std::uint32_t> indices;
     std::vector<MeshPart> parts; // one for each material in use, in order of indices
     std::vector<Material> materials;
@@ -49,7 +53,7 @@ struct Mesh {
         return positions.size() * sizeof(glm::vec3) + normals.size() * sizeof(glm::vec3) +
                texture_coordinates.size() * sizeof(glm::vec2) +
                tangents.size() * sizeof(glm::vec4) + colours.size() * sizeof(std::uint16_t) +
-               indices.size() * sizeof(std::uint32_t);
+               segments.size() * sizeof(VertexSegments) + indices.size() * sizeof(std::uint32_t);
     }
 };
 
@@ -68,6 +72,7 @@ struct MeshOptions {
     bool texture_coordinates = true;
     bool tangents = true;
     bool colours = true;
+    bool segments = false; // for a skin
     /// Part of the radius by which smooth noise moves the bark (Baele and Warzee 2005); 0: none.
     float bark_noise = 0.0F;
     /// Bending of leaves by gravity, 0 (none) to 1 (they hang).

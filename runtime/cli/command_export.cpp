@@ -1,3 +1,4 @@
+#include "runtime/animation.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/plant.h"
@@ -119,6 +120,12 @@ Status tell_exported(ExportStatus status,
         return fail(Error{"the plant is larger than a file of this format can be; another format, "
                           "fewer sides or a coarser --level may hold it"},
                     console);
+    case ExportStatus::TooManyJoints:
+        return show(plant_limit_diagnostic(
+                        "the skin", fmt::format("{} joints", grouped_digits(kMostJoints)),
+                        "ask for fewer generations with `-n`, or for a numbered series in "
+                        "another format, which is any but glTF: `-o tree.ply`"),
+                    Status::Limit, grammar, console);
     case ExportStatus::Stopped:
         return sink.failure() ? fail(*sink.failure(), console) : Status::Interrupted;
     case ExportStatus::OutOfMemory:
@@ -181,14 +188,18 @@ struct Export {
     Mesh mesh; // of the last file
 };
 
-/// Meshes `skeleton` and writes it to `path`.
-Status write_plant(Export& run, const Skeleton& skeleton, const std::string& path) {
+/// Meshes `skeleton` and writes it to `path`; with `animation`, whose first pose it is, as a skin.
+Status write_plant(Export& run,
+                   const Skeleton& skeleton,
+                   const std::string& path,
+                   const PlantAnimation* animation = nullptr) {
     const ExportCommand& command = run.command;
     Clock::time_point start = Clock::now();
     if (uses_mesh(run.format)) {
         MeshOptions options = command.mesh;
         options.threads = command.threads;
         options.max_bytes = command.max_bytes;
+        options.segments = animation != nullptr;
         run.mesh = {};
         const Status status =
             tell_meshed(make_mesh(skeleton, run.plant.user_meshes, options, run.mesh), command,
@@ -205,6 +216,7 @@ Status write_plant(Export& run, const Skeleton& skeleton, const std::string& pat
     info.generations = run.plant.generations;
     info.generator = "lsc " LSC_VERSION;
     info.user_meshes = &run.plant.user_meshes;
+    info.animation = animation;
     if (run.format == ExportFormat::Obj && path != "-") {
         const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
         info.mtl_name = library.filename().string();
@@ -231,6 +243,27 @@ std::string numbered(const std::string& output, std::uint32_t number) {
     return name.replace_extension(fmt::format(".{:04}{}", number, extension)).string();
 }
 
+/// The formats that can hold a plant in motion as one file.
+bool holds_motion(ExportFormat format) {
+    return format == ExportFormat::Gltf || format == ExportFormat::Glb;
+}
+
+/// One file with all frames.
+Status write_animation(Export& run, PlantPhysics& physics) {
+    const ExportCommand& command = run.command;
+    if (animation_bytes(run.plant.skeleton.segments.size(), command.frames) > command.max_bytes) {
+        return show(plant_limit_diagnostic("the animation", byte_size_text(command.max_bytes),
+                                           "ask for fewer frames with `--frames`, for fewer "
+                                           "generations with `-n`, or raise the limit with "
+                                           "`--max-memory`"),
+                    Status::Limit, run.grammar, run.console);
+    }
+    Skeleton first;
+    physics.pose(first);
+    const PlantAnimation animation = record(physics, command.frames, command.frames_per_second);
+    return write_plant(run, first, command.output, &animation);
+}
+
 /// The plant bent by its weight and by wind: at rest, or at moments of its motion.
 Status write_bent(Export& run) {
     const ExportCommand& command = run.command;
@@ -254,6 +287,9 @@ Status write_bent(Export& run) {
     if (command.frames == 0) {
         physics.pose(bent);
         return write_plant(run, bent, command.output);
+    }
+    if (holds_motion(run.format)) {
+        return write_animation(run, physics);
     }
     for (std::uint32_t frame = 1; frame <= command.frames; ++frame) {
         physics.pose(bent);
@@ -283,8 +319,9 @@ Status run_export(const ExportCommand& command, const Console& console) {
     if ((command.settle || command.frames != 0) && !bends) {
         return fail(Error{"--settle and --frames need a force: --gravity or --wind"}, console);
     }
-    if (command.frames != 0 && command.output == "-") {
-        return fail(Error{"--frames writes several files, which do not go to standard output"},
+    if (command.frames != 0 && command.output == "-" && !holds_motion(*format)) {
+        return fail(Error{"--frames writes several files of this format, which do not go to "
+                          "standard output; glb and gltf hold all frames in one"},
                     console);
     }
     Grammar grammar;

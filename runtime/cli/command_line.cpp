@@ -294,7 +294,8 @@ void add_export(CLI::App& app, ExportCommand& command) {
         ->group("Physics");
     constexpr std::uint64_t kMaxFrames = 1'000'000;
     add_parsed(app, "--frames", command.frames, whole(1, kMaxFrames),
-               "A numbered file for each of N moments: tree.0001.glb, tree.0002.glb, ...")
+               "The plant at N moments: glb and gltf hold them as one animation, of other formats "
+               "there is a numbered file for each: tree.0001.ply, tree.0002.ply, ...")
         ->type_name("N")
         ->group("Physics");
     const auto rate = [](const std::string& text) { return parse_number(text, 0.1F, 1000.0F); };
@@ -308,8 +309,9 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_deny(app, command.messages);
     app.footer(
         "Metres, +Y up. The file is complete or absent. OBJ gets a .mtl beside it; SVG is the "
-        "drawing in\nthe plane of X and Y.\n"
-        "Example: lsc export tree.lsys -o tree.glb");
+        "drawing in\nthe plane of X and Y. A skin has at most 65,535 joints that move.\n"
+        "Examples: lsc export tree.lsys -o tree.glb\n"
+        "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 48 --fps 24");
 }
 
 void add_stats(CLI::App& app, StatsCommand& command) {

@@ -81,7 +81,7 @@ struct ExportCommand {
     std::optional<float> gravity; // m/s^2; any of these three: the plant bends
     std::optional<Wind> wind;
     bool settle = false;
-    std::uint32_t frames = 0; // of a numbered series; 0: one file
+    std::uint32_t frames = 0; // of an animation or a numbered series; 0: the plant at rest
     float frames_per_second = 24.0F;
     bool stream = false;
     bool stats = false;

@@ -12,9 +12,12 @@ void write_ply(const Mesh& mesh, const ExportInfo& info, PieceWriter& out);
 void write_off(const Mesh& mesh, bool plus, PieceWriter& out);
 void write_stl(const Mesh& mesh, const ExportInfo& info, PieceWriter& out);
 void write_usda(const Mesh& mesh, const ExportInfo& info, PieceWriter& out);
-/// TooLarge where a buffer of glTF would be 4 GiB or more; else Ok, stopped or not.
-[[nodiscard]] ExportStatus
-write_gltf(const Mesh& mesh, bool binary, const ExportInfo& info, PieceWriter& out);
+/// TooLarge where a buffer of glTF would be 4 GiB or more, TooManyJoints; else Ok, stopped or not.
+[[nodiscard]] ExportStatus write_gltf(const Mesh& mesh,
+                                      const Skeleton& skeleton,
+                                      bool binary,
+                                      const ExportInfo& info,
+                                      PieceWriter& out);
 void write_svg(const Skeleton& skeleton, const ExportInfo& info, PieceWriter& out);
 
 /// Triangles of all parts.

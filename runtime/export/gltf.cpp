@@ -68,8 +68,13 @@ Images make_images(const Mesh& mesh, const ExportInfo& info) {
 /// The document, up to its list of buffers.
 class Document {
 public:
-    Document(const Mesh& mesh, const ExportInfo& info, const GltfData& data, const Images& images)
-        : mesh_(mesh), info_(info), data_(data), images_(images) {}
+    /// `motion` may be null.
+    Document(const Mesh& mesh,
+             const GltfMotion* motion,
+             const ExportInfo& info,
+             const GltfData& data,
+             const Images& images)
+        : mesh_(mesh), motion_(motion), info_(info), data_(data), images_(images) {}
 
     [[nodiscard]] std::string text();
 
@@ -84,38 +89,59 @@ private:
                            [array](const GltfView& view) { return view.array == array; });
     }
 
-    void add_node();
+    [[nodiscard]] std::size_t first_view(GltfArray array) const {
+        const auto found =
+            std::find_if(data_.views.begin(), data_.views.end(),
+                         [array](const GltfView& view) { return view.array == array; });
+        return static_cast<std::size_t>(found - data_.views.begin());
+    }
+
+    void add_nodes();
     void add_primitives();
     void add_materials();
     void add_material(const Material& material, bool coloured);
     void add_images();
     void add_accessors();
+    void add_motion();
     void add_views();
 
     const Mesh& mesh_;
+    const GltfMotion* motion_;
     const ExportInfo& info_;
     const GltfData& data_;
     const Images& images_;
     std::string text_;
+    std::size_t accessors_ = 0;
 };
 
-void Document::add_node() {
+constexpr std::size_t kFirstJoint = 1; // node
+
+void Document::add_nodes() {
     // Numbers beyond 2^53 are not safe with every reader of JSON.
     const bool safe = info_.seed < std::uint64_t{1} << 53U;
-    add(R"("scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"name":"plant","mesh":0,)"
-        R"("extras":{{"grammar":"{}","seed":{},"n":{}}}}}],)",
-        json_text(info_.grammar),
+    // What has a skin goes with its joints only, so it is a root beside them.
+    add(R"("scene":0,"scenes":[{{"nodes":[0{}]}}],"nodes":[{{"name":"plant","mesh":0,{})"
+        R"("extras":{{"grammar":"{}","seed":{},"n":{}}}}})",
+        motion_ != nullptr ? fmt::format(",{}", kFirstJoint) : "",
+        motion_ != nullptr ? R"("skin":0,)" : "", json_text(info_.grammar),
         safe ? fmt::format("{}", info_.seed) : fmt::format("\"{}\"", info_.seed),
         info_.generations);
+    if (motion_ != nullptr) {
+        text_ += ',';
+        text_ += joint_nodes(*motion_, kFirstJoint);
+    }
+    add("],");
 }
 
 void Document::add_primitives() {
-    static constexpr std::array<std::pair<GltfArray, const char*>, 5> kAttributes{{
+    static constexpr std::array<std::pair<GltfArray, const char*>, 7> kAttributes{{
         {GltfArray::Positions, "POSITION"},
         {GltfArray::Normals, "NORMAL"},
         {GltfArray::TextureCoordinates, "TEXCOORD_0"},
         {GltfArray::Tangents, "TANGENT"},
         {GltfArray::Colours, "COLOR_0"},
+        {GltfArray::Joints, "JOINTS_0"},
+        {GltfArray::Weights, "WEIGHTS_0"},
     }};
     add(R"("meshes":[{{"name":"plant","primitives":[)");
     // Accessors: those of the attributes, then one for the indices of each part. Materials: one for
@@ -183,10 +209,7 @@ void Document::add_images() {
     if (images_.names.empty()) {
         return;
     }
-    const auto image_views =
-        std::find_if(data_.views.begin(), data_.views.end(),
-                     [](const GltfView& view) { return view.array == GltfArray::Image; }) -
-        data_.views.begin();
+    const std::size_t image_views = first_view(GltfArray::Image);
     // Sampler 0 repeats, 1 ends at the border; both with mipmaps.
     const bool leaf = images_.leaf.has_value();
     const bool bark = images_.bark.has_value();
@@ -205,13 +228,14 @@ void Document::add_images() {
     add(R"(],"images":[)");
     for (std::size_t i = 0; i < images_.names.size(); ++i) {
         add(R"({}{{"name":"{}","mimeType":"image/png","bufferView":{}}})", comma(i),
-            images_.names[i], static_cast<std::size_t>(image_views) + i);
+            images_.names[i], image_views + i);
     }
     add("],");
 }
 
 void Document::add_accessors() {
     constexpr int kByte = 5121;
+    constexpr int kShort = 5123;
     constexpr int kUnsigned = 5125;
     constexpr int kFloat = 5126;
     Bounds bounds;
@@ -220,9 +244,10 @@ void Document::add_accessors() {
     }
     add(R"("accessors":[)");
     const std::size_t vertices = mesh_.positions.size();
-    std::size_t indices_view = 0;
-    for (std::size_t i = 0; i < data_.views.size(); ++i) {
+    const std::size_t indices_view = first_view(GltfArray::Indices);
+    for (std::size_t i = 0; i < indices_view; ++i) {
         const auto attribute = [&](int component, const char* type) {
+            ++accessors_;
             add(R"({}{{"bufferView":{},"componentType":{},"count":{},"type":"{}")", comma(i), i,
                 component, vertices, type);
         };
@@ -252,10 +277,15 @@ void Document::add_accessors() {
             attribute(kByte, "VEC4");
             add(R"(,"normalized":true}})");
             break;
-        case GltfArray::Indices:
-            indices_view = i;
+        case GltfArray::Joints:
+            attribute(motion_->joint_bytes() == 1 ? kByte : kShort, "VEC4");
+            add("}}");
             break;
-        case GltfArray::Image:
+        case GltfArray::Weights:
+            attribute(kByte, "VEC4");
+            add(R"(,"normalized":true}})");
+            break;
+        default:
             break;
         }
     }
@@ -265,9 +295,23 @@ void Document::add_accessors() {
                 R"("type":"SCALAR"}})",
                 indices_view, part.first_index * sizeof(std::uint32_t), kUnsigned,
                 part.index_count / 3 * 3);
+            ++accessors_;
         }
     }
+    if (motion_ != nullptr) {
+        text_ += ',';
+        text_ += motion_accessors(*motion_, {.inverse_binds = first_view(GltfArray::InverseBinds),
+                                             .times = first_view(GltfArray::Times),
+                                             .translations = first_view(GltfArray::Translations),
+                                             .rotations = first_view(GltfArray::Rotations)});
+    }
     add("],");
+}
+
+void Document::add_motion() {
+    if (motion_ != nullptr) {
+        text_ += skin_and_animation(*motion_, kFirstJoint, accessors_);
+    }
 }
 
 void Document::add_views() {
@@ -277,7 +321,7 @@ void Document::add_views() {
     for (std::size_t i = 0; i < data_.views.size(); ++i) {
         const GltfView& view = data_.views[i];
         add(R"({}{{"buffer":0,"byteOffset":{},"byteLength":{})", comma(i), view.offset, view.bytes);
-        if (view.array != GltfArray::Image) {
+        if (view.array <= GltfArray::Indices) {
             add(R"(,"target":{})", view.array == GltfArray::Indices ? kIndices : kVertices);
         }
         add("}}");
@@ -288,11 +332,12 @@ void Document::add_views() {
 std::string Document::text() {
     text_.clear();
     add(R"({{"asset":{{"version":"2.0","generator":"{}"}},)", json_text(info_.generator));
-    add_node();
+    add_nodes();
     add_primitives();
     add_materials();
     add_images();
     add_accessors();
+    add_motion();
     add_views();
     add(R"("buffers":[{{"byteLength":{})", data_.bytes);
     return std::move(text_);
@@ -305,18 +350,31 @@ void put_word(PieceWriter& out, std::uint64_t value) {
 
 } // namespace
 
-ExportStatus write_gltf(const Mesh& mesh, bool binary, const ExportInfo& info, PieceWriter& out) {
+ExportStatus write_gltf(const Mesh& mesh,
+                        const Skeleton& skeleton,
+                        bool binary,
+                        const ExportInfo& info,
+                        PieceWriter& out) {
+    std::optional<GltfMotion> moving;
+    if (info.animation != nullptr) {
+        std::optional<Skin> skin = make_skin(mesh, skeleton, *info.animation);
+        if (!skin) {
+            return ExportStatus::TooManyJoints;
+        }
+        moving.emplace(GltfMotion{std::move(*skin), *info.animation});
+    }
+    const GltfMotion* const motion = moving ? &*moving : nullptr;
     const Images images = make_images(mesh, info);
-    const GltfData data = plan_gltf_data(mesh, images.bytes);
+    const GltfData data = plan_gltf_data(mesh, motion, images.bytes);
     if (data.bytes > kMostBytes) {
         return ExportStatus::TooLarge;
     }
-    std::string json = Document(mesh, info, data, images).text();
+    std::string json = Document(mesh, motion, info, data, images).text();
     if (!binary) {
         out.put(json);
         out.put(R"(,"uri":"data:application/octet-stream;base64,)");
         Base64Writer base64(out);
-        write_gltf_data(mesh, data,
+        write_gltf_data(mesh, motion, data,
                         [&base64](std::span<const std::byte> bytes) { base64.put(bytes); });
         base64.finish();
         out.put("\"}]}\n");
@@ -340,7 +398,8 @@ ExportStatus write_gltf(const Mesh& mesh, bool binary, const ExportInfo& info, P
     out.put(json);
     put_word(out, data.bytes);
     put_word(out, kDataChunk);
-    write_gltf_data(mesh, data, [&out](std::span<const std::byte> bytes) { out.put_bytes(bytes); });
+    write_gltf_data(mesh, motion, data,
+                    [&out](std::span<const std::byte> bytes) { out.put_bytes(bytes); });
     return ExportStatus::Ok;
 }
 

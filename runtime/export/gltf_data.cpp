@@ -107,7 +107,8 @@ void write_colours(const Mesh& mesh, const GltfBytes& write) {
 
 } // namespace
 
-GltfData plan_gltf_data(const Mesh& mesh, std::vector<std::string> images) {
+GltfData
+plan_gltf_data(const Mesh& mesh, const GltfMotion* motion, std::vector<std::string> images) {
     GltfData data;
     data.images = std::move(images);
     bool any_coloured = false;
@@ -131,14 +132,31 @@ GltfData plan_gltf_data(const Mesh& mesh, std::vector<std::string> images) {
     if (any_coloured) {
         add(GltfArray::Colours, vertices * sizeof(ColourBytes), 0);
     }
+    if (motion != nullptr) {
+        add(GltfArray::Joints, vertices * 4 * motion->joint_bytes(), 0);
+        add(GltfArray::Weights, vertices * 4, 0);
+    }
     add(GltfArray::Indices, mesh.indices.size() * sizeof(std::uint32_t), 0);
+    if (motion != nullptr) {
+        const std::uint64_t keys =
+            std::uint64_t{motion->poses.frame_count} * motion->moving_joints();
+        add(GltfArray::InverseBinds, motion->skin.joint_count() * sizeof(glm::mat4), 0);
+        add(GltfArray::Times, motion->poses.frame_count * sizeof(float), 0);
+        if (keys > 0) {
+            add(GltfArray::Translations, keys * sizeof(glm::vec3), 0);
+            add(GltfArray::Rotations, keys * sizeof(glm::quat), 0);
+        }
+    }
     for (std::size_t i = 0; i < data.images.size(); ++i) {
         add(GltfArray::Image, data.images[i].size(), i);
     }
     return data;
 }
 
-void write_gltf_data(const Mesh& mesh, const GltfData& data, const GltfBytes& write) {
+void write_gltf_data(const Mesh& mesh,
+                     const GltfMotion* motion,
+                     const GltfData& data,
+                     const GltfBytes& write) {
     for (const GltfView& view : data.views) {
         switch (view.array) {
         case GltfArray::Positions:
@@ -155,6 +173,24 @@ void write_gltf_data(const Mesh& mesh, const GltfData& data, const GltfBytes& wr
             break;
         case GltfArray::Colours:
             write_colours(mesh, write);
+            break;
+        case GltfArray::Joints:
+            write_vertex_joints(mesh, *motion, write);
+            break;
+        case GltfArray::Weights:
+            write_vertex_weights(mesh, *motion, write);
+            break;
+        case GltfArray::InverseBinds:
+            write_inverse_binds(*motion, write);
+            break;
+        case GltfArray::Times:
+            write_times(*motion, write);
+            break;
+        case GltfArray::Translations:
+            write_translations(*motion, write);
+            break;
+        case GltfArray::Rotations:
+            write_rotations(*motion, write);
             break;
         case GltfArray::Indices:
             write(std::as_bytes(std::span(mesh.indices)));

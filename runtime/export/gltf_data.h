@@ -1,11 +1,11 @@
 // The buffer of a glTF file: which arrays lie in it, and where.
 #pragma once
 
+#include "runtime/export/gltf_motion.h"
 #include "runtime/mesh.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,7 +18,13 @@ enum class GltfArray : std::uint8_t {
     TextureCoordinates,
     Tangents,
     Colours,
+    Joints,
+    Weights,
     Indices,
+    InverseBinds,
+    Times,
+    Translations,
+    Rotations,
     Image,
 };
 
@@ -37,12 +43,15 @@ struct GltfData {
     std::vector<bool> coloured;
 };
 
-/// Plans the buffer, images last.
-[[nodiscard]] GltfData plan_gltf_data(const Mesh& mesh, std::vector<std::string> images);
+/// Plans the buffer, images last. Without `motion` there is no skin.
+[[nodiscard]] GltfData
+plan_gltf_data(const Mesh& mesh, const GltfMotion* motion, std::vector<std::string> images);
 
-using GltfBytes = std::function<void(std::span<const std::byte>)>;
 /// Hands over the buffer in order. Normals and tangents that are not of unit length, which glTF
 /// does not allow, are replaced on the way.
-void write_gltf_data(const Mesh& mesh, const GltfData& data, const GltfBytes& write);
+void write_gltf_data(const Mesh& mesh,
+                     const GltfMotion* motion,
+                     const GltfData& data,
+                     const GltfBytes& write);
 
 } // namespace lsys

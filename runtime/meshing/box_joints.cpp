@@ -110,7 +110,7 @@ private:
         const Widths w = widths(own);
         const glm::vec3 along = heading(own.frame);
         const float length = own.length;
-        writer_.begin_segment(own, w.base);
+        writer_.begin_segment(own, segment, w.base);
         // What is left between the joint it grows from and its tip.
         float reach = 0.0F;
         if (socket_of_[segment] == kNoSegment) {

@@ -49,10 +49,12 @@ void BoxWriter::add_face(std::span<const std::uint32_t> corners) {
     mesh_.corners.insert(mesh_.corners.end(), corners.begin(), corners.end());
     mesh_.face_ends.push_back(static_cast<std::uint32_t>(mesh_.corners.size()));
     mesh_.colours.push_back(segment_->colour);
+    mesh_.segments.push_back(number_);
 }
 
-void BoxWriter::begin_segment(const Segment& segment, float half) {
+void BoxWriter::begin_segment(const Segment& segment, std::uint32_t number, float half) {
     segment_ = &segment;
+    number_ = number;
     distance_ = 0.0F;
     // The picture goes half around, and is as high as it is wide.
     v_per_length_ = 1.0F / (4.0F * half);

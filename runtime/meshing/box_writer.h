@@ -34,8 +34,8 @@ struct BoxJoint {
 
 class BoxWriter {
 public:
-    /// What follows belongs to `segment`, whose box begins with this half side.
-    void begin_segment(const Segment& segment, float half);
+    /// What follows belongs to `segment`, of this number, whose box begins with this half side.
+    void begin_segment(const Segment& segment, std::uint32_t number, float half);
     void begin_root(float half);
     void begin_at(const BoxSocket& socket);
     /// A ring across `direction`, at a distance from the base of the segment, joined to what is
@@ -70,6 +70,7 @@ private:
 
     PolygonMesh mesh_;
     const Segment* segment_ = nullptr;
+    std::uint32_t number_ = kNoSegment; // of segment_
     BoxSocket end_;
     float distance_ = 0.0F; // of end_
     float v_per_length_ = 0.0F;

@@ -83,12 +83,17 @@ void write_vertex(const CatmullClark& surface, std::uint32_t vertex, const MeshB
     glm::vec3 tangent(0.0F);
     glm::vec3 edge(0.0F);
     std::uint32_t lowest = 0xFFFFFFFFu;
+    VertexSegments segments{0xFFFFFFFFu, 0};
     float tangents = 0.0F; // the sum of sizes
     float mirrored = 0.0F;
     surface.visit_faces(vertex, [&](std::uint32_t face, std::uint32_t half) {
         const std::uint32_t begin = face == 0 ? 0 : mesh.face_ends[face - 1];
         area += face_area(mesh, begin, mesh.face_ends[face]);
         lowest = std::min(lowest, face);
+        if (!block.segments.empty()) {
+            segments[0] = std::min(segments[0], mesh.segments[face]);
+            segments[1] = std::max(segments[1], mesh.segments[face]);
+        }
         if (block.tangents.empty()) {
             return;
         }
@@ -120,6 +125,9 @@ void write_vertex(const CatmullClark& surface, std::uint32_t vertex, const MeshB
                // With v downwards, what is not mirrored turns clockwise.
                .tangent = glm::vec4(unit_or(tangent, fallback), mirrored > 0.0F ? -1.0F : 1.0F),
                .palette = mesh.colours[lowest]});
+    if (!block.segments.empty()) {
+        block.segments[vertex] = segments;
+    }
 }
 
 /// Fans from the first corner; of quads, over the shorter diagonal.

@@ -177,6 +177,7 @@ void CatmullClark::refine() {
     to.corners.resize(std::uint64_t{4} * halves);
     to.face_ends.resize(halves);
     to.colours.resize(halves);
+    to.segments.resize(mesh_.segments.empty() ? 0 : halves);
     LargeVector<std::uint32_t> twins;
     twins.resize(to.corners.size());
     LargeVector<std::uint32_t> edges_of;
@@ -201,6 +202,9 @@ void CatmullClark::refine() {
         edges_of[child + 3] = 2 * edges_[before] + (before > twin_before ? 1U : 0U);
         to.face_ends[half] = child + 4;
         to.colours[half] = mesh_.colours.empty() ? std::uint16_t{0} : mesh_.colours[face_of(half)];
+        if (!to.segments.empty()) {
+            to.segments[half] = mesh_.segments[face_of(half)];
+        }
     });
     LargeVector<std::uint32_t> edge_half;
     edge_half.resize(std::uint64_t{2} * edges + halves);

@@ -23,6 +23,7 @@ struct PolygonMesh {
     LargeVector<std::uint32_t> corners;   // of all faces, one after the other
     LargeVector<std::uint32_t> face_ends; // in corners
     LargeVector<std::uint16_t> colours;   // of faces
+    LargeVector<std::uint32_t> segments;  // of faces; may be empty
 };
 
 struct MeshCounts {

@@ -68,7 +68,8 @@ public:
     ConeWriter(const MeshBlock& block, std::uint64_t vertex, std::uint64_t index)
         : block_(block), vertex_(vertex), index_(index) {}
 
-    void write(const Segment& segment, const Cone& cone) {
+    void write(const Segment& segment, std::uint32_t number, const Cone& cone) {
+        number_ = number;
         axes_ = glm::mat3_cast(segment.frame);
         around_ = directions(cone.sides);
         const float length = segment.length;
@@ -123,7 +124,8 @@ private:
                  .texture_coordinate = {(static_cast<float>(i) + (point ? 0.5F : 0.0F)) * step,
                                         ring.v},
                  .tangent = glm::vec4(across, 1.0F),
-                 .palette = segment.colour});
+                 .palette = segment.colour,
+                 .segment = number_});
         }
     }
 
@@ -138,7 +140,8 @@ private:
                                    .texture_coordinate = {0.5F + 0.5F * at.sine,
                                                           0.5F + (up ? 0.5F : -0.5F) * at.cosine},
                                    .tangent = glm::vec4(axes_[0], 1.0F),
-                                   .palette = segment.colour});
+                                   .palette = segment.colour,
+                                   .segment = number_});
         }
         for (std::uint32_t i = 1; i + 1 < sides; ++i) {
             put_triangle(first, first + i + (up ? 0U : 1U), first + i + (up ? 1U : 0U));
@@ -156,6 +159,7 @@ private:
     std::uint64_t index_;
     glm::mat3 axes_{1.0F};
     const Direction* around_ = nullptr;
+    std::uint32_t number_ = kNoSegment; // of the segment
 };
 
 struct Piece {
@@ -216,8 +220,9 @@ void append_cylinders(const Skeleton& skeleton, const MeshOptions& options, Mesh
     workers.for_each(pieces.size(), [&](std::uint64_t i) {
         ConeWriter writer(block, pieces[i].vertices, pieces[i].indices);
         for (std::uint64_t item = pieces[i].first; item < pieces[i].end; ++item) {
-            const Segment& segment = skeleton.segments[groups.items[item]];
-            writer.write(segment, cone_of(segment, options));
+            const std::uint32_t number = groups.items[item];
+            const Segment& segment = skeleton.segments[number];
+            writer.write(segment, number, cone_of(segment, options));
         }
     });
 }

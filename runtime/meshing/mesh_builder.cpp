@@ -89,12 +89,16 @@ void MeshBlock::set(std::size_t vertex, const MeshVertex& value) const {
     if (!colours.empty()) {
         colours[vertex] = value.palette;
     }
+    if (!segments.empty()) {
+        segments[vertex] = {value.segment, value.segment};
+    }
 }
 
 MeshBuilder::MeshBuilder(const MeshOptions& options, Mesh& mesh) : options_(options), mesh_(mesh) {
     use_or_clear(mesh.texture_coordinates, options.texture_coordinates);
     use_or_clear(mesh.tangents, options.tangents);
     use_or_clear(mesh.colours, options.colours);
+    use_or_clear(mesh.segments, options.segments);
     mesh.parts.clear();
     mesh.materials.clear();
 }
@@ -111,7 +115,8 @@ bool MeshBuilder::take(std::uint64_t vertices, std::uint64_t indices) {
     const std::uint64_t bytes_of_vertex = 2 * sizeof(glm::vec3) +
                                           (options_.texture_coordinates ? sizeof(glm::vec2) : 0) +
                                           (options_.tangents ? sizeof(glm::vec4) : 0) +
-                                          (options_.colours ? sizeof(std::uint16_t) : 0);
+                                          (options_.colours ? sizeof(std::uint16_t) : 0) +
+                                          (options_.segments ? sizeof(VertexSegments) : 0);
     const std::uint64_t limit = options_.max_bytes;
     const std::uint64_t vertex_bytes = (vertices_ + vertices) * bytes_of_vertex;
     if (vertex_bytes > limit ||
@@ -136,6 +141,9 @@ void MeshBuilder::grow_vertices(MeshBlock& block, std::uint64_t count) {
     }
     if (options_.colours) {
         block.colours = grow(mesh_.colours, vertices_, needed);
+    }
+    if (options_.segments) {
+        block.segments = grow(mesh_.segments, vertices_, needed);
     }
     vertices_ = needed;
 }
@@ -229,6 +237,7 @@ MeshStatus MeshBuilder::finish() {
     mesh_.texture_coordinates.resize(options_.texture_coordinates ? vertices_ : 0);
     mesh_.tangents.resize(options_.tangents ? vertices_ : 0);
     mesh_.colours.resize(options_.colours ? vertices_ : 0);
+    mesh_.segments.resize(options_.segments ? vertices_ : 0);
     mesh_.indices.resize(indices_);
     std::uint64_t first = 0;
     for (const std::uint32_t index : order) {

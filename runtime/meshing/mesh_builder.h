@@ -35,6 +35,7 @@ struct MeshVertex {
     glm::vec2 texture_coordinate{};
     glm::vec4 tangent{};
     std::uint16_t palette = 0;
+    std::uint32_t segment = kNoSegment; // that carries it
 };
 
 /// Room to be filled, every element of it. Arrays that the options leave out are empty. It is good
@@ -46,6 +47,7 @@ struct MeshBlock {
     std::span<glm::vec2> texture_coordinates;
     std::span<glm::vec4> tangents;
     std::span<std::uint16_t> colours;
+    std::span<VertexSegments> segments;
     std::span<std::uint32_t> indices;
 
     void set(std::size_t vertex, const MeshVertex& value) const;
@@ -67,6 +69,10 @@ public:
     /// Ok until something did not fit.
     [[nodiscard]] MeshStatus status() const { return status_; }
     [[nodiscard]] std::uint64_t vertex_count() const { return vertices_; }
+    /// Those of all vertices so far; empty if the options leave them out.
+    [[nodiscard]] std::span<VertexSegments> segments() {
+        return std::span(mesh_.segments).first(options_.segments ? vertices_ : 0);
+    }
 
     /// Only as the first thing: room for whole parts, by rising material, whose indices lie where
     /// they stay. False: does not fit, nothing was done.

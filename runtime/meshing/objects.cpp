@@ -99,6 +99,10 @@ void Instances::write(std::uint64_t first, std::uint64_t end) const {
         if (!block.colours.empty()) {
             std::fill_n(block.colours.begin() + static_cast<std::ptrdiff_t>(at), count, palette);
         }
+        if (!block.segments.empty()) {
+            std::fill_n(block.segments.begin() + static_cast<std::ptrdiff_t>(at), count,
+                        VertexSegments{object.parent, object.parent});
+        }
         write_indices(item, mirrored);
     }
 }

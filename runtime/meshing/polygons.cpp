@@ -176,7 +176,8 @@ void write_vertices(const Skeleton& skeleton,
                                      .normal = glm::vec3(plane.normal),
                                      .texture_coordinate = {place.x, 1.0 - place.y},
                                      .tangent = glm::vec4(glm::vec3(plane.across), 1.0F),
-                                     .palette = palette});
+                                     .palette = palette,
+                                     .segment = polygon.parent});
     }
 }
 

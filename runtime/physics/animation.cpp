@@ -1,4 +1,4 @@
-#include "runtime/physics/animation.h"
+#include "runtime/animation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 // Renders GLB files to PNG with three.js in headless Chromium, one picture a file.
-// Usage: node render.mjs SIZE FILE.glb=OUT.png[,az=DEGREES][,el=DEGREES] ...
-// az turns the camera about the plant from its front, el raises it. Needs Chromium (CHROMIUM=/path/to/it).
+// Usage: node render.mjs SIZE FILE.glb=OUT.png[,az=DEGREES][,el=DEGREES][,at=SECONDS] ...
+// az turns the camera about the plant from its front, el raises it, at is the time of an animation.
+// Needs Chromium (CHROMIUM=/path/to/it).
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import { extname, join } from 'node:path';
@@ -9,7 +10,7 @@ import puppeteer from 'puppeteer-core';
 
 const [size, ...jobs] = process.argv.slice(2);
 if (!(Number(size) > 0) || jobs.length === 0) {
-  console.error('usage: node render.mjs SIZE FILE.glb=OUT.png[,az=DEGREES][,el=DEGREES] ...');
+  console.error('usage: node render.mjs SIZE FILE.glb=OUT.png[,az=DEGREES][,el=DEGREES][,at=SECONDS] ...');
   process.exit(2);
 }
 
@@ -54,8 +55,8 @@ try {
     model = file;
     try {
       const triangles = await tab.evaluate(
-        (url, azimuth, elevation) => window.draw(url, azimuth, elevation),
-        `/model${index}.glb`, view.az && Number(view.az), view.el && Number(view.el));
+        (url, ...numbers) => window.draw(url, ...numbers), `/model${index}.glb`,
+        ...[view.az, view.el, view.at].map((word) => word && Number(word)));
       await tab.screenshot({ path: picture });
       console.log(`${picture}: ${triangles} triangles`);
     } catch (error) {

@@ -34,11 +34,17 @@ function frame(box, direction) {
   return camera;
 }
 
-window.draw = async (url, azimuth, elevation) => {
+window.draw = async (url, azimuth, elevation, seconds) => {
   const scene = new THREE.Scene();
   scene.background = new THREE.Color(0xe9eef2);
-  const plant = (await new GLTFLoader().loadAsync(url)).scene;
+  const { scene: plant, animations } = await new GLTFLoader().loadAsync(url);
   scene.add(plant);
+  if (animations.length > 0) {
+    const mixer = new THREE.AnimationMixer(plant);
+    mixer.clipAction(animations[0]).setLoop(THREE.LoopOnce).play().clampWhenFinished = true;
+    mixer.setTime(seconds ?? 0);
+    plant.updateMatrixWorld(true);
+  }
   plant.traverse((node) => {
     node.castShadow = node.receiveShadow = Boolean(node.isMesh);
   });

@@ -111,6 +111,54 @@ TEST_CASE("frames are numbered files that begin at rest") {
     CHECK(read_text(folder / "tree.0003.stl") != read_text(folder / "tree.0002.stl"));
 }
 
+TEST_CASE("glb and gltf hold all frames in one file, also on standard output") {
+    const ScratchFolder folder;
+    const std::vector<std::string> force{"--frames", "3", "--fps", "12", "--wind", "8,0,0,0.5"};
+    const auto with = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), force.begin(), force.end());
+        return run_lsc(arguments, kTree);
+    };
+    REQUIRE(with({"export", "-", "-o", folder / "tree.glb"}).status == 0);
+    REQUIRE(with({"export", "-", "-o", folder / "tree.gltf"}).status == 0);
+    CHECK(count_files(folder) == 2);
+    for (const char* name : {"tree.glb", "tree.gltf"}) {
+        const std::string file = read_text(folder / name);
+        for (const char* part : {"\"skins\":", "\"animations\":", "\"JOINTS_0\":", "\"WEIGHTS_0\":",
+                                 "\"min\":[0],\"max\":[0.16666"}) {
+            INFO(name << ' ' << part);
+            CHECK(file.find(part) != std::string::npos);
+        }
+    }
+    for (const char* threads : {"1", "3"}) {
+        const LscRun run =
+            with({"export", "-", "-o", "-", "--format", "glb", "--threads", threads});
+        REQUIRE(run.status == 0);
+        CHECK(run.out == read_text(folder / "tree.glb"));
+    }
+    // Without frames there is no skin.
+    const LscRun rest = run_lsc({"export", "-", "-o", "-", "--format", "gltf"}, kTree);
+    CHECK(rest.out.find("skins") == std::string::npos);
+}
+
+TEST_CASE("an animation over its limits ends with 3, what helps, and no file") {
+    const ScratchFolder folder;
+    const LscRun memory = run_lsc({"export", "-", "-o", folder / "a.glb", "--frames", "100000",
+                                   "--wind", "1,0,0", "--max-memory", "20M"},
+                                  kTree);
+    CHECK(memory.status == 3);
+    CHECK(memory.err.find("the animation does not fit") != std::string::npos);
+    CHECK(memory.err.find("`--frames`") != std::string::npos);
+    const LscRun joints =
+        run_lsc({"export", "-", "-o", folder / "a.glb", "--frames", "4", "--wind", "40,0,0",
+                 "--sides", "3"},
+                "#n = 11; #set angle 20; #w : !(0.1) X(2);"
+                "#p : X(l) : * : F(l, 0.01) [ + X(l*0.8) ] [ & X(l*0.8) ] [ - /(90) X(l*0.8) ];");
+    CHECK(joints.status == 3);
+    CHECK(joints.err.find("the skin does not fit into 65,535 joints") != std::string::npos);
+    CHECK(joints.err.find("numbered series") != std::string::npos);
+    CHECK(count_files(folder) == 0);
+}
+
 TEST_CASE("statistics of an export go to standard output, or beside the plant that is there") {
     const ScratchFolder folder;
     const LscRun run = run_lsc({"export", "-", "-o", folder / "a.ply", "--stats"}, kTree);

@@ -1,17 +1,18 @@
 // Holds exported files against readers in JavaScript. Usage:
-//   node read_files.mjs MODULES (validator | three | obj | svg | off+ | usda) FOLDER
+//   node read_files.mjs MODULES (validator | three | motion | obj | svg | off+ | usda) FOLDER
 // MODULES is the node_modules of package.json beside this file. FOLDER has counts.txt, with a line
-// `NAME VERTICES TRIANGLES PARTS` for each mesh.
+// `NAME VERTICES TRIANGLES PARTS` for each mesh, or `NAME FRAMES FPS` for each that moves.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { distance, posedVertices, readPlyPositions } from './motion.mjs';
 import { readOffPlus, readUsda } from './own_readers.mjs';
 
 const [given, check, folder] = process.argv.slice(2);
 const modules = resolve(given ?? '.');
 if (!folder) {
-    console.error('usage: node read_files.mjs MODULES (validator|three|obj|svg|off+|usda) FOLDER');
+    console.error('usage: node read_files.mjs MODULES (validator|three|motion|obj|svg|off+|usda) FOLDER');
     process.exit(2);
 }
 if (!existsSync(join(modules, 'three'))) {
@@ -35,7 +36,8 @@ function counts() {
         .map(line => {
             const [name, ...numbers] = line.split(' ');
             const [vertices, triangles, parts] = numbers.map(Number);
-            return { name, vertices, triangles, parts };
+            const [frames, fps] = numbers.map(Number); // of those that move
+            return { name, vertices, triangles, parts, frames, fps };
         });
 }
 
@@ -52,6 +54,19 @@ async function eachMesh(extensions, read) {
             ++files;
         }
     }
+}
+
+async function threeAndLoader() {
+    globalThis.self = globalThis;
+    globalThis.ProgressEvent ??= class extends Event {};
+    const three = await module('three/build/three.module.js');
+    const { GLTFLoader } = await module('three/examples/jsm/loaders/GLTFLoader.js');
+    return { three, GLTFLoader };
+}
+
+function arrayBuffer(file) {
+    const bytes = readFileSync(join(folder, file));
+    return bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length);
 }
 
 const checks = {
@@ -77,10 +92,7 @@ const checks = {
     },
 
     async three() {
-        globalThis.self = globalThis;
-        globalThis.ProgressEvent ??= class extends Event {};
-        const three = await module('three/build/three.module.js');
-        const { GLTFLoader } = await module('three/examples/jsm/loaders/GLTFLoader.js');
+        const { three, GLTFLoader } = await threeAndLoader();
         const { PNG } = require('pngjs');
         await eachMesh(['glb', 'gltf'], async (file, mesh) => {
             const loader = new GLTFLoader();
@@ -98,9 +110,7 @@ const checks = {
                     return new three.Texture();
                 },
             }));
-            const bytes = readFileSync(join(folder, file));
-            const gltf = await loader.parseAsync(
-                bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), '');
+            const gltf = await loader.parseAsync(arrayBuffer(file), '');
             const positions = new Map();
             let triangles = 0;
             let parts = 0;
@@ -125,6 +135,46 @@ const checks = {
             expect(file, 'type of extras.grammar', typeof extras?.grammar, 'string');
             expect(file, 'type of extras.n', typeof extras?.n, 'number');
             expect(file, 'extras.seed', /^[0-9]+$/.test(`${extras?.seed}`), true);
+        });
+    },
+
+    // At each key a skin has its vertices where the mesh of that frame has them: those of cylinders
+    // exactly, so that every tip of a segment is right; those of joined tubes and boxes within what
+    // their rings turn and smooth.
+    async motion() {
+        const { three, GLTFLoader } = await threeAndLoader();
+        await eachMesh(['glb', 'gltf'], async (file, mesh) => {
+            const loader = new GLTFLoader();
+            loader.register(() => ({ name: 'images', loadTexture: async () => new three.Texture() }));
+            const gltf = await loader.parseAsync(arrayBuffer(file), '');
+            expect(file, 'number of animations', gltf.animations.length, 1);
+            expect(file, 'duration in frames',
+                   Math.round(gltf.animations[0].duration * mesh.fps * 1e3) / 1e3, mesh.frames - 1);
+            const frame = number => readPlyPositions(readFileSync(
+                join(folder, `${mesh.name}.${String(number + 1).padStart(4, '0')}.ply`)));
+            const first = frame(0);
+            let moved = 0;
+            for (const number of [0, 1, Math.floor(mesh.frames / 2), mesh.frames - 1]) {
+                const expected = frame(number);
+                const found = posedVertices(three, gltf, number / mesh.fps);
+                expect(file, `number of vertices in frame ${number}`, found.length, expected.length);
+                const off = expected.map((at, i) => distance(at, found[i].at));
+                const most = mesh.name === 'cylinders' || number === 0 ? 1e-5 : 1e-2;
+                expect(file, `frame ${number}: off by more than ${most}`,
+                       off.filter(d => !(d <= most)).length, 0);
+                expect(file, `frame ${number}: a twentieth is off by a millimetre`,
+                       off.filter(d => !(d <= 1e-3)).length > off.length / 20, false);
+                moved = Math.max(moved, ...expected.map((at, i) => distance(at, first[i])));
+            }
+            expect(file, 'it moves', moved > 0.1, true);
+            const turns = gltf.animations[0].tracks.filter(t => t.name.endsWith('.quaternion'));
+            expect(file, 'number of rotations', turns.length > 2, true);
+            for (const { name, values } of turns) {
+                for (let i = 4; i < values.length; i += 4) {
+                    const dot = [0, 1, 2, 3].reduce((sum, k) => sum + values[i + k] * values[i + k - 4], 0);
+                    expect(file, `key ${i / 4} of ${name} is on the side of the one before`, dot > 0, true);
+                }
+            }
         });
     },
 

@@ -17,25 +17,11 @@ namespace fs = std::filesystem;
 using lsys::tests::LscRun;
 using lsys::tests::run_lsc;
 using lsys::tests::Sample;
+using lsys::tests::stated;
 
 constexpr long kMostVertices = 20000;
 constexpr std::array<const char*, 9> kExtensions{"ply",  "obj", "off",  "off+", "stl",
                                                  "gltf", "glb", "usda", "svg"};
-
-/// The number in a row of `lsc export --stats`; -1: no such row.
-long stated(const std::string& stats, const std::string& row) {
-    const std::size_t at = ("\n" + stats).find("\n" + row + ' ');
-    if (at == std::string::npos) {
-        return -1;
-    }
-    std::string digits;
-    for (std::size_t i = at + row.size(); i < stats.size() && stats[i] != '\n'; ++i) {
-        if (stats[i] >= '0' && stats[i] <= '9') {
-            digits += stats[i];
-        }
-    }
-    return digits.empty() ? -1 : std::stol(digits);
-}
 
 long occurrences(const std::string& text, const std::string& part) {
     long count = 0;

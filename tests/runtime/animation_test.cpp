@@ -1,4 +1,4 @@
-#include "runtime/physics/animation.h"
+#include "runtime/animation.h"
 #include "tests/runtime/plants.h"
 
 #include <catch2/catch.hpp>

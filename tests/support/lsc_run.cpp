@@ -26,6 +26,20 @@ LscRun run_lsc(const std::vector<std::string>& arguments, const std::string& inp
     return run;
 }
 
+long stated(const std::string& stats, const std::string& row) {
+    const std::size_t at = ("\n" + stats).find("\n" + row + ' ');
+    if (at == std::string::npos) {
+        return -1;
+    }
+    std::string digits;
+    for (std::size_t i = at + row.size(); i < stats.size() && stats[i] != '\n'; ++i) {
+        if (stats[i] >= '0' && stats[i] <= '9') {
+            digits += stats[i];
+        }
+    }
+    return digits.empty() ? -1 : std::stol(digits);
+}
+
 std::string read_text(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) {

@@ -17,6 +17,9 @@ struct LscRun {
 /// Runs `lsc ARGUMENTS` with `input` as standard input.
 [[nodiscard]] LscRun run_lsc(const std::vector<std::string>& arguments, const std::string& input);
 
+/// The number in a row of `lsc export --stats`; -1: no such row.
+[[nodiscard]] long stated(const std::string& stats, const std::string& row);
+
 /// The whole file; it must be there.
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);
 void write_text(const std::filesystem::path& path, std::string_view text);

@@ -28,6 +28,7 @@ inline void check_mesh(const Mesh& mesh, const MeshOptions& options) {
     REQUIRE(mesh.texture_coordinates.size() == (options.texture_coordinates ? count : 0));
     REQUIRE(mesh.tangents.size() == (options.tangents ? count : 0));
     REQUIRE(mesh.colours.size() == (options.colours ? count : 0));
+    REQUIRE(mesh.segments.size() == (options.segments ? count : 0));
     REQUIRE(mesh.indices.size() % 3 == 0);
     std::uint64_t covered = 0;
     for (const MeshPart& part : mesh.parts) {

@@ -1,0 +1,44 @@
+// Holds an animated glTF file against the frames of the same motion, each a PLY of its own.
+
+/// Vertices of a binary PLY as lsc writes it: positions and normals first.
+export function readPlyPositions(bytes) {
+    const end = bytes.indexOf('end_header\n') + 'end_header\n'.length;
+    const header = bytes.subarray(0, end).toString('latin1');
+    const count = Number(/element vertex (\d+)/.exec(header)[1]);
+    const stride = 24 + (header.includes('property float s') ? 8 : 0) +
+        (header.includes('property uchar red') ? 3 : 0);
+    const positions = [];
+    for (let i = 0; i < count; ++i) {
+        positions.push([0, 4, 8].map(at => bytes.readFloatLE(end + i * stride + at)));
+    }
+    return positions;
+}
+
+/// Where three.js has each vertex of `gltf` at `time`, and how many joints move it.
+export function posedVertices(three, gltf, time) {
+    const mixer = new three.AnimationMixer(gltf.scene);
+    const action = mixer.clipAction(gltf.animations[0]);
+    action.setLoop(three.LoopOnce);
+    action.clampWhenFinished = true; // the last key is not the first one again
+    action.play();
+    mixer.setTime(time);
+    gltf.scene.updateMatrixWorld(true);
+    let vertices = [];
+    gltf.scene.traverse(object => {
+        if (!object.isSkinnedMesh || vertices.length > 0) {
+            return; // primitives share their vertices
+        }
+        const { position, skinWeight } = object.geometry.attributes;
+        for (let i = 0; i < position.count; ++i) {
+            const at = new three.Vector3().fromBufferAttribute(position, i);
+            object.applyBoneTransform(i, at);
+            at.applyMatrix4(object.matrixWorld);
+            vertices.push({ at: at.toArray(), joints: skinWeight.getY(i) > 0 ? 2 : 1 });
+        }
+    });
+    return vertices;
+}
+
+export function distance(a, b) {
+    return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}

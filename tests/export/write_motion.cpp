@@ -1,0 +1,78 @@
+// Exports plants that move, by `lsc export --frames`: each as one GLB, one glTF, and a PLY for
+// every frame. Usage: write_motion FOLDER counts.txt in it has a line `NAME FRAMES FPS` for each
+// plant.
+#include "tests/support/lsc_run.h"
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using lsys::tests::LscRun;
+using lsys::tests::run_lsc;
+
+// Nothing lies near a bend where a mesh gets more rings, so that all frames have the same vertices.
+const char* const kTree =
+    "#n = 4; #set angle 25; #object L LEAF; #w : !(0.06) F(1) X;"
+    "#p : X : * : !(0.06) F(0.6, 400) [ +(35) X L(0.3) ] /(120) [ &(30) X ] /(120)"
+    " [ ^(40) L(0.2) ] F(0.4, 300) { F(0.3) +(100) F(0.3) +(100) F(0.3) };";
+const char* const kReed =
+    "#n = 40; #set angle 3; #w : !(0.02) A; #p : A : * : F(0.1, 2) + /(20) A;";
+
+struct Case {
+    const char* name;
+    const char* grammar;
+    std::vector<std::string> options;
+};
+
+const std::array kCases{
+    Case{"tubes", kTree, {"--wind", "2.5,0,1", "--gravity", "1"}},
+    Case{"cylinders", kTree, {"--wind", "8,0,3", "--method", "cylinders"}},
+    Case{"boxes", kTree, {"--wind", "3,0,3", "--method", "boxes", "--subdivisions", "1"}},
+    Case{"settled", kTree, {"--gravity", "4", "--wind", "2.5,0,1,1", "--settle"}},
+    Case{"reed", kReed, {"--wind", "2.5,0,1", "--threads", "1"}},
+};
+constexpr const char* kFrames = "13";
+constexpr const char* kRate = "10";
+
+bool write_case(const Case& motion, const fs::path& folder, std::ofstream& counts) {
+    for (const char* extension : {".glb", ".gltf", ".ply"}) {
+        std::vector<std::string> arguments{
+            "export",   "-",
+            "-o",       (folder / (std::string(motion.name) + extension)).string(),
+            "--frames", kFrames,
+            "--fps",    kRate};
+        arguments.insert(arguments.end(), motion.options.begin(), motion.options.end());
+        const LscRun run = run_lsc(arguments, motion.grammar);
+        if (run.status != 0) {
+            std::fprintf(stderr, "%s%s: status %d\n%s", motion.name, extension, run.status,
+                         run.err.c_str());
+            return false;
+        }
+    }
+    counts << motion.name << ' ' << kFrames << ' ' << kRate << '\n';
+    return true;
+}
+
+} // namespace
+
+int main(int argument_count, char** arguments) {
+    if (argument_count != 2) {
+        std::fputs("usage: write_motion FOLDER\n", stderr);
+        return 2;
+    }
+    const fs::path folder = arguments[1];
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    std::ofstream counts(folder / "counts.txt");
+    bool fine = true;
+    for (const Case& motion : kCases) {
+        fine = write_case(motion, folder, counts) && fine;
+    }
+    return fine && counts.good() ? 0 : 1;
+}
