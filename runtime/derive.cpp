@@ -2,6 +2,7 @@
 
 #include "grammar/contract.h"
 #include "runtime/derive/brackets.h"
+#include "runtime/derive/origins.h"
 #include "runtime/derive/pass.h"
 #include "runtime/derive/plan.h"
 #include "runtime/derive/start.h"
@@ -48,12 +49,51 @@ struct Derivation::State {
         return DeriveStatus::Ok;
     }
 
+    /// Either all words keep origins or none does. False: no memory.
+    [[nodiscard]] bool agree_on_origins() {
+        for (Word* const each : {&word, &next, &spare}) {
+            if (!options.origins) {
+                each->drop_origins();
+            } else if (!each->keep_origins()) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// The word of a saved derivation in place of the axiom.
+    [[nodiscard]] DeriveStatus take_over(Word saved, std::uint32_t saved_age) {
+        const bool knows = saved.keeps_origins();
+        word = std::move(saved);
+        age = saved_age;
+        limit = {};
+        limit.kind = LimitKind::Memory;
+        limit.generation = age;
+        limit.modules = word.module_count();
+        limit.predicted_modules = word.module_count();
+        limit.predicted_bytes =
+            word.held_bytes() + (options.origins ? word.module_count() * sizeof(Origin) : 0);
+        if (options.origins && limit.predicted_bytes > options.limits.max_bytes) {
+            return DeriveStatus::Limit;
+        }
+        if (!agree_on_origins()) {
+            return DeriveStatus::OutOfMemory;
+        }
+        if (!knows) {
+            std::fill(word.origins().begin(), word.origins().end(), Origin{kNone, age});
+        }
+        return DeriveStatus::Ok;
+    }
+
     [[nodiscard]] DeriveStatus make_axiom() {
         std::vector<float> parameters;
         std::optional<RuntimeError> wrong =
             axiom_parameters(bytecode, options.seed, globals, parameters);
         if (wrong) {
             return fail(std::move(*wrong));
+        }
+        if (!agree_on_origins()) {
+            return DeriveStatus::OutOfMemory;
         }
         const std::uint64_t count = bytecode.axiom.codes.count;
         limit = {};
@@ -82,6 +122,9 @@ struct Derivation::State {
             break;
         }
         std::copy(parameters.begin(), parameters.end(), word.parameters().begin());
+        if (word.keeps_origins()) {
+            copy_axiom_origins(bytecode, word.origins().data());
+        }
         return DeriveStatus::Ok;
     }
 
@@ -198,9 +241,7 @@ DeriveStatus Derivation::resume(Word word, std::uint32_t age) {
     if (status != DeriveStatus::Ok) {
         return status;
     }
-    state_->word = std::move(word);
-    state_->age = age;
-    return DeriveStatus::Ok;
+    return state_->take_over(std::move(word), age);
 }
 
 DeriveStatus Derivation::step() {

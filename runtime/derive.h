@@ -43,6 +43,8 @@ struct DeriveOptions {
     std::uint32_t generations = 0; // asked for: what steps() yields
     std::uint64_t seed = 0;
     std::uint32_t threads = 0; // 0: as many as the machine has
+    /// Words keep the origin of each module: 8 bytes more for each, and time to write them.
+    bool origins = false;
     Limits limits;
     const std::atomic<bool>* cancelled = nullptr;
     /// Modules that a thread takes at a time; no word depends on it. Tests make it small.
@@ -65,7 +67,7 @@ public:
     /// Draws the globals and makes the axiom. Before anything else; or resume().
     [[nodiscard]] DeriveStatus start();
     /// Goes on from a saved word of age `age`; globals are drawn anew from the seed, which gives
-    /// the same.
+    /// the same. Origins that the word does not keep are not known.
     [[nodiscard]] DeriveStatus resume(Word word, std::uint32_t age);
     /// Rewrites the word once. After anything but Ok the word is still that of age().
     [[nodiscard]] DeriveStatus step();

@@ -29,7 +29,7 @@ void append_segment(const Skeleton& skeleton, std::uint64_t index, std::string& 
     const Segment& s = skeleton.segments[index];
     fmt::format_to(std::back_inserter(text),
                    "segment {} parent {} order {} base {} frame {} length {} radius {} {} spring "
-                   "{} mass {} colour {} sides {}{}\n",
+                   "{} mass {} colour {} sides {}{}",
                    index, parent_text(s.parent), s.order, vector_text(s.base), frame_text(s.frame),
                    s.length, s.base_radius, s.tip_radius, s.spring, s.mass, s.colour, s.sides,
                    s.linked ? " linked" : "");
@@ -41,9 +41,9 @@ void append_object(const Skeleton& skeleton, std::uint64_t index, std::string& t
                                  ? fmt::format("\"{}\"", skeleton.mesh_files[o.mesh_file])
                                  : std::string(name_of(o.kind));
     fmt::format_to(std::back_inserter(text),
-                   "object {} {} parent {} order {} at {} frame {} size {} colour {}\n", index,
-                   name, parent_text(o.parent), o.order, vector_text(o.position),
-                   frame_text(o.frame), o.size, o.colour);
+                   "object {} {} parent {} order {} at {} frame {} size {} colour {}", index, name,
+                   parent_text(o.parent), o.order, vector_text(o.position), frame_text(o.frame),
+                   o.size, o.colour);
 }
 
 void append_polygon(const Skeleton& skeleton, std::uint64_t index, std::string& text) {
@@ -54,7 +54,6 @@ void append_polygon(const Skeleton& skeleton, std::uint64_t index, std::string& 
         fmt::format_to(std::back_inserter(text), " {}",
                        vector_text(skeleton.corners[p.first_corner + c]));
     }
-    text += '\n';
 }
 
 } // namespace
@@ -103,14 +102,26 @@ std::uint64_t line_count(const Skeleton& skeleton) {
     return skeleton.segments.size() + skeleton.objects.size() + skeleton.polygons.size();
 }
 
-void append_line(const Skeleton& skeleton, std::uint64_t line, std::string& text) {
+void append_line(const Skeleton& skeleton,
+                 std::uint64_t line,
+                 OriginPrinter* origins,
+                 std::string& text) {
+    const LargeVector<Origin>* known = &skeleton.segment_origins;
     if (line < skeleton.segments.size()) {
         append_segment(skeleton, line, text);
     } else if (line -= skeleton.segments.size(); line < skeleton.objects.size()) {
         append_object(skeleton, line, text);
+        known = &skeleton.object_origins;
     } else {
-        append_polygon(skeleton, line - skeleton.objects.size(), text);
+        line -= skeleton.objects.size();
+        append_polygon(skeleton, line, text);
+        known = &skeleton.polygon_origins;
     }
+    if (origins != nullptr) {
+        text += ' ';
+        origins->append((*known)[line], text);
+    }
+    text += '\n';
 }
 
 } // namespace lsys

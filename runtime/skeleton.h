@@ -6,6 +6,7 @@
 
 #include "compiler/bytecode.h"
 #include "runtime/large_vector.h"
+#include "runtime/origin.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -62,10 +63,17 @@ struct Skeleton {
     LargeVector<Polygon> polygons;
     LargeVector<glm::vec3> corners;
     std::vector<std::string> mesh_files; // as written in the grammar
+    // Of the modules that drew them, a polygon's being its `{`; empty unless the turtle was fed
+    // with origins.
+    LargeVector<Origin> segment_origins;
+    LargeVector<Origin> object_origins;
+    LargeVector<Origin> polygon_origins;
 
     [[nodiscard]] std::uint64_t byte_count() const {
         return segments.size() * sizeof(Segment) + objects.size() * sizeof(PlacedObject) +
-               polygons.size() * sizeof(Polygon) + corners.size() * sizeof(glm::vec3);
+               polygons.size() * sizeof(Polygon) + corners.size() * sizeof(glm::vec3) +
+               (segment_origins.size() + object_origins.size() + polygon_origins.size()) *
+                   sizeof(Origin);
     }
 };
 
@@ -103,7 +111,11 @@ struct SkeletonStats {
 
 /// The skeleton as text, a line for each segment, then each object, then each polygon.
 [[nodiscard]] std::uint64_t line_count(const Skeleton& skeleton);
-/// Precondition: line < line_count().
-void append_line(const Skeleton& skeleton, std::uint64_t line, std::string& text);
+/// With what `origins`, which may be null, says of the module that drew it.
+/// Precondition: line < line_count(); with `origins`, the skeleton has them.
+void append_line(const Skeleton& skeleton,
+                 std::uint64_t line,
+                 OriginPrinter* origins,
+                 std::string& text);
 
 } // namespace lsys

@@ -5,6 +5,7 @@
 #include "runtime/derive/choose.h"
 #include "runtime/derive/count.h"
 #include "runtime/derive/faults.h"
+#include "runtime/derive/origins.h"
 #include "runtime/derive/plan.h"
 #include "runtime/derive/start.h"
 #include "runtime/derive/write.h"
@@ -31,9 +32,10 @@ template <typename C>
 struct Level {
     std::unique_ptr<C[]> codes; // not initialised
     std::unique_ptr<float[]> parameters;
-    std::uint64_t count = 0;          // modules in the block
-    ModulePlace next;                 // to be rewritten
-    std::uint64_t first_position = 0; // of the block in its generation's word
+    std::unique_ptr<Origin[]> origins; // null if nobody asks for them
+    std::uint64_t count = 0;           // modules in the block
+    ModulePlace next;                  // to be rewritten
+    std::uint64_t first_position = 0;  // of the block in its generation's word
 };
 
 template <typename C, typename R>
@@ -66,6 +68,9 @@ public:
         Level<C>& first = levels_[0];
         copy_axiom_codes(bytecode_, first.codes.get());
         std::copy(axiom_parameters.begin(), axiom_parameters.end(), first.parameters.get());
+        if (options_.origins) {
+            copy_axiom_origins(bytecode_, first.origins.get());
+        }
         first.count = bytecode_.axiom.codes.count;
         std::size_t age = 0;
         while (true) {
@@ -107,7 +112,8 @@ public:
 private:
     /// Rewrites as much of `level` as fits into `below`.
     bool descend(Level<C>& level, Level<C>& below, std::uint32_t age) {
-        view_ = {level.codes.get(), level.parameters.get(), level.count, level.first_position};
+        view_ = {level.codes.get(), level.parameters.get(), level.count, level.first_position,
+                 level.origins.get()};
         keys_ = {plan_.inputs().seed, age, 0};
         const ModulePlace begin = level.next;
         const CountRequest request{begin, level.count, room_codes_, room_parameters_};
@@ -120,6 +126,7 @@ private:
         write.writes_parameters = counted.parameters != 0;
         write.parameters = below.parameters.get();
         write.parameters_limit = write.parameters + room_parameters_ + kWordSlack / sizeof(float);
+        write.origins = below.origins.get();
         const bool written = write_modules(plan_, keys_, chooser_.matcher(), view_, write,
                                            static_cast<const R*>(records_.data()));
         if (counted.fault || !written) {
@@ -163,7 +170,9 @@ private:
             }
         }
         emitted_.assign(level.codes.get(), level.codes.get() + level.count);
-        if (!consumer_({emitted_, {level.parameters.get(), parameters}})) {
+        const std::size_t origins = options_.origins ? emitted_.size() : 0;
+        if (!consumer_(
+                {emitted_, {level.parameters.get(), parameters}, {level.origins.get(), origins}})) {
             outcome_.status = DeriveStatus::Cancelled;
             return false;
         }
@@ -179,7 +188,8 @@ private:
     bool add_level() {
         const std::uint64_t code_bytes = room_codes_ * sizeof(C) + kWordSlack;
         const std::uint64_t parameter_bytes = room_parameters_ * sizeof(float) + kWordSlack;
-        held_bytes_ += sizeof(Level<C>) + code_bytes + parameter_bytes;
+        const std::uint64_t origin_bytes = options_.origins ? room_codes_ * sizeof(Origin) : 0;
+        held_bytes_ += sizeof(Level<C>) + code_bytes + parameter_bytes + origin_bytes;
         if (held_bytes_ > options_.limits.max_bytes) {
             outcome_.limit.kind = LimitKind::Memory;
             outcome_.limit.generation = options_.generations;
@@ -194,6 +204,9 @@ private:
         Level<C>& level = levels_.emplace_back();
         level.codes = std::make_unique_for_overwrite<C[]>(code_bytes / sizeof(C));
         level.parameters = std::make_unique_for_overwrite<float[]>(parameter_bytes / sizeof(float));
+        if (options_.origins) {
+            level.origins = std::make_unique_for_overwrite<Origin[]>(room_codes_);
+        }
         // lanes read past the last parameter, and then need finite numbers
         std::fill_n(level.parameters.get(), parameter_bytes / sizeof(float), 0.0F);
         return true;

@@ -19,6 +19,7 @@ namespace lsys {
 struct StreamChunk {
     std::span<const Code> codes;
     std::span<const float> parameters;
+    std::span<const Origin> origins; // of each module, if DeriveOptions::origins asks for them
 };
 /// Returns false to stop the derivation (it then ends as Cancelled).
 using StreamConsumer = std::function<bool(const StreamChunk&)>;

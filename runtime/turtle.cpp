@@ -1,5 +1,6 @@
 #include "runtime/turtle.h"
 
+#include "grammar/contract.h"
 #include "runtime/turtle/state.h"
 
 namespace lsys {
@@ -33,8 +34,26 @@ Turtle::State::quick_forward(const Action& action, const float* arguments, Pose&
     return true;
 }
 
-template <typename C>
-TurtleStatus Turtle::State::run_some(std::span<const C> codes, const float*& parameters) {
+/// Gives what the module at hand has drawn, which is one thing at most, its origin.
+[[gnu::always_inline]] inline bool Turtle::State::take_origin(const Origin& from) {
+    const auto add = [this](const auto& items, LargeVector<Origin>& origins, const Origin& each) {
+        if (origins.size() == items.size()) {
+            return true;
+        }
+        if (!has_room(origins)) {
+            return false;
+        }
+        origins.push_back(each);
+        return true;
+    };
+    return lines_only || (add(skeleton.segments, skeleton.segment_origins, from) &&
+                          add(skeleton.objects, skeleton.object_origins, from) &&
+                          add(skeleton.polygons, skeleton.polygon_origins, polygon_origin));
+}
+
+template <bool kOrigins, typename C>
+TurtleStatus
+Turtle::State::run_some(std::span<const C> codes, const float*& parameters, const Origin* origins) {
     const Action* const actions = table.by_code.data();
     const std::uint64_t first = position;
     const C* const begin = codes.data();
@@ -59,6 +78,11 @@ TurtleStatus Turtle::State::run_some(std::span<const C> codes, const float*& par
                 continue;
             case QuickAction::Forward:
                 if (plain && !polygons.any() && quick_forward(action, arguments, pose)) {
+                    if constexpr (kOrigins) {
+                        if (!take_origin(origins[at - begin])) {
+                            return status;
+                        }
+                    }
                     continue;
                 }
                 break;
@@ -85,8 +109,16 @@ TurtleStatus Turtle::State::run_some(std::span<const C> codes, const float*& par
         position = first + static_cast<std::uint64_t>(at - begin);
         code = *at;
         now.pose = pose;
+        if constexpr (kOrigins) {
+            origin = origins[at - begin];
+        }
         if (cut != 0 ? !skip(action) : !obey(action, arguments)) {
             return status;
+        }
+        if constexpr (kOrigins) {
+            if (!take_origin(origin)) {
+                return status;
+            }
         }
         pose = now.pose;
     }
@@ -96,7 +128,10 @@ TurtleStatus Turtle::State::run_some(std::span<const C> codes, const float*& par
 }
 
 template <typename C>
-TurtleStatus Turtle::State::run(std::span<const C> codes, std::span<const float> parameters) {
+TurtleStatus Turtle::State::run(std::span<const C> codes,
+                                std::span<const float> parameters,
+                                std::span<const Origin> origins) {
+    LSYS_CHECK(origins.empty() || origins.size() == codes.size(), origins.size(), codes.size());
     if (status != TurtleStatus::Ok) {
         return status;
     }
@@ -106,7 +141,13 @@ TurtleStatus Turtle::State::run(std::span<const C> codes, std::span<const float>
             return status = TurtleStatus::Cancelled;
         }
         const std::size_t count = std::min(codes.size(), kModulesBetweenLooks);
-        if (run_some(codes.first(count), next) != TurtleStatus::Ok) {
+        if (origins.empty()) {
+            run_some<false>(codes.first(count), next, nullptr);
+        } else {
+            run_some<true>(codes.first(count), next, origins.data());
+            origins = origins.subspan(count);
+        }
+        if (status != TurtleStatus::Ok) {
             return status;
         }
         codes = codes.subspan(count);
@@ -155,7 +196,10 @@ TurtleStatus Turtle::reserve(const Word& word) {
         count(word.codes<std::uint32_t>());
         break;
     }
-    if (segments * sizeof(Segment) + objects * sizeof(PlacedObject) > state.options.max_bytes) {
+    const bool origins = word.keeps_origins() && !state.lines_only;
+    const std::uint64_t bytes = segments * sizeof(Segment) + objects * sizeof(PlacedObject) +
+                                (origins ? (segments + objects) * sizeof(Origin) : 0);
+    if (bytes > state.options.max_bytes) {
         return state.status = TurtleStatus::Limit;
     }
     try {
@@ -165,6 +209,10 @@ TurtleStatus Turtle::reserve(const Word& word) {
             state.skeleton.segments.reserve(std::min(segments, kMaxSkeletonItems));
         }
         state.skeleton.objects.reserve(std::min(objects, kMaxSkeletonItems));
+        if (origins) {
+            state.skeleton.segment_origins.reserve(std::min(segments, kMaxSkeletonItems));
+            state.skeleton.object_origins.reserve(std::min(objects, kMaxSkeletonItems));
+        }
     } catch (const std::bad_alloc&) {
         return state.status = TurtleStatus::OutOfMemory;
     }
@@ -174,16 +222,22 @@ TurtleStatus Turtle::reserve(const Word& word) {
 TurtleStatus Turtle::feed(const Word& word) {
     switch (word.code_width()) {
     case 1:
-        return state_->run(word.codes<std::uint8_t>(), word.parameters());
+        return state_->run(word.codes<std::uint8_t>(), word.parameters(), word.origins());
     case 2:
-        return state_->run(word.codes<std::uint16_t>(), word.parameters());
+        return state_->run(word.codes<std::uint16_t>(), word.parameters(), word.origins());
     default:
-        return state_->run(word.codes<std::uint32_t>(), word.parameters());
+        return state_->run(word.codes<std::uint32_t>(), word.parameters(), word.origins());
     }
 }
 
 TurtleStatus Turtle::feed(std::span<const Code> codes, std::span<const float> parameters) {
-    return state_->run(codes, parameters);
+    return state_->run(codes, parameters, {});
+}
+
+TurtleStatus Turtle::feed(std::span<const Code> codes,
+                          std::span<const float> parameters,
+                          std::span<const Origin> origins) {
+    return state_->run(codes, parameters, origins);
 }
 
 TurtleStatus Turtle::finish() {

@@ -69,9 +69,14 @@ public:
 
     /// Makes room for what these codes will draw; without it, room is made as it is needed.
     [[nodiscard]] TurtleStatus reserve(const Word& word);
-    /// The next modules of the word. After anything but Ok nothing more is to be fed.
+    /// The next modules of the word. After anything but Ok nothing more is to be fed. Where the
+    /// word keeps origins, or `origins` are those of the codes, what is drawn has its own; then
+    /// every piece has origins.
     [[nodiscard]] TurtleStatus feed(const Word& word);
     [[nodiscard]] TurtleStatus feed(std::span<const Code> codes, std::span<const float> parameters);
+    [[nodiscard]] TurtleStatus feed(std::span<const Code> codes,
+                                    std::span<const float> parameters,
+                                    std::span<const Origin> origins);
     /// After the last module.
     [[nodiscard]] TurtleStatus finish();
 

@@ -133,7 +133,8 @@ bool Word::resize(std::uint64_t module_count, std::uint64_t parameter_count) {
         saturating_add(saturating_multiply(module_count, code_width_), kWordSlack);
     const std::uint64_t parameter_bytes =
         saturating_add(saturating_multiply(parameter_count, sizeof(float)), kWordSlack);
-    if (!codes_.reserve(code_bytes) || !parameters_.reserve(parameter_bytes)) {
+    if (!codes_.reserve(code_bytes) || !parameters_.reserve(parameter_bytes) ||
+        (keeps_origins_ && !origins_.reserve(saturating_multiply(module_count, sizeof(Origin))))) {
         return false;
     }
     std::memset(parameters_.data() + (parameter_bytes - kWordSlack), 0, kWordSlack);
@@ -142,19 +143,31 @@ bool Word::resize(std::uint64_t module_count, std::uint64_t parameter_count) {
     return true;
 }
 
+bool Word::keep_origins() {
+    keeps_origins_ = origins_.reserve(saturating_multiply(module_count_, sizeof(Origin)));
+    return keeps_origins_;
+}
+
+void Word::drop_origins() {
+    origins_.release();
+    keeps_origins_ = false;
+}
+
 std::uint64_t Word::held_bytes_after(std::uint64_t module_count,
                                      std::uint64_t parameter_count) const {
     const std::uint64_t code_bytes =
         saturating_add(saturating_multiply(module_count, code_width_), kWordSlack);
     const std::uint64_t parameter_bytes =
         saturating_add(saturating_multiply(parameter_count, sizeof(float)), kWordSlack);
+    const std::uint64_t origin_bytes =
+        keeps_origins_ ? saturating_multiply(module_count, sizeof(Origin)) : 0;
     // an arena that is too small is given back before it is taken anew
-    const std::uint64_t codes =
-        code_bytes > codes_.capacity() ? code_bytes : std::max(codes_.used(), code_bytes);
-    const std::uint64_t parameters = parameter_bytes > parameters_.capacity()
-                                         ? parameter_bytes
-                                         : std::max(parameters_.used(), parameter_bytes);
-    return saturating_add(codes, parameters);
+    const auto held = [](const Arena& arena, std::uint64_t bytes) {
+        return bytes > arena.capacity() ? bytes : std::max<std::uint64_t>(arena.used(), bytes);
+    };
+    return saturating_add(
+        saturating_add(held(codes_, code_bytes), held(parameters_, parameter_bytes)),
+        held(origins_, origin_bytes));
 }
 
 Code Word::code(std::uint64_t index) const {

@@ -1,10 +1,11 @@
 // Word: the derived string, packed. A stream of codes of one width (1, 2 or 4 bytes, little-endian)
 // and a stream of binary32 parameters of those codes that store any, in order. Made by derive, read
 // by dumps and by the turtle. Memory comes from one arena that is reused, advised for huge pages,
-// and never initialised.
+// and never initialised. A word may keep the origin of each module beside them.
 #pragma once
 
 #include "compiler/bytecode.h"
+#include "runtime/origin.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -56,6 +57,11 @@ public:
     /// lost. False: no memory, and the word is empty.
     [[nodiscard]] bool resize(std::uint64_t module_count, std::uint64_t parameter_count);
 
+    /// From now on the word has room for the origin of each module; what is there is not written.
+    /// False: no memory.
+    [[nodiscard]] bool keep_origins();
+    void drop_origins();
+
     [[nodiscard]] std::uint64_t module_count() const { return module_count_; }
     [[nodiscard]] std::uint64_t parameter_count() const { return parameter_count_; }
     [[nodiscard]] std::uint32_t code_width() const { return code_width_; }
@@ -64,7 +70,9 @@ public:
         return module_count_ * code_width_ + parameter_count_ * sizeof(float);
     }
     /// Bytes held from the system.
-    [[nodiscard]] std::uint64_t held_bytes() const { return codes_.used() + parameters_.used(); }
+    [[nodiscard]] std::uint64_t held_bytes() const {
+        return codes_.used() + parameters_.used() + origins_.used();
+    }
     /// What held_bytes() would be after resize() to these sizes; saturates.
     [[nodiscard]] std::uint64_t held_bytes_after(std::uint64_t module_count,
                                                  std::uint64_t parameter_count) const;
@@ -85,10 +93,21 @@ public:
         return {reinterpret_cast<float*>(parameters_.data()), parameter_count_};
     }
     [[nodiscard]] Code code(std::uint64_t index) const;
+    /// Of each module; empty if the word does not keep them.
+    [[nodiscard]] std::span<const Origin> origins() const {
+        return {reinterpret_cast<const Origin*>(origins_.data()),
+                keeps_origins_ ? module_count_ : 0};
+    }
+    [[nodiscard]] std::span<Origin> origins() {
+        return {reinterpret_cast<Origin*>(origins_.data()), keeps_origins_ ? module_count_ : 0};
+    }
+    [[nodiscard]] bool keeps_origins() const { return keeps_origins_; }
 
 private:
     Arena codes_;
     Arena parameters_;
+    Arena origins_;
+    bool keeps_origins_ = false;
     std::uint64_t module_count_ = 0;
     std::uint64_t parameter_count_ = 0;
     std::uint32_t code_width_ = 1;

@@ -26,6 +26,8 @@ void append_number(float value, std::string& out);
 class WordPrinter {
 public:
     explicit WordPrinter(const Bytecode& bytecode);
+    /// What comes next is not behind what was printed before.
+    void begin() { after_identifier_ = false; }
     /// Appends the text of `codes`; `parameters` holds exactly what they store.
     void append(std::span<const Code> codes, std::span<const float> parameters, std::string& out);
     /// Hands the text of a whole word to `flush` in pieces; false as soon as flush returns false.

@@ -29,11 +29,14 @@ std::string find_conflict(const DumpCommand& command) {
     if (draws) {
         return {};
     }
+    if (command.origins && command.count) {
+        return "--count prints no modules, so --origins does not go with it";
+    }
     if (command.stage != Stage::Word) {
-        const bool derives =
-            command.all || command.count || command.stream || saves || command.seed;
-        return derives ? "only --stage word derives, so --all, --count, --stream, --seed, --steps, "
-                         "--save-state and --from do not go with another stage"
+        const bool derives = command.all || command.count || command.stream || command.origins ||
+                             saves || command.seed;
+        return derives ? "only --stage word derives, so --all, --count, --stream, --origins, "
+                         "--seed, --steps, --save-state and --from do not go with another stage"
                        : "";
     }
     if (command.stream && (saves || command.all)) {
@@ -73,7 +76,9 @@ Status dump_syntax(const DumpCommand& command, const Console& console) {
 
 Status dump_skeleton(const DumpCommand& command, Grammar& grammar, const Console& console) {
     Plant plant;
-    const Status status = grow_plant(plant_request(command), grammar, console, plant);
+    PlantRequest request = plant_request(command);
+    request.origins = command.origins;
+    const Status status = grow_plant(request, grammar, console, plant);
     if (status != Status::Fine) {
         return status;
     }
@@ -83,9 +88,10 @@ Status dump_skeleton(const DumpCommand& command, Grammar& grammar, const Console
     }
     constexpr std::size_t kPieceOfText = std::size_t{1} << 18;
     std::string text;
+    OriginPrinter origins(*grammar.bytecode);
     const std::uint64_t lines = line_count(plant.skeleton);
     for (std::uint64_t line = 0; line < lines; ++line) {
-        append_line(plant.skeleton, line, text);
+        append_line(plant.skeleton, line, command.origins ? &origins : nullptr, text);
         if (text.size() >= kPieceOfText || line + 1 == lines) {
             if (console.interrupted()) {
                 return Status::Interrupted;

@@ -208,6 +208,10 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                  "it, nothing is derived");
     app.add_flag("--stream", command.stream,
                  "Derive without storing the word (no contexts, parallel rewriting only)");
+    app.add_flag(
+        "--origins", command.origins,
+        "Say of each module, one a line, or of each part of the skeleton: which production "
+        "or the axiom wrote it, where that stands, and in which generation");
     add_grammar(app, command.grammar);
     add_seed(app, command.seed);
     add_run_limits(app, command.max_bytes, command.threads);
@@ -226,7 +230,8 @@ void add_dump(CLI::App& app, DumpCommand& command) {
     app.footer("Examples: lsc dump -n 3 tree.lsys\n"
                "          lsc dump --all --count tree.lsys\n"
                "          lsc dump -n 10 --steps 5 --save-state half.lss --count tree.lsys\n"
-               "          lsc dump --from half.lss tree.lsys");
+               "          lsc dump --from half.lss tree.lsys\n"
+               "          lsc dump --stage skeleton --origins tree.lsys");
 }
 
 void add_export(CLI::App& app, ExportCommand& command) {

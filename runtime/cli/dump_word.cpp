@@ -2,6 +2,7 @@
 
 #include "runtime/cli/files.h"
 #include "runtime/cli/foresight.h"
+#include "runtime/cli/module_lines.h"
 #include "runtime/cli/plant.h"
 #include "runtime/cli/progress.h"
 #include "runtime/cli/tell.h"
@@ -85,6 +86,7 @@ Result<Plan> make_plan(const DumpCommand& command, const Grammar& grammar, const
     plan.derive.seed =
         command.seed.value_or(bytecode.settings.has_seed ? bytecode.settings.seed : 0);
     plan.derive.threads = command.threads;
+    plan.derive.origins = command.origins;
     plan.derive.limits = {command.grammar.max_modules, command.max_bytes};
     plan.derive.cancelled = console.io().interrupted;
     if (!command.from.empty()) {
@@ -230,10 +232,15 @@ Status dump_stored(const DumpCommand& command,
             counts += fmt::format("{}\n", now.word().module_count());
             return true;
         }
-        WordPrinter printer(bytecode);
-        return printer.print(now.word(), [&](std::string_view text) {
+        const auto put = [&](std::string_view text) {
             return !console.interrupted() && writer.write(text);
-        }) && writer.write("\n");
+        };
+        if (command.origins) {
+            const std::string head =
+                command.all ? fmt::format("generation {}:\n", now.age()) : std::string();
+            return put(head) && ModuleLines(bytecode).print(now.word(), put);
+        }
+        return WordPrinter(bytecode).print(now.word(), put) && writer.write("\n");
     };
     const Status status = derive(derivation, command, plan, grammar, console, print);
     if (writer.failure()) {
@@ -289,9 +296,14 @@ Status dump_streamed(const DumpCommand& command,
         static_cast<void>(writer.write(fmt::format("{}\n", outcome.modules)));
     } else {
         WordPrinter printer(bytecode);
+        ModuleLines lines(bytecode);
         std::string text;
         const auto print = [&](const StreamChunk& chunk) {
-            printer.append(chunk.codes, chunk.parameters, text);
+            if (command.origins) {
+                lines.append(chunk, text);
+            } else {
+                printer.append(chunk.codes, chunk.parameters, text);
+            }
             if (text.size() < kPieceOfText) {
                 return !console.interrupted();
             }
@@ -300,7 +312,7 @@ Status dump_streamed(const DumpCommand& command,
             return fine && !console.interrupted();
         };
         const Status status = stream(plan, grammar, console, print, outcome);
-        text += '\n';
+        text += command.origins ? "" : "\n";
         if (status == Status::Fine) {
             static_cast<void>(writer.write(text));
         } else if (!writer.failure()) {

@@ -63,6 +63,7 @@ struct DumpCommand {
     bool all = false;
     bool count = false;
     bool stream = false;
+    bool origins = false;               // say which production wrote each module, and where
     std::optional<std::uint32_t> steps; // generations of this run
     std::string save_state;
     std::string from;

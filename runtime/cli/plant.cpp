@@ -126,7 +126,7 @@ Status draw_streamed(const DeriveOptions& options,
     const Clock::time_point start = Clock::now();
     const StreamOutcome outcome =
         derive_streamed(*grammar.bytecode, options, [&](const StreamChunk& chunk) {
-            drawn = turtle.feed(chunk.codes, chunk.parameters);
+            drawn = turtle.feed(chunk.codes, chunk.parameters, chunk.origins);
             return drawn == TurtleStatus::Ok;
         });
     plant.modules = outcome.modules;
@@ -153,6 +153,7 @@ grow_plant(const PlantRequest& request, Grammar& grammar, const Console& console
     options.generations = request.generations.value_or(bytecode.generations.value_or(0));
     options.seed = request.seed.value_or(bytecode.settings.has_seed ? bytecode.settings.seed : 0);
     options.threads = request.threads;
+    options.origins = request.origins;
     options.limits = {request.max_modules, request.max_bytes};
     options.cancelled = console.io().interrupted;
     plant.generations = options.generations;

@@ -22,7 +22,8 @@ struct PlantRequest {
     std::uint32_t threads = 0;
     std::uint64_t max_modules = 0;
     std::uint64_t max_bytes = 0;
-    bool stream = false; // store no word
+    bool stream = false;  // store no word
+    bool origins = false; // of what is drawn
 };
 
 /// What a command that draws asks for.

@@ -4,6 +4,7 @@
 
 #include "runtime/derive/contexts.h"
 #include "runtime/derive/plan.h"
+#include "runtime/origin.h"
 
 #include <cstdint>
 #include <span>
@@ -19,6 +20,7 @@ struct WordView {
     const float* parameters = nullptr;
     std::uint64_t count = 0;
     std::uint64_t first_position = 0;
+    const Origin* origins = nullptr; // of each module, where they are kept
 };
 
 /// A module of a WordView, with the number of parameters stored before it.

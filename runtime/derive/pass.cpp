@@ -46,7 +46,8 @@ constexpr std::uint64_t kMarkedOfDynamic = 2;
 
 template <typename C>
 WordView<C> view(const Word& word) {
-    return {word.codes<C>().data(), word.parameters().data(), word.module_count(), 0};
+    return {word.codes<C>().data(), word.parameters().data(), word.module_count(), 0,
+            word.keeps_origins() ? word.origins().data() : nullptr};
 }
 
 } // namespace
@@ -306,6 +307,8 @@ DeriveStatus Passes::write(const WordView<C>& word, Word& out, const PassKeys& k
     WriteRequest<C> next; // in order: where the chunk before ended
     next.codes = codes;
     next.parameters = parameters;
+    Origin* const origins = out.keeps_origins() ? out.origins().data() : nullptr;
+    next.origins = origins;
     std::uint64_t rewritten = 0; // by census
     if (by_census_) {
         for (Code code = 0; code < census_.size(); ++code) {
@@ -322,6 +325,7 @@ DeriveStatus Passes::write(const WordView<C>& word, Word& out, const PassKeys& k
         request.begin = chunk.begin;
         request.codes = codes + chunk.out_module;
         request.parameters = parameters + chunk.out_parameter;
+        request.origins = origins == nullptr ? nullptr : origins + chunk.out_module;
         request.marks = chunk.marked ? &marks_ : nullptr;
         request.writes_parameters = chunk.parameters != 0;
         const bool last = index + 1 == chunks_.size();
@@ -332,6 +336,7 @@ DeriveStatus Passes::write(const WordView<C>& word, Word& out, const PassKeys& k
             request.begin = next.begin;
             request.codes = next.codes;
             request.parameters = next.parameters;
+            request.origins = next.origins;
             request.marks = census_marked ? &marks_ : nullptr;
             request.writes_parameters = parameters_ != 0;
         }

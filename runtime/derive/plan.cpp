@@ -249,6 +249,7 @@ void Plan::make_entries() {
         Entry& entry = entries_[count + i];
         entry.candidate = static_cast<std::uint32_t>(i);
         entry.first_code = successor.codes.first;
+        entry.first_place = successor.codes.first;
         entry.code_count = successor.codes.count;
         entry.parameter_count = successor.parameter_count;
         if (entry.parameter_count > kEntryLanes) {

@@ -39,10 +39,13 @@ struct alignas(64) Entry {
     std::uint32_t parameter_count = 0;
     std::uint32_t first_lane = 0;    // in Plan::lanes(): of all parameters, if they are over four
     std::uint32_t candidate = kNone; // none: the module itself
+    std::uint32_t first_place = 0;   // of the successor, in Bytecode::template_codes
     bool general = false;            // parameters need evaluate()
     bool reads_own = false;          // lanes read the module's parameters
     bool special = false;            // more than one wide store of codes and one of lanes writes
 };
+
+static_assert(sizeof(Entry) == 64, "an entry is one line of the cache");
 
 enum class RowKind : std::uint8_t {
     Fixed,   // always entry c

@@ -1,5 +1,7 @@
 #include "runtime/derive/write.h"
 
+#include "runtime/derive/origins.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -347,7 +349,15 @@ bool write_modules(const Plan& plan,
                    const WordView<C>& word,
                    WriteRequest<C>& request,
                    const R* records) {
-    return Writer<C, R>(plan, keys, matcher, word, request, records).run();
+    const std::uint64_t begin = request.begin.index;
+    if (!Writer<C, R>(plan, keys, matcher, word, request, records).run()) {
+        return false;
+    }
+    if (request.origins != nullptr) {
+        const OriginRequest traced{begin, request.begin.index, keys.generation + 1, request.marks};
+        request.origins = trace_origins(plan, word, traced, records, request.origins);
+    }
+    return true;
 }
 
 template <typename C>

@@ -11,7 +11,7 @@ namespace lsys {
 
 /// A stretch of modules and the room for what they become. Wide stores may spill up to the limits,
 /// never beyond; what lies between the stretch's own part and its limits is written later or never.
-/// write_modules() moves `begin`, `codes` and `parameters` past what it has done.
+/// write_modules() moves `begin`, `codes`, `parameters` and `origins` past what it has done.
 template <typename C>
 struct WriteRequest {
     ModulePlace begin;
@@ -20,6 +20,7 @@ struct WriteRequest {
     C* codes_limit = nullptr;
     float* parameters = nullptr;
     float* parameters_limit = nullptr;
+    Origin* origins = nullptr;     // where origins are kept: those of what is written, as `codes`
     const Marks* marks = nullptr;  // then runs of modules that are not marked are moved as blocks
     bool writes_parameters = true; // false: the stretch becomes modules that store none
 };

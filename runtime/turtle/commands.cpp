@@ -144,6 +144,7 @@ void Turtle::State::close_polygon() {
         return;
     }
     const OpenPolygon open = polygons.top();
+    polygon_origin = open.origin;
     const std::span<const glm::vec3> corners = polygons.corners();
     if (corners.size() < 3) {
         note(TurtleFaultKind::FewCorners);
@@ -292,7 +293,7 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
     case TurtleOperation::Restore:
         return restore();
     case TurtleOperation::PolygonBegin:
-        polygons.open(frame_of(now.pose));
+        polygons.open(frame_of(now.pose), origin);
         return true;
     case TurtleOperation::PolygonVertex:
         if (!polygons.any()) {

@@ -2,6 +2,7 @@
 // below its own.
 #pragma once
 
+#include "runtime/origin.h"
 #include "runtime/turtle/pose.h"
 
 #include <glm/geometric.hpp>
@@ -15,6 +16,7 @@ struct OpenPolygon {
     std::size_t first_vertex = 0; // of `.`
     std::size_t first_on_path = 0;
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
+    Origin origin; // of its `{`
 };
 
 class OpenPolygons {
@@ -22,7 +24,9 @@ public:
     [[nodiscard]] bool any() const { return !open_.empty(); }
     /// Precondition of all below: any().
     [[nodiscard]] const OpenPolygon& top() const { return open_.back(); }
-    void open(const glm::quat& frame) { open_.push_back({vertices_.size(), path_.size(), frame}); }
+    void open(const glm::quat& frame, const Origin& origin) {
+        open_.push_back({vertices_.size(), path_.size(), frame, origin});
+    }
     /// A `.`.
     void vertex(const Pose& pose) { vertices_.push_back(position_of(pose)); }
     /// The start or end of a step; also where no polygon is open.

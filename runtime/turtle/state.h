@@ -61,9 +61,13 @@ struct Turtle::State {
     }
 
     template <typename C>
-    TurtleStatus run(std::span<const C> codes, std::span<const float> parameters);
-    template <typename C>
-    TurtleStatus run_some(std::span<const C> codes, const float*& parameters);
+    TurtleStatus run(std::span<const C> codes,
+                     std::span<const float> parameters,
+                     std::span<const Origin> origins);
+    template <bool kOrigins, typename C>
+    TurtleStatus
+    run_some(std::span<const C> codes, const float*& parameters, const Origin* origins);
+    bool take_origin(const Origin& origin);
     /// False: the drawing has ended as `status`.
     bool obey(const Action& action, const float* arguments);
     bool forward(const Action& action, const float* arguments, float part);
@@ -116,6 +120,8 @@ struct Turtle::State {
     std::array<TurtleFault, kTurtleFaultKinds> faults{};
     std::uint64_t position = 0; // of the module at hand
     Code code = 0;              // of that module
+    Origin origin;              // of that module, where origins are known
+    Origin polygon_origin;      // of the `{` of the polygon closed last
     std::uint64_t cut = 0;      // open brackets within a part that is cut off, and 1
     TurtleStatus status = TurtleStatus::Ok;
     LargeVector<Line> lines; // instead of segments, if only they are wanted

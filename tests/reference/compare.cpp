@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <system_error>
 #include <unistd.h>
@@ -127,7 +128,46 @@ private:
                gives(command("dump", {"--all", "--threads", "2"}), 0, expected_) &&
                gives(command("dump", {}), 0, last) &&
                gives(command("dump", {"--count"}), 0, count) && compiles_alike() &&
-               continues_alike() && reads_its_word();
+               continues_alike() && traces_alike() && reads_its_word();
+    }
+
+    // Every module says where it comes from, however it was derived.
+    bool traces_alike() {
+        const std::filesystem::path& folder = folder_.path();
+        const std::string all = all_origins(made_, derivation_, folder, 0, std::nullopt);
+        const std::string last =
+            all_origins(made_, derivation_, folder, derivation_.generations, std::nullopt);
+        const std::string body = last.substr(last.find('\n') + 1);
+        const std::uint32_t half = derivation_.generations / 2;
+        const std::string state = (folder / "half.state").string(); // of continues_alike()
+        return gives(command("dump", {"--all", "--origins", "--threads", "1"}), 0, all) &&
+               gives(command("dump", {"--all", "--origins", "--threads", "2"}), 0, all) &&
+               gives(command("dump", {"--origins"}), 0, body) &&
+               (!can_stream() || gives(command("dump", {"--origins", "--stream"}), 0, body)) &&
+               gives(compiled_dump({"--all", "--origins"}), 0, all) &&
+               gives(command("dump", {"--all", "--origins", "--from", state}), 0,
+                     all_origins(made_, derivation_, folder, half, half));
+    }
+
+    [[nodiscard]] bool can_stream() const {
+        bool contexts = false;
+        for (const Statement* statement : statements_in_order(made_.grammar)) {
+            const Production& production = statement->production;
+            contexts = contexts || production.left || production.right;
+        }
+        return !contexts && setting(made_.grammar, "rewriting").value_or("parallel") == "parallel";
+    }
+
+    // Of the compiled grammar that compiles_alike() made.
+    [[nodiscard]] std::vector<std::string>
+    compiled_dump(const std::vector<std::string>& more) const {
+        Request rest = made_.request;
+        rest.definitions.clear();
+        std::vector<std::string> dump = {"dump", (folder_.path() / "out.lsb").string()};
+        const std::vector<std::string> options = options_of(rest);
+        dump.insert(dump.end(), options.begin(), options.end());
+        dump.insert(dump.end(), more.begin(), more.end());
+        return dump;
     }
 
     // The production, the generation and the place are named, and no wrong word is printed.
@@ -162,12 +202,7 @@ private:
         std::vector<std::string> compile = {"compile", file_, "-o", module_file};
         const std::vector<std::string> options = options_of(definitions_only);
         compile.insert(compile.end(), options.begin(), options.end());
-        Request rest = made_.request;
-        rest.definitions.clear();
-        std::vector<std::string> dump = {"dump", module_file, "--all"};
-        const std::vector<std::string> others = options_of(rest);
-        dump.insert(dump.end(), others.begin(), others.end());
-        return gives(compile, 0, "") && gives(dump, 0, expected_);
+        return gives(compile, 0, "") && gives(compiled_dump({"--all"}), 0, expected_);
     }
 
     // Some generations, and the others after a rest.
@@ -268,6 +303,38 @@ std::string all_generations(const Grammar& grammar, const Derivation& derivation
     std::string text;
     for (const Word& word : derivation.words) {
         text += print_word(word, grammar.files[0].letters) + "\n";
+    }
+    return text;
+}
+
+std::string all_origins(const Case& made,
+                        const Derivation& derivation,
+                        const std::filesystem::path& folder,
+                        std::uint32_t first,
+                        std::optional<std::uint32_t> saved) {
+    std::map<const ModuleUse*, std::string> places;
+    for (const TextFile& file : print_grammar(made.grammar, made.layout_seed)) {
+        for (const WrittenModule& written : file.modules) {
+            places[written.module] = (folder / file.shown).string() + ":" +
+                                     std::to_string(written.line) + ":" +
+                                     std::to_string(written.column);
+        }
+    }
+    std::string text;
+    for (std::size_t i = first; i < derivation.words.size(); ++i) {
+        text += "generation " + std::to_string(i) + ":\n";
+        for (const Module& module : derivation.words[i]) {
+            const Origin& origin = module.origin;
+            text += print_word({module}, made.grammar.files[0].letters);
+            if (saved && origin.generation <= *saved) {
+                text += " origin unknown, in the saved state of generation " +
+                        std::to_string(*saved) + "\n";
+                continue;
+            }
+            text += " from " + (origin.production.empty() ? "the axiom" : origin.production) +
+                    " at " + places.at(origin.written) + ", generation " +
+                    std::to_string(origin.generation) + "\n";
+        }
     }
     return text;
 }

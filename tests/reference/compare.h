@@ -43,6 +43,15 @@ std::vector<std::string> options_of(const Request& request);
 // Every generation on a line, as `dump --all` prints it.
 std::string all_generations(const Grammar& grammar, const Derivation& derivation);
 
+// The words from generation `first` on, each with its modules as `dump --all --origins` prints them
+// for the files in `folder`. Modules as old as `saved`, which must not be after `first`, come from
+// a saved state.
+std::string all_origins(const Case& made,
+                        const Derivation& derivation,
+                        const std::filesystem::path& folder,
+                        std::uint32_t first,
+                        std::optional<std::uint32_t> saved);
+
 // Derives `made` with the oracle and in several ways with `lsc`. Empty if all agree, else what to
 // print: the command, the grammar and the first difference.
 std::string difference(const Case& made);

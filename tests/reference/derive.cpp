@@ -161,7 +161,7 @@ void rewrite(const Reading& reading, const Choice& choice, std::size_t position,
     Environment environment = environment_of(reading, choice.bindings);
     environment.draw = [&] { return uniform(system.seed, position, reading.age, draw++); };
     for (const ModuleUse& use : production.successor) {
-        Module module{use.name, {}};
+        Module module{use.name, {}, {&use, production.label, reading.age + 1}};
         for (const Expr& argument : use.arguments) {
             float value = 0;
             try {
@@ -185,7 +185,7 @@ Word read_once(const Reading& reading, Derivation& derivation) {
     std::size_t position = 0;
     while (position < reading.word.size()) {
         const Choice choice = choose(reading, position);
-        if (choice.production == nullptr) {
+        if (choice.production == nullptr) { // copied, with its origin
             out.push_back(reading.word[position]);
             ++position;
             continue;
@@ -251,7 +251,7 @@ private:
             system_.ignored.insert(statement.names.begin(), statement.names.end());
         } else if (statement.kind == StatementKind::Axiom) {
             for (const ModuleUse& use : statement.modules) {
-                Module module{use.name, {}};
+                Module module{use.name, {}, {&use, "", 0}};
                 for (const Expr& argument : use.arguments) {
                     module.values.push_back(finite(evaluate(argument, environment_)));
                 }

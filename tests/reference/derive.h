@@ -17,11 +17,21 @@
 
 namespace lsys::reference {
 
+// Where a module of a word comes from.
+struct Origin {
+    const ModuleUse* written = nullptr; // in the axiom or in a successor of the grammar
+    std::string production;             // the label; empty: the axiom
+    std::uint32_t generation = 0;       // of the first word that holds the module
+};
+
 struct Module {
     std::string name;
     std::vector<float> values;
+    Origin origin = {}; // no part of what the module is
 
-    bool operator==(const Module&) const = default;
+    bool operator==(const Module& other) const {
+        return name == other.name && values == other.values;
+    }
 };
 
 using Word = std::vector<Module>;

@@ -64,8 +64,10 @@ random_word(const Bytecode& bytecode, std::uint64_t seed, std::uint64_t count, C
         parameters += bytecode.stored_parameters(codes.back());
     }
     lsys::Word word(code_width(bytecode.code_count()));
+    REQUIRE(word.keep_origins());
     REQUIRE(word.resize(count, parameters));
     for (std::uint64_t i = 0; i < count; ++i) {
+        word.origins()[i] = {kNone, static_cast<std::uint32_t>(i)}; // each its own
         if (word.code_width() == 1) {
             word.codes<std::uint8_t>()[i] = static_cast<std::uint8_t>(codes[i]);
         } else {
@@ -84,6 +86,7 @@ struct Rewritten {
     std::uint64_t fault = 0;
     std::vector<Code> codes;
     std::vector<float> parameters;
+    std::vector<lsys::Origin> origins;
 
     friend bool operator==(const Rewritten&, const Rewritten&) = default;
 };
@@ -92,8 +95,10 @@ Rewritten rewritten(const Bytecode& bytecode,
                     lsys::Word word,
                     std::uint64_t seed,
                     std::uint32_t threads,
-                    std::uint32_t chunk) {
+                    std::uint32_t chunk,
+                    bool origins) {
     DeriveOptions options;
+    options.origins = origins;
     options.generations = 1;
     options.seed = seed;
     options.threads = threads;
@@ -112,6 +117,7 @@ Rewritten rewritten(const Bytecode& bytecode,
         result.codes.push_back(last.code(i));
     }
     result.parameters.assign(last.parameters().begin(), last.parameters().end());
+    result.origins.assign(last.origins().begin(), last.origins().end());
     return result;
 }
 
@@ -128,15 +134,22 @@ TEST_CASE("long random words give the same word in chunks of any size") {
         REQUIRE(bytecode);
         const Code usual = static_cast<Code>(seed * 7 % bytecode->code_count());
         const auto word = [&] { return random_word(*bytecode, seed, 4500 + seed % 77, usual); };
-        const Rewritten expected = rewritten(*bytecode, word(), seed, 1, 1);
+        const Rewritten expected = rewritten(*bytecode, word(), seed, 1, 1, true);
+        CHECK(expected.origins.size() == expected.codes.size());
+        Rewritten without = expected;
+        without.origins.clear();
         const bool is_rewritten =
             expected.status == DeriveStatus::Ok && expected.codes.size() != 4500 + seed % 77;
         rewrote += is_rewritten ? 1 : 0;
         for (const std::uint32_t chunk : {65536U, 1000U, 64U, 65U}) {
             for (const std::uint32_t threads : {1U, 2U}) {
                 INFO("chunks of " << chunk << ", " << threads << " threads");
-                const bool same = rewritten(*bytecode, word(), seed, threads, chunk) == expected;
+                const bool same =
+                    rewritten(*bytecode, word(), seed, threads, chunk, true) == expected;
                 CHECK(same);
+                const bool same_without =
+                    rewritten(*bytecode, word(), seed, threads, chunk, false) == without;
+                CHECK(same_without);
             }
         }
     }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 namespace lsys::reference {
 
@@ -13,6 +14,8 @@ namespace {
 struct Token {
     std::string text;
     bool touches = false; // a letter of a file of letters: needs no blank before it
+    std::vector<std::pair<const ModuleUse*, std::size_t>> modules =
+        {}; // that begin in it, and where
 };
 
 bool is_wordy(char c) {
@@ -51,6 +54,11 @@ public:
         return out_;
     }
 
+    // Of what print() has made.
+    [[nodiscard]] const std::vector<WrittenModule>& modules() const { return modules_; }
+    // The paths of the files it includes, by their indices.
+    [[nodiscard]] const std::map<std::size_t, std::string>& included() const { return included_; }
+
 private:
     bool chance(std::size_t percent) { return random_ != nullptr && random_->percent(percent); }
 
@@ -64,7 +72,8 @@ private:
         }
     }
 
-    void add_name(const std::string& name, bool joins_previous) {
+    // Returns where the name begins in the last token.
+    std::size_t add_name(const std::string& name, bool joins_previous) {
         const bool word = is_identifier(name);
         const bool plain = (word && (!file_.letters || name.size() == 1)) || is_symbol(name);
         const bool quotable = std::string("[]{}").find(name) == std::string::npos;
@@ -72,14 +81,17 @@ private:
             add("`" + name + "`");
         } else if (joins_previous) {
             tokens_.back().text += name;
+            return tokens_.back().text.size() - name.size();
         } else {
             tokens_.push_back({name, file_.letters});
         }
+        return 0;
     }
 
     void add_modules(const std::vector<ModuleUse>& modules) {
         for (std::size_t i = 0; i < modules.size(); ++i) {
-            start_module(&modules, modules[i].name, i);
+            const std::size_t begin = start_module(&modules, modules[i].name, i);
+            tokens_.back().modules.emplace_back(&modules[i], begin);
             const std::vector<Expr>& arguments = modules[i].arguments;
             for (std::size_t k = 0; k < arguments.size(); ++k) {
                 add(k == 0 ? "(" : ",");
@@ -101,10 +113,10 @@ private:
         }
     }
 
-    void start_module(const void* list, const std::string& name, std::size_t i) {
+    std::size_t start_module(const void* list, const std::string& name, std::size_t i) {
         const bool joins_previous = next_joins_;
         next_joins_ = joined_ != nullptr && joined_->joined(list, i);
-        add_name(name, joins_previous);
+        return add_name(name, joins_previous);
     }
 
     void end_module(const std::string& name, bool is_bare) {
@@ -150,7 +162,8 @@ private:
             return;
         case StatementKind::IncludeFile:
             add("#include");
-            add("\"" + relative_path(grammar_.files[statement.file].path) + "\"");
+            included_[statement.file] = relative_path(grammar_.files[statement.file].path);
+            add("\"" + included_[statement.file] + "\"");
             return;
         case StatementKind::Set:
             add("#set");
@@ -265,8 +278,27 @@ private:
                 out_ += out_.back() == '/' ? " " : ""; // or a comment would begin with it
                 out_ += random_ == nullptr ? " " : blank();
             }
+            for (const auto& [module, begin] : tokens_[i].modules) {
+                add_place(module, out_ + tokens_[i].text.substr(0, begin));
+            }
             out_ += tokens_[i].text;
         }
+    }
+
+    // `before`: all text up to the module. A byte order mark is no part of the first line.
+    void add_place(const ModuleUse* module, const std::string& before) {
+        const std::size_t line_end = before.rfind('\n');
+        const std::size_t first = line_end == std::string::npos ? 0 : line_end + 1;
+        const bool marked = first == 0 && before.compare(0, 3, "\xEF\xBB\xBF") == 0;
+        WrittenModule written{module, 1, marked ? 0U : 1U};
+        for (const char c : before) {
+            written.line += c == '\n' ? 1 : 0;
+        }
+        for (std::size_t i = first; i < before.size(); ++i) {
+            const bool continues = (static_cast<unsigned char>(before[i]) & 0xC0) == 0x80;
+            written.column += continues ? 0 : 1;
+        }
+        modules_.push_back(written);
     }
 
     void between_statements() {
@@ -307,6 +339,8 @@ private:
     bool next_joins_ = false;
     std::vector<Token> tokens_;
     std::string out_;
+    std::vector<WrittenModule> modules_;
+    std::map<std::size_t, std::string> included_;
 };
 
 } // namespace
@@ -316,9 +350,18 @@ std::vector<TextFile> print_grammar(const Grammar& grammar, std::uint64_t layout
     Random random(layout_seed, 2);
     const JoinedNames joined(grammar, random);
     for (const File& file : grammar.files) {
+        files.push_back({file.path, file.path, "", {}});
+    }
+    for (std::size_t i = 0; i < files.size(); ++i) { // a file comes before those that it includes
         const bool plain = layout_seed == 0;
-        FilePrinter printer(grammar, file, plain ? nullptr : &joined, plain ? nullptr : &random);
-        files.push_back({file.path, printer.print()});
+        FilePrinter printer(grammar, grammar.files[i], plain ? nullptr : &joined,
+                            plain ? nullptr : &random);
+        files[i].text = printer.print();
+        files[i].modules = printer.modules();
+        const std::string folder = files[i].shown.substr(0, files[i].shown.rfind('/') + 1);
+        for (const auto& [index, way] : printer.included()) {
+            files[index].shown = folder + way;
+        }
     }
     return files;
 }

@@ -11,9 +11,18 @@
 
 namespace lsys::reference {
 
+// Where a module of the axiom or of a successor begins; both count from 1, columns in code points.
+struct WrittenModule {
+    const ModuleUse* module = nullptr; // in the grammar
+    std::size_t line = 0;
+    std::size_t column = 0;
+};
+
 struct TextFile {
     std::string path;
+    std::string shown; // as `lsc` names it: by the way from the file that includes it
     std::string text;
+    std::vector<WrittenModule> modules; // in the order of the text
 };
 
 // The files of `grammar`. With `layout_seed` other than 0 the layout is random: blanks, line ends,

@@ -201,8 +201,8 @@ TEST_CASE("a word in pieces, of codes of any width, draws the same") {
         std::string b;
         REQUIRE(line_count(other) == line_count(whole));
         for (std::uint64_t i = 0; i < line_count(whole); ++i) {
-            append_line(whole, i, a);
-            append_line(other, i, b);
+            append_line(whole, i, nullptr, a);
+            append_line(other, i, nullptr, b);
         }
         CHECK(a == b);
     };

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -30,24 +31,32 @@ DeriveOptions options_for(std::uint32_t generations,
     return options;
 }
 
-std::string derived_with(const Bytecode& bytecode, const DeriveOptions& options) {
+/// The text of the last word, and the origins of its modules if they are asked for.
+std::string
+derived_with(const Bytecode& bytecode, const DeriveOptions& options, std::vector<Origin>& origins) {
     Derivation derivation(bytecode, options);
     REQUIRE(derivation.start() == DeriveStatus::Ok);
     REQUIRE(derivation.run_to(options.generations) == DeriveStatus::Ok);
     REQUIRE(derivation.age() == options.generations);
+    const std::span<const Origin> found = derivation.word().origins();
+    CHECK(found.size() == (options.origins ? derivation.word().module_count() : 0));
+    origins.assign(found.begin(), found.end());
     return text_of(bytecode, derivation.word());
 }
 
-std::string streamed(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t seed) {
+std::string
+streamed(const Bytecode& bytecode, const DeriveOptions& options, std::vector<Origin>& origins) {
     WordPrinter printer(bytecode);
     std::string text;
     std::uint64_t modules = 0;
-    const StreamOutcome outcome = derive_streamed(
-        bytecode, options_for(generations, seed, 1, 64), [&](const StreamChunk& chunk) {
-            printer.append(chunk.codes, chunk.parameters, text);
-            modules += chunk.codes.size();
-            return true;
-        });
+    origins.clear();
+    const StreamOutcome outcome = derive_streamed(bytecode, options, [&](const StreamChunk& chunk) {
+        CHECK(chunk.origins.size() == (options.origins ? chunk.codes.size() : 0));
+        printer.append(chunk.codes, chunk.parameters, text);
+        origins.insert(origins.end(), chunk.origins.begin(), chunk.origins.end());
+        modules += chunk.codes.size();
+        return true;
+    });
     REQUIRE(outcome.status == DeriveStatus::Ok);
     CHECK(outcome.modules == modules);
     return text;
@@ -91,23 +100,38 @@ std::string text_of(const Bytecode& bytecode, const Word& word) {
 }
 
 std::string derived(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t seed) {
-    return derived_with(bytecode, options_for(generations, seed, 1, 1U << 16));
+    std::vector<Origin> none;
+    return derived_with(bytecode, options_for(generations, seed, 1, 1U << 16), none);
 }
 
 std::string
 derived_every_way(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t seed) {
     const std::string expected = derived(bytecode, generations, seed);
-    for_each_program(bytecode, generations, seed, [&](const Bytecode& program) {
+    DeriveOptions options = options_for(generations, seed, 1, 1U << 16);
+    options.origins = true;
+    std::vector<Origin> origins;
+    CHECK(derived_with(bytecode, options, origins) == expected);
+    std::vector<Origin> found;
+    const auto derive_in = [&](const Bytecode& program, bool asks) {
         for (const std::uint32_t threads : kThreads) {
             for (const std::uint32_t chunk : kChunks) {
-                INFO(threads << " threads, chunks of " << chunk);
-                CHECK(derived_with(program, options_for(generations, seed, threads, chunk)) ==
-                      expected);
+                INFO(threads << " threads, chunks of " << chunk << ", origins: " << asks);
+                options = options_for(generations, seed, threads, chunk);
+                options.origins = asks;
+                CHECK(derived_with(program, options, found) == expected);
+                CHECK((!asks || found == origins));
             }
         }
         if (!why_not_streamable(program)) {
-            CHECK(streamed(program, generations, seed) == expected);
+            options = options_for(generations, seed, 1, 64);
+            options.origins = asks;
+            CHECK(streamed(program, options, found) == expected);
+            CHECK((!asks || found == origins));
         }
+    };
+    for_each_program(bytecode, generations, seed, [&](const Bytecode& program) {
+        derive_in(program, false);
+        derive_in(program, true);
     });
     return expected;
 }

@@ -17,7 +17,7 @@ namespace lsys::test {
 [[nodiscard]] std::string
 derived(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t seed);
 
-/// The same, and checks that all other ways give the same word.
+/// The same, and checks that all other ways give the same word, and with origins the same origins.
 [[nodiscard]] std::string
 derived_every_way(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t seed);
 
