@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <png.h>
+#include <vector>
 
 using namespace lsys;
 
@@ -78,6 +80,27 @@ TEST_CASE("normals of the bark point out of it") {
     const Texture normals = bark_normals();
     for (std::size_t i = 0; i < normals.texels.size(); i += 4) {
         REQUIRE(normals.texels[i + 2] > 128);
+    }
+}
+
+TEST_CASE("libpng reads of a PNG what was written") {
+    Texture odd{3, 2, {}};
+    for (std::uint8_t i = 0; i < 24; ++i) {
+        odd.texels.push_back(static_cast<std::uint8_t>(37 * i));
+    }
+    for (const Texture& texture : {material_texture(MaterialKind::Bark), bark_normals(),
+                                   material_texture(MaterialKind::Leaf), odd}) {
+        const std::string bytes = encode_png(texture);
+        png_image image{};
+        image.version = PNG_IMAGE_VERSION;
+        REQUIRE(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) != 0);
+        CHECK(image.width == texture.width);
+        CHECK(image.height == texture.height);
+        image.format = PNG_FORMAT_RGBA;
+        std::vector<std::uint8_t> texels(PNG_IMAGE_SIZE(image));
+        REQUIRE(png_image_finish_read(&image, nullptr, texels.data(), 0, nullptr) != 0);
+        CHECK(image.warning_or_error == 0);
+        CHECK(texels == texture.texels);
     }
 }
 
