@@ -38,7 +38,11 @@ struct ExportInfo {
     std::uint32_t generations = 0;
     std::string generator; // the program and its version
     std::string mtl_name;  // the file of write_mtl() beside an OBJ; empty: none
-    bool textures = true;  // glTF: images for the materials that are textured
+    /// OBJ and USDA: what the names of their pictures begin with, which are files beside them;
+    /// empty: there are none, and materials are plain colours.
+    std::string picture_prefix;
+    bool textures = true;      // pictures for the materials that are textured, where the format can
+    std::uint32_t threads = 0; // 0: as many as the machine has
     /// Those of Skeleton::mesh_files, whose outlines Svg draws; it leaves out what is not here.
     const std::vector<UserMesh>* user_meshes = nullptr;
     /// glTF: the mesh is a skin that these poses move, of which the skeleton is the first. The mesh
@@ -61,6 +65,16 @@ enum class ExportStatus : std::uint8_t {
                                        ExportFormat format,
                                        const ExportInfo& info,
                                        const ByteSink& sink);
+/// A PNG that a file refers to.
+struct PictureFile {
+    std::string name;
+    std::string bytes;
+};
+/// Those of an OBJ and its MTL, or of a USDA.
+[[nodiscard]] ExportStatus make_picture_files(const Mesh& mesh,
+                                              ExportFormat format,
+                                              const ExportInfo& info,
+                                              std::vector<PictureFile>& files);
 /// The materials of an OBJ, whose colours are sRGB. Nothing where there is no OBJ.
 [[nodiscard]] ExportStatus
 write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink);

@@ -16,9 +16,12 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <sys/resource.h>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace lsys::lsc {
 
@@ -155,27 +158,45 @@ Status tell_meshed(MeshStatus status,
     return Status::Failure;
 }
 
-/// One file, complete or absent.
-Status write_one(const std::string& path,
-                 const ExportCommand& command,
-                 const Grammar& grammar,
-                 const Console& console,
-                 Timing& timing,
-                 const std::function<ExportStatus(const ByteSink&)>& write) {
-    Result<Output> output = Output::open(path, console);
-    if (!output) {
-        return fail(output.error(), console);
-    }
-    Sink sink(output.value(), console);
-    const ExportStatus status = write([&sink](std::string_view bytes) { return sink(bytes); });
-    timing.bytes += sink.written();
-    const Status told = tell_exported(status, sink, command, grammar, console);
-    if (told != Status::Fine) {
+/// Files of one plant, all complete or all absent.
+class Files {
+public:
+    Files(const ExportCommand& command, const Grammar& grammar, const Console& console)
+        : command_(command), grammar_(grammar), console_(console) {}
+
+    /// Writes one, which is not to be seen yet.
+    Status add(const std::string& path,
+               Timing& timing,
+               const std::function<ExportStatus(const ByteSink&)>& write) {
+        Result<Output> output = Output::open(path, console_);
+        if (!output) {
+            return fail(output.error(), console_);
+        }
+        Sink sink(output.value(), console_);
+        const ExportStatus status = write([&sink](std::string_view bytes) { return sink(bytes); });
+        timing.bytes += sink.written();
+        const Status told = tell_exported(status, sink, command_, grammar_, console_);
+        if (told == Status::Fine) {
+            outputs_.push_back(std::move(output.value()));
+        }
         return told;
     }
-    const Result<Done> done = output.value().commit();
-    return done ? Status::Fine : fail(done.error(), console);
-}
+    /// Lets all be seen, in order.
+    Status commit() {
+        for (Output& output : outputs_) {
+            if (const Result<Done> done = output.commit(); !done) {
+                return fail(done.error(), console_);
+            }
+        }
+        return Status::Fine;
+    }
+
+private:
+    const ExportCommand& command_;
+    const Grammar& grammar_;
+    const Console& console_;
+    std::vector<Output> outputs_;
+};
 
 /// One export: what all its files share.
 struct Export {
@@ -185,8 +206,51 @@ struct Export {
     const Console& console;
     const Plant& plant;
     Timing timing;
-    Mesh mesh; // of the last file
+    Mesh mesh;                      // of the last file
+    std::set<std::string> pictures; // written so far, which frames share
 };
+
+/// What lies beside the file at `path`: pictures, and the materials of an OBJ. `info` gets their
+/// names.
+Status
+add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info, Files& files) {
+    info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
+    std::vector<PictureFile> pictures;
+    if (make_picture_files(run.mesh, run.format, info, pictures) != ExportStatus::Ok) {
+        return show(plant_limit_diagnostic("the file", run.command.max_bytes), Status::Limit,
+                    run.grammar, run.console);
+    }
+    const auto put = [](std::string_view bytes, const ByteSink& sink) {
+        return sink(bytes) ? ExportStatus::Ok : ExportStatus::Stopped;
+    };
+    for (const PictureFile& picture : pictures) {
+        if (!run.pictures.insert(picture.name).second) {
+            continue;
+        }
+        const Status status =
+            files.add(path.parent_path() / picture.name, run.timing,
+                      [&](const ByteSink& sink) { return put(picture.bytes, sink); });
+        if (status != Status::Fine) {
+            return status;
+        }
+    }
+    if (run.format != ExportFormat::Obj) {
+        return Status::Fine;
+    }
+    const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
+    info.mtl_name = library.filename().string();
+    return files.add(library.string(), run.timing,
+                     [&](const ByteSink& sink) { return write_mtl(run.mesh, info, sink); });
+}
+
+/// Whether something can lie beside it: standard output, pipes and devices have no folder of
+/// theirs.
+bool is_regular(const std::string& path) {
+    std::error_code ignored;
+    const auto kind = std::filesystem::status(path, ignored).type();
+    return path != "-" && (kind == std::filesystem::file_type::not_found ||
+                           kind == std::filesystem::file_type::regular);
+}
 
 /// Meshes `skeleton` and writes it to `path`; with `animation`, whose first pose it is, as a skin.
 Status write_plant(Export& run,
@@ -217,20 +281,20 @@ Status write_plant(Export& run,
     info.generator = "lsc " LSC_VERSION;
     info.user_meshes = &run.plant.user_meshes;
     info.animation = animation;
-    if (run.format == ExportFormat::Obj && path != "-") {
-        const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
-        info.mtl_name = library.filename().string();
-        const Status status =
-            write_one(library.string(), command, run.grammar, run.console, run.timing,
-                      [&](const ByteSink& sink) { return write_mtl(run.mesh, info, sink); });
-        if (status != Status::Fine) {
-            return status;
-        }
+    info.threads = command.threads;
+    Files files(command, run.grammar, run.console);
+    Status status = Status::Fine;
+    if (is_regular(path)) {
+        status = add_side_files(run, path, info, files);
     }
-    const Status status =
-        write_one(path, command, run.grammar, run.console, run.timing, [&](const ByteSink& sink) {
+    if (status == Status::Fine) {
+        status = files.add(path, run.timing, [&](const ByteSink& sink) {
             return export_mesh(run.mesh, skeleton, run.format, info, sink);
         });
+    }
+    if (status == Status::Fine) {
+        status = files.commit();
+    }
     run.timing.write_seconds += seconds_since(start);
     return status;
 }
@@ -335,7 +399,7 @@ Status run_export(const ExportCommand& command, const Console& console) {
     if (status != Status::Fine) {
         return status;
     }
-    Export run{command, *format, grammar, console, plant, {}, {}};
+    Export run{command, *format, grammar, console, plant, {}, {}, {}};
     status = bends ? write_bent(run) : write_plant(run, plant.skeleton, command.output);
     if (status != Status::Fine || !command.stats) {
         return status;

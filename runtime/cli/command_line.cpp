@@ -313,8 +313,10 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_messages(app, command.messages);
     add_deny(app, command.messages);
     app.footer(
-        "Metres, +Y up. The file is complete or absent. OBJ gets a .mtl beside it; SVG is the "
-        "drawing in\nthe plane of X and Y. A skin has at most 65,535 joints that move.\n"
+        "Metres, +Y up. The file is complete or absent. OBJ gets a .mtl beside it, OBJ and USDA "
+        "get "
+        "pictures\nof bark and leaves, as tree.bark.png; standard output gets neither. SVG is the "
+        "drawing in the plane\nof X and Y. A skin has at most 65,535 joints that move.\n"
         "Examples: lsc export tree.lsys -o tree.glb\n"
         "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 48 --fps 24");
 }

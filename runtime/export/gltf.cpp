@@ -4,8 +4,8 @@
 #include "runtime/export/base64.h"
 #include "runtime/export/formats.h"
 #include "runtime/export/gltf_data.h"
+#include "runtime/export/pictures.h"
 #include "runtime/export/text.h"
-#include "runtime/texture.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -14,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <new>
 #include <optional>
 
 namespace lsys {
@@ -22,48 +21,6 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kMostBytes = 0xFFFFFFFFu; // of a GLB; buffers are held to the same
-
-/// Images of the file, in this order; none: not in it.
-struct Images {
-    std::optional<std::size_t> bark;
-    std::optional<std::size_t> bark_normals;
-    std::optional<std::size_t> leaf;
-    std::vector<std::string> names;
-    std::vector<std::string> bytes;
-};
-
-bool shows_texture(const Mesh& mesh, const Material& material, const ExportInfo& info) {
-    return info.textures && material.textured && has_texture(material.kind) &&
-           is_complete(mesh, mesh.texture_coordinates);
-}
-
-std::size_t add_image(Images& images, const char* name, const Texture& texture) {
-    images.names.emplace_back(name);
-    images.bytes.push_back(encode_png(texture));
-    if (images.bytes.back().empty()) {
-        throw std::bad_alloc();
-    }
-    return images.names.size() - 1;
-}
-
-Images make_images(const Mesh& mesh, const ExportInfo& info) {
-    Images images;
-    for (const MeshPart& part : mesh.parts) {
-        const Material& material = mesh.materials[part.material];
-        if (!shows_texture(mesh, material, info)) {
-            continue;
-        }
-        if (material.kind == MaterialKind::Bark && !images.bark) {
-            images.bark = add_image(images, "bark", material_texture(MaterialKind::Bark));
-            if (is_complete(mesh, mesh.tangents)) {
-                images.bark_normals = add_image(images, "bark normals", bark_normals());
-            }
-        } else if (material.kind == MaterialKind::Leaf && !images.leaf) {
-            images.leaf = add_image(images, "leaf", material_texture(MaterialKind::Leaf));
-        }
-    }
-    return images;
-}
 
 /// The document, up to its list of buffers.
 class Document {
@@ -73,8 +30,8 @@ public:
              const GltfMotion* motion,
              const ExportInfo& info,
              const GltfData& data,
-             const Images& images)
-        : mesh_(mesh), motion_(motion), info_(info), data_(data), images_(images) {}
+             const Pictures& pictures)
+        : mesh_(mesh), motion_(motion), info_(info), data_(data), pictures_(pictures) {}
 
     [[nodiscard]] std::string text();
 
@@ -99,7 +56,7 @@ private:
     void add_nodes();
     void add_primitives();
     void add_materials();
-    void add_material(const Material& material, bool coloured);
+    void add_material(std::size_t number, bool coloured);
     void add_images();
     void add_accessors();
     void add_motion();
@@ -109,7 +66,7 @@ private:
     const GltfMotion* motion_;
     const ExportInfo& info_;
     const GltfData& data_;
-    const Images& images_;
+    const Pictures& pictures_;
     std::string text_;
     std::size_t accessors_ = 0;
 };
@@ -171,19 +128,20 @@ void Document::add_primitives() {
     add("]}}],");
 }
 
-void Document::add_material(const Material& material, bool coloured) {
+void Document::add_material(std::size_t number, bool coloured) {
+    const Material& material = mesh_.materials[number];
+    const MaterialPictures& shown = pictures_.of_materials[number];
     const glm::vec4 colour = glm::clamp(
         coloured ? glm::vec4(1.0F, 1.0F, 1.0F, material.colour.a) : material.colour, 0.0F, 1.0F);
     add(R"({{"name":"{}","pbrMetallicRoughness":{{"baseColorFactor":[{},{},{},{}],)",
         json_text(material.name), colour.r, colour.g, colour.b, colour.a);
-    const bool textured = shows_texture(mesh_, material, info_);
-    const bool bark = material.kind == MaterialKind::Bark;
-    if (textured) {
-        add(R"("baseColorTexture":{{"index":{}}},)", bark ? *images_.bark : *images_.leaf);
+    if (shown.colour) {
+        add(R"("baseColorTexture":{{"index":{}}},)", *shown.colour);
     }
-    add(R"("metallicFactor":0,"roughnessFactor":{}}})", bark ? 0.95 : 0.7);
-    if (textured && bark && images_.bark_normals) {
-        add(R"(,"normalTexture":{{"index":{}}})", *images_.bark_normals);
+    add(R"("metallicFactor":0,"roughnessFactor":{}}})",
+        material.kind == MaterialKind::Bark ? 0.95 : 0.7);
+    if (shown.relief) {
+        add(R"(,"normalTexture":{{"index":{}}})", *shown.relief);
     }
     if (material.cut_out) {
         add(R"(,"alphaMode":"MASK","alphaCutoff":0.5)");
@@ -199,20 +157,24 @@ void Document::add_materials() {
     for (std::size_t i = 0; i < mesh_.parts.size(); ++i) {
         if (mesh_.parts[i].index_count >= 3) {
             add("{}", comma(written++));
-            add_material(mesh_.materials[mesh_.parts[i].material], data_.coloured[i]);
+            add_material(mesh_.parts[i].material, data_.coloured[i]);
         }
     }
     add("],");
 }
 
 void Document::add_images() {
-    if (images_.names.empty()) {
+    const std::vector<Picture>& list = pictures_.list;
+    if (list.empty()) {
         return;
     }
     const std::size_t image_views = first_view(GltfArray::Image);
     // Sampler 0 repeats, 1 ends at the border; both with mipmaps.
-    const bool leaf = images_.leaf.has_value();
-    const bool bark = images_.bark.has_value();
+    const auto is_leaf = [](const Picture& picture) {
+        return picture.material == MaterialKind::Leaf;
+    };
+    const bool leaf = std::any_of(list.begin(), list.end(), is_leaf);
+    const bool bark = !std::all_of(list.begin(), list.end(), is_leaf);
     add(R"("samplers":[)");
     if (bark) {
         add(R"({{"magFilter":9729,"minFilter":9987,"wrapS":10497,"wrapT":10497}})");
@@ -222,13 +184,13 @@ void Document::add_images() {
             comma(bark ? 1 : 0));
     }
     add(R"(],"textures":[)");
-    for (std::size_t i = 0; i < images_.names.size(); ++i) {
-        add(R"({}{{"sampler":{},"source":{}}})", comma(i), images_.leaf == i && bark ? 1 : 0, i);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        add(R"({}{{"sampler":{},"source":{}}})", comma(i), is_leaf(list[i]) && bark ? 1 : 0, i);
     }
     add(R"(],"images":[)");
-    for (std::size_t i = 0; i < images_.names.size(); ++i) {
-        add(R"({}{{"name":"{}","mimeType":"image/png","bufferView":{}}})", comma(i),
-            images_.names[i], image_views + i);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        add(R"({}{{"name":"{}","mimeType":"image/png","bufferView":{}}})", comma(i), list[i].name,
+            image_views + i);
     }
     add("],");
 }
@@ -364,12 +326,13 @@ ExportStatus write_gltf(const Mesh& mesh,
         moving.emplace(GltfMotion{std::move(*skin), *info.animation});
     }
     const GltfMotion* const motion = moving ? &*moving : nullptr;
-    const Images images = make_images(mesh, info);
-    const GltfData data = plan_gltf_data(mesh, motion, images.bytes);
+    const Pictures pictures = find_pictures(mesh, ExportFormat::Gltf, info);
+    const GltfData data =
+        plan_gltf_data(mesh, motion, encode_pictures(pictures.list, info.threads));
     if (data.bytes > kMostBytes) {
         return ExportStatus::TooLarge;
     }
-    std::string json = Document(mesh, motion, info, data, images).text();
+    std::string json = Document(mesh, motion, info, data, pictures).text();
     if (!binary) {
         out.put(json);
         out.put(R"(,"uri":"data:application/octet-stream;base64,)");

@@ -1,12 +1,14 @@
 // Wavefront OBJ and MTL (Wavefront Advanced Visualizer manual, appendix B1, as its readers have it:
 // https://paulbourke.net/dataformats/obj/). v of texture coordinates goes upwards there.
 #include "runtime/export/formats.h"
+#include "runtime/export/pictures.h"
 #include "runtime/export/text.h"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <new>
+#include <optional>
 #include <vector>
 
 namespace lsys {
@@ -96,12 +98,24 @@ ExportStatus write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink&
         PieceWriter out(sink);
         out.put(fmt::format("# {}\n# {}\n", one_line(info.generator), origin_line(info)));
         const std::vector<std::string> words = material_words(mesh);
+        const Pictures pictures = find_pictures(mesh, ExportFormat::Obj, info);
+        const auto put_map = [&](const char* keyword, const std::optional<std::size_t>& number) {
+            if (number) { // as with mtllib, blanks are part of the name
+                out.put(fmt::format("{} {}\n", keyword, pictures.list[*number].name));
+            }
+        };
         for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
-            const glm::vec4& colour = mesh.materials[i].colour;
+            const MaterialPictures& shown = pictures.of_materials[i];
+            // Multiplied by the picture, which has the colour in it.
+            const glm::vec4 colour = shown.colour
+                                         ? glm::vec4(1.0F, 1.0F, 1.0F, mesh.materials[i].colour.a)
+                                         : mesh.materials[i].colour;
             out.put(fmt::format("\nnewmtl {}\nKa 0 0 0\nKd {:.4f} {:.4f} {:.4f}\nKs 0 0 0\n"
                                 "d {}\nillum 1\n",
                                 words[i], srgb(colour.r), srgb(colour.g), srgb(colour.b),
                                 colour.a));
+            put_map("map_Kd", shown.colour);
+            put_map("map_d", shown.opacity);
         }
         return out.finish() ? ExportStatus::Ok : ExportStatus::Stopped;
     } catch (const std::bad_alloc&) {

@@ -47,6 +47,34 @@ TEST_CASE("the name of the file tells the format, or --format does") {
     CHECK(streamed.out == read_text(folder / "a.stl"));
 }
 
+TEST_CASE("pictures lie beside an OBJ or USDA, of all frames once, and with it or not at all") {
+    const ScratchFolder folder;
+    REQUIRE(run_lsc({"export", "-", "-o", folder / "tree.usda"}, kTree).status == 0);
+    CHECK(count_files(folder) == 3);
+    CHECK(std::filesystem::exists(folder / "tree.bark.png"));
+    CHECK(std::filesystem::exists(folder / "tree.bark_normals.png"));
+    CHECK(read_text(folder / "tree.usda").find("@./tree.bark.png@") != std::string::npos);
+    const LscRun streamed = run_lsc({"export", "-", "-o", "-", "--format", "usda"}, kTree);
+    CHECK(streamed.out.find("asset") == std::string::npos);
+
+    const ScratchFolder frames;
+    REQUIRE(
+        run_lsc({"export", "-", "-o", frames / "a.obj", "--frames", "2", "--wind", "1,0,0"}, kTree)
+            .status == 0);
+    CHECK(count_files(frames) == 5);
+    for (const char* name : {"a.0001.mtl", "a.0002.mtl"}) {
+        CHECK(read_text(frames / name).find("map_Kd a.bark.png\n") != std::string::npos);
+    }
+
+    // What cannot be replaced is found before anything is to be seen.
+    const ScratchFolder blocked;
+    std::filesystem::create_directory(blocked / "a.obj");
+    CHECK(run_lsc({"export", "-", "-o", blocked / "a.obj"}, kTree).status == 2);
+    CHECK(count_files(blocked) == 1);
+    CHECK(run_lsc({"export", "-", "-o", "/dev/null", "--format", "obj"}, kTree).status == 0);
+    CHECK_FALSE(std::filesystem::exists("/dev/null.mtl"));
+}
+
 TEST_CASE("a stored and a streamed word, and any threads, give the same file") {
     const std::vector<std::string> command{"export", "-", "-o", "-", "--format", "glb"};
     const std::string file = run_lsc(command, kTree).out;

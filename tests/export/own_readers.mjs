@@ -27,7 +27,7 @@ export function readOffPlus(text) {
     return { vertices, triangles };
 }
 
-const token = /\s*(?:([A-Za-z_][\w:.]*(?:\[\])?)|(-?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)|("(?:[^"\\\n]|\\.)*")|(<[^<>]*>)|([()[\]{}=,]))/gy;
+const token = /\s*(?:(@@@(?:\\@@@|(?!@@@)[^\n])*@@@|@[^@\n]*@)|([A-Za-z_][\w:.]*(?:\[\])?)|(-?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)|("(?:[^"\\\n]|\\.)*")|(<[^<>]*>)|([()[\]{}=,]))/gy;
 
 /// Statements of a prim: `properties` by name, `children` by name.
 class Parser {
@@ -44,7 +44,7 @@ class Parser {
             this.kind = 'end';
             return;
         }
-        this.kind = ['name', 'number', 'string', 'path', 'sign'][match.slice(1).findIndex(
+        this.kind = ['asset', 'name', 'number', 'string', 'path', 'sign'][match.slice(1).findIndex(
             m => m !== undefined)];
         this.value = match[0].trim();
     }
@@ -62,6 +62,11 @@ class Parser {
     literal() {
         if (this.kind === 'number') {
             return Number(this.take());
+        }
+        if (this.kind === 'asset') {
+            const text = this.take();
+            return text.startsWith('@@@') ? text.slice(3, -3).replaceAll('\\@@@', '@@@')
+                                          : text.slice(1, -1);
         }
         for (const [open, close] of [['[', ']'], ['(', ')']]) {
             if (this.at(open)) {
@@ -137,10 +142,12 @@ class Parser {
         return prim;
     }
     property() {
+        // `uniform` or `custom`, the type and the name: what has no value ends there.
         const words = [];
-        while (this.kind === 'name') {
+        do {
+            assert(this.kind === 'name', `no property: ${this.value}`);
             words.push(this.take());
-        }
+        } while (words.length < (['uniform', 'custom'].includes(words[0]) ? 3 : 2));
         let value = null;
         if (this.at('=')) {
             this.take();
@@ -154,6 +161,37 @@ class Parser {
         }
         return [words.at(-1), property];
     }
+}
+
+// File names of the pictures of a material at `path`; all that is connected is there.
+function readPictures(material, path) {
+    const output = (connection, type) => {
+        const [prim, name] = connection.split('.');
+        assert(prim.startsWith(`${path}/`), `${connection} is in another material`);
+        const shader = material.children[prim.slice(path.length + 1)];
+        assert(shader?.type === 'Shader' && shader.properties[name].type.startsWith(type),
+               `${connection} is no ${type}`);
+        return shader.properties;
+    };
+    const pictures = [];
+    const surface = material.children.Surface.properties;
+    const inputs = { diffuseColor: 'float3', opacity: 'float', normal: 'float3' };
+    for (const [input, type] of Object.entries(inputs)) {
+        const connection = surface[`inputs:${input}.connect`];
+        assert(connection === undefined || !(`inputs:${input}` in surface), `${input} twice`);
+        if (connection === undefined) {
+            continue;
+        }
+        const picture = output(connection.value, type);
+        assert(picture['info:id'].value === 'UsdUVTexture', 'info:id of a picture');
+        assert(picture['inputs:sourceColorSpace'].value === (input === 'normal' ? 'raw' : 'sRGB'),
+               'color space');
+        const place = output(picture['inputs:st.connect'].value, 'float2');
+        assert(place['info:id'].value === 'UsdPrimvarReader_float2' &&
+               place['inputs:varname'].value === 'st', 'reader of texture coordinates');
+        pictures.push(picture['inputs:file'].value);
+    }
+    return pictures;
 }
 
 export function readUsda(text) {
@@ -190,6 +228,7 @@ export function readUsda(text) {
     assert(value('points').every(p => p.every((x, i) => x >= low[i] && x <= high[i])), 'extent');
 
     // Subsets share out all faces, and each names a material that is there.
+    const pictures = new Set();
     const owned = new Uint8Array(triangles);
     const subsets = Object.values(mesh.children);
     for (const subset of subsets) {
@@ -204,7 +243,11 @@ export function readUsda(text) {
         const shader = `/Plant/${path.join('/')}/Surface.outputs:surface`;
         assert(material.properties['outputs:surface.connect'].value === shader &&
                material.children.Surface.type === 'Shader', 'connection of the surface');
+        for (const picture of readPictures(material, `/Plant/${path.join('/')}`)) {
+            assert('primvars:st' in mesh.properties, 'a picture without texture coordinates');
+            pictures.add(picture);
+        }
     }
     assert(owned.every(n => n === 1), 'a face without a subset');
-    return { vertices, triangles, parts: subsets.length };
+    return { vertices, triangles, parts: subsets.length, pictures: [...pictures] };
 }

@@ -31,6 +31,13 @@ function expect(file, what, found, expected) {
     }
 }
 
+// A PNG of 256 x 256 in the folder.
+function expectPicture(file, name) {
+    const { PNG } = require('pngjs');
+    const png = PNG.sync.read(readFileSync(join(folder, name)));
+    expect(file, `size of ${name}`, `${png.width} x ${png.height}`, '256 x 256');
+}
+
 function counts() {
     return readFileSync(join(folder, 'counts.txt'), 'utf8').trim().split('\n').filter(Boolean)
         .map(line => {
@@ -182,6 +189,7 @@ const checks = {
     async obj() {
         const { OBJLoader } = await module('three/examples/jsm/loaders/OBJLoader.js');
         const { MTLLoader } = await module('three/examples/jsm/loaders/MTLLoader.js');
+        let textured = 0;
         await eachMesh(['obj'], (file, mesh) => {
             const group = new OBJLoader().parse(readFileSync(join(folder, file), 'utf8'));
             const [library] = group.materialLibraries;
@@ -190,17 +198,25 @@ const checks = {
                 readFileSync(join(folder, library), 'utf8'), '');
             let triangles = 0;
             let parts = 0;
+            let pictures = 0;
             for (const child of group.children) {
                 triangles += child.geometry.attributes.position.count / 3;
                 const materials = [child.material].flat();
                 parts += materials.length;
                 for (const { name } of materials) {
-                    expect(file, `Kd of ${name}`, materialsInfo[name]?.kd?.length, 3);
+                    const info = materialsInfo[name];
+                    expect(file, `Kd of ${name}`, info?.kd?.length, 3);
+                    for (const picture of [info?.map_kd, info?.map_d].filter(Boolean)) {
+                        expectPicture(file, picture);
+                        ++pictures;
+                    }
                 }
             }
             expect(file, 'number of triangles', triangles, mesh.triangles);
             expect(file, 'number of parts', parts, mesh.parts);
+            textured += pictures > 0 ? 1 : 0;
         });
+        expect('obj', 'some have pictures', textured > 0, true);
     },
 
     async svg() {
@@ -245,12 +261,19 @@ const checks = {
     },
 
     async usda() {
+        let textured = 0;
         await eachMesh(['usda'], (file, mesh) => {
             const found = readUsda(readFileSync(join(folder, file), 'utf8'));
             expect(file, 'number of vertices', found.vertices, mesh.vertices);
             expect(file, 'number of triangles', found.triangles, mesh.triangles);
             expect(file, 'number of parts', found.parts, mesh.parts);
+            for (const picture of found.pictures) {
+                expect(file, `${picture} lies beside it`, picture.startsWith('./'), true);
+                expectPicture(file, picture);
+            }
+            textured += found.pictures.length > 0 ? 1 : 0;
         });
+        expect('usda', 'some have pictures', textured > 0, true);
     },
 };
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 using namespace lsys;
 
@@ -39,6 +40,21 @@ bool write_file(const std::filesystem::path& path,
         return false;
     }
     return true;
+}
+
+/// The pictures that an OBJ and its MTL, or a USDA name.
+bool write_pictures(const std::filesystem::path& folder,
+                    const Mesh& mesh,
+                    ExportFormat format,
+                    const ExportInfo& info) {
+    std::vector<PictureFile> files;
+    bool fine = make_picture_files(mesh, format, info, files) == ExportStatus::Ok;
+    for (const PictureFile& picture : files) {
+        std::ofstream file(folder / picture.name, std::ios::binary);
+        file << picture.bytes;
+        fine = fine && file.good();
+    }
+    return fine;
 }
 
 /// A crooked line with a branch, a polygon, and widths that fall.
@@ -98,11 +114,16 @@ int main(int argument_count, char** arguments) {
                     .seed = 7,
                     .generations = 3,
                     .generator = "write_meshes",
-                    .mtl_name = ""};
+                    .mtl_name = "",
+                    .picture_prefix = ""};
     bool fine = true;
     std::ofstream counts(folder / "counts.txt");
     for (const auto& [name, mesh] : meshes) {
         info.mtl_name = std::string(name) + ".mtl";
+        info.picture_prefix = name;
+        for (const ExportFormat format : {ExportFormat::Obj, ExportFormat::Usda}) {
+            fine = write_pictures(folder, mesh, format, info) && fine;
+        }
         fine = write_file(folder / info.mtl_name, mesh, {}, info) && fine;
         for (const char* extension : kExtensions) {
             fine =

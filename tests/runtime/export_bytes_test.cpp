@@ -6,6 +6,8 @@
 
 #include <cstring>
 #include <string>
+#include <string_view>
+#include <vector>
 
 using namespace lsys;
 
@@ -16,7 +18,8 @@ ExportInfo info() {
             .seed = 7,
             .generations = 3,
             .generator = "lsc 1",
-            .mtl_name = "p q.mtl"};
+            .mtl_name = "p q.mtl",
+            .picture_prefix = ""};
 }
 
 std::string exported(const Mesh& mesh, ExportFormat format) {
@@ -79,6 +82,60 @@ TEST_CASE("an MTL gives materials of one name different ones") {
                   "\nnewmtl plain_red\nKa 0 0 0\nKd 1.0000 0.0000 0.0000\nKs 0 0 0\nd 1\nillum 1\n"
                   "\nnewmtl plain_red_2\nKa 0 0 0\nKd 0.0000 0.7354 1.0000\nKs 0 0 0\nd 0.25\n"
                   "illum 1\n");
+}
+
+TEST_CASE("pictures of an OBJ and of a USDA have the colour in them") {
+    Mesh mesh = test::plant_mesh(); // bark, and leaves that are cut out
+    ExportInfo with = info();
+    with.picture_prefix = "p q";
+    const auto names = [&](ExportFormat format) {
+        std::vector<PictureFile> files;
+        REQUIRE(make_picture_files(mesh, format, with, files) == ExportStatus::Ok);
+        std::vector<std::string> found;
+        for (const PictureFile& file : files) {
+            CHECK(file.bytes.substr(1, 3) == "PNG");
+            found.push_back(file.name);
+        }
+        return found;
+    };
+    CHECK(names(ExportFormat::Obj) ==
+          std::vector<std::string>{"p q.bark.png", "p q.leaf.png", "p q.leaf_opacity.png"});
+    CHECK(names(ExportFormat::Usda) ==
+          std::vector<std::string>{"p q.bark.png", "p q.bark_normals.png", "p q.leaf.png"});
+    for (const ExportFormat format : {ExportFormat::Glb, ExportFormat::Ply, ExportFormat::Svg}) {
+        CHECK(names(format).empty());
+    }
+    std::string text;
+    const auto append = [&text](std::string_view piece) {
+        text += piece;
+        return true;
+    };
+    REQUIRE(write_mtl(mesh, with, append) == ExportStatus::Ok);
+    CHECK(text.find("newmtl bark\nKa 0 0 0\nKd 1.0000 1.0000 1.0000\nKs 0 0 0\nd 1\nillum 1\n"
+                    "map_Kd p q.bark.png\n") != std::string::npos);
+    CHECK(text.find("map_Kd p q.leaf.png\nmap_d p q.leaf_opacity.png\n") != std::string::npos);
+
+    text.clear();
+    with.picture_prefix = "a@@@b";
+    REQUIRE(export_mesh(mesh, {}, ExportFormat::Usda, with, append) == ExportStatus::Ok);
+    CHECK(text.find("asset inputs:file = @@@./a\\@@@b.bark.png@@@\n") != std::string::npos);
+    CHECK(text.find("inputs:normal.connect = </Plant/Materials/bark/Relief.outputs:rgb>") !=
+          std::string::npos);
+
+    // Without a place for them, or without the wish, there are none.
+    for (int without = 0; without < 3; ++without) {
+        with.picture_prefix = without == 0 ? "" : "p";
+        with.textures = without != 1;
+        if (without == 2) {
+            mesh.texture_coordinates.clear();
+        }
+        CHECK(names(ExportFormat::Obj).empty());
+        text.clear();
+        REQUIRE(write_mtl(mesh, with, append) == ExportStatus::Ok);
+        REQUIRE(export_mesh(mesh, {}, ExportFormat::Usda, with, append) == ExportStatus::Ok);
+        CHECK(text.find("map_") == std::string::npos);
+        CHECK(text.find("asset") == std::string::npos);
+    }
 }
 
 TEST_CASE("OFF and OFF+ of a triangle") {

@@ -17,6 +17,7 @@ std::string drawn(const Skeleton& skeleton, const std::vector<UserMesh>* meshes 
                           .generations = 3,
                           .generator = "lsc 1",
                           .mtl_name = "",
+                          .picture_prefix = "",
                           .user_meshes = meshes};
     REQUIRE(export_mesh({}, skeleton, ExportFormat::Svg, info, [&text](std::string_view piece) {
                 text += piece;

@@ -18,7 +18,12 @@ constexpr std::array kFormats{ExportFormat::Obj,     ExportFormat::Ply, ExportFo
                               ExportFormat::Glb,     ExportFormat::Svg, ExportFormat::Usda};
 
 ExportInfo info() {
-    return {.grammar = "g.lsys", .seed = 1, .generations = 2, .generator = "lsc", .mtl_name = ""};
+    return {.grammar = "g.lsys",
+            .seed = 1,
+            .generations = 2,
+            .generator = "lsc",
+            .mtl_name = "",
+            .picture_prefix = ""};
 }
 
 Skeleton long_skeleton() {

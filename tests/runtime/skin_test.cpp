@@ -240,6 +240,7 @@ TEST_CASE("a skin has 65,535 joints that move, and no more") {
                               .generations = 1,
                               .generator = "lsc",
                               .mtl_name = "",
+                              .picture_prefix = "",
                               .animation = &poses};
         std::uint64_t bytes = 0;
         const ExportStatus status =
