@@ -80,6 +80,8 @@ struct MeshOptions {
     std::uint32_t subdivisions = 2; // of Boxes
     std::uint64_t max_bytes = ~std::uint64_t{0};
     std::uint32_t threads = 0; // 0: as many as the machine has
+
+    friend bool operator==(const MeshOptions&, const MeshOptions&) = default;
 };
 
 enum class MeshStatus : std::uint8_t { Ok, TooManyVertices, Limit, OutOfMemory };
@@ -99,6 +101,11 @@ struct UserMesh {
                                    const std::vector<UserMesh>& user_meshes,
                                    const MeshOptions& options,
                                    Mesh& mesh);
+
+/// The mesh of make_mesh() as text: a line of counts, then one for each part, vertex and triangle.
+[[nodiscard]] std::uint64_t line_count(const Mesh& mesh);
+/// Precondition: line < line_count().
+void append_line(const Mesh& mesh, std::uint64_t line, std::string& text);
 
 /// Colour of a palette index (linear RGB): 0 bark, 1 leaf green, 2 to 15 lighter and lighter
 /// greens, 16 to 24 light brown, red, amber, cream, pink, violet, blue, teal, grey; then again

@@ -21,10 +21,19 @@ namespace {
 /// Options that do not go together, in words; empty if all is well.
 std::string find_conflict(const DumpCommand& command) {
     const bool saves = command.steps || !command.save_state.empty() || !command.from.empty();
-    const bool draws = command.stage == Stage::Skeleton;
+    const bool meshes = command.stage == Stage::Mesh;
+    const bool draws = meshes || command.stage == Stage::Skeleton;
+    if (!meshes && command.mesh != MeshOptions{}) {
+        return "only --stage mesh makes a mesh, so --method, --sides, --level, --subdivisions, "
+               "--bark-noise and --droop do not go with another stage";
+    }
+    if (meshes && command.origins) {
+        return "a mesh names its segments, whose origins --stage skeleton prints: --origins does "
+               "not go with --stage mesh";
+    }
     if (draws && (command.all || command.count || saves)) {
         return "a plant is drawn from the last word, so --all, --count, --steps, --save-state and "
-               "--from do not go with --stage skeleton";
+               "--from do not go with --stage skeleton or mesh";
     }
     if (draws) {
         return {};
@@ -74,24 +83,20 @@ Status dump_syntax(const DumpCommand& command, const Console& console) {
     return worse(console.show(diagnostics, sources), write_stage(command, text, console));
 }
 
-Status dump_skeleton(const DumpCommand& command, Grammar& grammar, const Console& console) {
-    Plant plant;
-    PlantRequest request = plant_request(command);
-    request.origins = command.origins;
-    const Status status = grow_plant(request, grammar, console, plant);
-    if (status != Status::Fine) {
-        return status;
-    }
+/// `append` puts line `i` of `lines` to the end of a text.
+template <typename Append>
+Status write_lines(const DumpCommand& command,
+                   const Console& console,
+                   std::uint64_t lines,
+                   const Append& append) {
     Result<Output> output = Output::open(command.output, console);
     if (!output) {
         return fail(output.error(), console);
     }
     constexpr std::size_t kPieceOfText = std::size_t{1} << 18;
     std::string text;
-    OriginPrinter origins(*grammar.bytecode);
-    const std::uint64_t lines = line_count(plant.skeleton);
     for (std::uint64_t line = 0; line < lines; ++line) {
-        append_line(plant.skeleton, line, command.origins ? &origins : nullptr, text);
+        append(line, text);
         if (text.size() >= kPieceOfText || line + 1 == lines) {
             if (console.interrupted()) {
                 return Status::Interrupted;
@@ -104,6 +109,36 @@ Status dump_skeleton(const DumpCommand& command, Grammar& grammar, const Console
     }
     const Result<Done> done = output.value().commit();
     return done ? Status::Fine : fail(done.error(), console);
+}
+
+Status dump_plant(const DumpCommand& command, Grammar& grammar, const Console& console) {
+    Plant plant;
+    PlantRequest request = plant_request(command);
+    request.origins = command.origins;
+    Status status = grow_plant(request, grammar, console, plant);
+    if (status != Status::Fine) {
+        return status;
+    }
+    if (command.stage == Stage::Skeleton) {
+        OriginPrinter origins(*grammar.bytecode);
+        return write_lines(command, console, line_count(plant.skeleton),
+                           [&](std::uint64_t line, std::string& text) {
+                               append_line(plant.skeleton, line,
+                                           command.origins ? &origins : nullptr, text);
+                           });
+    }
+    MeshOptions options = command.mesh;
+    options.threads = command.threads;
+    options.max_bytes = command.max_bytes;
+    options.segments = true;
+    Mesh mesh;
+    status = mesh_plant(plant, plant.skeleton, options, grammar, console, mesh);
+    if (status != Status::Fine) {
+        return status;
+    }
+    return write_lines(
+        command, console, line_count(mesh),
+        [&mesh](std::uint64_t line, std::string& text) { append_line(mesh, line, text); });
 }
 
 } // namespace
@@ -132,8 +167,9 @@ Status run_dump(const DumpCommand& command, const Console& console) {
     case Stage::Bytecode:
         return write_stage(command, disassemble(*grammar.bytecode), console);
     case Stage::Skeleton:
+    case Stage::Mesh:
         grammar.program.reset();
-        return dump_skeleton(command, grammar, console);
+        return dump_plant(command, grammar, console);
     case Stage::Tokens:
     case Stage::Ast:
     case Stage::Word:

@@ -1,5 +1,6 @@
 #include "runtime/animation.h"
 #include "runtime/cli/commands.h"
+#include "runtime/cli/export_stats.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/plant.h"
 #include "runtime/cli/tell.h"
@@ -18,7 +19,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <sys/resource.h>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -31,55 +31,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// What --stats prints.
-struct Timing {
-    double mesh_seconds = 0.0;
-    double write_seconds = 0.0;
-    std::uint64_t bytes = 0;
-};
-
-std::string number_text(double value) {
-    return fmt::format("{:.4g}", value);
-}
-
-std::string stats_text(const Plant& plant, const Mesh& mesh, const Timing& timing) {
-    const Skeleton& skeleton = plant.skeleton;
-    const SkeletonStats stats = measure(skeleton);
-    std::string text;
-    const auto row = [&text](const char* name, const std::string& value) {
-        text += fmt::format("{:<18}{}\n", name, value);
-    };
-    row("generations", fmt::format("{}", plant.generations));
-    row("seed", fmt::format("{}", plant.seed));
-    row("modules", grouped_digits(plant.modules));
-    row("segments", grouped_digits(skeleton.segments.size()));
-    for (std::size_t order = 0; order < stats.segments_by_order.size(); ++order) {
-        row(fmt::format("  of order {}", order).c_str(),
-            grouped_digits(stats.segments_by_order[order]));
-    }
-    row("objects", grouped_digits(skeleton.objects.size()));
-    row("polygons", grouped_digits(skeleton.polygons.size()));
-    row("height", number_text(stats.height) + " m");
-    row("crown width", number_text(stats.crown_width) + " m");
-    row("length", number_text(stats.length) + " m");
-    row("volume", number_text(stats.volume) + " m3");
-    row("mass", number_text(stats.mass) + " kg");
-    row("vertices", grouped_digits(mesh.positions.size()));
-    row("triangles", grouped_digits(mesh.indices.size() / 3));
-    row("bytes", grouped_digits(timing.bytes));
-    const auto milliseconds = [](double seconds) {
-        return fmt::format("{:.1f} ms", 1e3 * seconds);
-    };
-    row("derivation", milliseconds(plant.derive_seconds));
-    row("turtle", milliseconds(plant.draw_seconds));
-    row("mesh", milliseconds(timing.mesh_seconds));
-    row("file", milliseconds(timing.write_seconds));
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    row("peak memory", byte_size_text(static_cast<std::uint64_t>(usage.ru_maxrss) << 10));
-    return text;
 }
 
 /// Hands bytes to an output until it refuses them.
@@ -138,26 +89,6 @@ Status tell_exported(ExportStatus status,
     return Status::Failure;
 }
 
-Status tell_meshed(MeshStatus status,
-                   const ExportCommand& command,
-                   const Grammar& grammar,
-                   const Console& console) {
-    switch (status) {
-    case MeshStatus::Ok:
-        return Status::Fine;
-    case MeshStatus::TooManyVertices:
-        return show(plant_limit_diagnostic("the mesh", "4,294,967,295 vertices",
-                                           "ask for fewer sides with `--sides`, for a coarser "
-                                           "`--level`, or for fewer generations with `-n`"),
-                    Status::Limit, grammar, console);
-    case MeshStatus::Limit:
-    case MeshStatus::OutOfMemory:
-        return show(plant_limit_diagnostic("the mesh", command.max_bytes), Status::Limit, grammar,
-                    console);
-    }
-    return Status::Failure;
-}
-
 /// Files of one plant, all complete or all absent.
 class Files {
 public:
@@ -166,7 +97,7 @@ public:
 
     /// Writes one, which is not to be seen yet.
     Status add(const std::string& path,
-               Timing& timing,
+               ExportTiming& timing,
                const std::function<ExportStatus(const ByteSink&)>& write) {
         Result<Output> output = Output::open(path, console_);
         if (!output) {
@@ -205,7 +136,7 @@ struct Export {
     const Grammar& grammar;
     const Console& console;
     const Plant& plant;
-    Timing timing;
+    ExportTiming timing;
     Mesh mesh;                      // of the last file
     std::set<std::string> pictures; // written so far, which frames share
 };
@@ -266,8 +197,7 @@ Status write_plant(Export& run,
         options.segments = animation != nullptr;
         run.mesh = {};
         const Status status =
-            tell_meshed(make_mesh(skeleton, run.plant.user_meshes, options, run.mesh), command,
-                        run.grammar, run.console);
+            mesh_plant(run.plant, skeleton, options, run.grammar, run.console, run.mesh);
         if (status != Status::Fine) {
             return status;
         }
@@ -400,11 +330,18 @@ Status run_export(const ExportCommand& command, const Console& console) {
         return status;
     }
     Export run{command, *format, grammar, console, plant, {}, {}, {}};
+    const Clock::time_point start = Clock::now();
     status = bends ? write_bent(run) : write_plant(run, plant.skeleton, command.output);
     if (status != Status::Fine || !command.stats) {
         return status;
     }
-    const std::string text = stats_text(plant, run.mesh, run.timing);
+    if (bends) { // what neither meshes nor writes
+        run.timing.physics_seconds =
+            seconds_since(start) - run.timing.mesh_seconds - run.timing.write_seconds;
+    }
+    const std::string text = command.messages.format == MessageFormat::Json
+                                 ? export_stats_json(plant, run.mesh, run.timing)
+                                 : export_stats_text(plant, run.mesh, run.timing);
     if (command.output == "-") { // which the plant itself is on
         console.line(text);
         return status;

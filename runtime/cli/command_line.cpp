@@ -188,6 +188,39 @@ void add_run_limits(CLI::App& app, std::uint64_t& max_bytes, std::uint32_t& thre
         ->group("Limits");
 }
 
+/// What make_mesh() is asked for.
+void add_mesh(CLI::App& app, MeshOptions& mesh) {
+    add_choice<MeshMethod>(app, "--method", mesh.method,
+                           {{"tubes", MeshMethod::Tubes},
+                            {"cylinders", MeshMethod::Cylinders},
+                            {"boxes", MeshMethod::Boxes}},
+                           "Branches as tubes without joints, as a cylinder a segment, or as "
+                           "joined boxes that are smoothed (default tubes)")
+        ->group("Mesh");
+    add_parsed(app, "--sides", mesh.sides, whole(kMinSides, kMaxSides),
+               "Sides of every cross-section, instead of the grammar's")
+        ->type_name("N")
+        ->group("Mesh");
+    constexpr std::uint64_t kMaxLevel = 8;
+    add_parsed(app, "--level", mesh.level, whole(0, kMaxLevel),
+               "Level of detail: 0 the finest, each next one with about half the sides (default 0)")
+        ->type_name("K")
+        ->group("Mesh");
+    constexpr std::uint64_t kMaxSubdivisions = 5;
+    add_parsed(app, "--subdivisions", mesh.subdivisions, whole(0, kMaxSubdivisions),
+               "Rounds of smoothing of --method boxes (default 2)")
+        ->type_name("N")
+        ->group("Mesh");
+    add_parsed(app, "--bark-noise", mesh.bark_noise, fraction,
+               "Unevenness of the bark, as part of the radius, 0 to 1 (default 0)")
+        ->type_name("A")
+        ->group("Mesh");
+    add_parsed(app, "--droop", mesh.droop, fraction,
+               "Bending of leaves by gravity, 0 to 1 (default 0)")
+        ->type_name("D")
+        ->group("Mesh");
+}
+
 void add_dump(CLI::App& app, DumpCommand& command) {
     app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
         ->required();
@@ -199,9 +232,10 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                        {"program", Stage::Program},
                        {"bytecode", Stage::Bytecode},
                        {"word", Stage::Word},
-                       {"skeleton", Stage::Skeleton}},
-                      "What is written: what a step of the compiler made, the derived word, or "
-                      "what the turtle draws for it (default word)");
+                       {"skeleton", Stage::Skeleton},
+                       {"mesh", Stage::Mesh}},
+                      "What is written: what a step of the compiler made, the derived word, what "
+                      "the turtle draws for it, or the triangles of that (default word)");
     app.add_flag("--all", command.all, "One generation a line, 0 first");
     app.add_flag("--count", command.count,
                  "The number of modules instead of the modules; where the growth matrix tells "
@@ -212,6 +246,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
         "--origins", command.origins,
         "Say of each module, one a line, or of each part of the skeleton: which production "
         "or the axiom wrote it, where that stands, and in which generation");
+    add_mesh(app, command.mesh);
     add_grammar(app, command.grammar);
     add_seed(app, command.seed);
     add_run_limits(app, command.max_bytes, command.threads);
@@ -255,36 +290,9 @@ void add_export(CLI::App& app, ExportCommand& command) {
     app.add_flag("--stream", command.stream,
                  "Draw without storing the word (no contexts, parallel rewriting only)");
     app.add_flag("--stats", command.stats,
-                 "Print segments, sizes, vertices, triangles, bytes and the time of each stage");
-    add_choice<MeshMethod>(app, "--method", command.mesh.method,
-                           {{"tubes", MeshMethod::Tubes},
-                            {"cylinders", MeshMethod::Cylinders},
-                            {"boxes", MeshMethod::Boxes}},
-                           "Branches as tubes without joints, as a cylinder a segment, or as "
-                           "joined boxes that are smoothed (default tubes)")
-        ->group("Mesh");
-    add_parsed(app, "--sides", command.mesh.sides, whole(kMinSides, kMaxSides),
-               "Sides of every cross-section, instead of the grammar's")
-        ->type_name("N")
-        ->group("Mesh");
-    constexpr std::uint64_t kMaxLevel = 8;
-    add_parsed(app, "--level", command.mesh.level, whole(0, kMaxLevel),
-               "Level of detail: 0 the finest, each next one with about half the sides (default 0)")
-        ->type_name("K")
-        ->group("Mesh");
-    constexpr std::uint64_t kMaxSubdivisions = 5;
-    add_parsed(app, "--subdivisions", command.mesh.subdivisions, whole(0, kMaxSubdivisions),
-               "Rounds of smoothing of --method boxes (default 2)")
-        ->type_name("N")
-        ->group("Mesh");
-    add_parsed(app, "--bark-noise", command.mesh.bark_noise, fraction,
-               "Unevenness of the bark, as part of the radius, 0 to 1 (default 0)")
-        ->type_name("A")
-        ->group("Mesh");
-    add_parsed(app, "--droop", command.mesh.droop, fraction,
-               "Bending of leaves by gravity, 0 to 1 (default 0)")
-        ->type_name("D")
-        ->group("Mesh");
+                 "Print segments, sizes, vertices, triangles, bytes and the time of each stage; "
+                 "with --message-format json as one JSON object");
+    add_mesh(app, command.mesh);
     const auto gravity = [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); };
     add_parsed(app, "--gravity", command.gravity, gravity,
                "Let the plant bend under its weight, in m/s2 (on Earth 9.81)")

@@ -49,7 +49,7 @@ struct CompileCommand {
     std::string output;
 };
 
-enum class Stage : std::uint8_t { Tokens, Ast, Program, Bytecode, Word, Skeleton };
+enum class Stage : std::uint8_t { Tokens, Ast, Program, Bytecode, Word, Skeleton, Mesh };
 
 struct DumpCommand {
     MessageOptions messages;
@@ -60,6 +60,7 @@ struct DumpCommand {
     std::string file;
     std::string output = "-";
     Stage stage = Stage::Word;
+    MeshOptions mesh;
     bool all = false;
     bool count = false;
     bool stream = false;

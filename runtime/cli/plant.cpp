@@ -200,4 +200,26 @@ grow_plant(const PlantRequest& request, Grammar& grammar, const Console& console
     return told;
 }
 
+Status mesh_plant(const Plant& plant,
+                  const Skeleton& skeleton,
+                  const MeshOptions& options,
+                  const Grammar& grammar,
+                  const Console& console,
+                  Mesh& mesh) {
+    switch (make_mesh(skeleton, plant.user_meshes, options, mesh)) {
+    case MeshStatus::Ok:
+        return Status::Fine;
+    case MeshStatus::TooManyVertices:
+        return show(plant_limit_diagnostic("the mesh", "4,294,967,295 vertices",
+                                           "ask for fewer sides with `--sides`, for a coarser "
+                                           "`--level`, or for fewer generations with `-n`"),
+                    Status::Limit, grammar, console);
+    case MeshStatus::Limit:
+    case MeshStatus::OutOfMemory:
+        return show(plant_limit_diagnostic("the mesh", options.max_bytes), Status::Limit, grammar,
+                    console);
+    }
+    return Status::Failure;
+}
+
 } // namespace lsys::lsc

@@ -59,4 +59,12 @@ void fold_modules(const DeriveOptions& options, Grammar& grammar);
 [[nodiscard]] Status
 grow_plant(const PlantRequest& request, Grammar& grammar, const Console& console, Plant& plant);
 
+/// Meshes a skeleton of the plant, bent or not, and tells what does not fit.
+[[nodiscard]] Status mesh_plant(const Plant& plant,
+                                const Skeleton& skeleton,
+                                const MeshOptions& options,
+                                const Grammar& grammar,
+                                const Console& console,
+                                Mesh& mesh);
+
 } // namespace lsys::lsc

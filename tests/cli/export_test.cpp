@@ -1,8 +1,12 @@
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -196,6 +200,82 @@ TEST_CASE("statistics of an export go to standard output, or beside the plant th
     const LscRun both = run_lsc({"export", "-", "-o", "-", "--format", "ply", "--stats"}, kTree);
     CHECK(both.out == read_text(folder / "a.ply"));
     CHECK(both.err.find("triangles") != std::string::npos);
+}
+
+TEST_CASE("with JSON messages, statistics of an export are one JSON object") {
+    const ScratchFolder folder;
+    const LscRun run = run_lsc({"export", "-", "-o", folder / "a.ply", "--gravity", "1", "--stats",
+                                "--message-format", "json"},
+                               kTree);
+    REQUIRE(run.status == 0);
+    CHECK(std::count(run.out.begin(), run.out.end(), '\n') == 1);
+    const auto object = nlohmann::json::parse(run.out);
+    CHECK(object["segments"] == 41);
+    CHECK(object["segments_by_order"].size() == 4);
+    CHECK(object["bytes"] == std::filesystem::file_size(folder / "a.ply"));
+    const std::string header = read_text(folder / "a.ply").substr(0, 1000);
+    CHECK(header.find("element vertex " + object["vertices"].dump() + "\n") != std::string::npos);
+    CHECK(header.find("element face " + object["triangles"].dump() + "\n") != std::string::npos);
+    for (const char* stage : {"derivation", "turtle", "physics", "mesh", "file"}) {
+        CHECK(object["ms"][stage] >= 0.0);
+    }
+}
+
+TEST_CASE("dump --stage mesh prints the mesh that export writes") {
+    const ScratchFolder folder;
+    const std::vector<std::vector<std::string>> all{
+        {}, {"--sides", "5"}, {"--method", "boxes", "--subdivisions", "0"}, {"--level", "2"}};
+    for (const std::vector<std::string>& options : all) {
+        std::vector<std::string> dump{"dump", "--stage", "mesh", "--threads", "2", "-"};
+        std::vector<std::string> written{"export", "-", "-o", folder / "a.off"};
+        dump.insert(dump.end(), options.begin(), options.end());
+        written.insert(written.end(), options.begin(), options.end());
+        const LscRun run = run_lsc(dump, kTree);
+        REQUIRE(run.status == 0);
+        REQUIRE(run_lsc(written, kTree).status == 0);
+        // Lines of both name the same numbers in the same order.
+        std::istringstream lines(run.out);
+        std::istringstream file(read_text(folder / "a.off"));
+        std::string word;
+        std::string line;
+        std::getline(file, line);
+        std::uint64_t vertices = 0;
+        std::uint64_t triangles = 0;
+        file >> vertices >> triangles >> word;
+        std::getline(lines, line);
+        CHECK(line.rfind("mesh vertices " + std::to_string(vertices) + " triangles " +
+                             std::to_string(triangles) + " parts ",
+                         0) == 0);
+        std::uint64_t seen = 0;
+        while (std::getline(lines, line)) {
+            std::string a;
+            std::string b;
+            std::string c;
+            if (line.rfind("vertex ", 0) == 0) {
+                file >> a >> b >> c;
+                const std::string at = "(" + a + ", " + b + ", " + c + ") normal (";
+                REQUIRE(line.find(" at " + at) != std::string::npos);
+                CHECK(line.find(" segment ") != std::string::npos);
+                ++seen;
+            } else if (line.rfind("triangle ", 0) == 0) {
+                file >> word >> a >> b >> c;
+                REQUIRE(line.substr(line.find(" corners ")) == " corners " + a + ' ' + b + ' ' + c);
+                ++seen;
+            }
+        }
+        CHECK(seen == vertices + triangles);
+    }
+}
+
+TEST_CASE("options of a mesh go with the stage that makes one") {
+    const LscRun word = run_lsc({"dump", "-", "--sides", "5"}, kTree);
+    CHECK(word.status == 2);
+    CHECK(word.err.find("--stage mesh") != std::string::npos);
+    CHECK(run_lsc({"dump", "-", "--stage", "mesh", "--count"}, kTree).status == 2);
+    CHECK(run_lsc({"dump", "-", "--stage", "mesh", "--origins"}, kTree).status == 2);
+    const LscRun limit = run_lsc({"dump", "-", "--stage", "mesh", "--max-memory", "50K"}, kTree);
+    CHECK(limit.status == 3);
+    CHECK(limit.out.empty());
 }
 
 TEST_CASE("a mesh file of #object lies beside its grammar") {

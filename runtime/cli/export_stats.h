@@ -1,0 +1,27 @@
+// What `lsc export --stats` prints.
+#pragma once
+
+#include "runtime/cli/plant.h"
+#include "runtime/mesh.h"
+
+#include <cstdint>
+#include <string>
+
+namespace lsys::lsc {
+
+/// Of all files of an export.
+struct ExportTiming {
+    double physics_seconds = 0.0;
+    double mesh_seconds = 0.0;
+    double write_seconds = 0.0;
+    std::uint64_t bytes = 0;
+};
+
+/// A table. `mesh` is that of the last file.
+[[nodiscard]] std::string
+export_stats_text(const Plant& plant, const Mesh& mesh, const ExportTiming& timing);
+/// The same as one JSON object in a line.
+[[nodiscard]] std::string
+export_stats_json(const Plant& plant, const Mesh& mesh, const ExportTiming& timing);
+
+} // namespace lsys::lsc
