@@ -21,7 +21,8 @@ struct Origin {
     friend bool operator==(const Origin&, const Origin&) = default;
 };
 
-/// Origins in words: "from p2 at tree.lsys:7:14, generation 3".
+/// Origins in words: "from p2 at tree.lsys:7:14, generation 3", without the place where the program
+/// has none; "origin unknown, in the saved state of generation 2".
 class OriginPrinter {
 public:
     /// `bytecode` outlives the printer.
