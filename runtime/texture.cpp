@@ -132,7 +132,9 @@ private:
 };
 
 std::uint8_t byte(float value) {
-    return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 1.0F) * 255.0F + 0.5F);
+    // Half of a number that is cut off is rounded, without a call of the library for each texel.
+    const auto twice = static_cast<std::uint32_t>(std::clamp(value, 0.0F, 1.0F) * 510.0F);
+    return static_cast<std::uint8_t>((twice + 1) / 2);
 }
 
 /// Four channels for each texel, by column and row.

@@ -36,6 +36,7 @@ std::size_t number_of(std::vector<Picture>& list, const Picture& wanted) {
         return static_cast<std::size_t>(found - list.begin());
     }
     std::vector<std::string> names;
+    names.reserve(list.size());
     for (const Picture& picture : list) {
         names.push_back(picture.name);
     }
