@@ -34,7 +34,7 @@ enum class Opcode : std::uint8_t {
 #include "compiler/opcodes.def"
 #undef LSYS_OPCODE
 };
-enum class OperandKind : std::uint8_t { None, Literal, Formal, Global, Draw };
+enum class OperandKind : std::uint8_t { None, Literal, Formal, Global, Draw, Branch };
 
 struct OpcodeInfo {
     std::string_view mnemonic;
@@ -69,6 +69,9 @@ inline constexpr std::uint32_t kTurtleOperationCount = 0
 #undef LSYS_TURTLE
     ;
 [[nodiscard]] std::string_view name_of(TurtleOperation operation);
+/// Parameters of a SaveBranch before the formals that its branch uses: whether an instance is to be
+/// taken, the age of the word that holds it, its id.
+inline constexpr std::uint32_t kBranchArguments = 3;
 [[nodiscard]] bool draws(TurtleOperation operation);
 
 enum class SymbolId : std::uint32_t {};

@@ -182,6 +182,7 @@ private:
                 text += ' ' + bytecode_.globals[word >> 8].name;
                 break;
             case OperandKind::Draw:
+            case OperandKind::Branch:
                 text += fmt::format(" {}", word >> 8);
                 break;
             }

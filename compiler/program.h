@@ -36,7 +36,7 @@ struct Value {
     SourceSpan span;
     union {
         float literal;           // Literal
-        std::uint32_t index = 0; // Formal, Global, Range (draw number)
+        std::uint32_t index = 0; // Formal, Global, Range (draw number), BranchDraw
     };
     ValueId left = kNoValue;
     ValueId right = kNoValue;

@@ -79,8 +79,13 @@ private:
                 static_cast<std::uint32_t>(symbol.turtle) >= kTurtleOperationCount) {
                 return fail("symbol {} is of no known kind", i);
             }
+            const bool saves_branch = symbol.turtle == TurtleOperation::SaveBranch;
+            if (saves_branch && (symbol.kind != SymbolKind::BranchOpen ||
+                                 symbol.parameter_count < kBranchArguments)) {
+                return fail("symbol {} is no branch", i);
+            }
             const bool plain = symbol.kind == SymbolKind::Plain;
-            if (symbol.parameter_count > (plain ? kMaxOperand : 0)) {
+            if (symbol.parameter_count > (plain || saves_branch ? kMaxOperand : 0)) {
                 return fail("symbol {} has {} parameters", i, symbol.parameter_count);
             }
             parameters_.push_back(symbol.parameter_count);
@@ -425,6 +430,9 @@ private:
                 fits = operand >= next_draw && operand < bounds.draws;
                 next_draw = operand + 1;
                 break;
+            case OperandKind::Branch:
+                fits = true;
+                break;
             }
             if (!fits || !allowed(place, opcode)) {
                 return fail("instruction {} ({}) may not stand there", at, row.mnemonic);
@@ -451,6 +459,8 @@ private:
         switch (opcode) {
         case Opcode::Step:
             return place == CodePlace::Condition || place == CodePlace::Successor;
+        case Opcode::BranchDraw:
+            return place == CodePlace::Successor;
         case Opcode::Steps:
             return bytecode_.uses_steps &&
                    (place == CodePlace::Condition || place == CodePlace::Successor);

@@ -253,6 +253,22 @@ TurtleStatus Turtle::finish() {
     return state.status;
 }
 
+void Turtle::begin_again() {
+    State& state = *state_;
+    LSYS_CHECK(state.status == TurtleStatus::Ok);
+    state.begin();
+    state.stack.clear();
+    state.watched.clear();
+    state.polygons = {};
+    state.position = 0;
+    state.cut = 0;
+}
+TurtlePlace Turtle::place() const {
+    return state_->place_now();
+}
+DrawnCounts Turtle::drawn() const {
+    return state_->drawn();
+}
 const Skeleton& Turtle::skeleton() const {
     return state_->skeleton;
 }

@@ -8,6 +8,9 @@
 #include "runtime/skeleton.h"
 #include "runtime/word.h"
 
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -44,12 +47,59 @@ struct TurtleFault {
 
 enum class TurtleStatus : std::uint8_t { Ok, Fault, Limit, OutOfMemory, Cancelled };
 
+/// Where the turtle is and how it would draw.
+struct TurtlePlace {
+    glm::dvec3 position{}; // m
+    glm::dquat frame{1.0, 0.0, 0.0, 0.0};
+    float width = 0.0F;
+    float taper = 1.0F;
+    float step = 0.0F;
+    float angle = 0.0F;
+    std::uint32_t sides = 0;
+    std::uint32_t colour = 0;
+    std::uint32_t order = 0; // open brackets
+};
+
+/// How much has been drawn.
+struct DrawnCounts {
+    std::uint32_t segments = 0;
+    std::uint32_t objects = 0;
+    std::uint32_t polygons = 0;
+
+    friend bool operator==(const DrawnCounts&, const DrawnCounts&) = default;
+};
+
+/// The `[` of a valid branch in the word of an instanced system (LANGUAGE.md section 9).
+struct BranchStart {
+    bool take = false; // an instance instead of the branch
+    std::uint32_t age = 0;
+    std::uint32_t id = 0;
+    std::span<const float> formals; // that its text uses
+    TurtlePlace place;
+    DrawnCounts drawn; // so far
+};
+
+/// Sees the valid branches of a word as the turtle comes to them.
+class BranchWatcher {
+public:
+    virtual ~BranchWatcher() = default;
+    /// False: the branch is passed over, and there will be no end() of it.
+    virtual bool begin(const BranchStart& start) = 0;
+    virtual void end(const DrawnCounts& drawn) = 0;
+
+protected:
+    BranchWatcher() = default;
+    BranchWatcher(const BranchWatcher&) = default;
+    BranchWatcher& operator=(const BranchWatcher&) = default;
+};
+
 struct TurtleOptions {
     /// Lengths along +Y of the files of MeshFile symbols, by symbol; empty: 1 each.
     std::vector<float> mesh_lengths;
     std::uint64_t max_bytes = ~std::uint64_t{0}; // of the skeleton
     const std::atomic<bool>* cancelled = nullptr;
-    bool lines_only = false; // take_lines() instead of the segments of a skeleton
+    bool lines_only = false;           // take_lines() instead of the segments of a skeleton
+    BranchWatcher* branches = nullptr; // outlives the turtle; none: every branch is drawn
 };
 
 /// A segment without a body: where it begins and ends.
@@ -79,6 +129,10 @@ public:
                                     std::span<const Origin> origins);
     /// After the last module.
     [[nodiscard]] TurtleStatus finish();
+    /// The next word begins as the first one did, beside what is drawn. After finish().
+    void begin_again();
+    [[nodiscard]] TurtlePlace place() const;
+    [[nodiscard]] DrawnCounts drawn() const;
 
     [[nodiscard]] const Skeleton& skeleton() const;
     [[nodiscard]] Skeleton take_skeleton();

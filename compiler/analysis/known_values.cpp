@@ -45,6 +45,7 @@ void Evaluator::execute(std::span<const std::uint32_t> instructions,
         break;
     }
     case Opcode::Global:
+    case Opcode::BranchDraw:
         stack_.emplace_back();
         break;
     case Opcode::Step:

@@ -93,6 +93,7 @@ void CodeEmitter::leaf_or_operation(const Value& value, bool swapped, std::uint3
         return;
     case Opcode::Formal:
     case Opcode::Global:
+    case Opcode::BranchDraw:
         instruction(value.opcode, value.index);
         return;
     case Opcode::Range:

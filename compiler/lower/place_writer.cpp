@@ -14,7 +14,8 @@ PlaceWriter::PlaceWriter(const Program& program,
     spellings_.reserve(program.symbols.size());
     for (const Symbol& symbol : program.symbols) {
         spellings_.push_back({static_cast<std::uint32_t>(names.text(symbol.name).size()),
-                              symbol.parameter_count != 0});
+                              symbol.parameter_count != 0 &&
+                                  symbol.turtle != TurtleOperation::SaveBranch});
     }
 }
 

@@ -1,4 +1,5 @@
 #include "compiler/disassemble.h"
+#include "compiler/instance.h"
 #include "compiler/program_dump.h"
 #include "grammar/ast_dump.h"
 #include "grammar/tokens.h"
@@ -37,6 +38,9 @@ std::string find_conflict(const DumpCommand& command) {
     }
     if (draws) {
         return {};
+    }
+    if (command.rho && command.stage != Stage::Instanced) {
+        return "only --stage instanced has a probability, so --rho does not go with another stage";
     }
     if (command.origins && command.count) {
         return "--count prints no modules, so --origins does not go with it";
@@ -81,6 +85,22 @@ Status dump_syntax(const DumpCommand& command, const Console& console) {
                                  ? dump_tokens(sources.file(root))
                                  : dump_ast(parse_lsys(root, context), names, sources);
     return worse(console.show(diagnostics, sources), write_stage(command, text, console));
+}
+
+/// What cannot be made from a compiled grammar.
+Status lacks_program(const DumpCommand& command, const Console& console) {
+    return fail(Error{fmt::format("`{}` is compiled; its program is not in it, --stage bytecode is",
+                                  command.file)},
+                console);
+}
+
+Status dump_instanced(const DumpCommand& command, const Grammar& grammar, const Console& console) {
+    Diagnostics diagnostics;
+    const std::optional<std::string> list =
+        list_instanced(*grammar.program, grammar.names, grammar.sources,
+                       command.rho.value_or(kUsualRho), diagnostics);
+    const Status shown = console.show(diagnostics, grammar.sources);
+    return list ? worse(shown, write_stage(command, *list, console)) : shown;
 }
 
 /// `append` puts line `i` of `lines` to the end of a text.
@@ -158,12 +178,14 @@ Status run_dump(const DumpCommand& command, const Console& console) {
     switch (command.stage) {
     case Stage::Program:
         if (!grammar.program) {
-            return fail(Error{fmt::format("`{}` is compiled; its program is not in it, "
-                                          "--stage bytecode is",
-                                          command.file)},
-                        console);
+            return lacks_program(command, console);
         }
         return write_stage(command, dump_program(*grammar.program, grammar.names), console);
+    case Stage::Instanced:
+        if (!grammar.program) {
+            return lacks_program(command, console);
+        }
+        return dump_instanced(command, grammar, console);
     case Stage::Bytecode:
         return write_stage(command, disassemble(*grammar.bytecode), console);
     case Stage::Skeleton:

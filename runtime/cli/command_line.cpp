@@ -230,12 +230,17 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                       {{"tokens", Stage::Tokens},
                        {"ast", Stage::Ast},
                        {"program", Stage::Program},
+                       {"instanced", Stage::Instanced},
                        {"bytecode", Stage::Bytecode},
                        {"word", Stage::Word},
                        {"skeleton", Stage::Skeleton},
                        {"mesh", Stage::Mesh}},
                       "What is written: what a step of the compiler made, the derived word, what "
                       "the turtle draws for it, or the triangles of that (default word)");
+    add_parsed(app, "--rho", command.rho, fraction,
+               "With --stage instanced: the probability that a branch is taken from recorded "
+               "ones (default 0.6)")
+        ->type_name("P");
     app.add_flag("--all", command.all, "One generation a line, 0 first");
     app.add_flag("--count", command.count,
                  "The number of modules instead of the modules; where the growth matrix tells "

@@ -49,7 +49,10 @@ struct CompileCommand {
     std::string output;
 };
 
-enum class Stage : std::uint8_t { Tokens, Ast, Program, Bytecode, Word, Skeleton, Mesh };
+enum class Stage : std::uint8_t { Tokens, Ast, Program, Instanced, Bytecode, Word, Skeleton, Mesh };
+
+/// Of Carey 2019.
+inline constexpr float kUsualRho = 0.6F;
 
 struct DumpCommand {
     MessageOptions messages;
@@ -64,6 +67,7 @@ struct DumpCommand {
     bool all = false;
     bool count = false;
     bool stream = false;
+    std::optional<float> rho;           // of --stage instanced
     bool origins = false;               // say which production wrote each module, and where
     std::optional<std::uint32_t> steps; // generations of this run
     std::string save_state;

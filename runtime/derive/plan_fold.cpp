@@ -42,7 +42,7 @@ bool Plan::fold(Code code, Entry& entry) {
 /// all are.
 std::uint32_t Plan::folded_template(const Candidate& candidate, const float* own) {
     const WordTemplate& successor = bytecode_.productions[candidate.production].successor;
-    if (candidate.gathers || successor.draw_count != 0 ||
+    if (candidate.gathers || is_drawn(bytecode_, successor) ||
         folded_codes_.size() + successor.codes.count > kMostFoldedTemplateCodes ||
         contains(bytecode_, successor.arguments, Opcode::Step)) {
         return kNone;

@@ -11,6 +11,10 @@
 
 namespace lsys {
 
+float RangeDraws::draw_branch(std::uint32_t branch) {
+    return source_.draw(kFirstBranchDraw + branch);
+}
+
 float RangeDraws::draw(std::uint32_t range) {
     if (generation_ == kStartGeneration) {
         return unit_interval(draw_block(seed_, generation_, position_ + range, 0)[0]);
@@ -82,6 +86,10 @@ bool evaluate(const Bytecode& bytecode,
             top[-1] = draw_in_range(top[-1], top[0], draws->draw(operand));
             break;
         }
+        case Opcode::BranchDraw:
+            LSYS_DCHECK(draws != nullptr);
+            *top++ = draws->draw_branch(operand);
+            break;
         case Opcode::Emit:
         case Opcode::Test:
             --top;

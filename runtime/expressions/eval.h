@@ -17,6 +17,8 @@ struct EvalFrame {
     float steps = 0.0F; // generations asked for
 };
 
+inline constexpr std::uint64_t kFirstBranchDraw = std::uint64_t{4} << 31;
+
 /// Where random ranges take their draws from: one module, or the start of the derivation.
 class RangeDraws {
 public:
@@ -32,6 +34,9 @@ public:
         return {seed, kStartGeneration, position, 0};
     }
     [[nodiscard]] float draw(std::uint32_t range);
+    /// Of a module: whether branch `branch` of its successor is taken has draws of its own, from
+    /// block 2^31 on.
+    [[nodiscard]] float draw_branch(std::uint32_t branch);
 
 private:
     RangeDraws(std::uint64_t seed,

@@ -228,6 +228,9 @@ shapes_of(const Bytecode& bytecode, std::uint32_t first, const ShapeKnowledge& k
         case Opcode::Range:
             shaper.range();
             break;
+        case Opcode::BranchDraw:
+            shaper.push_unknown();
+            break;
         case Opcode::Emit:
         case Opcode::Test:
             shapes.push_back(shaper.take());
@@ -259,6 +262,12 @@ bool contains(const Bytecode& bytecode, std::uint32_t first, Opcode opcode) {
             ++at;
         }
     }
+}
+
+bool is_drawn(const Bytecode& bytecode, const WordTemplate& successor) {
+    return successor.draw_count != 0 ||
+           (successor.arguments != kNone &&
+            contains(bytecode, successor.arguments, Opcode::BranchDraw));
 }
 
 bool uses_formal_outside(const Bytecode& bytecode,

@@ -111,6 +111,9 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
             action.turn.sine = -action.turn.sine;
         }
         action.quick = quick_action(action, angle_is_constant);
+        if (action.quick == QuickAction::Restore && options.branches != nullptr) {
+            action.quick = QuickAction::None; // the watcher is told
+        }
         table.by_code.push_back(action);
     }
     return table;

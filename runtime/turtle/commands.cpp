@@ -133,8 +133,57 @@ bool Turtle::State::restore() {
     if (stack.empty()) {
         return fault(TurtleFaultKind::Unbalanced);
     }
+    if (!watched.empty() && watched.back() == stack.size()) {
+        watched.pop_back();
+        options.branches->end(drawn());
+    }
     now = stack.back();
     stack.pop_back();
+    return true;
+}
+
+TurtlePlace Turtle::State::place_now() const {
+    const Pose& pose = now.pose;
+    TurtlePlace place;
+    place.position = {pose.x, pose.y, pose.z};
+    place.frame = glm::dquat(pose.qw, pose.qx, pose.qy, pose.qz);
+    place.width = now.width;
+    place.taper = now.taper;
+    place.step = now.step;
+    place.angle = now.angle;
+    place.sides = now.sides;
+    place.colour = now.colour;
+    place.order = order();
+    return place;
+}
+
+DrawnCounts Turtle::State::drawn() const {
+    return {static_cast<std::uint32_t>(skeleton.segments.size()),
+            static_cast<std::uint32_t>(skeleton.objects.size()),
+            static_cast<std::uint32_t>(skeleton.polygons.size())};
+}
+
+bool Turtle::State::save_branch(const Action& action, const float* arguments) {
+    if (!save()) {
+        return false;
+    }
+    if (options.branches == nullptr) {
+        return true;
+    }
+    BranchStart start;
+    start.take = arguments[0] != 0.0F;
+    start.age = static_cast<std::uint32_t>(arguments[1]);
+    start.id = static_cast<std::uint32_t>(arguments[2]);
+    if (action.stored > kBranchArguments) {
+        start.formals = {arguments + kBranchArguments, action.stored - kBranchArguments};
+    }
+    start.place = place_now();
+    start.drawn = drawn();
+    if (options.branches->begin(start)) {
+        watched.push_back(stack.size());
+    } else {
+        cut = 1; // until its `]`
+    }
     return true;
 }
 
@@ -290,6 +339,8 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
         return true;
     case TurtleOperation::Save:
         return save();
+    case TurtleOperation::SaveBranch:
+        return save_branch(action, arguments);
     case TurtleOperation::Restore:
         return restore();
     case TurtleOperation::PolygonBegin:
@@ -323,9 +374,11 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
     return true;
 }
 
-/// After a `%`, until the `]` of its branch.
+/// After a `%`, or in a branch that is passed over, until its `]`.
 bool Turtle::State::skip(const Action& action) {
-    cut += action.operation == TurtleOperation::Save ? 1 : 0;
+    const bool opens = action.operation == TurtleOperation::Save ||
+                       action.operation == TurtleOperation::SaveBranch;
+    cut += opens ? 1 : 0;
     return action.operation != TurtleOperation::Restore || --cut != 0 || restore();
 }
 

@@ -52,6 +52,13 @@ struct Turtle::State {
         relative = is_relative(settings.turtle);
         has_tropism = settings.has_tropism;
         lines_only = options.lines_only;
+        begin();
+    }
+
+    /// The state at the start of a word.
+    void begin() {
+        const Settings& settings = bytecode.settings;
+        now = {};
         now.width = settings.width;
         now.taper = relative ? kRelativeTaper : 1.0F;
         now.step = settings.step;
@@ -85,6 +92,9 @@ struct Turtle::State {
     bool save();
     bool restore();
     bool skip(const Action& action);
+    bool save_branch(const Action& action, const float* arguments);
+    [[nodiscard]] TurtlePlace place_now() const;
+    [[nodiscard]] DrawnCounts drawn() const;
     bool quick_forward(const Action& action, const float* arguments, Pose& pose);
     void close_polygon();
     void set_width(float width);
@@ -116,6 +126,7 @@ struct Turtle::State {
     Skeleton skeleton;
     TurtleState now;
     std::vector<TurtleState> stack;
+    std::vector<std::size_t> watched; // sizes of the stack within the branches a watcher sees
     OpenPolygons polygons;
     std::array<TurtleFault, kTurtleFaultKinds> faults{};
     std::uint64_t position = 0; // of the module at hand

@@ -1,0 +1,331 @@
+// Trees from instance caches beside plants that were derived and drawn whole.
+#include "runtime/word_text.h"
+#include "tests/support/forest.h"
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace lsys;
+using test::count_strangers;
+using test::plain_plant;
+using test::plant;
+using test::Planted;
+using test::segments_of;
+using test::TreeSegment;
+
+namespace {
+
+std::string sample(const std::string& name) {
+    for (const tests::Sample& each : tests::all_samples()) {
+        if (each.file.stem() == name) {
+            return tests::read_text(each.file);
+        }
+    }
+    FAIL("no sample " << name);
+    return {};
+}
+
+Tree tree_of(std::uint32_t number) {
+    Tree tree;
+    tree.number = number;
+    return tree;
+}
+
+CacheOptions heroes(std::uint32_t count, std::uint64_t seed = 0) {
+    CacheOptions options;
+    options.heroes = count;
+    options.seed = seed;
+    return options;
+}
+
+/// What a tree looks like, for telling trees apart.
+std::uint64_t hash_of(const std::vector<TreeSegment>& segments) {
+    std::uint64_t hash = 0xCBF29CE484222325;
+    for (const TreeSegment& segment : segments) {
+        for (const double part : {segment.base.x, segment.base.y, segment.base.z, segment.tip.x,
+                                  segment.tip.y, segment.tip.z}) {
+            const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(part));
+            hash = (hash ^ bits) * 0x100000001B3;
+        }
+    }
+    return hash;
+}
+
+const std::string kBush = "#set names letters; #w : A;"
+                          "#p : A : ~ 0.5 : F[+A][-A]/A; #q : A : ~ 0.3 : F[+A]//A;"
+                          "#r : A : ~ 0.2 : FF[&A]F;";
+
+} // namespace
+
+TEST_CASE("without taking, every tree is a hero, bit for bit") {
+    const Planted planted = plant(kBush, 6, 0.0F, heroes(5, 40));
+    CHECK(planted.cache.exits.empty());
+    std::set<std::uint32_t> seen;
+    for (std::uint32_t number = 0; number < 60; ++number) {
+        TreeExpander expander(planted.cache, 7);
+        expander.expand(tree_of(number), [&](const BranchInstance& at) {
+            const Instance& instance = planted.cache.instances[at.instance];
+            seen.insert(instance.hero);
+            REQUIRE(instance.range_count == 1);
+            const DrawnRange& range = planted.cache.ranges[instance.first_range];
+            const Skeleton hero = plain_plant(kBush, 6, 40 + instance.hero);
+            REQUIRE(instance.size.segments == hero.segments.size());
+            for (std::uint32_t i = 0; i < hero.segments.size(); ++i) {
+                const Segment& a = planted.cache.skeleton.segments[range.begin.segments + i];
+                const Segment& b = hero.segments[i];
+                CHECK(a.base == b.base);
+                CHECK(a.frame == b.frame);
+                CHECK(a.length == b.length);
+                CHECK(a.base_radius == b.base_radius);
+            }
+        });
+    }
+    CHECK(seen.size() == 5);
+}
+
+TEST_CASE("where nothing is left to chance, every tree is the plain plant") {
+    const std::string grammar = GENERATE(
+        as<std::string>{},
+        // by turtle state: widths and steps become smaller with each branch
+        "#set turtle houdini; #set names letters; #w : A; #p : A : * : !\"F[&A][//&A]////[^A]F;",
+        // by parameters
+        "#w : A(1, 0.3); #p : A(l, w) : * : !(w) F(l) [&(30) A(l*0.8, w*0.7)] /(137)"
+        "[&(50) A(l*0.6, w*0.5)] A(l*0.9, w*0.8);",
+        // a branch that grows on
+        "#set names letters; #w : A; #p : A : * : F[+B]A; #q : B : * : F[-B]FB; #r : F : * : FF;",
+        // that knows where up is
+        "#set names letters; #set tropism 0 -1 0 0.2; #w : A; #p : A : * : F[&A][//&A]$F;");
+    const float rho = GENERATE(0.3F, 0.6F, 1.0F);
+    const Planted planted = plant(grammar, 5, rho, heroes(3));
+    const std::vector<TreeSegment> plain = segments_of(plain_plant(grammar, 5, 0));
+    for (std::uint32_t number = 0; number < 10; ++number) {
+        const std::vector<TreeSegment> tree = segments_of(planted.cache, tree_of(number), 1);
+        INFO(grammar << " rho " << rho << " tree " << number);
+        CHECK(tree.size() == plain.size());
+        CHECK(count_strangers(tree, plain, 1e-4) == 0);
+        CHECK(count_strangers(plain, tree, 1e-4) == 0);
+    }
+}
+
+TEST_CASE("Carey's twisted tree is the same whichever way it is put together") {
+    const std::string grammar = sample("carey-type-1");
+    const Planted planted = plant(grammar, 6, 0.6F, heroes(10));
+    const std::vector<TreeSegment> plain = segments_of(plain_plant(grammar, 6, 0));
+    CHECK(plain.size() == 168);
+    for (std::uint32_t number = 0; number < 50; ++number) {
+        const std::vector<TreeSegment> tree = segments_of(planted.cache, tree_of(number), 1);
+        CHECK(tree.size() == 168);
+        CHECK(count_strangers(tree, plain, 1e-4) == 0);
+    }
+}
+
+TEST_CASE("the word of the instanced system is that of the plain one") {
+    const Planted planted = plant(kBush, 6, 0.5F, heroes(1));
+    const test::Compiled plain = test::compile_text(kBush);
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const auto names = [&](const Bytecode& bytecode) {
+            DeriveOptions options;
+            options.generations = 6;
+            options.seed = seed;
+            Derivation derivation(bytecode, options);
+            REQUIRE(derivation.start() == DeriveStatus::Ok);
+            REQUIRE(derivation.run_to(6) == DeriveStatus::Ok);
+            std::string text;
+            for (std::uint64_t i = 0; i < derivation.word().module_count(); ++i) {
+                text += bytecode.symbol(bytecode.symbol_of(derivation.word().code(i))).name;
+            }
+            return text;
+        };
+        CHECK(names(planted.system.bytecode) == names(*plain.outcome.bytecode));
+    }
+}
+
+TEST_CASE("a tree is a function of its number") {
+    const Planted planted = plant(kBush, 7, 0.7F, heroes(4));
+    const auto hash = [&](std::uint32_t number, std::uint64_t key) {
+        return hash_of(segments_of(planted.cache, tree_of(number), key));
+    };
+    std::vector<std::uint64_t> forward;
+    for (std::uint32_t number = 0; number < 100; ++number) {
+        forward.push_back(hash(number, 5));
+    }
+    for (std::uint32_t number = 100; number-- > 0;) {
+        CHECK(hash(number, 5) == forward[number]);
+    }
+    CHECK(hash(3, 6) != forward[3]);
+}
+
+namespace {
+
+/// What is measured of a tree: segments, height, crown radius, and segments by order.
+std::vector<double> measures_of(const std::vector<TreeSegment>& segments) {
+    constexpr std::size_t kOrders = 5;
+    std::vector<double> measures(3 + kOrders, 0.0);
+    measures[0] = static_cast<double>(segments.size());
+    for (const TreeSegment& segment : segments) {
+        measures[1] = std::max(measures[1], segment.tip.y);
+        measures[2] = std::max(measures[2], std::hypot(segment.tip.x, segment.tip.z));
+        measures[3 + std::min<std::size_t>(segment.order, kOrders - 1)] += 1.0;
+    }
+    // A tree that is put together ends where the plain one would but for rounding, which would tell
+    // equal heights apart.
+    measures[1] = std::round(measures[1] * 1e3);
+    measures[2] = std::round(measures[2] * 1e3);
+    return measures;
+}
+
+/// Columns: the values of one measure.
+using Samples = std::vector<std::vector<double>>;
+
+void add(Samples& samples, const std::vector<TreeSegment>& segments) {
+    const std::vector<double> measures = measures_of(segments);
+    samples.resize(measures.size());
+    for (std::size_t i = 0; i < measures.size(); ++i) {
+        samples[i].push_back(measures[i]);
+    }
+}
+
+double mean(const std::vector<double>& values) {
+    double sum = 0.0;
+    for (const double value : values) {
+        sum += value;
+    }
+    return sum / static_cast<double>(values.size());
+}
+
+double squared_error(const std::vector<double>& values) {
+    const double middle = mean(values);
+    double sum = 0.0;
+    for (const double value : values) {
+        sum += (value - middle) * (value - middle);
+    }
+    const auto n = static_cast<double>(values.size());
+    return sum / (n - 1.0) / n;
+}
+
+/// The largest distance of two empirical distributions.
+double kolmogorov_smirnov(std::vector<double> a, std::vector<double> b) {
+    std::sort(a.begin(), a.end());
+    std::sort(b.begin(), b.end());
+    const auto part = [](const std::vector<double>& values, double at) {
+        return static_cast<double>(std::upper_bound(values.begin(), values.end(), at) -
+                                   values.begin()) /
+               static_cast<double>(values.size());
+    };
+    double most = 0.0;
+    for (const std::vector<double>* values : {&a, &b}) {
+        for (const double at : *values) {
+            most = std::max(most, std::abs(part(a, at) - part(b, at)));
+        }
+    }
+    return most;
+}
+
+} // namespace
+
+TEST_CASE("trees of independent caches are like plain plants in the mean") {
+    constexpr std::uint32_t kTrees = 200;
+    const std::string grammar = kBush;
+    Samples trees;
+    Samples plants;
+    for (std::uint32_t i = 0; i < kTrees; ++i) {
+        const Planted planted = plant(grammar, 7, 0.6F, heroes(10, 1'000 + 10 * i));
+        add(trees, segments_of(planted.cache, tree_of(i), i));
+        add(plants, segments_of(plain_plant(grammar, 7, 100'000 + i)));
+    }
+    for (std::size_t m = 0; m < trees.size(); ++m) {
+        const double error = std::sqrt(squared_error(trees[m]) + squared_error(plants[m]));
+        INFO("measure " << m << ": " << mean(trees[m]) << " and " << mean(plants[m]));
+        CHECK(std::abs(mean(trees[m]) - mean(plants[m])) <= 3.0 * error);
+    }
+}
+
+TEST_CASE("trees of five hundred heroes are distributed as plain plants") {
+    constexpr std::uint32_t kTrees = 500;
+    const Planted planted = plant(kBush, 7, 0.6F, heroes(500));
+    Samples trees;
+    Samples plants;
+    for (std::uint32_t i = 0; i < kTrees; ++i) {
+        add(trees, segments_of(planted.cache, tree_of(i), 3));
+        add(plants, segments_of(plain_plant(kBush, 7, 100'000 + i)));
+    }
+    // At 1 percent, of two samples of one size (Smirnov 1948).
+    const double bound = 1.628 * std::sqrt(2.0 / kTrees);
+    for (std::size_t m = 0; m < trees.size(); ++m) {
+        INFO("measure " << m);
+        CHECK(kolmogorov_smirnov(trees[m], plants[m]) <= bound);
+    }
+}
+
+TEST_CASE("ten heroes of Carey's trees make ten thousand") {
+    const auto [name, generations] =
+        GENERATE(table<std::string, std::uint32_t>({{"carey-type-0", 20}, {"carey-type-2", 18}}));
+    const Planted planted = plant(sample(name), generations, 0.6F, heroes(10));
+    std::set<std::uint64_t> different;
+    for (std::uint32_t number = 0; number < 10'000; ++number) {
+        different.insert(hash_of(segments_of(planted.cache, tree_of(number), 1)));
+    }
+    INFO(name);
+    CHECK(different.size() >= 9'900);
+}
+
+TEST_CASE("a production of forty branches runs") {
+    std::string successor = "F";
+    for (int i = 0; i < 40; ++i) {
+        successor += "[+B]/";
+    }
+    const std::string grammar = "#set names letters; #w : A; #p : A : * : " + successor +
+                                "; #q : B : ~ 0.5 : FB;"
+                                "#r : B : ~ 0.5 : F[-B];";
+    const Planted planted = plant(grammar, 4, 0.5F, heroes(10));
+    CHECK(planted.system.kind_count == 2); // [+B] and [-B]
+    CHECK(segments_of(planted.cache, tree_of(1), 1).size() >= 41);
+}
+
+TEST_CASE("keys keep apart what cannot stand for one another") {
+    // Branches of one text and age, but with different lengths.
+    const std::string grammar =
+        "#w : B(1) B(2); #p : B(x) : * : [A(x)] F(x); "
+        "#q : A(x) : ~ 0.5 : F(x) A(x); #r : A(x) : ~ 0.5 : F(x) F(x) A(x);";
+    const Planted planted = plant(grammar, 3, 0.5F, heroes(20));
+    for (const InstanceSlot& slot : planted.cache.slots) {
+        std::set<float> lengths;
+        for (std::uint32_t v = 0; v < slot.variant_count; ++v) {
+            const Instance& instance =
+                planted.cache.instances[planted.cache.variants[slot.first_variant + v]];
+            const DrawnRange& range = planted.cache.ranges[instance.first_range];
+            lengths.insert(planted.cache.skeleton.segments[range.begin.segments].length);
+        }
+        if (slot.id != 0) {
+            CHECK(lengths.size() == 1);
+        }
+    }
+    CHECK(planted.cache.slots.size() == 3);
+}
+
+TEST_CASE("a cap and a tolerance bound the cache") {
+    const std::string grammar = "#set names letters; #w : A; "
+                                "#p : A : ~ 0.5 : !({0.9,1.1})F[+B]A; #q : A : ~ 0.5 : F[-B]A; "
+                                "#r : B : ~ 0.5 : FB; #s : B : ~ 0.5 : F;";
+    CacheOptions options = heroes(20);
+    const Planted all = plant(grammar, 6, 0.4F, options);
+    options.tolerance = 0.5F;
+    const Planted near = plant(grammar, 6, 0.4F, options);
+    CHECK(near.cache.slots.size() < all.cache.slots.size() / 2);
+    options.cap = 2;
+    const Planted capped = plant(grammar, 6, 0.4F, options);
+    for (std::size_t i = 1; i < capped.cache.slots.size(); ++i) {
+        const InstanceSlot& slot = capped.cache.slots[i];
+        CHECK(slot.variant_count >= 1);
+        CHECK(slot.variant_count <= 2);
+        CHECK(slot.misses <= 1);
+    }
+    CHECK(segments_of(capped.cache, tree_of(5), 1).size() >= 1);
+}

@@ -1,0 +1,46 @@
+// Caches and trees from texts of grammars, for tests of the instanced system.
+#pragma once
+
+#include "compiler/instance.h"
+#include "runtime/instance_cache.h"
+#include "tests/compiler/compile_text.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys::test {
+
+struct Planted {
+    InstancedSystem system;
+    InstanceCache cache;
+};
+
+/// Requires success.
+[[nodiscard]] Planted
+plant(const std::string& grammar, std::uint32_t generations, float rho, CacheOptions options);
+
+/// The skeleton of the plain plant.
+[[nodiscard]] Skeleton
+plain_plant(const std::string& grammar, std::uint32_t generations, std::uint64_t seed);
+
+/// A segment of a tree.
+struct TreeSegment {
+    glm::dvec3 base{};
+    glm::dvec3 tip{};
+    float base_radius = 0.0F;
+    float tip_radius = 0.0F;
+    std::uint32_t order = 0; // branches around it
+};
+[[nodiscard]] std::vector<TreeSegment>
+segments_of(const InstanceCache& cache, const Tree& tree, std::uint64_t key);
+[[nodiscard]] std::vector<TreeSegment> segments_of(const Skeleton& skeleton);
+
+/// How many segments of `a` are no segment of `b`, within `distance` (m).
+[[nodiscard]] std::size_t count_strangers(const std::vector<TreeSegment>& a,
+                                          const std::vector<TreeSegment>& b,
+                                          double distance);
+
+} // namespace lsys::test
