@@ -1,0 +1,282 @@
+#include "runtime/domination.h"
+
+#include "runtime/placement/check_options.h"
+#include "runtime/placement/crowding.h"
+#include "runtime/placement/draws.h"
+#include "runtime/placement/methods.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::uint64_t kPiece = 2048;
+/// A plant without any tolerance dies when it has been in the shade for this part of the time in
+/// which its radius grew, so the time is longer for larger plants.
+constexpr float kShadeEndured = 0.25F;
+constexpr float kLifeSpread = 0.2F; // of the lifespan, to both sides
+constexpr std::uint32_t kEndOfNumbers = 0xFFFFFFFFu;
+
+std::uint32_t oldest_age(const SpeciesGrowth& growth) {
+    return growth.lifespan + growth.lifespan / 5 + 1;
+}
+
+/// A point of the unit disc, from two of its square; false once in 22 times, when both miss it.
+bool find_in_disc(const PhiloxBlock& words, std::array<double, 2>& point) {
+    for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
+        point = {2.0 * unit(words[i]) - 1.0, 2.0 * unit(words[i + 1]) - 1.0};
+        if (point[0] * point[0] + point[1] * point[1] <= 1.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// m a year, in the open.
+float open_growth(const SpeciesGrowth& growth, float radius, float vigour) {
+    return growth.rate * vigour * (1.0F - radius / growth.greatest_radius);
+}
+
+std::vector<float> open_radii(const SpeciesGrowth& growth) {
+    std::vector<float> radii(oldest_age(growth) + 1);
+    for (std::size_t age = 1; age < radii.size(); ++age) {
+        radii[age] = radii[age - 1] + open_growth(growth, radii[age - 1], 1.0F);
+    }
+    return radii;
+}
+
+/// Where a seed becomes a plant.
+struct Sprout {
+    glm::vec2 place;
+    std::uint16_t species = 0;
+};
+
+/// What draws and limits of a placement say about one plant or seed.
+class Life {
+public:
+    Life(const PlacementOptions& options, const Terrain& terrain, std::uint32_t year)
+        : options_(options), maker_(options, terrain), year_(year) {}
+
+    [[nodiscard]] ForestPlant
+    seedling(std::uint32_t number, std::uint16_t species, glm::vec2 place) const {
+        const SpeciesGrowth& growth = options_.species[species].growth;
+        const PhiloxBlock words = placement_draws(options_.key, number, kLooksBlock);
+        ForestPlant plant;
+        plant.place = place;
+        plant.vigour = 1.0F - growth.vigour_spread * unit_interval(words[3]);
+        plant.radius = open_growth(growth, 0.0F, plant.vigour);
+        plant.number = number;
+        plant.species = species;
+        plant.age = 1;
+        return plant;
+    }
+
+    void grow(ForestPlant& plant) const {
+        const SpeciesGrowth& growth = growth_of(plant);
+        ++plant.age;
+        const float more = open_growth(growth, plant.radius, plant.vigour);
+        plant.radius += plant.dominated ? more * growth.tolerance : more;
+    }
+
+    /// Stress of a year in shade, or recovery in a year without.
+    void suffer(ForestPlant& plant) const {
+        const SpeciesGrowth& growth = growth_of(plant);
+        const float harm = growth.rate * plant.vigour / (plant.radius * kShadeEndured);
+        plant.stress = plant.dominated ? plant.stress + harm * (1.0F - growth.tolerance)
+                                       : std::max(0.0F, plant.stress - harm);
+    }
+
+    [[nodiscard]] bool is_dead(const ForestPlant& plant) const {
+        if (plant.stress >= 1.0F) {
+            return true;
+        }
+        const auto span = static_cast<float>(growth_of(plant).lifespan);
+        if (static_cast<float>(plant.age) < span * (1.0F - kLifeSpread)) {
+            return false;
+        }
+        const float u = unit_interval(placement_draws(options_.key, plant.number, kLifeBlock)[0]);
+        return static_cast<float>(plant.age) >= span * (1.0F + kLifeSpread * (2.0F * u - 1.0F));
+    }
+
+    /// Seeds of this year.
+    [[nodiscard]] std::uint32_t seed_count(const ForestPlant& plant) const {
+        const SpeciesGrowth& growth = growth_of(plant);
+        if (plant.dominated || plant.age < growth.maturity || growth.seeds <= 0.0F) {
+            return 0;
+        }
+        const float u = unit_interval(placement_draws(options_.key, plant.number, seed_block())[0]);
+        return static_cast<std::uint32_t>(growth.seeds + u);
+    }
+
+    /// Adds the seeds of this year that sprout.
+    void sow(const ForestPlant& plant, std::vector<Sprout>& sprouts) const {
+        const SpeciesGrowth& growth = growth_of(plant);
+        const std::uint32_t count = seed_count(plant);
+        for (std::uint32_t seed = 1; seed <= count; ++seed) {
+            const PhiloxBlock words =
+                placement_draws(options_.key, plant.number, seed_block() + seed);
+            std::array<double, 2> to{};
+            if (!find_in_disc(words, to)) {
+                continue;
+            }
+            const auto reach = static_cast<double>(growth.seed_distance);
+            const glm::vec2 place{
+                static_cast<float>(static_cast<double>(plant.place.x) + reach * to[0]),
+                static_cast<float>(static_cast<double>(plant.place.y) + reach * to[1])};
+            if (options_.region.contains(place.x, place.y) &&
+                maker_.can_live(plant.species, place.x, place.y)) {
+                sprouts.push_back({place, plant.species});
+            }
+        }
+    }
+
+private:
+    [[nodiscard]] std::uint32_t seed_block() const { return kSeedBlock + year_ * kMaxSeeds; }
+    [[nodiscard]] const SpeciesGrowth& growth_of(const ForestPlant& plant) const {
+        return options_.species[plant.species].growth;
+    }
+
+    const PlacementOptions& options_;
+    TreeMaker maker_;
+    std::uint32_t year_;
+};
+
+std::uint64_t piece_count(std::uint64_t plants) {
+    return (plants + kPiece - 1) / kPiece;
+}
+
+/// Calls `visit` for each plant of a piece.
+template <typename Visit>
+void for_piece(std::span<ForestPlant> plants, std::uint64_t piece, const Visit& visit) {
+    const std::uint64_t end = std::min<std::uint64_t>(plants.size(), (piece + 1) * kPiece);
+    for (std::uint64_t i = piece * kPiece; i < end; ++i) {
+        visit(plants[i]);
+    }
+}
+
+std::uint64_t count_seeds(const Life& life, Workers& workers, std::span<ForestPlant> plants) {
+    std::vector<std::uint64_t> counts(piece_count(plants.size()));
+    workers.for_each(counts.size(), [&](std::uint64_t piece) {
+        for_piece(plants, piece,
+                  [&](const ForestPlant& plant) { counts[piece] += life.seed_count(plant); });
+    });
+    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
+
+/// Adds this year's seedlings in the order of their parents.
+void add_seedlings(const Life& life,
+                   Workers& workers,
+                   std::uint32_t& next_number,
+                   LargeVector<ForestPlant>& plants) {
+    const std::size_t parents = plants.size();
+    const std::uint64_t pieces = piece_count(parents);
+    std::vector<std::vector<Sprout>> sprouts(std::min<std::uint64_t>(pieces, 8 * workers.count()));
+    for (std::uint64_t first = 0; first < pieces; first += sprouts.size()) {
+        const std::uint64_t count = std::min<std::uint64_t>(sprouts.size(), pieces - first);
+        workers.for_each(count, [&](std::uint64_t i) {
+            sprouts[i].clear();
+            for_piece({plants.data(), parents}, first + i,
+                      [&](const ForestPlant& plant) { life.sow(plant, sprouts[i]); });
+        });
+        for (std::uint64_t i = 0; i < count; ++i) {
+            for (const Sprout& sprout : sprouts[i]) {
+                plants.push_back(life.seedling(next_number++, sprout.species, sprout.place));
+            }
+        }
+    }
+}
+
+} // namespace
+
+Domination::Domination(const PlacementOptions& options, const Terrain& terrain)
+    : options_(options), terrain_(&terrain) {
+    for (const PlacementSpecies& species : options.species) {
+        open_radii_.push_back(open_radii(species.growth));
+    }
+}
+
+Result<Domination> Domination::begin(const PlacementOptions& options, const Terrain& terrain) {
+    PlacementOptions first = options;
+    first.method = PlacementMethod::Domination;
+    if (const Result<Done> checked = check_placement(first); !checked) {
+        return checked.error();
+    }
+    Domination forest(first, terrain);
+    Workers workers(first.threads);
+    const TreeMaker maker(first, terrain);
+    Placement placement;
+    place_uniform({first, terrain, maker, workers}, placement);
+    const Life life(forest.options_, terrain, 0);
+    forest.plants_.reserve(placement.trees.size());
+    for (const Tree& tree : placement.trees) {
+        forest.plants_.push_back(
+            life.seedling(tree.number, tree.species, {tree.position.x, tree.position.z}));
+    }
+    find_dominated(first.region, forest.plants_, workers);
+    forest.next_number_ = static_cast<std::uint32_t>(first.count);
+    forest.report_ = placement.report;
+    return forest;
+}
+
+Result<Done> Domination::step() {
+    if (year_ == kMaxYears) {
+        return Error{fmt::format("a forest grows for at most {} years", kMaxYears)};
+    }
+    const Life life(options_, *terrain_, year_ + 1);
+    Workers workers(options_.threads);
+    const std::uint64_t seeds = count_seeds(life, workers, plants_);
+    const std::uint64_t most = plants_.size() + seeds;
+    if (most > kMaxTrees || seeds > kEndOfNumbers - next_number_) {
+        return Error{
+            fmt::format("in year {} there are {} plants and {} seeds; a forest has at most "
+                        "{} of both, and 2^32 plants in all years",
+                        year_ + 1, plants_.size(), seeds, kMaxTrees)};
+    }
+    if (plants_.capacity() < most) {
+        plants_.reserve(std::max<std::size_t>(most, plants_.capacity() + plants_.capacity() / 4));
+    }
+    const std::size_t parents = plants_.size();
+    add_seedlings(life, workers, next_number_, plants_);
+    workers.for_each(piece_count(parents), [&](std::uint64_t piece) {
+        for_piece({plants_.data(), parents}, piece, [&](ForestPlant& plant) { life.grow(plant); });
+    });
+    find_dominated(options_.region, plants_, workers);
+    workers.for_each(piece_count(plants_.size()), [&](std::uint64_t piece) {
+        for_piece(plants_, piece, [&](ForestPlant& plant) { life.suffer(plant); });
+    });
+    plants_.erase(std::remove_if(plants_.begin(), plants_.end(),
+                                 [&](const ForestPlant& plant) { return life.is_dead(plant); }),
+                  plants_.end());
+    ++year_;
+    return Done{};
+}
+
+LargeVector<Tree> Domination::trees() const {
+    const TreeMaker maker(options_, *terrain_);
+    LargeVector<Tree> trees(plants_.size());
+    Workers workers(options_.threads);
+    workers.for_each(piece_count(plants_.size()), [&](std::uint64_t piece) {
+        const std::uint64_t end = std::min<std::uint64_t>(plants_.size(), (piece + 1) * kPiece);
+        for (std::uint64_t i = piece * kPiece; i < end; ++i) {
+            const ForestPlant& plant = plants_[i];
+            const std::vector<float>& open = open_radii_[plant.species];
+            Tree tree = maker.looks_of(plant.number, plant.species);
+            tree.position = {plant.place.x, terrain_->height(plant.place.x, plant.place.y),
+                             plant.place.y};
+            tree.scale *= plant.radius / open[std::min<std::size_t>(plant.age, open.size() - 1)];
+            tree.age = plant.age;
+            trees[i] = tree;
+        }
+    });
+    return trees;
+}
+
+} // namespace lsys
