@@ -57,10 +57,12 @@ Result<Done> place_density_cells(const PlacementJob& job, Placement& placement) 
             const Order order = draw_order(options.key, first);
             for (std::uint32_t place = 0; place < kPlaces; ++place) {
                 const PhiloxBlock words = placement_draws(options.key, first + place, kPlaceBlock);
-                const auto x = static_cast<float>(grid.x_of(cell) +
-                                                  square * (place % kSquares + unit(words[0])));
-                const auto z = static_cast<float>(grid.z_of(cell) +
-                                                  square * (place / kSquares + unit(words[1])));
+                const std::uint32_t column = place % kSquares;
+                const std::uint32_t row_within = place / kSquares;
+                const auto x =
+                    static_cast<float>(grid.x_of(cell) + square * (column + unit(words[0])));
+                const auto z =
+                    static_cast<float>(grid.z_of(cell) + square * (row_within + unit(words[1])));
                 const double rank = (order[place] + unit(words[2])) / kPlaces;
                 if (options.region.contains(x, z) &&
                     rank < grey.at(static_cast<double>(x), static_cast<double>(z))) {

@@ -19,6 +19,7 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kPiece = 2048;
+constexpr std::uint64_t kPiecesAtOnce = 8; // for each worker
 /// A plant without any tolerance dies when it has been in the shade for this part of the time in
 /// which its radius grew, so the time is longer for larger plants.
 constexpr float kShadeEndured = 0.25F;
@@ -178,7 +179,7 @@ void add_seedlings(const Life& life,
                    LargeVector<ForestPlant>& plants) {
     const std::size_t parents = plants.size();
     const std::uint64_t pieces = piece_count(parents);
-    std::vector<std::vector<Sprout>> sprouts(std::min<std::uint64_t>(pieces, 8 * workers.count()));
+    std::vector<std::vector<Sprout>> sprouts(std::min(pieces, kPiecesAtOnce * workers.count()));
     for (std::uint64_t first = 0; first < pieces; first += sprouts.size()) {
         const std::uint64_t count = std::min<std::uint64_t>(sprouts.size(), pieces - first);
         workers.for_each(count, [&](std::uint64_t i) {

@@ -99,8 +99,10 @@ void place_by_error_diffusion(const PlacementJob& job, Placement& placement) {
         for (std::uint64_t i = index * kPiece; i < end; ++i) {
             const std::uint32_t number = chosen[i];
             const PhiloxBlock words = placement_draws(options.key, number, kPlaceBlock);
-            const double x = options.region.x + number % squares.columns * squares.width;
-            const double z = options.region.z + number / squares.columns * squares.depth;
+            const std::uint32_t column = number % squares.columns;
+            const std::uint32_t row = number / squares.columns;
+            const double x = options.region.x + column * squares.width;
+            const double z = options.region.z + row * squares.depth;
             job.maker.make(number, coordinate_within(x, squares.width, words[0]),
                            coordinate_within(z, squares.depth, words[1]), chunk);
         }
