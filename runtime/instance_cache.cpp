@@ -1,7 +1,6 @@
 #include "runtime/instance_cache.h"
 
 #include "grammar/contract.h"
-#include "runtime/random.h"
 
 #include <algorithm>
 #include <bit>
@@ -311,12 +310,15 @@ BranchInstance root_of(const Tree& tree) {
 
 /// Draw 0 of block `node` decides; the variant is floor(u * count), exactly.
 std::uint32_t
-TreeExpander::choose(const InstanceSlot& slot, std::uint32_t tree, std::uint32_t node) const {
+TreeExpander::choose(const InstanceSlot& slot, std::uint32_t tree, std::uint32_t node) {
+    if (node % kBlockRun == 0) {
+        draws_ = draw_block_run(key_, kExpansionGeneration, tree, node);
+    }
     const std::uint32_t* const variants = cache_.variants.data() + slot.first_variant;
     if (slot.variant_count == 1) {
         return variants[0];
     }
-    const std::uint64_t u = draw_block(key_, kExpansionGeneration, tree, node)[0] >> 8;
+    const std::uint64_t u = draws_[node % kBlockRun] >> 8;
     return variants[u * slot.variant_count >> 24];
 }
 

@@ -6,6 +6,7 @@
 
 #include "compiler/bytecode.h"
 #include "runtime/derive.h"
+#include "runtime/random.h"
 #include "runtime/skeleton.h"
 #include "runtime/tree.h"
 #include "runtime/turtle.h"
@@ -140,12 +141,13 @@ private:
     };
 
     [[nodiscard]] std::uint32_t
-    choose(const InstanceSlot& slot, std::uint32_t tree, std::uint32_t node) const;
+    choose(const InstanceSlot& slot, std::uint32_t tree, std::uint32_t node);
     void add_exits(const Instance& instance, const BranchInstance& at);
 
     const InstanceCache& cache_;
     std::uint64_t key_;
     std::vector<Pending> pending_;
+    std::array<std::uint32_t, kBlockRun> draws_{}; // of the tree's nodes around the last one
 };
 
 /// The transform that puts a tree where it stands.

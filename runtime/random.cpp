@@ -38,7 +38,47 @@ philox_round(Lanes& lanes, __m256i key0, __m256i key1) {
              _mm256_xor_si256(_mm256_xor_si256(high0, lanes.x3), key1), product0};
 }
 
-/// Eight positions: two rows of lanes, so that one multiplies while the other waits.
+/// All rounds on two rows of lanes, of which one multiplies while the other waits.
+[[gnu::target("avx2"), gnu::always_inline]] inline void
+philox_rounds(Lanes& first, Lanes& second, std::uint64_t seed) {
+    auto key0 = static_cast<std::uint32_t>(seed);
+    auto key1 = static_cast<std::uint32_t>(seed >> 32);
+    for (int round = 0; round < kPhiloxRounds; ++round) {
+        const __m256i keys0 = _mm256_set1_epi64x(key0);
+        const __m256i keys1 = _mm256_set1_epi64x(key1);
+        philox_round(first, keys0, keys1);
+        philox_round(second, keys0, keys1);
+        key0 += kPhiloxWeyl0;
+        key1 += kPhiloxWeyl1;
+    }
+}
+
+/// The low halves of all eight lanes, in order.
+[[gnu::target("avx2"), gnu::always_inline]] inline __m256i low_halves(__m256i first,
+                                                                      __m256i second) {
+    const __m256i packed = _mm256_castps_si256(_mm256_shuffle_ps(
+        _mm256_castsi256_ps(first), _mm256_castsi256_ps(second), _MM_SHUFFLE(2, 0, 2, 0)));
+    return _mm256_permute4x64_epi64(packed, _MM_SHUFFLE(3, 1, 2, 0));
+}
+
+[[gnu::target("avx2")]] void draw_eight_blocks(std::uint64_t seed,
+                                               std::uint32_t generation,
+                                               std::uint64_t position,
+                                               std::uint32_t first_block,
+                                               std::uint32_t* words) {
+    const __m256i generations = _mm256_set1_epi64x(generation);
+    const __m256i positions = _mm256_set1_epi64x(static_cast<long long>(position));
+    const __m256i high = _mm256_srli_epi64(positions, 32);
+    const __m256i block = _mm256_set1_epi64x(first_block);
+    Lanes first{positions, high, generations,
+                _mm256_add_epi32(block, _mm256_set_epi64x(3, 2, 1, 0))};
+    Lanes second{positions, high, generations,
+                 _mm256_add_epi32(block, _mm256_set_epi64x(7, 6, 5, 4))};
+    philox_rounds(first, second, seed);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(words), low_halves(first.x0, second.x0));
+}
+
+/// Eight positions.
 [[gnu::target("avx2")]] void
 draw_eight(const DrawKey& key, const std::uint64_t* positions, float* units) {
     const __m256i generation = _mm256_set1_epi64x(key.generation);
@@ -49,27 +89,14 @@ draw_eight(const DrawKey& key, const std::uint64_t* positions, float* units) {
     };
     Lanes first = begin(positions);
     Lanes second = begin(positions + 4);
-    auto key0 = static_cast<std::uint32_t>(key.seed);
-    auto key1 = static_cast<std::uint32_t>(key.seed >> 32);
-    for (int round = 0; round < kPhiloxRounds; ++round) {
-        const __m256i keys0 = _mm256_set1_epi64x(key0);
-        const __m256i keys1 = _mm256_set1_epi64x(key1);
-        philox_round(first, keys0, keys1);
-        philox_round(second, keys0, keys1);
-        key0 += kPhiloxWeyl0;
-        key1 += kPhiloxWeyl1;
-    }
+    philox_rounds(first, second, key.seed);
     const auto word = [&key](const Lanes& lanes) __attribute__((target("avx2"))) {
         return key.word == 0   ? lanes.x0
                : key.word == 1 ? lanes.x1
                : key.word == 2 ? lanes.x2
                                : lanes.x3;
     };
-    // the low halves of all eight lanes, in order
-    const __m256i packed = _mm256_castps_si256(_mm256_shuffle_ps(_mm256_castsi256_ps(word(first)),
-                                                                 _mm256_castsi256_ps(word(second)),
-                                                                 _MM_SHUFFLE(2, 0, 2, 0)));
-    const __m256i words = _mm256_permute4x64_epi64(packed, _MM_SHUFFLE(3, 1, 2, 0));
+    const __m256i words = low_halves(word(first), word(second));
     const __m256 values =
         _mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_srli_epi32(words, 8)), _mm256_set1_ps(0x1p-24F));
     _mm256_storeu_ps(units, values);
@@ -103,6 +130,23 @@ void draw_units(const DrawKey& key,
         units[i] =
             unit_interval(draw_block(key.seed, key.generation, positions[i], key.block)[key.word]);
     }
+}
+
+std::array<std::uint32_t, kBlockRun> draw_block_run(std::uint64_t seed,
+                                                    std::uint32_t generation,
+                                                    std::uint64_t position,
+                                                    std::uint32_t first_block) {
+    std::array<std::uint32_t, kBlockRun> words{};
+#if defined(LSYS_PHILOX_AVX2)
+    if (has_avx2) {
+        draw_eight_blocks(seed, generation, position, first_block, words.data());
+        return words;
+    }
+#endif
+    for (std::uint32_t i = 0; i < kBlockRun; ++i) {
+        words[i] = draw_block(seed, generation, position, first_block + i)[0];
+    }
+    return words;
 }
 
 float DrawSource::draw(std::uint64_t number) {

@@ -67,6 +67,14 @@ void draw_units(const DrawKey& key,
                 std::size_t count,
                 float* units);
 
+/// First words of blocks `first_block` ... `first_block` + 7 at one position: eight at a time where
+/// the machine can, the same words on any.
+inline constexpr std::uint32_t kBlockRun = 8;
+[[nodiscard]] std::array<std::uint32_t, kBlockRun> draw_block_run(std::uint64_t seed,
+                                                                  std::uint32_t generation,
+                                                                  std::uint64_t position,
+                                                                  std::uint32_t first_block);
+
 /// The draws of one rewritten module.
 class DrawSource {
 public:

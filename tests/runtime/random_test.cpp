@@ -71,3 +71,12 @@ TEST_CASE("a range never yields its maximum") {
     CHECK(draw_in_range(3.0F, 3.0F, 0.5F) == 3.0F);
     CHECK(draw_in_range(-2.0F, 2.0F, 0.75F) == 1.0F);
 }
+
+TEST_CASE("runs of blocks are the blocks one by one") {
+    for (const std::uint32_t first : {0U, 8U, 1'000'000U, 0xFFFFFFF8U}) {
+        const auto run = lsys::draw_block_run(0x123456789ABCDEF0, 0xFFFFFFFE, 77, first);
+        for (std::uint32_t i = 0; i < lsys::kBlockRun; ++i) {
+            CHECK(run[i] == lsys::draw_block(0x123456789ABCDEF0, 0xFFFFFFFE, 77, first + i)[0]);
+        }
+    }
+}

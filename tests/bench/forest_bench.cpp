@@ -1,0 +1,165 @@
+// Kenwood's headline, 1,000,000 distinct trees in 4.5 s and 350 MB: trees placed, and every branch
+// list expanded and consumed, for 10^4 to 10^7 trees. `forest_bench [THREADS]`. Says nothing of
+// pass or fail.
+#include "compiler/compile.h"
+#include "compiler/instance.h"
+#include "grammar/parse.h"
+#include "runtime/forest.h"
+#include "runtime/random.h"
+#include "tests/bench/measure.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+#include <sys/resource.h>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace lsys;
+using bench::fail;
+using bench::median;
+using bench::seconds;
+
+/// Where a forest takes longer, the next larger one is left out (s).
+constexpr double kLongest = 4.0;
+
+struct Kind {
+    const char* name;
+    std::uint32_t generations;
+    const char* grammar;
+};
+
+/// Carey's default trees 0 and 2, and a bush of few branches.
+constexpr Kind kKinds[] = {
+    {"carey 0", 20,
+     R"(#set turtle houdini; #set names letters; #set rewriting cyclic; #set weights any;
+#set angle 30; #set step 1.2; #set step_scale 0.9; #set width 1.2; #set width_scale 0.7;
+#w : ///FFFFFFFA;
+#a1 : A : ~ 0.5 : ![&FL!A]//[&FL!A]/////[&FL!A];
+#a2 : A : ~ 0.5 : ![&FL!A]//////[&FL!A]/////////[&FL!A];
+#f : &F : * : &S/////F;
+#s1 : S : ~ 0.6 : FL;
+#s2 : S : ~ 0.4 : FFL;
+#l : L : * : [^""""""{.-f.+f.+f.--(180)-f.+f.+f.}];)"},
+    {"carey 2", 18,
+     R"(#set turtle houdini; #set names letters; #set rewriting cyclic; #set weights any;
+#set angle 30; #set step 2; #set step_scale 0.9; #set width 1; #set width_scale 0.7;
+#w : FFFA;
+#a : A : * : !"[BJ]////[BJ]////BJ;
+#b1 : B : ~ 0.2 : &FFFA;
+#b2 : B : ~ 0.2 : &[!!C]FFFA;
+#b3 : B : ~ 0.2 : &F[!!C]FFA;
+#b4 : B : ~ 0.2 : &FF[!!C]FA;
+#b5 : B : ~ 0.2 : &FFF[!!C]A;
+#c1 : C : ~ 0.3 : /&F!FJ;
+#c2 : C : ~ 0.3 : \&FJ;
+#c3 : C : ~ 0.3 : &FJ;)"},
+    {"bush", 5,
+     R"(#set names letters; #set angle 25; #w : A;
+#p : A : ~ 0.5 : F[+A][-A]/A; #q : A : ~ 0.3 : F[+A]//A; #r : A : ~ 0.2 : FF[&A]F;)"},
+};
+
+ForestStage stage_of(const Kind& kind) {
+    SourceMap sources;
+    Names names;
+    Diagnostics diagnostics;
+    const FileId root = sources.add("bench.lsys", kind.grammar);
+    const FileLoader none = [](const std::string&) -> Result<std::string> {
+        return Error{"no such file"};
+    };
+    CompileOptions compile_options;
+    compile_options.generations = kind.generations;
+    CompileOutcome compiled = compile(parse_lsys(root, {sources, names, diagnostics, none}), names,
+                                      sources, compile_options, diagnostics);
+    if (!compiled.program) {
+        fail("a grammar does not compile");
+    }
+    std::optional<InstancedSystem> system =
+        compile_instanced(std::move(*compiled.program), names, sources, 0.6F, diagnostics);
+    if (!system) {
+        fail("a grammar cannot be instanced");
+    }
+    CacheOptions options;
+    options.generations = kind.generations;
+    options.knows_up = system->knows_up;
+    ForestStage stage;
+    stage.generations = kind.generations;
+    if (!make_instance_cache(system->bytecode, options, stage.cache).fine()) {
+        fail("a cache cannot be made");
+    }
+    return stage;
+}
+
+/// Places, yaw and scale by one block of draws a tree.
+void place(Forest& forest, std::uint32_t count) {
+    forest.trees.clear();
+    forest.trees.resize(count);
+    const double side = 5.0 * std::sqrt(static_cast<double>(count));
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const PhiloxBlock block = draw_block(forest.key, 1, i, 0);
+        Tree tree;
+        tree.position = {static_cast<float>(side * static_cast<double>(unit_interval(block[0]))),
+                         0.0F,
+                         static_cast<float>(side * static_cast<double>(unit_interval(block[1])))};
+        tree.yaw = 2.0F * std::numbers::pi_v<float> * unit_interval(block[2]);
+        tree.scale = 0.8F + 0.4F * unit_interval(block[3]);
+        tree.number = i;
+        forest.trees[i] = tree;
+    }
+}
+
+double peak_megabytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+void measure(const Kind& kind, std::uint32_t threads) {
+    Forest forest;
+    forest.key = 42;
+    const double filling = seconds([&] {
+        ForestSpecies& species = forest.species.emplace_back();
+        species.name = kind.name;
+        species.stages.push_back(stage_of(kind));
+    });
+    const InstanceCache& cache = forest.species[0].stages[0].cache;
+    fmt::print("{}: cache of {} instances, {} segments, made in {:.1f} ms\n", kind.name,
+               cache.instances.size(), cache.skeleton.segments.size(), filling * 1e3);
+    for (const std::uint32_t count : {10'000U, 100'000U, 1'000'000U, 10'000'000U}) {
+        std::vector<double> placing;
+        std::vector<double> expanding;
+        ForestCounts counts;
+        const int rounds = count > 1'000'000U ? 1 : 3;
+        for (int round = 0; round < rounds; ++round) {
+            placing.push_back(seconds([&] { place(forest, count); }));
+            expanding.push_back(seconds([&] { counts = count_forest(forest, threads); }));
+        }
+        const double spent = median(placing) + median(expanding);
+        fmt::print("{:>11} trees {:>8.1f} branches a tree {:>9.1f} ms to place {:>9.1f} ms to "
+                   "expand {:>7.1f} ns a branch {:>7.2f} M trees/s {:>8.1f} MB at peak\n",
+                   count, static_cast<double>(counts.branches) / count, median(placing) * 1e3,
+                   median(expanding) * 1e3,
+                   median(expanding) * 1e9 / static_cast<double>(counts.branches),
+                   count / spent / 1e6, peak_megabytes());
+        std::fflush(stdout);
+        if (spent > kLongest) {
+            break;
+        }
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const std::uint32_t threads = argc > 1 ? static_cast<std::uint32_t>(std::atoi(argv[1])) : 2;
+    fmt::print("Threads of the expansion: {}.\n", threads);
+    for (const Kind& kind : kKinds) {
+        measure(kind, threads);
+    }
+    return 0;
+}
