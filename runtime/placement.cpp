@@ -7,9 +7,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstddef>
+
 namespace lsys {
 
 namespace {
+
+constexpr double kDeviations = 6.0;
 
 Result<Placement> grow_forest(const PlacementOptions& options, const Terrain& terrain) {
     Result<Domination> begun = Domination::begin(options, terrain);
@@ -76,12 +81,16 @@ Result<Placement> place_trees(const PlacementOptions& options, const Terrain& te
     if (options.method == PlacementMethod::Domination) {
         return grow_forest(options, terrain);
     }
-    if (const Result<Done> checked = check_placement(options); !checked) {
-        return checked.error();
+    const Result<double> expected = check_placement(options);
+    if (!expected) {
+        return expected.error();
     }
     Workers workers(options.threads);
     const TreeMaker maker(options, terrain);
     Placement placement;
+    // Six standard deviations are hardly ever passed, and room that is not used takes no memory.
+    placement.trees.reserve(static_cast<std::size_t>(
+        expected.value() + kDeviations * std::sqrt(expected.value()) + kDeviations));
     if (const Result<Done> placed = place_with({options, terrain, maker, workers}, placement);
         !placed) {
         return placed.error();

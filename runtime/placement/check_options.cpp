@@ -164,7 +164,7 @@ Result<double> expected_trees(const PlacementOptions& options) {
 
 } // namespace
 
-Result<Done> check_placement(const PlacementOptions& options) {
+Result<double> check_placement(const PlacementOptions& options) {
     if (const Result<Done> checked = check_region(options.region); !checked) {
         return checked.error();
     }
@@ -183,7 +183,7 @@ Result<Done> check_placement(const PlacementOptions& options) {
         return Error{fmt::format("about {:.0f} trees; one placement has at most {}", trees.value(),
                                  kMaxTrees)};
     }
-    return Done{};
+    return trees;
 }
 
 } // namespace lsys

@@ -5,7 +5,8 @@
 
 namespace lsys {
 
-/// Names the first option that makes no sense, or says that there would be too many trees.
-[[nodiscard]] Result<Done> check_placement(const PlacementOptions& options);
+/// The number of trees to expect where species can live everywhere. Error: names the first option
+/// that makes no sense, or says that there would be too many trees.
+[[nodiscard]] Result<double> check_placement(const PlacementOptions& options);
 
 } // namespace lsys

@@ -207,7 +207,7 @@ Domination::Domination(const PlacementOptions& options, const Terrain& terrain)
 Result<Domination> Domination::begin(const PlacementOptions& options, const Terrain& terrain) {
     PlacementOptions first = options;
     first.method = PlacementMethod::Domination;
-    if (const Result<Done> checked = check_placement(first); !checked) {
+    if (const Result<double> checked = check_placement(first); !checked) {
         return checked.error();
     }
     Domination forest(first, terrain);

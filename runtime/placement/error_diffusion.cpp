@@ -92,7 +92,6 @@ void place_by_error_diffusion(const PlacementJob& job, Placement& placement) {
     const PlacementOptions& options = job.options;
     const Squares squares = squares_of(options.region, options.density);
     const LargeVector<std::uint32_t> chosen = diffuse(options, squares);
-    placement.trees.reserve(chosen.size());
     const std::uint64_t pieces = (chosen.size() + kPiece - 1) / kPiece;
     const auto piece = [&](std::uint64_t index, TreeChunk& chunk) {
         const std::uint64_t end = std::min<std::uint64_t>(chosen.size(), (index + 1) * kPiece);

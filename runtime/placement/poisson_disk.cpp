@@ -139,7 +139,6 @@ LargeVector<glm::vec2> DiskSampler::sample() {
 
 void place_poisson_disk(const PlacementJob& job, Placement& placement) {
     const LargeVector<glm::vec2> points = DiskSampler(job.options).sample();
-    placement.trees.reserve(points.size());
     const std::uint64_t pieces = (points.size() + kPiece - 1) / kPiece;
     const auto piece = [&](std::uint64_t index, TreeChunk& chunk) {
         const std::uint64_t end = std::min<std::uint64_t>(points.size(), (index + 1) * kPiece);
