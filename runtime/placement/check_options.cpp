@@ -175,7 +175,7 @@ Result<double> check_placement(const PlacementOptions& options) {
     if (const Result<Done> checked = check_species(options); !checked) {
         return checked.error();
     }
-    const Result<double> trees = expected_trees(options);
+    Result<double> trees = expected_trees(options);
     if (!trees) {
         return trees.error();
     }
