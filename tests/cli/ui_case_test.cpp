@@ -77,3 +77,15 @@ TEST_CASE("an annotation meets the diagnostic of its line only") {
     CHECK(!matches({4, 4, "error", "`B`", "bad"}, diagnostic, "a.lsys"));
     CHECK(!matches({4, 4, "error", "", "good"}, diagnostic, "a.lsys"));
 }
+
+TEST_CASE("comments of a scene begin with a hash") {
+    const UiCase found = parse_ui_case("x.toml", "# run: forest --check\n# exit: 1\n"
+                                                 "rho = 2 #~ error: it must be [bad-scene-value]\n"
+                                                 "map = \"a//~b\"\n");
+    CHECK(found.mistakes.empty());
+    REQUIRE(found.runs.size() == 1);
+    CHECK(found.runs[0].exit_status == 1);
+    REQUIRE(found.annotations.size() == 1);
+    CHECK(found.annotations[0].line == 3);
+    CHECK(found.annotations[0].code == "bad-scene-value");
+}

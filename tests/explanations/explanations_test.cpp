@@ -1,6 +1,7 @@
 // Every diagnostic is explained, in order, and the examples do what they say.
 #include "grammar/diagnostic.h"
 #include "runtime/cli/explanations.h"
+#include "runtime/scene.h"
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -90,4 +91,28 @@ TEST_CASE("wrong examples yield their diagnostic, right ones yield none") {
             }
         }
     }
+}
+
+TEST_CASE("examples of scenes yield their diagnostic, or none") {
+    std::size_t scenes = 0;
+    for (const Explanation& explanation : all_explanations()) {
+        if (explanation.code.find("scene") == std::string::npos) {
+            continue;
+        }
+        for (const Example& example : explanation.examples) {
+            ++scenes;
+            lsys::SourceMap sources;
+            const lsys::FileId file = sources.add("example.toml", example.files.front().second);
+            lsys::Diagnostics diagnostics;
+            const bool fine = lsys::parse_scene(file, sources, diagnostics).has_value();
+            INFO(explanation.code << "\n" << example.files.front().second);
+            CHECK(fine == example.right);
+            std::set<std::string> codes;
+            for (const lsys::Diagnostic& diagnostic : diagnostics.all()) {
+                codes.emplace(lsys::info(diagnostic.code).name);
+            }
+            CHECK(codes.contains(explanation.code) == !example.right);
+        }
+    }
+    CHECK(scenes >= 10);
 }

@@ -6,7 +6,7 @@ set(base "grammar/(source|diagnostic|diagnostics|result|contract|names|chunked_v
 set(contract "compiler/(bytecode|settings|growth|verify|module_file|disassemble|arithmetic|opcodes|turtle_operations)\\.(h|def)")
 set(allowed_grammar "grammar/.*")
 set(allowed_compiler "compiler/.*" "grammar/[^/]+")
-set(allowed_runtime "runtime/([^/]+|(derive|expressions|turtle|meshing|physics|export|terrain|placement)/[^/]+)" "${contract}" "${base}")
+set(allowed_runtime "runtime/([^/]+|(derive|expressions|turtle|meshing|physics|export|terrain|placement|scene)/[^/]+)" "${contract}" "${base}")
 set(allowed_cli "runtime/cli/.*" "(grammar|compiler|runtime)/[^/]+")
 set(allowed_viewer "viewer/.*" "runtime/[^/]+" "compiler/(compile|program)\\.h" "${contract}"
   "grammar/(render_diagnostic|parse|dialect)\\.h" "${base}")

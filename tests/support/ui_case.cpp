@@ -10,8 +10,8 @@ namespace lsys::tests {
 
 namespace {
 
-constexpr std::string_view kRun = "// run: ";
-constexpr std::string_view kExit = "// exit: ";
+constexpr std::string_view kRun = " run: ";
+constexpr std::string_view kExit = " exit: ";
 constexpr std::string_view kSeverities[] = {"error", "warning", "note"};
 
 std::string_view trim(std::string_view text) {
@@ -74,7 +74,7 @@ void add_header(std::string_view line, UiCase& found) {
     } else if (line.starts_with(kExit)) {
         if (found.runs.empty() ||
             !parse_number(trim(line.substr(kExit.size())), found.runs.back().exit_status)) {
-            found.mistakes.emplace_back("`// exit:` wants a number and a `// run:` before it");
+            found.mistakes.emplace_back("`exit:` wants a number and a `run:` before it");
         }
     }
 }
@@ -109,14 +109,18 @@ void add_annotation(std::string_view text, std::uint32_t line, UiCase& found) {
                              ": an annotation begins with error:, warning: or note:");
 }
 
-void add_annotations(std::string_view line, std::uint32_t number, UiCase& found) {
-    for (std::size_t at = 0; at + 3 <= line.size(); ++at) {
+void add_annotations(std::string_view line,
+                     std::string_view comment,
+                     std::uint32_t number,
+                     UiCase& found) {
+    const std::string mark = std::string(comment) + "~";
+    for (std::size_t at = 0; at + mark.size() <= line.size(); ++at) {
         const std::string_view opening = line.substr(at, 3);
         if (opening == "/*~") {
             const std::string_view rest = line.substr(at + 3);
             add_annotation(rest.substr(0, rest.find("*/")), number, found);
-        } else if (opening == "//~") {
-            add_annotation(line.substr(at + 3), number, found);
+        } else if (line.substr(at).starts_with(mark)) {
+            add_annotation(line.substr(at + mark.size()), number, found);
             return;
         }
     }
@@ -196,6 +200,7 @@ std::vector<std::string> split_words(std::string_view text) {
 UiCase parse_ui_case(const std::filesystem::path& file, std::string_view text) {
     UiCase found;
     found.file = file;
+    const std::string_view comment = file.extension() == ".toml" ? "#" : "//";
     if (text.starts_with("\xEF\xBB\xBF")) {
         text.remove_prefix(3);
     }
@@ -203,14 +208,14 @@ UiCase parse_ui_case(const std::filesystem::path& file, std::string_view text) {
     std::uint32_t number = 0;
     for (const std::string_view line : split_lines(text)) {
         ++number;
-        in_header = in_header && line.starts_with("//");
+        in_header = in_header && line.starts_with(comment);
         if (in_header) {
-            add_header(trim(line), found);
+            add_header(line.substr(comment.size()), found);
         }
-        add_annotations(line, number, found);
+        add_annotations(line, comment, number, found);
     }
     if (found.runs.empty()) {
-        found.mistakes.emplace_back("the first lines hold no `// run: ARGUMENTS`");
+        found.mistakes.emplace_back("the first lines hold no `run: ARGUMENTS`");
     }
     return found;
 }

@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::string_view kCases[] = {".lsys", ".toml"}; // grammars, scenes
 constexpr std::string_view kGoldens[] = {".stdout", ".stderr", ".fixed"};
 
 std::string read_file(const fs::path& path) {
@@ -252,9 +253,12 @@ void check_strays(const fs::path& feature, const UiOptions& options, UiOutcome& 
         if (std::find(std::begin(kGoldens), std::end(kGoldens), extension) == std::end(kGoldens)) {
             continue;
         }
-        fs::path owner = entry.path();
-        owner.replace_extension(".lsys");
-        if (!fs::exists(owner)) {
+        const auto owned_by = [&](std::string_view kind) {
+            fs::path owner = entry.path();
+            owner.replace_extension(kind);
+            return fs::exists(owner);
+        };
+        if (std::none_of(std::begin(kCases), std::end(kCases), owned_by)) {
             outcome.failures.push_back(entry.path().lexically_relative(options.root).string() +
                                        ": no case owns this file");
         }
@@ -283,7 +287,9 @@ UiOutcome run_ui_cases(const UiOptions& options) {
         std::vector<fs::path> files;
         for (const fs::directory_entry& entry : fs::directory_iterator(feature)) {
             const std::string name = entry.path().lexically_relative(options.root).string();
-            if (entry.path().extension() == ".lsys" && passes(name, options.filters)) {
+            const bool is_case = std::find(std::begin(kCases), std::end(kCases),
+                                           entry.path().extension().string()) != std::end(kCases);
+            if (is_case && passes(name, options.filters)) {
                 files.push_back(entry.path());
             }
         }

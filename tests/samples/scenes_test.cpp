@@ -1,0 +1,122 @@
+// The sample scenes are without fault, and so are their grammars; each makes as many trees as fit
+// its text.
+#include "runtime/grey_map.h"
+#include "runtime/placement.h"
+#include "runtime/scene.h"
+#include "runtime/terrain.h"
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using lsys::Scene;
+using lsys::tests::LscRun;
+using lsys::tests::run_lsc;
+
+std::string bytes_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+struct SampleScene {
+    fs::path folder;
+    std::string name;
+    Scene scene;
+};
+
+std::vector<SampleScene> all_scenes() {
+    std::vector<SampleScene> all;
+    for (const fs::directory_entry& entry :
+         fs::directory_iterator(LSYS_SOURCE_DIR "/samples/scenes")) {
+        if (!entry.is_directory()) {
+            continue;
+        }
+        const std::string name = entry.path().filename().string();
+        INFO(name);
+        lsys::SourceMap sources;
+        const lsys::FileId file =
+            sources.add(name + ".toml", bytes_of(entry.path() / (name + ".toml")));
+        CHECK(sources.file(file).text().starts_with("# "));
+        lsys::Diagnostics diagnostics;
+        std::optional<Scene> scene = lsys::parse_scene(file, sources, diagnostics);
+        CHECK(diagnostics.all().empty());
+        REQUIRE(scene);
+        all.push_back({entry.path(), name, std::move(*scene)});
+    }
+    return all;
+}
+
+} // namespace
+
+TEST_CASE("grammars of sample scenes can be instanced and are laid out") {
+    std::set<fs::path> grammars;
+    for (const SampleScene& sample : all_scenes()) {
+        for (const lsys::SceneSpecies& species : sample.scene.species) {
+            grammars.insert(fs::canonical(sample.folder / species.grammar.path));
+        }
+    }
+    REQUIRE(grammars.size() >= 6);
+    for (const fs::path& grammar : grammars) {
+        INFO(grammar);
+        const LscRun check = run_lsc({"check", "--deny", "warnings", grammar.string()}, "");
+        INFO(check.err);
+        CHECK(check.status == 0);
+        CHECK(run_lsc({"fmt", "--check", grammar.string()}, "").status == 0);
+        const LscRun list = run_lsc({"dump", "--stage", "instanced", grammar.string()}, "");
+        INFO(list.err);
+        CHECK(list.status == 0);
+        CHECK(list.out.find("<(") != std::string::npos);
+    }
+}
+
+TEST_CASE("sample scenes place their trees") {
+    std::set<std::string> names;
+    for (SampleScene& sample : all_scenes()) {
+        INFO(sample.name);
+        names.insert(sample.name);
+        const lsys::SceneTerrain& ground = sample.scene.terrain;
+        REQUIRE(ground.kind == lsys::TerrainKind::Noise);
+        const lsys::Result<lsys::Terrain> terrain =
+            lsys::Terrain::noise(ground.region, ground.noise);
+        REQUIRE(terrain);
+        lsys::PlacementOptions options = sample.scene.placement;
+        lsys::GreyMap map;
+        if (!sample.scene.density_map.path.empty()) {
+            lsys::Result<lsys::GreyMap> read =
+                lsys::read_grey_png(bytes_of(sample.folder / sample.scene.density_map.path));
+            REQUIRE(read);
+            map = std::move(read.value());
+            options.density_map = &map;
+        }
+        const lsys::Result<lsys::Placement> placement = lsys::place_trees(options, terrain.value());
+        REQUIRE(placement);
+        std::vector<std::size_t> of_species(sample.scene.species.size());
+        std::uint16_t oldest = 0;
+        for (const lsys::Tree& tree : placement.value().trees) {
+            ++of_species.at(tree.species);
+            oldest = std::max(oldest, tree.age);
+        }
+        for (const std::size_t count : of_species) {
+            CHECK(count > 20);
+        }
+        const std::size_t trees = placement.value().trees.size();
+        if (sample.name == "pine-wood") {
+            CHECK(oldest > options.years); // plants of the first year are 1
+            CHECK(trees > 200);
+            CHECK(trees < options.count / 3); // it has thinned itself
+        } else {
+            CHECK(trees > 500);
+        }
+        CHECK(trees < 6000);
+    }
+    CHECK(names == std::set<std::string>{"meadow", "mixed-forest", "pine-wood"});
+}
