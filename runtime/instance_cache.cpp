@@ -55,6 +55,9 @@ public:
         mark_exit(index, branch.place);
         if (!variants.empty()) {
             ++slot.hits;
+            if (branch.segment != kNoSegment) {
+                cache_.forks.push_back({branch.segment, index});
+            }
             return false;
         }
         // What is drawn now belongs to none of the instances around it.

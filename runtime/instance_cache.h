@@ -36,6 +36,12 @@ struct DrawnRange {
     DrawnCounts end;
 };
 
+/// A segment of the heroes at whose end a branch was passed over.
+struct InstanceFork {
+    std::uint32_t segment = 0;
+    std::uint32_t slot = 0; // of what goes on there
+};
+
 struct Instance {
     std::uint32_t slot = 0;
     std::uint32_t hero = 0;
@@ -68,13 +74,14 @@ struct InstanceCache {
     std::vector<std::uint32_t> variants;
     std::vector<InstanceExit> exits;
     std::vector<DrawnRange> ranges;
+    std::vector<InstanceFork> forks; // where the skeleton lacks a branch
     std::uint32_t heroes = 0;
 
     /// Without the skeleton.
     [[nodiscard]] std::uint64_t byte_count() const {
         return instances.size() * sizeof(Instance) + slots.size() * sizeof(InstanceSlot) +
                variants.size() * sizeof(std::uint32_t) + exits.size() * sizeof(InstanceExit) +
-               ranges.size() * sizeof(DrawnRange);
+               ranges.size() * sizeof(DrawnRange) + forks.size() * sizeof(InstanceFork);
     }
 };
 

@@ -33,6 +33,7 @@ struct Segment {
     std::uint16_t colour = 0;          // index into the palette
     std::uint8_t sides = 0;            // of its cross-section, as the author asked for
     bool linked = false;               // it begins where its parent ends
+    bool forked = false;               // branches that are drawn elsewhere begin at its end
 };
 
 /// Something of the object library, drawn from `position` along the frame's +Y.

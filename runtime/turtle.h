@@ -76,7 +76,8 @@ struct BranchStart {
     std::uint32_t id = 0;
     std::span<const float> formals; // that its text uses
     TurtlePlace place;
-    DrawnCounts drawn; // so far
+    std::uint32_t segment = kNoSegment; // that ends there
+    DrawnCounts drawn;                  // so far
 };
 
 /// Sees the valid branches of a word as the turtle comes to them.

@@ -35,7 +35,7 @@ Axes find_axes(const Skeleton& skeleton) {
     std::uint32_t last_colour = ~std::uint32_t{0};
     for (std::uint32_t i = 0; i < segments.size(); ++i) {
         const Segment& segment = segments[i];
-        axes.next[i] = kNoSegment;
+        axes.next[i] = segment.forked ? kForked : kNoSegment;
         if (segment.colour != last_colour) {
             last_colour = segment.colour;
             used[last_colour] = true;

@@ -178,6 +178,7 @@ bool Turtle::State::save_branch(const Action& action, const float* arguments) {
         start.formals = {arguments + kBranchArguments, action.stored - kBranchArguments};
     }
     start.place = place_now();
+    start.segment = now.moved ? kNoSegment : now.segment;
     start.drawn = drawn();
     if (options.branches->begin(start)) {
         watched.push_back(stack.size());
