@@ -66,33 +66,7 @@ std::string with_species(const std::string& text) {
     return text + "\n[[species]]\ngrammar = \"a.lsys\"\n";
 }
 
-} // namespace
-
-TEST_CASE("a scene of one grammar has all defaults") {
-    const Scene scene = scene_of("[[species]]\ngrammar = \"trees/pine.lsys\"\n");
-    CHECK(scene.terrain.kind == lsys::TerrainKind::Flat);
-    CHECK(scene.terrain.region.width == 100.0);
-    CHECK(scene.terrain.region.depth == 100.0);
-    CHECK(scene.placement.key == 0);
-    CHECK(scene.placement.method == PlacementMethod::Uniform);
-    CHECK(scene.placement.count == 1000);
-    CHECK(scene.placement.region.area() == 10'000.0);
-    REQUIRE(scene.species.size() == 1);
-    REQUIRE(scene.placement.species.size() == 1);
-    const SceneSpecies& pine = scene.species[0];
-    CHECK(pine.name == "pine");
-    CHECK(pine.grammar.path == "trees/pine.lsys");
-    CHECK(pine.rho == 0.6F);
-    CHECK(pine.cache.heroes == 10);
-    CHECK(pine.cache.seed == 0);
-    CHECK(pine.cache.cap == 0);
-    CHECK(pine.stages.empty());
-    CHECK(scene.placement.species[0].share == 1.0);
-    CHECK(std::isinf(scene.placement.species[0].steepest));
-}
-
-TEST_CASE("every key arrives where it belongs") {
-    const Scene scene = scene_of(R"(
+constexpr const char* kEveryKey = R"(
 key = 9_223_372_036_854_775_807
 [terrain]
 kind = "noise"
@@ -133,7 +107,36 @@ lifespan = 200
 maturity = 15
 seeds = 2
 seed_distance = 33
-)");
+)";
+
+} // namespace
+
+TEST_CASE("a scene of one grammar has all defaults") {
+    const Scene scene = scene_of("[[species]]\ngrammar = \"trees/pine.lsys\"\n");
+    CHECK(scene.terrain.kind == lsys::TerrainKind::Flat);
+    CHECK(scene.terrain.region.width == 100.0);
+    CHECK(scene.terrain.region.depth == 100.0);
+    CHECK(scene.placement.key == 0);
+    CHECK(scene.placement.method == PlacementMethod::Uniform);
+    CHECK(scene.placement.count == 1000);
+    CHECK(scene.placement.region.area() == 10'000.0);
+    REQUIRE(scene.species.size() == 1);
+    REQUIRE(scene.placement.species.size() == 1);
+    const SceneSpecies& pine = scene.species[0];
+    CHECK(pine.name == "pine");
+    CHECK(pine.grammar.path == "trees/pine.lsys");
+    CHECK(pine.rho == 0.6F);
+    CHECK(pine.cache.heroes == 10);
+    CHECK(pine.cache.seed == 0);
+    CHECK(pine.cache.cap == 0);
+    CHECK(pine.stages.empty());
+    CHECK(scene.placement.species[0].share == 1.0);
+    CHECK(std::isinf(scene.placement.species[0].steepest));
+}
+
+TEST_CASE("every key arrives where it belongs") {
+    const Scene scene = scene_of(kEveryKey);
+
     CHECK(scene.placement.key == 9'223'372'036'854'775'807U);
     CHECK(scene.terrain.kind == lsys::TerrainKind::Noise);
     CHECK(scene.terrain.region.x == -50.0);
@@ -267,6 +270,11 @@ TEST_CASE("a file that is no TOML has one message") {
         {"key = 1\nkey = 2\n", "2:7-7: cannot redefine existing integer `key` [scene-syntax]\n"
                                "  note: while reading a key-value pair\n"
                                "  help: a key stands once in its table\n"},
+        {"\n[=x]\n", "2:2-2: expected bare key starting character or string delimiter, saw `=` "
+                     "[scene-syntax]\n"
+                     "  note: while reading a key\n"},
+        {"k\xC3\xA9y = 1", "1:2-2: expected `=`, saw `\xC3\xA9` [scene-syntax]\n"
+                           "  note: while reading a key-value pair\n"},
         {"key = \"\xFF\"", "1:7-7: encountered invalid utf-8 sequence [scene-syntax]\n"},
     };
     for (const auto& [text, messages] : cases) {
@@ -411,4 +419,44 @@ TEST_CASE("tables of another kind are told apart") {
           "  label: this is a text\n"
           "2:13-23: `placement` must be a table [bad-scene-value]\n"
           "  label: this is a date or time\n");
+}
+
+TEST_CASE("damaged scenes are mended or reported where they are damaged") {
+    const std::vector<std::string> pieces{
+        "[",    "]",        "{",    "}",      "\"",      "=",  ".",  "nan",
+        "-inf", "\xC3\xA9", "\xFF", "\t",     "\r\n",    "\n", "[[", "'''",
+        "0x",   "#",        "1e9",  "\"\"\"", "species", "[=", ",",  "\xC2\xA0"};
+    std::uint32_t state = 1;
+    const auto draw = [&](std::size_t count) {
+        state = state * 1664525U + 1013904223U;
+        return static_cast<std::size_t>(state >> 8U) % count;
+    };
+    std::size_t refused = 0;
+    for (int i = 0; i < 3000; ++i) {
+        std::string text = kEveryKey;
+        for (std::size_t wounds = 1 + draw(3); wounds > 0; --wounds) {
+            const std::size_t at = draw(text.size());
+            if (draw(2) == 0) {
+                text.insert(at, pieces[draw(pieces.size())]);
+            } else {
+                text.erase(at, 1 + draw(12));
+            }
+        }
+        lsys::SourceMap sources;
+        const lsys::FileId file = sources.add("a.toml", text);
+        lsys::Diagnostics diagnostics;
+        const bool fine = parse_scene(file, sources, diagnostics).has_value();
+        refused += fine ? 0U : 1U;
+        std::uint32_t last = 0;
+        bool in_order = fine != diagnostics.has_errors();
+        for (const lsys::Diagnostic& one : diagnostics.all()) {
+            in_order = in_order && one.span.file == file && last <= one.span.begin &&
+                       one.span.begin <= one.span.end && one.span.end <= text.size();
+            last = one.span.begin;
+        }
+        INFO(text);
+        CHECK(in_order);
+    }
+    CHECK(refused > 1500);
+    CHECK(refused < 3000);
 }
