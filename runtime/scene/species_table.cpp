@@ -171,7 +171,7 @@ void read_growth(const SceneValue* table, PlacementSpecies& placed, Diagnostics&
     number("shade_tolerance", {0.0, 1.0, false, {}}, growth.tolerance);
     number("vigour_spread", {0.0, 0.9, false, {}}, growth.vigour_spread);
     whole("lifespan", {1, kMaxYears}, growth.lifespan);
-    whole("maturity", {1, 2 * kMaxYears}, growth.maturity);
+    whole("maturity", {1, std::uint64_t{2} * kMaxYears}, growth.maturity);
     number("seeds", {0.0, kMaxSeedsOfYear, false, "a year"}, growth.seeds);
     number("seed_distance", {0.0, 1.0e5, false, "m"}, growth.seed_distance);
     if (growth.rate > growth.greatest_radius) {

@@ -14,6 +14,7 @@ constexpr std::string_view kKinds[] = {"flat", "noise", "height-map"}; // as Ter
 constexpr std::string_view kFilters[] = {"bilinear", "bicubic"};       // as HeightFilter
 constexpr NumberRange kAltitude{-kFarthest, kFarthest, false, "m"};
 constexpr double kLeastSide = 0.25; // m, on which trees can be placed
+constexpr double kMostOfSide = static_cast<double>(kMaxMapPixels) / 2.0; // pixels
 
 void read_region(TableReader& reader, Region& region) {
     if (const auto origin = reader.pair("origin", {-kFarthest, kFarthest, false, "m"}, false)) {
@@ -49,7 +50,7 @@ void read_noise(TableReader& reader, NoiseOptions& noise) {
 
 void read_map_size(TableReader& reader, SceneTerrain& terrain) {
     const bool raw = terrain.map.path.ends_with(".raw") || terrain.map.path.ends_with(".r16");
-    const auto size = reader.pair("map_size", {2.0, kMaxMapPixels / 2, false, "pixels"}, true);
+    const auto size = reader.pair("map_size", {2.0, kMostOfSide, false, "pixels"}, true);
     if (!size) {
         if (raw && !reader.has("map_size")) {
             reader.missing("map_size", "the terrain has a map of raw samples")
