@@ -4,23 +4,20 @@
 #include "runtime/export/base64.h"
 #include "runtime/export/formats.h"
 #include "runtime/export/gltf_data.h"
+#include "runtime/export/gltf_parts.h"
 #include "runtime/export/pictures.h"
 #include "runtime/export/text.h"
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <optional>
 
 namespace lsys {
 
 namespace {
-
-constexpr std::uint64_t kMostBytes = 0xFFFFFFFFu; // of a GLB; buffers are held to the same
 
 /// The document, up to its list of buffers.
 class Document {
@@ -56,7 +53,6 @@ private:
     void add_nodes();
     void add_primitives();
     void add_materials();
-    void add_material(std::size_t number, bool coloured);
     void add_images();
     void add_accessors();
     void add_motion();
@@ -128,71 +124,24 @@ void Document::add_primitives() {
     add("]}}],");
 }
 
-void Document::add_material(std::size_t number, bool coloured) {
-    const Material& material = mesh_.materials[number];
-    const MaterialPictures& shown = pictures_.of_materials[number];
-    const glm::vec4 colour = glm::clamp(
-        coloured ? glm::vec4(1.0F, 1.0F, 1.0F, material.colour.a) : material.colour, 0.0F, 1.0F);
-    add(R"({{"name":"{}","pbrMetallicRoughness":{{"baseColorFactor":[{},{},{},{}],)",
-        json_text(material.name), colour.r, colour.g, colour.b, colour.a);
-    if (shown.colour) {
-        add(R"("baseColorTexture":{{"index":{}}},)", *shown.colour);
-    }
-    add(R"("metallicFactor":0,"roughnessFactor":{}}})",
-        material.kind == MaterialKind::Bark ? 0.95 : 0.7);
-    if (shown.relief) {
-        add(R"(,"normalTexture":{{"index":{}}})", *shown.relief);
-    }
-    if (material.cut_out) {
-        add(R"(,"alphaMode":"MASK","alphaCutoff":0.5)");
-    } else if (colour.a < 1.0F) {
-        add(R"(,"alphaMode":"BLEND")");
-    }
-    add("{}}}", material.two_sided ? R"(,"doubleSided":true)" : "");
-}
-
 void Document::add_materials() {
     add(R"("materials":[)");
     std::size_t written = 0;
     for (std::size_t i = 0; i < mesh_.parts.size(); ++i) {
         if (mesh_.parts[i].index_count >= 3) {
             add("{}", comma(written++));
-            add_material(mesh_.parts[i].material, data_.coloured[i]);
+            const std::uint32_t material = mesh_.parts[i].material;
+            text_ += material_json(mesh_.materials[material], pictures_.of_materials[material],
+                                   data_.coloured[i]);
         }
     }
     add("],");
 }
 
 void Document::add_images() {
-    const std::vector<Picture>& list = pictures_.list;
-    if (list.empty()) {
-        return;
+    if (!pictures_.list.empty()) {
+        text_ += images_json(pictures_.list, first_view(GltfArray::Image));
     }
-    const std::size_t image_views = first_view(GltfArray::Image);
-    // Sampler 0 repeats, 1 ends at the border; both with mipmaps.
-    const auto is_leaf = [](const Picture& picture) {
-        return picture.material == MaterialKind::Leaf;
-    };
-    const bool leaf = std::any_of(list.begin(), list.end(), is_leaf);
-    const bool bark = !std::all_of(list.begin(), list.end(), is_leaf);
-    add(R"("samplers":[)");
-    if (bark) {
-        add(R"({{"magFilter":9729,"minFilter":9987,"wrapS":10497,"wrapT":10497}})");
-    }
-    if (leaf) {
-        add(R"({}{{"magFilter":9729,"minFilter":9987,"wrapS":33071,"wrapT":33071}})",
-            comma(bark ? 1 : 0));
-    }
-    add(R"(],"textures":[)");
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        add(R"({}{{"sampler":{},"source":{}}})", comma(i), is_leaf(list[i]) && bark ? 1 : 0, i);
-    }
-    add(R"(],"images":[)");
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        add(R"({}{{"name":"{}","mimeType":"image/png","bufferView":{}}})", comma(i), list[i].name,
-            image_views + i);
-    }
-    add("],");
 }
 
 void Document::add_accessors() {
@@ -305,11 +254,6 @@ std::string Document::text() {
     return std::move(text_);
 }
 
-void put_word(PieceWriter& out, std::uint64_t value) {
-    const auto word = static_cast<std::uint32_t>(value);
-    out.put_array(std::span(&word, 1));
-}
-
 } // namespace
 
 ExportStatus write_gltf(const Mesh& mesh,
@@ -329,7 +273,7 @@ ExportStatus write_gltf(const Mesh& mesh,
     const Pictures pictures = find_pictures(mesh, ExportFormat::Gltf, info);
     const GltfData data =
         plan_gltf_data(mesh, motion, encode_pictures(pictures.list, info.threads));
-    if (data.bytes > kMostBytes) {
+    if (data.bytes > kMostGltfBytes) {
         return ExportStatus::TooLarge;
     }
     std::string json = Document(mesh, motion, info, data, pictures).text();
@@ -343,24 +287,13 @@ ExportStatus write_gltf(const Mesh& mesh,
         out.put("\"}]}\n");
         return ExportStatus::Ok;
     }
-    constexpr std::uint64_t kHeaders = 12 + 8 + 8;
-    constexpr std::uint32_t kMagic = 0x46546C67;     // "glTF"
-    constexpr std::uint32_t kJsonChunk = 0x4E4F534A; // "JSON"
-    constexpr std::uint32_t kDataChunk = 0x004E4942; // "BIN"
     json += "}]}";
     json.resize((json.size() + 3) / 4 * 4, ' ');
-    const std::uint64_t total = kHeaders + json.size() + data.bytes;
-    if (total > kMostBytes) {
+    if (!put_glb_header(json.size(), data.bytes, out)) {
         return ExportStatus::TooLarge;
     }
-    put_word(out, kMagic);
-    put_word(out, 2);
-    put_word(out, total);
-    put_word(out, json.size());
-    put_word(out, kJsonChunk);
     out.put(json);
-    put_word(out, data.bytes);
-    put_word(out, kDataChunk);
+    put_glb_data_header(data.bytes, out);
     write_gltf_data(mesh, motion, data,
                     [&out](std::span<const std::byte> bytes) { out.put_bytes(bytes); });
     return ExportStatus::Ok;
