@@ -194,19 +194,21 @@ function readPictures(material, path) {
     return pictures;
 }
 
-export function readUsda(text) {
+function readLayer(text) {
     assert(text.startsWith('#usda 1.0\n'), 'no #usda 1.0 in the first line');
     const parser = new Parser(text.slice('#usda 1.0'.length));
     parser.take('(');
     const layer = parser.fields(')');
     parser.take(')');
     assert(layer.upAxis.value === 'Y' && layer.metersPerUnit.value === 1, 'axis or unit');
-    assert(typeof layer.customLayerData.value.grammar.value === 'string', 'grammar');
     const root = parser.prim();
     assert(parser.kind === 'end', 'something behind the last prim');
     assert(root.name === layer.defaultPrim.value, 'defaultPrim');
+    return { root, data: layer.customLayerData.value };
+}
 
-    const mesh = root.children.Mesh;
+// A mesh whose subsets are bound to materials below `root`.
+function readMesh(mesh, root) {
     const value = name => mesh.properties[name].value;
     const vertices = value('points').length;
     const indices = value('faceVertexIndices');
@@ -240,14 +242,79 @@ export function readUsda(text) {
         const path = subset.properties['material:binding'].value.split('/').slice(2);
         const material = path.reduce((prim, name) => prim.children[name], root);
         assert(material.type === 'Material', 'material:binding');
-        const shader = `/Plant/${path.join('/')}/Surface.outputs:surface`;
+        const shader = `/${root.name}/${path.join('/')}/Surface.outputs:surface`;
         assert(material.properties['outputs:surface.connect'].value === shader &&
                material.children.Surface.type === 'Shader', 'connection of the surface');
-        for (const picture of readPictures(material, `/Plant/${path.join('/')}`)) {
+        for (const picture of readPictures(material, `/${root.name}/${path.join('/')}`)) {
             assert('primvars:st' in mesh.properties, 'a picture without texture coordinates');
             pictures.add(picture);
         }
     }
     assert(owned.every(n => n === 1), 'a face without a subset');
     return { vertices, triangles, parts: subsets.length, pictures: [...pictures] };
+}
+
+export function readUsda(text) {
+    const { root, data } = readLayer(text);
+    assert(typeof data.grammar.value === 'string', 'grammar');
+    return readMesh(root.children.Mesh, root);
+}
+
+function turned([w, x, y, z], [a, b, c]) {
+    const t = [2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)];
+    return [a + w * t[0] + y * t[2] - z * t[1], b + w * t[1] + z * t[0] - x * t[2],
+            c + w * t[2] + x * t[1] - y * t[0]];
+}
+
+/// A ground and a PointInstancer for each kind of plant; what they put where.
+export function readUsdaForest(text) {
+    const { root, data } = readLayer(text);
+    const found = { branches: 0, triangles: 0, pictures: new Set(),
+                    low: [Infinity, Infinity, Infinity], high: [-Infinity, -Infinity, -Infinity] };
+    const add = point => point.forEach((x, i) => {
+        found.low[i] = Math.min(found.low[i], x);
+        found.high[i] = Math.max(found.high[i], x);
+    });
+    const read = mesh => {
+        const { triangles, pictures } = readMesh(mesh, root);
+        pictures.forEach(picture => found.pictures.add(picture));
+        return { triangles, points: mesh.properties.points.value };
+    };
+    for (const prim of Object.values(root.children)) {
+        if (prim.type === 'Mesh') {
+            const ground = read(prim);
+            found.triangles += ground.triangles;
+            ground.points.forEach(add);
+        }
+        if (prim.type !== 'PointInstancer') {
+            continue;
+        }
+        const value = name => prim.properties[name].value;
+        const prototypes = value('prototypes').map(path => {
+            const names = path.split('/').slice(2);
+            const mesh = names.reduce((at, name) => at.children[name], root);
+            assert(mesh?.type === 'Mesh', `no prototype ${path}`);
+            return read(mesh);
+        });
+        assert(prototypes.length === Object.keys(prim.children.Prototypes.children).length,
+               'a prototype that is not named');
+        const count = value('protoIndices').length;
+        const widths = { positions: 3, orientations: 4, orientationsf: 4, scales: 3 };
+        for (const [name, width] of Object.entries(widths)) {
+            assert(value(name).length === count &&
+                   value(name).every(t => t.length === width && t.every(Number.isFinite)), name);
+        }
+        value('protoIndices').forEach((number, i) => {
+            const { triangles, points } = prototypes[number];
+            const q = value('orientationsf')[i];
+            assert(Math.abs(Math.hypot(...q) - 1) < 1e-5, 'an orientation of another length');
+            assert(value('orientations')[i].every((x, k) => x === q[k]), 'two orientations');
+            const [s, p] = [value('scales')[i], value('positions')[i]];
+            found.triangles += triangles;
+            points.forEach(v => add(turned(q, v.map((x, k) => x * s[k])).map((x, k) => x + p[k])));
+        });
+        found.branches += count;
+    }
+    assert(data.branches.value === found.branches, 'branches in customLayerData');
+    return { ...found, trees: data.trees.value, pictures: [...found.pictures] };
 }

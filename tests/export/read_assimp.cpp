@@ -3,6 +3,10 @@
 //
 // assimp keeps the vertices of PLY and OFF, and must find as many as counts.txt says. Of OBJ, STL
 // and glTF it makes vertices of its own; there each corner must lie where the PLY has it.
+//
+// --forest: FOLDER has expanded.glb and expanded.gltf, whose nodes put triangles where baked.ply
+// has them, in another order.
+#include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
@@ -14,6 +18,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -128,11 +133,103 @@ void compare(const std::filesystem::path& path, const Triangles& expected) {
     }
 }
 
+/// Bounds of the corners, and what the areas of the triangles and their corners add up to.
+struct Whole {
+    std::array<double, 3> low{1e30, 1e30, 1e30};
+    std::array<double, 3> high{-1e30, -1e30, -1e30};
+    std::array<double, 3> sum{};
+    double area = 0.0;
+    std::uint64_t triangles = 0;
+
+    void add(const std::array<aiVector3D, 3>& corners) {
+        const aiVector3D cross = (corners[1] - corners[0]) ^ (corners[2] - corners[0]);
+        area += 0.5 * static_cast<double>(cross.Length());
+        ++triangles;
+        for (const aiVector3D& corner : corners) {
+            for (unsigned axis = 0; axis < 3; ++axis) {
+                const double x = static_cast<double>(corner[axis]);
+                low[axis] = std::min(low[axis], x);
+                high[axis] = std::max(high[axis], x);
+                sum[axis] += x;
+            }
+        }
+    }
+};
+
+Whole whole_of(const aiScene& scene) {
+    Whole whole;
+    std::vector<std::pair<const aiNode*, aiMatrix4x4>> pending{
+        {scene.mRootNode, scene.mRootNode->mTransformation}};
+    while (!pending.empty()) {
+        const auto [node, matrix] = pending.back();
+        pending.pop_back();
+        for (unsigned m = 0; m < node->mNumMeshes; ++m) {
+            const aiMesh& mesh = *scene.mMeshes[node->mMeshes[m]];
+            for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+                const unsigned* const i = mesh.mFaces[f].mIndices;
+                whole.add({matrix * mesh.mVertices[i[0]], matrix * mesh.mVertices[i[1]],
+                           matrix * mesh.mVertices[i[2]]});
+            }
+        }
+        for (unsigned c = 0; c < node->mNumChildren; ++c) {
+            const aiNode* const child = node->mChildren[c];
+            pending.emplace_back(child, matrix * child->mTransformation);
+        }
+    }
+    return whole;
+}
+
+void compare_forest(const std::filesystem::path& path, const Triangles& baked) {
+    Assimp::Importer importer;
+    const aiScene* const scene = importer.ReadFile(path.string(), 0);
+    if (scene == nullptr) {
+        fail(path, importer.GetErrorString());
+        return;
+    }
+    const Whole found = whole_of(*scene);
+    Whole wanted;
+    for (std::size_t i = 0; i + 2 < baked.corners.size(); i += 3) {
+        std::array<aiVector3D, 3> corners;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Point& p = baked.corners[i + c];
+            corners[c] = aiVector3D(p[0], p[1], p[2]);
+        }
+        wanted.add(corners);
+    }
+    if (found.triangles != wanted.triangles) {
+        fail(path, std::to_string(found.triangles) + " triangles instead of " +
+                       std::to_string(wanted.triangles));
+    }
+    if (!(std::abs(found.area - wanted.area) <= 1e-4 * wanted.area)) {
+        fail(path, "another area");
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double count = 3.0 * static_cast<double>(wanted.triangles);
+        if (!(std::abs(found.low[axis] - wanted.low[axis]) < 1e-3) ||
+            !(std::abs(found.high[axis] - wanted.high[axis]) < 1e-3) ||
+            !(std::abs(found.sum[axis] - wanted.sum[axis]) < 1e-3 * count)) {
+            fail(path, "corners lie elsewhere");
+        }
+    }
+}
+
+int read_forest(const std::filesystem::path& folder) {
+    const Triangles baked = read_ply(folder / "baked.ply");
+    for (const char* name : {"expanded.glb", "expanded.gltf"}) {
+        compare_forest(folder / name, baked);
+    }
+    std::printf("2 files read, %d failures\n", failures);
+    return failures == 0 && !baked.corners.empty() ? 0 : 1;
+}
+
 } // namespace
 
 int main(int argument_count, char** arguments) {
+    if (argument_count == 3 && std::string(arguments[1]) == "--forest") {
+        return read_forest(arguments[2]);
+    }
     if (argument_count != 2) {
-        std::fputs("usage: read_assimp FOLDER\n", stderr);
+        std::fputs("usage: read_assimp [--forest] FOLDER\n", stderr);
         return 2;
     }
     const std::filesystem::path folder = arguments[1];

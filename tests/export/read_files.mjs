@@ -1,5 +1,6 @@
 // Holds exported files against readers in JavaScript. Usage:
-//   node read_files.mjs MODULES (validator | three | motion | obj | svg | off+ | usda) FOLDER
+//   node read_files.mjs MODULES (validator | three | motion | obj | svg | off+ | usda |
+//                              forest-three | forest-transform | forest-usda) FOLDER
 // MODULES is the node_modules of package.json beside this file. FOLDER has counts.txt, with a line
 // `NAME VERTICES TRIANGLES PARTS` for each mesh, or `NAME FRAMES FPS` for each that moves.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
@@ -7,12 +8,13 @@ import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { distance, posedVertices, readPlyPositions } from './motion.mjs';
-import { readOffPlus, readUsda } from './own_readers.mjs';
+import { instancedForest, readAccessors } from './forest.mjs';
+import { readOffPlus, readUsda, readUsdaForest } from './own_readers.mjs';
 
 const [given, check, folder] = process.argv.slice(2);
 const modules = resolve(given ?? '.');
 if (!folder) {
-    console.error('usage: node read_files.mjs MODULES (validator|three|motion|obj|svg|off+|usda) FOLDER');
+    console.error('usage: node read_files.mjs MODULES (validator|three|motion|obj|svg|off+|usda|forest-three|forest-transform|forest-usda) FOLDER');
     process.exit(2);
 }
 if (!existsSync(join(modules, 'three'))) {
@@ -60,6 +62,20 @@ async function eachMesh(extensions, read) {
             }
             ++files;
         }
+    }
+}
+
+function facts() {
+    return JSON.parse(readFileSync(join(folder, 'facts.json'), 'utf8'));
+}
+
+function expectFacts(file, found) {
+    const wanted = facts();
+    expect(file, 'number of branches', found.branches, wanted.branches);
+    expect(file, 'number of triangles', found.triangles, wanted.triangles);
+    for (const end of ['low', 'high']) {
+        const off = Math.max(...found[end].map((x, i) => Math.abs(x - wanted[end][i])));
+        expect(file, `${end} end of the bounds within a millimetre: ${found[end]}`, off < 1e-3, true);
     }
 }
 
@@ -274,6 +290,40 @@ const checks = {
             textured += found.pictures.length > 0 ? 1 : 0;
         });
         expect('usda', 'some have pictures', textured > 0, true);
+    },
+
+    // Instances: as many as there are branches, where the forest as one mesh has its vertices.
+    async 'forest-three'() {
+        const { three, GLTFLoader } = await threeAndLoader();
+        for (const file of ['forest.glb', 'forest.gltf']) {
+            const loader = new GLTFLoader();
+            loader.register(() => ({ name: 'images', loadTexture: async () => new three.Texture() }));
+            const gltf = await loader.parseAsync(arrayBuffer(file), '');
+            expectFacts(file, await instancedForest(three, gltf));
+            expect(file, 'extras.trees', gltf.scene.children[0].userData.trees, facts().trees);
+            ++files;
+        }
+    },
+
+    async 'forest-transform'() {
+        const core = await module('@gltf-transform/core/dist/index.js');
+        const extensions = await module('@gltf-transform/extensions/dist/index.js');
+        for (const file of ['forest.glb', 'expanded.glb']) {
+            const found = await readAccessors(core, extensions, readFileSync(join(folder, file)));
+            expectFacts(file, found);
+            expect(file, 'accessors with wrong numbers', found.wrong, 0);
+            expect(file, 'bytes of an instance', found.bytes, file === 'forest.glb' ? 40 : 0);
+            ++files;
+        }
+    },
+
+    async 'forest-usda'() {
+        const found = readUsdaForest(readFileSync(join(folder, 'forest.usda'), 'utf8'));
+        expectFacts('forest.usda', found);
+        expect('forest.usda', 'trees', found.trees, facts().trees);
+        expect('forest.usda', 'it has pictures', found.pictures.length > 0, true);
+        found.pictures.forEach(picture => expectPicture('forest.usda', picture));
+        ++files;
     },
 };
 

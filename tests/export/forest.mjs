@@ -1,0 +1,124 @@
+// What an instanced forest is for readers of others: branches, triangles and bounds in the world.
+
+class Extent {
+    low = [Infinity, Infinity, Infinity];
+    high = [-Infinity, -Infinity, -Infinity];
+    add(point) {
+        point.forEach((x, i) => {
+            this.low[i] = Math.min(this.low[i], x);
+            this.high[i] = Math.max(this.high[i], x);
+        });
+    }
+}
+
+/// As three.js has loaded it. An instance is counted once, whatever its primitives.
+export async function instancedForest(three, gltf) {
+    const extent = new Extent();
+    let branches = 0;
+    let triangles = 0;
+    const at = new three.Vector3();
+    const matrix = new three.Matrix4();
+    gltf.scene.updateMatrixWorld(true);
+    const nodes = gltf.parser.json.nodes;
+    for (let n = 0; n < nodes.length; ++n) {
+        if (nodes[n].mesh === undefined) {
+            continue;
+        }
+        const instancing = nodes[n].extensions?.EXT_mesh_gpu_instancing;
+        const count = instancing === undefined
+            ? 1 : gltf.parser.json.accessors[instancing.attributes.TRANSLATION].count;
+        branches += instancing === undefined ? 0 : count;
+        const object = await gltf.parser.getDependency('node', n);
+        let meshes = 0;
+        object.traverse(mesh => {
+            if (!mesh.isMesh) {
+                return;
+            }
+            ++meshes;
+            if (instancing !== undefined && !(mesh.isInstancedMesh && mesh.count === count)) {
+                throw new Error(`node ${n} has no ${count} instances`);
+            }
+            const { index, attributes } = mesh.geometry;
+            triangles += index.count / 3 * count;
+            const vertices = [...new Set(index.array)];
+            for (let i = 0; i < count; ++i) {
+                matrix.copy(mesh.matrixWorld);
+                if (mesh.isInstancedMesh) {
+                    const own = new three.Matrix4();
+                    mesh.getMatrixAt(i, own);
+                    matrix.multiply(own);
+                }
+                for (const vertex of vertices) {
+                    at.fromBufferAttribute(attributes.position, vertex).applyMatrix4(matrix);
+                    extent.add([at.x, at.y, at.z]);
+                }
+            }
+        });
+        if (meshes !== gltf.parser.json.meshes[nodes[n].mesh].primitives.length) {
+            throw new Error(`node ${n} has ${meshes} meshes`);
+        }
+    }
+    return { branches, triangles, low: extent.low, high: extent.high };
+}
+
+function turned([x, y, z, w], [a, b, c]) {
+    const t = [2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)];
+    return [a + w * t[0] + y * t[2] - z * t[1], b + w * t[1] + z * t[0] - x * t[2],
+            c + w * t[2] + x * t[1] - y * t[0]];
+}
+
+/// As glTF-Transform reads it, with or without the extension. `bytes`: of an instance's attributes.
+export async function readAccessors(core, extensions, file) {
+    const io = new core.NodeIO().registerExtensions([extensions.EXTMeshGPUInstancing]);
+    const document = await io.readBinary(new Uint8Array(file));
+    const root = document.getRoot();
+    const found = { branches: 0, triangles: 0, wrong: 0, bytes: 0 };
+    for (const accessor of root.listAccessors()) {
+        const array = accessor.getArray();
+        const fits = array.length === accessor.getCount() * accessor.getElementSize();
+        found.wrong += fits && array.every(Number.isFinite) ? 0 : 1;
+    }
+    const extent = new Extent();
+    const vertices = new Map(); // of each mesh
+    const verticesOf = mesh => {
+        if (!vertices.has(mesh)) {
+            vertices.set(mesh, mesh.listPrimitives().flatMap(primitive => {
+                const position = primitive.getAttribute('POSITION');
+                return [...new Set(primitive.getIndices().getArray())].map(
+                    i => position.getElement(i, []));
+            }));
+        }
+        return vertices.get(mesh);
+    };
+    const place = (mesh, translation, rotation, scale) => {
+        found.triangles += mesh.listPrimitives().reduce(
+            (sum, primitive) => sum + primitive.getIndices().getCount() / 3, 0);
+        found.wrong += Math.abs(Math.hypot(...rotation) - 1) < 1e-5 ? 0 : 1;
+        for (const vertex of verticesOf(mesh)) {
+            extent.add(turned(rotation, vertex.map((x, k) => x * scale[k])).map(
+                (x, k) => x + translation[k]));
+        }
+    };
+    for (const node of root.listNodes()) {
+        const mesh = node.getMesh();
+        if (mesh === null) {
+            continue;
+        }
+        const batch = node.getExtension('EXT_mesh_gpu_instancing');
+        if (batch === null) {
+            found.branches += mesh.getName() === 'ground' ? 0 : 1;
+            place(mesh, node.getTranslation(), node.getRotation(), node.getScale());
+            continue;
+        }
+        const attributes = ['TRANSLATION', 'ROTATION', 'SCALE'].map(name => batch.getAttribute(name));
+        const count = attributes[0].getCount();
+        found.branches += count;
+        found.wrong += attributes.every(a => a.getCount() === count) ? 0 : 1;
+        found.bytes = attributes.reduce(
+            (sum, a) => sum + a.getElementSize() * a.getComponentSize(), 0);
+        for (let i = 0; i < count; ++i) {
+            place(mesh, ...attributes.map(a => a.getElement(i, [])));
+        }
+    }
+    return { ...found, low: extent.low, high: extent.high };
+}

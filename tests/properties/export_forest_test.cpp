@@ -1,0 +1,375 @@
+// Forests as files: counts, limits, and bytes that do not depend on threads.
+#include "runtime/export_forest.h"
+#include "tests/support/forest.h"
+#include "tests/support/lsc_run.h"
+#include "tests/support/mesh_checks.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+using namespace lsys;
+using nlohmann::json;
+using test::plant;
+
+namespace {
+
+const std::string kBush = "#set names letters; #object l LEAF; #w : A;"
+                          "#p : A : ~ 0.5 : F[+Al][-A]/A; #q : A : ~ 0.5 : F[+A]//Al;";
+
+/// A forest with its surfaces.
+struct Wood {
+    Forest forest;
+    std::vector<std::vector<InstanceMeshes>> meshes;
+
+    void add_species(const std::string& grammar, std::uint32_t generations, float rho = 0.6F) {
+        CacheOptions options;
+        options.heroes = 10;
+        ForestSpecies& species = forest.species.emplace_back();
+        species.name = "species " + std::to_string(forest.species.size());
+        ForestStage& stage = species.stages.emplace_back();
+        stage.generations = generations;
+        stage.cache = plant(grammar, generations, rho, options).cache;
+        InstanceMeshes& made = meshes.emplace_back().emplace_back();
+        REQUIRE(make_instance_meshes(stage.cache, {}, {}, made) == InstanceMeshStatus::Ok);
+    }
+    void add_trees(std::uint32_t count) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            Tree tree;
+            tree.number = i;
+            tree.position = {static_cast<float>(i * 37 % 1009) - 500.0F, 0.0F,
+                             static_cast<float>(i * 59 % 1013) - 500.0F};
+            tree.yaw = 0.1F * static_cast<float>(i % 60);
+            tree.scale = 0.5F + 0.01F * static_cast<float>(i % 100);
+            tree.species = static_cast<std::uint16_t>(i % forest.species.size());
+            forest.trees.push_back(tree);
+        }
+    }
+    [[nodiscard]] ForestScene scene(const Mesh* ground = nullptr) const {
+        return {forest, meshes, ground};
+    }
+};
+
+struct Exported {
+    ForestExportStatus status = ForestExportStatus::Ok;
+    std::string bytes;
+    json document; // of a GLB
+    std::string_view buffer() const { return std::string_view(bytes).substr(buffer_at); }
+    std::size_t buffer_at = 0;
+};
+
+Exported exported(const ForestScene& scene,
+                  ForestFormat format,
+                  ForestForm form = ForestForm::Instanced,
+                  float cell = 0.0F,
+                  std::uint32_t threads = 1) {
+    ForestExportInfo info;
+    info.name = "wood";
+    info.cell = cell;
+    info.threads = threads;
+    Exported result;
+    result.status = export_forest(scene, format, form, info, [&](std::string_view bytes) {
+        result.bytes += bytes;
+        return true;
+    });
+    if (result.status == ForestExportStatus::Ok && format == ForestFormat::Glb) {
+        std::uint32_t size = 0;
+        std::memcpy(&size, result.bytes.data() + 12, sizeof size);
+        result.document = json::parse(result.bytes.substr(20, size));
+        result.buffer_at = 28 + std::size_t{size};
+        CHECK(result.buffer().size() == result.document["buffers"][0]["byteLength"]);
+    }
+    return result;
+}
+
+std::uint64_t instances_in(const json& document) {
+    std::uint64_t count = 0;
+    for (const json& node : document["nodes"]) {
+        if (node.contains("extensions")) {
+            const json& attributes = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+            count += document["accessors"][attributes["TRANSLATION"].get<std::size_t>()]["count"]
+                         .get<std::uint64_t>();
+        }
+    }
+    return count;
+}
+
+/// Corners of all triangles, summed up, and their bounds: what does not depend on an order.
+struct Shape {
+    glm::dvec3 sum{0.0};
+    Bounds bounds;
+    std::uint64_t triangles = 0;
+};
+
+Shape shape_of(const Mesh& mesh) {
+    Shape shape;
+    for (const std::uint32_t index : mesh.indices) {
+        shape.sum += glm::dvec3(mesh.positions[index]);
+        shape.bounds.add(mesh.positions[index]);
+    }
+    shape.triangles = mesh.indices.size() / 3;
+    return shape;
+}
+
+} // namespace
+
+TEST_CASE("an instance takes forty bytes of a GLB, whatever the cells") {
+    Wood wood;
+    wood.add_species(kBush, 5);
+    wood.add_species(kBush, 4);
+    wood.add_trees(700);
+    const Exported one = exported(wood.scene(), ForestFormat::Glb);
+    REQUIRE(one.status == ForestExportStatus::Ok);
+    const std::uint64_t branches = one.document["nodes"][0]["extras"]["branches"];
+    CHECK(instances_in(one.document) == branches);
+    CHECK(one.document["extensionsUsed"] == json::array({"EXT_mesh_gpu_instancing"}));
+    CHECK(one.document["extensionsRequired"] == json::array({"EXT_mesh_gpu_instancing"}));
+    std::uint64_t without = 0;
+    for (const auto& of_species : wood.meshes) {
+        // Indices and vertices: positions, normals, texture coordinates, tangents, colours.
+        without += of_species[0].mesh.indices.size() * 4;
+    }
+    CHECK(one.buffer().size() > without + 40 * branches);
+    for (const float cell : {100.0F, 33.0F}) {
+        const Exported cells =
+            exported(wood.scene(), ForestFormat::Glb, ForestForm::Instanced, cell);
+        CHECK(instances_in(cells.document) == branches);
+        CHECK(cells.buffer().size() == one.buffer().size());
+        CHECK(cells.document["nodes"][0]["children"].size() > 1);
+        // A cell has the trees that stand in it.
+        for (const json& node : cells.document["nodes"]) {
+            const std::string name = node.value("name", "");
+            if (name.rfind("cell ", 0) == 0) {
+                CHECK_FALSE(node["children"].empty());
+            }
+        }
+    }
+}
+
+TEST_CASE("a forest has the same bytes for any number of threads") {
+    Wood wood;
+    wood.add_species(kBush, 5);
+    wood.add_trees(800);
+    for (const ForestFormat format : {ForestFormat::Glb, ForestFormat::Gltf, ForestFormat::Usda}) {
+        const Exported one = exported(wood.scene(), format, ForestForm::Instanced, 200.0F, 1);
+        const Exported four = exported(wood.scene(), format, ForestForm::Instanced, 200.0F, 4);
+        CHECK(one.status == ForestExportStatus::Ok);
+        CHECK(one.bytes == four.bytes);
+    }
+    Mesh one;
+    Mesh four;
+    CHECK(bake_forest(wood.scene(), ~std::uint64_t{0}, 1, one) == MeshStatus::Ok);
+    CHECK(bake_forest(wood.scene(), ~std::uint64_t{0}, 4, four) == MeshStatus::Ok);
+    CHECK(one.positions == four.positions);
+    CHECK(one.indices == four.indices);
+}
+
+TEST_CASE("the instances of a GLB stand where the baked forest has its triangles") {
+    Wood wood;
+    wood.add_species(kBush, 5);
+    wood.add_trees(60);
+    Mesh baked;
+    REQUIRE(bake_forest(wood.scene(), ~std::uint64_t{0}, 0, baked) == MeshStatus::Ok);
+    test::check_mesh(baked, {});
+    const Shape wanted = shape_of(baked);
+    const Exported file = exported(wood.scene(), ForestFormat::Glb, ForestForm::Instanced, 300.0F);
+    const json& document = file.document;
+    const auto floats = [&](std::size_t accessor) {
+        const json& a = document["accessors"][accessor];
+        const json& view = document["bufferViews"][a["bufferView"].get<std::size_t>()];
+        const std::size_t width = a["type"] == "VEC4" ? 4 : 3;
+        std::vector<float> values(a["count"].get<std::size_t>() * width);
+        std::memcpy(values.data(),
+                    file.buffer().data() + view.value("byteOffset", std::size_t{0}) +
+                        a.value("byteOffset", std::size_t{0}),
+                    values.size() * sizeof(float));
+        return values;
+    };
+    const Mesh& mesh = wood.meshes[0][0].mesh;
+    Shape found;
+    for (const json& node : document["nodes"]) {
+        if (!node.contains("extensions")) {
+            continue;
+        }
+        const json& attributes = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+        const std::vector<float> t = floats(attributes["TRANSLATION"]);
+        const std::vector<float> r = floats(attributes["ROTATION"]);
+        const std::vector<float> s = floats(attributes["SCALE"]);
+        const json& primitives = document["meshes"][node["mesh"].get<std::size_t>()]["primitives"];
+        for (std::size_t i = 0; i < t.size() / 3; ++i) {
+            const glm::dquat turn(static_cast<double>(r[4 * i + 3]), static_cast<double>(r[4 * i]),
+                                  static_cast<double>(r[4 * i + 1]),
+                                  static_cast<double>(r[4 * i + 2]));
+            CHECK(std::abs(glm::length(turn) - 1.0) < 1e-6);
+            for (const json& primitive : primitives) {
+                const json& a = document["accessors"][primitive["indices"].get<std::size_t>()];
+                const std::size_t first = a["byteOffset"].get<std::size_t>() / 4;
+                const auto count = a["count"].get<std::size_t>();
+                found.triangles += count / 3;
+                for (std::size_t k = first; k < first + count; ++k) {
+                    const glm::dvec3 at(mesh.positions[mesh.indices[k]]);
+                    const glm::dvec3 place =
+                        glm::dvec3(glm::vec3(t[3 * i], t[3 * i + 1], t[3 * i + 2])) +
+                        static_cast<double>(s[3 * i]) * (turn * at);
+                    found.sum += place;
+                    found.bounds.add(glm::vec3(place));
+                }
+            }
+        }
+    }
+    CHECK(found.triangles == wanted.triangles);
+    CHECK(glm::distance(found.bounds.low, wanted.bounds.low) < 1e-3F);
+    CHECK(glm::distance(found.bounds.high, wanted.bounds.high) < 1e-3F);
+    CHECK(glm::distance(found.sum, wanted.sum) < 1e-4 * 3.0 * static_cast<double>(found.triangles));
+}
+
+TEST_CASE("transforms of more instances than are held at once are all there") {
+    Wood wood;
+    wood.add_species("#set names letters; #w : F; #p : F : * : F;", 1);
+    constexpr std::uint32_t kTrees = (1U << 21) + 5;
+    wood.add_trees(kTrees);
+    const Exported file = exported(wood.scene(), ForestFormat::Glb);
+    REQUIRE(file.status == ForestExportStatus::Ok);
+    std::uint64_t count = 0;
+    for (const json& node : file.document["nodes"]) {
+        if (!node.contains("extensions")) {
+            continue;
+        }
+        const json& attributes = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+        const json& accessors = file.document["accessors"];
+        const json& t = accessors[attributes["TRANSLATION"].get<std::size_t>()];
+        const json& s = accessors[attributes["SCALE"].get<std::size_t>()];
+        const std::size_t view =
+            file.document["bufferViews"][t["bufferView"].get<std::size_t>()]["byteOffset"];
+        count += t["count"].get<std::uint64_t>();
+        const auto value = [&](const json& accessor, std::size_t item) {
+            float at = 0.0F;
+            std::memcpy(&at,
+                        file.buffer().data() + view + accessor["byteOffset"].get<std::size_t>() +
+                            12 * item,
+                        sizeof at);
+            return at;
+        };
+        if (t["count"] == kTrees) { // all are of one hero
+            for (const std::uint32_t i : {0U, 1U, 77U, kTrees - 1}) {
+                CHECK(std::abs(value(t, i) - wood.forest.trees[i].position.x) < 1e-3F);
+                CHECK(value(s, i) == wood.forest.trees[i].scale);
+            }
+        }
+    }
+    CHECK(count == kTrees);
+}
+
+TEST_CASE("a forest that cannot be written is refused before a byte is") {
+    Wood wood;
+    wood.add_species(kBush, 4);
+    CHECK(exported(wood.scene(), ForestFormat::Glb).status == ForestExportStatus::Nothing);
+    wood.add_trees(20);
+    Wood bare;
+    bare.add_species("#w : A; #p : A : * : [A] A;", 2);
+    bare.add_trees(20);
+    for (const ForestFormat format : {ForestFormat::Glb, ForestFormat::Usda}) {
+        const Exported nothing = exported(bare.scene(), format);
+        CHECK(nothing.status == ForestExportStatus::Nothing);
+        CHECK(nothing.bytes.empty());
+    }
+    Wood many;
+    many.add_species("#set names letters; #w : F; #p : F : * : F;", 1);
+    many.add_trees(kMostForestNodes + 1);
+    const Exported nodes = exported(many.scene(), ForestFormat::Glb, ForestForm::Expanded);
+    CHECK(nodes.status == ForestExportStatus::TooManyNodes);
+    CHECK(nodes.bytes.empty());
+
+    std::size_t pieces = 0;
+    const ForestExportStatus stopped = export_forest(
+        wood.scene(), ForestFormat::Glb, ForestForm::Instanced, {}, [&](std::string_view) {
+            ++pieces;
+            return false;
+        });
+    CHECK(stopped == ForestExportStatus::Stopped);
+    CHECK(pieces == 1);
+
+    Mesh baked;
+    REQUIRE(bake_forest(wood.scene(), ~std::uint64_t{0}, 0, baked) == MeshStatus::Ok);
+    const std::uint64_t bytes = baked.byte_count();
+    CHECK(bake_forest(wood.scene(), bytes, 0, baked) == MeshStatus::Ok);
+    CHECK(bake_forest(wood.scene(), bytes - 1, 0, baked) == MeshStatus::Limit);
+    CHECK(baked.positions.empty());
+    CHECK(bake_forest(wood.scene(), 1000, 0, baked) == MeshStatus::Limit);
+}
+
+TEST_CASE("a ground without trees is a forest, and is baked with its material") {
+    Wood wood;
+    wood.add_species(kBush, 4);
+    Mesh ground;
+    ground.positions = {{0, 0, 0}, {0, 0, 9}, {9, 0, 0}};
+    ground.normals = {{0, 1, 0}, {0, 1, 0}, {0, 1, 0}};
+    ground.indices = {0, 1, 2};
+    ground.materials.emplace_back().name = "ground";
+    ground.parts.push_back({0, 0, 3});
+    const Exported file = exported(wood.scene(&ground), ForestFormat::Glb);
+    REQUIRE(file.status == ForestExportStatus::Ok);
+    CHECK_FALSE(file.document.contains("extensionsRequired"));
+    CHECK(file.document["meshes"].size() == 1);
+    wood.add_trees(3);
+    Mesh baked;
+    REQUIRE(bake_forest(wood.scene(&ground), ~std::uint64_t{0}, 0, baked) == MeshStatus::Ok);
+    CHECK(baked.tangents.empty()); // as those of the ground
+    CHECK(baked.materials.size() == wood.meshes[0][0].mesh.materials.size() + 1);
+    CHECK(baked.materials.back().name == "ground");
+    CHECK(baked.parts.back().index_count == 3);
+}
+
+TEST_CASE("trees that look the same are not counted twice, whatever they are made of") {
+    Wood same;
+    same.add_species("#set turtle houdini; #set names letters; #w : A; "
+                     "#p : A : * : !\"F[&A][//&A]////[^A]F;",
+                     5);
+    same.add_trees(500);
+    CHECK(count_different_trees(same.forest, 0) == 1);
+    Wood heroes;
+    heroes.add_species(kBush, 6, 0.0F);
+    heroes.add_trees(500);
+    CHECK(count_different_trees(heroes.forest, 0) == 10);
+    Wood bushes;
+    bushes.add_species(kBush, 8);
+    bushes.add_trees(2000);
+    const std::uint64_t different = count_different_trees(bushes.forest, 1);
+    CHECK(different > 1900);
+    CHECK(different == count_different_trees(bushes.forest, 4));
+}
+
+TEST_CASE("statistics of a forest add up") {
+    Wood wood;
+    wood.add_species(kBush, 5);
+    wood.add_species(kBush, 3);
+    wood.add_trees(101);
+    const json stats = json::parse(forest_stats_json(wood.scene(), {.different_trees = true}));
+    const ForestCounts counts = count_forest(wood.forest, 0);
+    CHECK(stats["trees"] == 101);
+    CHECK(stats["branches"] == counts.branches);
+    CHECK(stats["segments"] == counts.segments);
+    CHECK(stats["species"].size() == 2);
+    CHECK(stats["species"][0]["trees"] == 51);
+    CHECK(stats["different_trees"] > 2);
+    Mesh baked;
+    REQUIRE(bake_forest(wood.scene(), ~std::uint64_t{0}, 0, baked) == MeshStatus::Ok);
+    CHECK(stats["triangles"] == baked.indices.size() / 3);
+    for (const json& species : stats["species"]) {
+        const json& stage = species["stages"][0];
+        std::uint64_t hits = 0;
+        std::uint64_t recorded = 0;
+        for (const json& key : stage["keys"]) {
+            hits += key["hits"].get<std::uint64_t>();
+            recorded += key["recorded"].get<std::uint64_t>() + key["misses"].get<std::uint64_t>();
+        }
+        CHECK(hits == stage["hits"]);
+        CHECK(recorded == stage["instances"]);
+        CHECK(stage["hit_rate"] > 0.5);
+    }
+    CHECK_FALSE(json::parse(forest_stats_json(wood.scene(), {})).contains("different_trees"));
+}
