@@ -13,9 +13,9 @@ PlaceWriter::PlaceWriter(const Program& program,
     : program_(program), sources_(sources), runs_(bytecode.template_places) {
     spellings_.reserve(program.symbols.size());
     for (const Symbol& symbol : program.symbols) {
-        spellings_.push_back({static_cast<std::uint32_t>(names.text(symbol.name).size()),
-                              symbol.parameter_count != 0 &&
-                                  symbol.turtle != TurtleOperation::SaveBranch});
+        spellings_.push_back(
+            {static_cast<std::uint32_t>(names.text(symbol.name).size()),
+             symbol.parameter_count != 0 && symbol.turtle != TurtleOperation::SaveBranch});
     }
 }
 

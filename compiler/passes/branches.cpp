@@ -210,7 +210,7 @@ private:
                 add_module(word, index, arguments);
                 break;
             case SymbolKind::PolygonClose:
-                polygons -= polygons > 0 ? 1 : 0;
+                polygons -= polygons > 0 ? 1U : 0U;
                 if (!open_.empty() && polygons < open_.back().polygons) {
                     across_polygon(word, open_.back().index);
                     open_.back().polygons = polygons;

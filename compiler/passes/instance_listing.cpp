@@ -70,7 +70,7 @@ private:
         for (std::uint32_t form = 0; form < count; ++form) {
             std::uint32_t taken = 0;
             for (std::uint32_t c = 0; c < sites.size(); ++c) {
-                taken += (form >> c & 1U) == 0 ? 1 : 0;
+                taken += (form >> c & 1U) == 0 ? 1U : 0U;
             }
             const auto recorded = static_cast<std::uint32_t>(sites.size()) - taken;
             const double probability =

@@ -2,6 +2,7 @@
 
 #include "grammar/diagnostic.h"
 #include "runtime/cli/arguments.h"
+#include "runtime/cli/option_parsers.h"
 #include "runtime/turtle.h"
 
 #include <CLI/CLI.hpp>
@@ -16,69 +17,6 @@
 #include <vector>
 
 namespace lsys::lsc {
-
-namespace {
-
-/// Every command's options while they are parsed.
-struct AllCommands {
-    CheckCommand check;
-    CompileCommand compile;
-    DumpCommand dump;
-    ExportCommand exported;
-    StatsCommand stats;
-    FormatCommand format;
-    ExplainCommand explain;
-};
-
-/// An option whose value `parse` reads into `target`.
-template <typename Target, typename Parse>
-CLI::Option*
-add_parsed(CLI::App& app, const std::string& name, Target& target, Parse parse, const char* text) {
-    return app.add_option_function<std::string>(
-        name,
-        [&target, parse, name](const std::string& value) {
-            auto parsed = parse(value);
-            if (!parsed) {
-                throw CLI::ValidationError(name.substr(name.rfind(',') + 1),
-                                           parsed.error().message);
-            }
-            target = static_cast<Target>(std::move(parsed.value()));
-        },
-        text);
-}
-
-/// An option that takes one of a few words.
-template <typename Target>
-CLI::Option* add_choice(CLI::App& app,
-                        const std::string& name,
-                        Target& target,
-                        std::vector<std::pair<std::string, Target>> choices,
-                        const char* text) {
-    std::string words;
-    for (const auto& choice : choices) {
-        words += (words.empty() ? "" : "|") + choice.first;
-    }
-    const auto parse = [choices = std::move(choices),
-                        words](const std::string& value) -> Result<Target> {
-        for (const auto& [word, meaning] : choices) {
-            if (word == value) {
-                return meaning;
-            }
-        }
-        return Error{choices.size() == 1 ? fmt::format("`{}` is not `{}`", value, words)
-                                         : fmt::format("`{}` is none of {}", value, words)};
-    };
-    return add_parsed(app, name, target, parse, text)->type_name(words);
-}
-
-auto whole(std::uint64_t low, std::uint64_t high) {
-    return [low, high](const std::string& text) { return parse_whole(text, low, high); };
-}
-
-/// A number from 0 to 1.
-Result<float> fraction(const std::string& text) {
-    return parse_number(text, 0.0F, 1.0F);
-}
 
 void add_messages(CLI::App& app, MessageOptions& options) {
     app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
@@ -150,29 +88,6 @@ void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed) {
         ->group("Grammar");
 }
 
-void add_check(CLI::App& app, CheckCommand& command) {
-    app.add_option("FILE", command.files, "Grammars; `-` is standard input")->required();
-    app.add_flag("--fix", command.fix, "Apply every repair that is certain to the files");
-    add_grammar(app, command.grammar);
-    add_messages(app, command.messages);
-    add_deny(app, command.messages);
-    app.footer("Exit status: 0 no errors, 1 errors in a grammar, 2 a file or the command line.\n"
-               "Example: lsc check --fix tree.lsys");
-}
-
-void add_compile(CLI::App& app, CompileCommand& command) {
-    app.add_option("FILE", command.file, "The grammar; `-` is standard input")->required();
-    app.add_option("-o,--output", command.output, "The .lsb file; `-` is standard output")
-        ->required()
-        ->type_name("FILE");
-    add_grammar(app, command.grammar);
-    add_seed(app, command.seed);
-    add_messages(app, command.messages);
-    add_deny(app, command.messages);
-    app.footer("-n and --seed take the place of #n and `#set seed` in what is written.\n"
-               "Example: lsc compile tree.lsys -o tree.lsb");
-}
-
 void add_run_limits(CLI::App& app, std::uint64_t& max_bytes, std::uint32_t& threads) {
     max_bytes = half_of_memory();
     add_parsed(
@@ -219,6 +134,43 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
                "Bending of leaves by gravity, 0 to 1 (default 0)")
         ->type_name("D")
         ->group("Mesh");
+}
+
+namespace {
+
+/// Every command's options while they are parsed.
+struct AllCommands {
+    CheckCommand check;
+    CompileCommand compile;
+    DumpCommand dump;
+    ExportCommand exported;
+    ForestCommand forest;
+    StatsCommand stats;
+    FormatCommand format;
+    ExplainCommand explain;
+};
+
+void add_check(CLI::App& app, CheckCommand& command) {
+    app.add_option("FILE", command.files, "Grammars; `-` is standard input")->required();
+    app.add_flag("--fix", command.fix, "Apply every repair that is certain to the files");
+    add_grammar(app, command.grammar);
+    add_messages(app, command.messages);
+    add_deny(app, command.messages);
+    app.footer("Exit status: 0 no errors, 1 errors in a grammar, 2 a file or the command line.\n"
+               "Example: lsc check --fix tree.lsys");
+}
+
+void add_compile(CLI::App& app, CompileCommand& command) {
+    app.add_option("FILE", command.file, "The grammar; `-` is standard input")->required();
+    app.add_option("-o,--output", command.output, "The .lsb file; `-` is standard output")
+        ->required()
+        ->type_name("FILE");
+    add_grammar(app, command.grammar);
+    add_seed(app, command.seed);
+    add_messages(app, command.messages);
+    add_deny(app, command.messages);
+    app.footer("-n and --seed take the place of #n and `#set seed` in what is written.\n"
+               "Example: lsc compile tree.lsys -o tree.lsb");
 }
 
 void add_dump(CLI::App& app, DumpCommand& command) {
@@ -442,6 +394,8 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
     CLI::App& compile = *app.add_subcommand("compile", "Compile a grammar to a .lsb file");
     CLI::App& dump = *app.add_subcommand("dump", "Derive a word and print it");
     CLI::App& exported = *app.add_subcommand("export", "Write one plant as a 3D file or a drawing");
+    CLI::App& forest =
+        *app.add_subcommand("forest", "Grow a forest of distinct plants from a few, and write it");
     CLI::App& stats = *app.add_subcommand("stats", "Predict the size of every generation");
     CLI::App& format = *app.add_subcommand("fmt", "Lay out grammars in the common style");
     CLI::App& explain = *app.add_subcommand("explain", "Explain a diagnostic, with examples");
@@ -449,6 +403,7 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
     add_compile(compile, all.compile);
     add_dump(dump, all.dump);
     add_export(exported, all.exported);
+    add_forest(forest, all.forest);
     add_stats(stats, all.stats);
     add_format(format, all.format);
     add_explain(explain, all.explain);
@@ -479,6 +434,9 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
     }
     if (exported.parsed()) {
         return std::move(all.exported);
+    }
+    if (forest.parsed()) {
+        return std::move(all.forest);
     }
     if (stats.parsed()) {
         return std::move(all.stats);

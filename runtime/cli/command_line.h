@@ -27,6 +27,7 @@ using CommandLine = std::variant<PrintText,
                                  CompileCommand,
                                  DumpCommand,
                                  ExportCommand,
+                                 ForestCommand,
                                  StatsCommand,
                                  FormatCommand,
                                  ExplainCommand>;

@@ -46,6 +46,9 @@ struct Dispatch {
     Status operator()(const ExportCommand& command) const {
         return run_export(command, {io, command.messages});
     }
+    Status operator()(const ForestCommand& command) const {
+        return run_forest(command, {io, command.messages});
+    }
     Status operator()(const StatsCommand& command) const {
         return run_stats(command, {io, command.messages});
     }

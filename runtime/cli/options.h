@@ -7,6 +7,7 @@
 #include "runtime/export.h"
 #include "runtime/mesh.h"
 #include "runtime/physics.h"
+#include "runtime/placement.h"
 
 #include <cstdint>
 #include <optional>
@@ -91,6 +92,44 @@ struct ExportCommand {
     float frames_per_second = 24.0F;
     bool stream = false;
     bool stats = false;
+};
+
+/// A tile of an unbounded forest: a square of `size` metres, `column` along X and `row` along Z.
+struct ForestTile {
+    std::int64_t column = 0;
+    std::int64_t row = 0;
+    double size = 0.0;
+};
+
+/// What is left out is the scene's.
+struct ForestCommand {
+    MessageOptions messages;
+    GrammarOptions grammar;
+    std::vector<std::string> files; // one scene, or grammars
+    std::string output;             // empty: none
+    std::optional<std::uint64_t> key;
+    std::optional<std::uint64_t> seed; // of the heroes
+    std::optional<std::uint32_t> heroes;
+    std::optional<float> rho;
+    std::optional<std::uint32_t> cache_cap;
+    std::optional<float> tolerance;
+    std::optional<PlacementMethod> method;
+    std::optional<std::uint64_t> count;
+    std::optional<float> size;    // m, of a square around the origin
+    std::optional<float> spacing; // m
+    std::optional<float> density; // places a square metre
+    std::string density_map;
+    std::optional<std::uint32_t> years;
+    std::optional<ForestTile> tile;
+    bool expand = false;
+    bool bake = false;
+    float cell = 0.0F; // m, of the squares whose instances are one node; 0: all are
+    std::uint32_t frames = 0;
+    bool check = false;
+    bool stats = false;
+    MeshOptions mesh;
+    std::uint32_t threads = 0; // 0: as many as the machine has
+    std::uint64_t max_bytes = 0;
 };
 
 struct StatsCommand {

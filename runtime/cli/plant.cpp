@@ -28,62 +28,6 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Shows the turtle's faults, and what ended it.
-Status tell_drawn(TurtleStatus status,
-                  const Turtle& turtle,
-                  const PlantRequest& request,
-                  const Grammar& grammar,
-                  const Console& console) {
-    Diagnostics diagnostics;
-    for (Diagnostic& diagnostic : turtle_diagnostics(turtle.faults(), *grammar.bytecode)) {
-        diagnostics.add(std::move(diagnostic));
-    }
-    if (status == TurtleStatus::Limit || status == TurtleStatus::OutOfMemory) {
-        diagnostics.add(plant_limit_diagnostic("the skeleton", request.max_bytes));
-    }
-    const Status shown = console.show(diagnostics, grammar.sources);
-    switch (status) {
-    case TurtleStatus::Ok:
-    case TurtleStatus::Fault:
-        return shown;
-    case TurtleStatus::Limit:
-    case TurtleStatus::OutOfMemory:
-        return Status::Limit;
-    case TurtleStatus::Cancelled:
-        return Status::Interrupted;
-    }
-    return Status::Failure;
-}
-
-/// Reads the mesh files of `#object`, which lie beside the grammar unless their path is absolute.
-/// `lengths` are those of the symbols.
-Result<Done> read_user_meshes(const std::string& grammar_file,
-                              const Bytecode& bytecode,
-                              const Console& console,
-                              std::vector<UserMesh>& meshes,
-                              std::vector<float>& lengths) {
-    const std::filesystem::path folder = std::filesystem::path(grammar_file).parent_path();
-    for (std::size_t i = 0; i < bytecode.symbols.size(); ++i) {
-        const BytecodeSymbol& symbol = bytecode.symbols[i];
-        if (symbol.turtle != TurtleOperation::MeshFile) {
-            continue;
-        }
-        const std::string path = (folder / symbol.mesh_file).string();
-        Result<std::string> text = read_file(path, ~std::uint64_t{0}, console);
-        if (!text) {
-            return text.error();
-        }
-        Result<UserMesh> mesh = read_obj(text.value());
-        if (!mesh) {
-            return Error{fmt::format("cannot use `{}`: {}", path, mesh.error().message)};
-        }
-        lengths.resize(bytecode.symbols.size(), 1.0F);
-        lengths[i] = mesh.value().length();
-        meshes.push_back(std::move(mesh.value()));
-    }
-    return Done{};
-}
-
 /// The derivation, then the drawing of its last word.
 Status draw_stored(const DeriveOptions& options,
                    const Grammar& grammar,
@@ -138,6 +82,59 @@ Status draw_streamed(const DeriveOptions& options,
 }
 
 } // namespace
+
+Status tell_drawn(TurtleStatus status,
+                  const std::array<TurtleFault, kTurtleFaultKinds>& faults,
+                  std::uint64_t max_bytes,
+                  const Grammar& grammar,
+                  const Console& console) {
+    Diagnostics diagnostics;
+    for (Diagnostic& diagnostic : turtle_diagnostics(faults, *grammar.bytecode)) {
+        diagnostics.add(std::move(diagnostic));
+    }
+    if (status == TurtleStatus::Limit || status == TurtleStatus::OutOfMemory) {
+        diagnostics.add(plant_limit_diagnostic("the skeleton", max_bytes));
+    }
+    const Status shown = console.show(diagnostics, grammar.sources);
+    switch (status) {
+    case TurtleStatus::Ok:
+    case TurtleStatus::Fault:
+        return shown;
+    case TurtleStatus::Limit:
+    case TurtleStatus::OutOfMemory:
+        return Status::Limit;
+    case TurtleStatus::Cancelled:
+        return Status::Interrupted;
+    }
+    return Status::Failure;
+}
+
+Result<Done> read_user_meshes(const std::string& grammar_file,
+                              const Bytecode& bytecode,
+                              const Console& console,
+                              std::vector<UserMesh>& meshes,
+                              std::vector<float>& lengths) {
+    const std::filesystem::path folder = std::filesystem::path(grammar_file).parent_path();
+    for (std::size_t i = 0; i < bytecode.symbols.size(); ++i) {
+        const BytecodeSymbol& symbol = bytecode.symbols[i];
+        if (symbol.turtle != TurtleOperation::MeshFile) {
+            continue;
+        }
+        const std::string path = (folder / symbol.mesh_file).string();
+        Result<std::string> text = read_file(path, ~std::uint64_t{0}, console);
+        if (!text) {
+            return text.error();
+        }
+        Result<UserMesh> mesh = read_obj(text.value());
+        if (!mesh) {
+            return Error{fmt::format("cannot use `{}`: {}", path, mesh.error().message)};
+        }
+        lengths.resize(bytecode.symbols.size(), 1.0F);
+        lengths[i] = mesh.value().length();
+        meshes.push_back(std::move(mesh.value()));
+    }
+    return Done{};
+}
 
 void fold_modules(const DeriveOptions& options, Grammar& grammar) {
     if (std::optional<Bytecode> folded =
@@ -195,7 +192,7 @@ grow_plant(const PlantRequest& request, Grammar& grammar, const Console& console
     if (drawn == TurtleStatus::Ok) {
         drawn = turtle.finish();
     }
-    const Status told = tell_drawn(drawn, turtle, request, grammar, console);
+    const Status told = tell_drawn(drawn, turtle.faults(), request.max_bytes, grammar, console);
     plant.skeleton = turtle.take_skeleton();
     return told;
 }

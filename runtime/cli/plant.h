@@ -7,7 +7,9 @@
 #include "runtime/derive.h"
 #include "runtime/mesh.h"
 #include "runtime/skeleton.h"
+#include "runtime/turtle.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -50,6 +52,21 @@ struct Plant {
     double derive_seconds = 0.0; // with drawing, where no word is stored
     double draw_seconds = 0.0;
 };
+
+/// Shows the turtle's faults, and what ended it.
+[[nodiscard]] Status tell_drawn(TurtleStatus status,
+                                const std::array<TurtleFault, kTurtleFaultKinds>& faults,
+                                std::uint64_t max_bytes,
+                                const Grammar& grammar,
+                                const Console& console);
+
+/// Reads the mesh files of `#object`, which lie beside the grammar unless their path is absolute.
+/// `lengths` are those of the symbols.
+[[nodiscard]] Result<Done> read_user_meshes(const std::string& grammar_file,
+                                            const Bytecode& bytecode,
+                                            const Console& console,
+                                            std::vector<UserMesh>& meshes,
+                                            std::vector<float>& lengths);
 
 /// Folds what a derivation from the axiom can reach: grammar.bytecode becomes a program that
 /// derives the same words faster, with codes of its own.

@@ -1,0 +1,211 @@
+#include "runtime/cli/grow_forest.h"
+
+#include "compiler/instance.h"
+#include "runtime/cli/files.h"
+#include "runtime/cli/grammar_file.h"
+#include "runtime/cli/plant.h"
+#include "runtime/cli/tell.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <utility>
+
+namespace lsys::lsc {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string path_in(const std::string& folder, const std::string& path) {
+    return (std::filesystem::path(folder) / path).string();
+}
+
+Result<GreyMap> read_map(const std::string& path,
+                         std::uint32_t columns,
+                         std::uint32_t rows,
+                         const Console& console) {
+    Result<std::string> bytes = read_file(path, ~std::uint64_t{0}, console);
+    if (!bytes) {
+        return bytes.error();
+    }
+    Result<GreyMap> map =
+        columns != 0 ? read_grey_raw(bytes.value(), columns, rows) : read_grey_png(bytes.value());
+    if (!map) {
+        return Error{fmt::format("cannot use `{}`: {}", path, map.error().message)};
+    }
+    return map;
+}
+
+Result<Terrain>
+make_terrain(const SceneTerrain& terrain, const std::string& folder, const Console& console) {
+    switch (terrain.kind) {
+    case TerrainKind::Flat:
+        return Terrain::flat(terrain.region, terrain.base);
+    case TerrainKind::Noise:
+        return Terrain::noise(terrain.region, terrain.noise);
+    case TerrainKind::HeightMap:
+        break;
+    }
+    Result<GreyMap> map =
+        read_map(path_in(folder, terrain.map.path), terrain.map_columns, terrain.map_rows, console);
+    if (!map) {
+        return map.error();
+    }
+    return Terrain::height_map(terrain.region, std::move(map.value()), terrain.height_map);
+}
+
+/// The heroes of one species with one number of generations.
+Status grow_stage(const SceneSpecies& species,
+                  const std::string& path,
+                  std::optional<std::uint32_t> generations,
+                  const ForestLimits& limits,
+                  const Console& console,
+                  ForestStage& stage,
+                  std::vector<UserMesh>& user_meshes) {
+    GrammarOptions options;
+    options.generations = generations;
+    options.max_modules = limits.max_modules;
+    for (const SceneDefinition& definition : species.definitions) {
+        options.definitions.push_back({definition.name, definition.value});
+    }
+    Grammar grammar;
+    const Status loaded = load_grammar(path, options, console, grammar);
+    if (loaded != Status::Fine) {
+        return loaded;
+    }
+    if (!grammar.program) {
+        return fail(Error{fmt::format("`{}` is compiled; a forest needs the grammar itself", path)},
+                    console);
+    }
+    Diagnostics diagnostics;
+    stage.generations = generations.value_or(grammar.bytecode->generations.value_or(0));
+    std::optional<InstancedSystem> system = compile_instanced(
+        std::move(*grammar.program), grammar.names, grammar.sources, species.rho, diagnostics);
+    const Status shown = console.show(diagnostics, grammar.sources);
+    if (!system) {
+        return shown;
+    }
+    grammar.program.reset();
+    grammar.bytecode = std::move(system->bytecode);
+    CacheOptions cache = species.cache;
+    cache.generations = stage.generations;
+    cache.knows_up = system->knows_up;
+    cache.threads = limits.threads;
+    cache.limits = {limits.max_modules, limits.max_bytes};
+    cache.max_bytes = limits.max_bytes;
+    cache.cancelled = console.io().interrupted;
+    user_meshes.clear();
+    if (const Result<Done> read =
+            read_user_meshes(path, *grammar.bytecode, console, user_meshes, cache.mesh_lengths);
+        !read) {
+        return fail(read.error(), console);
+    }
+    const CacheOutcome outcome = make_instance_cache(*grammar.bytecode, cache, stage.cache);
+    const Status derived =
+        tell(outcome.derived, outcome.error, outcome.limit, cache.limits, grammar, console);
+    if (derived != Status::Fine) {
+        return derived;
+    }
+    const Status drawn =
+        tell_drawn(outcome.drawn, outcome.faults, limits.max_bytes, grammar, console);
+    const bool any_hit = std::any_of(stage.cache.slots.begin(), stage.cache.slots.end(),
+                                     [](const InstanceSlot& slot) { return slot.hits != 0; });
+    if (drawn == Status::Fine && system->kind_count != 0 && species.rho > 0.0F && !any_hit) {
+        console.info(fmt::format("{}: no branch was ever taken, because no two have equal keys, so "
+                                 "instancing adds nothing; --instance-tolerance lets them differ",
+                                 species.name));
+    }
+    return drawn;
+}
+
+} // namespace
+
+Status
+load_scene(const std::string& path, const Console& console, SourceMap& sources, Scene& scene) {
+    Result<std::string> text = read_file(path, kMaxSourceBytes, console);
+    if (!text) {
+        return fail(text.error(), console);
+    }
+    const FileId file = sources.add(shown_path(path), std::move(text.value()));
+    Diagnostics diagnostics;
+    std::optional<Scene> read = parse_scene(file, sources, diagnostics);
+    const Status shown = console.show(diagnostics, sources);
+    if (!read) {
+        return worse(shown, Status::AuthorErrors);
+    }
+    scene = std::move(*read);
+    return shown;
+}
+
+Status grow_species(const Scene& scene,
+                    const std::string& folder,
+                    const ForestLimits& limits,
+                    const Console& console,
+                    GrownForest& grown) {
+    Result<Terrain> terrain = make_terrain(scene.terrain, folder, console);
+    if (!terrain) {
+        return fail(Error{fmt::format("terrain: {}", terrain.error().message)}, console);
+    }
+    grown.terrain.emplace(std::move(terrain.value()));
+    if (!scene.density_map.path.empty()) {
+        Result<GreyMap> map = read_map(path_in(folder, scene.density_map.path), 0, 0, console);
+        if (!map) {
+            return fail(map.error(), console);
+        }
+        grown.density_map = std::move(map.value());
+    }
+    const Clock::time_point start = Clock::now();
+    grown.forest.key = scene.placement.key;
+    for (const SceneSpecies& species : scene.species) {
+        ForestSpecies& made = grown.forest.species.emplace_back();
+        made.name = species.name;
+        made.years_of_stage = species.years_of_stage;
+        std::vector<UserMesh>& meshes = grown.user_meshes.emplace_back();
+        const std::size_t stages = std::max<std::size_t>(species.stages.size(), 1);
+        for (std::size_t i = 0; i < stages; ++i) {
+            const std::optional<std::uint32_t> generations =
+                species.stages.empty() ? std::nullopt : std::optional(species.stages[i]);
+            const Status status =
+                grow_stage(species, path_in(folder, species.grammar.path), generations, limits,
+                           console, made.stages.emplace_back(), meshes);
+            if (status != Status::Fine) {
+                return status;
+            }
+        }
+    }
+    grown.cache_seconds = seconds_since(start);
+    return Status::Fine;
+}
+
+Status place_forest(const Scene& scene,
+                    const ForestLimits& limits,
+                    const Console& console,
+                    GrownForest& grown) {
+    const Clock::time_point start = Clock::now();
+    PlacementOptions options = scene.placement;
+    options.threads = limits.threads;
+    if (grown.density_map) {
+        options.density_map = &*grown.density_map;
+        options.map_region = scene.terrain.region;
+    }
+    Result<Placement> placed = place_trees(options, *grown.terrain);
+    if (!placed) {
+        return fail(Error{fmt::format("placement: {}", placed.error().message)}, console);
+    }
+    grown.forest.trees = std::move(placed.value().trees);
+    grown.placed = placed.value().report;
+    grown.place_seconds = seconds_since(start);
+    if (const std::string note = placement_note(grown.placed); !note.empty()) {
+        console.info(note);
+    }
+    return Status::Fine;
+}
+
+} // namespace lsys::lsc

@@ -1,0 +1,79 @@
+// What the options of several commands share: how values are read, and the options themselves.
+#pragma once
+
+#include "runtime/cli/arguments.h"
+#include "runtime/cli/options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lsys::lsc {
+
+/// An option whose value `parse` reads into `target`.
+template <typename Target, typename Parse>
+CLI::Option*
+add_parsed(CLI::App& app, const std::string& name, Target& target, Parse parse, const char* text) {
+    return app.add_option_function<std::string>(
+        name,
+        [&target, parse, name](const std::string& value) {
+            auto parsed = parse(value);
+            if (!parsed) {
+                throw CLI::ValidationError(name.substr(name.rfind(',') + 1),
+                                           parsed.error().message);
+            }
+            target = static_cast<Target>(std::move(parsed.value()));
+        },
+        text);
+}
+
+/// An option that takes one of a few words.
+template <typename Target>
+CLI::Option* add_choice(CLI::App& app,
+                        const std::string& name,
+                        Target& target,
+                        std::vector<std::pair<std::string, Target>> choices,
+                        const char* text) {
+    std::string words;
+    for (const auto& choice : choices) {
+        words += (words.empty() ? "" : "|") + choice.first;
+    }
+    const auto parse = [choices = std::move(choices),
+                        words](const std::string& value) -> Result<Target> {
+        for (const auto& [word, meaning] : choices) {
+            if (word == value) {
+                return meaning;
+            }
+        }
+        return Error{choices.size() == 1 ? fmt::format("`{}` is not `{}`", value, words)
+                                         : fmt::format("`{}` is none of {}", value, words)};
+    };
+    return add_parsed(app, name, target, parse, text)->type_name(words);
+}
+
+inline auto whole(std::uint64_t low, std::uint64_t high) {
+    return [low, high](const std::string& text) { return parse_whole(text, low, high); };
+}
+
+/// A number from 0 to 1.
+inline Result<float> fraction(const std::string& text) {
+    return parse_number(text, 0.0F, 1.0F);
+}
+
+void add_messages(CLI::App& app, MessageOptions& options);
+void add_deny(CLI::App& app, MessageOptions& options);
+void add_dialect(CLI::App& app, std::string& dialect);
+void add_grammar(CLI::App& app, GrammarOptions& options);
+void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed);
+void add_run_limits(CLI::App& app, std::uint64_t& max_bytes, std::uint32_t& threads);
+
+/// The options of `lsc forest`.
+void add_forest(CLI::App& app, ForestCommand& command);
+
+} // namespace lsys::lsc

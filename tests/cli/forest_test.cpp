@@ -1,0 +1,121 @@
+// `lsc forest` as a user runs it.
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using lsys::tests::LscRun;
+using lsys::tests::read_text;
+using lsys::tests::run_lsc;
+using lsys::tests::ScratchFolder;
+using lsys::tests::write_text;
+
+const char* const kBush = "#n = 5; #set names letters; #set angle 25; #w : A;"
+                          "#p : A : ~ 0.5 : F[+A][-A]/A; #q : A : ~ 0.3 : F[+A]//A;"
+                          "#r : A : ~ 0.2 : FF[&A]F;";
+
+/// The number behind `name` in statistics, at base 10 or 16.
+std::uint64_t number_of(const std::string& text, const std::string& name, int base) {
+    const std::size_t at = text.find(name);
+    REQUIRE(at != std::string::npos);
+    return std::stoull(text.substr(text.find_first_not_of(' ', at + name.size())), nullptr, base);
+}
+
+struct Forest {
+    std::uint64_t trees = 0;
+    std::uint64_t digest = 0;
+};
+
+Forest grow(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "forest");
+    arguments.emplace_back("--stats");
+    const LscRun run = run_lsc(arguments, "");
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    return {number_of(run.out, "trees ", 10), number_of(run.out, "digest ", 16)};
+}
+
+} // namespace
+
+TEST_CASE("a forest says how many of its trees differ") {
+    const ScratchFolder folder;
+    write_text(folder / "bush.lsys", kBush);
+    const LscRun run = run_lsc({"forest", folder / "bush.lsys", "--count", "2000", "--stats"}, "");
+    CHECK(run.status == 0);
+    CHECK(run.out.find("trees      2000, ") == 0);
+    CHECK(number_of(run.out, "2000, ", 10) > 1'000);
+}
+
+TEST_CASE("the same key gives the same forest on any number of threads") {
+    const ScratchFolder folder;
+    write_text(folder / "bush.lsys", kBush);
+    const std::string file = folder / "bush.lsys";
+    const Forest one = grow({file, "--key", "7", "--threads", "1", "--count", "20000"});
+    const Forest two = grow({file, "--key", "7", "--threads", "2", "--count", "20000"});
+    const Forest other = grow({file, "--key", "8", "--count", "20000"});
+    CHECK(one.trees == 20'000);
+    CHECK(one.digest == two.digest);
+    CHECK(one.digest != other.digest);
+}
+
+TEST_CASE("tiles of a forest together are the whole, tree by tree") {
+    const ScratchFolder folder;
+    write_text(folder / "bush.lsys", kBush);
+    const std::string file = folder / "bush.lsys";
+    const std::vector<std::string> placement =
+        GENERATE(std::vector<std::string>{"--placement", "jittered", "--spacing", "3"},
+                 std::vector<std::string>{"--placement", "uniform-cells", "--density", "0.1"},
+                 std::vector<std::string>{"--placement", "poisson-cells", "--spacing", "4"});
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), file);
+        more.insert(more.end(), placement.begin(), placement.end());
+        return more;
+    };
+    const Forest whole = grow(with({"--tile", "0,0,100"}));
+    Forest sum;
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            const Forest tile =
+                grow(with({"--tile", std::to_string(column) + "," + std::to_string(row) + ",25"}));
+            sum.trees += tile.trees;
+            sum.digest += tile.digest;
+        }
+    }
+    CHECK(whole.trees > 300);
+    CHECK(sum.trees == whole.trees);
+    CHECK(sum.digest == whole.digest); // of every branch of every tree
+}
+
+TEST_CASE("a forest without plants of its own says why") {
+    const ScratchFolder folder;
+    const std::string file = folder / "a.lsys";
+    const auto fails = [&](const char* grammar, std::vector<std::string> more, int status,
+                           const std::string& what) {
+        write_text(file, grammar);
+        more.insert(more.begin(), {"forest", file});
+        const LscRun run = run_lsc(more, "");
+        INFO(run.err);
+        CHECK(run.status == status);
+        CHECK(run.err.find(what) != std::string::npos);
+        CHECK(run.out.empty());
+    };
+    fails(kBush, {}, 2, "nothing is asked for");
+    fails(kBush, {"--stats", "--heroes", "0"}, 2, "--heroes");
+    fails(kBush, {"--stats", "--rho", "1.5"}, 2, "--rho");
+    fails(kBush, {"--stats", "--count", "1000000000"}, 2, "--count");
+    fails(kBush, {"--stats", "--tile", "0,0,10"}, 2, "--tile");
+    fails(kBush, {"--stats", "--tile", "0,0"}, 2, "column,row,size");
+    fails(kBush, {"--frames", "3", "-o", folder / "x.glb"}, 2, "domination");
+    fails(kBush, {"-o", folder / "x.txt"}, 2, "format");
+    fails(kBush, {"-o", folder / "x.glb", "--expand", "--bake"}, 2, "--expand");
+    fails("#n = 2; #w : A B; #p : A > B : * : F [A] A;", {"--stats"}, 1, "not-instanceable");
+    fails("#n = 2; #w : A", {"--stats"}, 1, "missing-semicolon");
+    CHECK(!std::filesystem::exists(folder / "x.glb"));
+}
