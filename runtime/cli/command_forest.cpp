@@ -504,7 +504,7 @@ Status run_forest(const ForestCommand& command, const Console& console) {
     }
     const ForestLimits limits{command.threads, command.grammar.max_modules, command.max_bytes};
     Run run{command, console, target.value(), scene, {}, {}, {}};
-    Status status = grow_species(scene, folder, limits, console, run.grown);
+    Status status = grow_species(scene, sources, folder, limits, console, run.grown);
     if (status != Status::Fine || command.check) {
         return status;
     }

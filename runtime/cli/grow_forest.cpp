@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace lsys::lsc {
@@ -25,6 +26,20 @@ double seconds_since(Clock::time_point start) {
 
 std::string path_in(const std::string& folder, const std::string& path) {
     return (std::filesystem::path(folder) / path).string();
+}
+
+/// An error about a file, where the scene names it.
+Status fail_at(const SceneFile& file,
+               const Error& error,
+               const SourceMap& sources,
+               const Console& console) {
+    if (file.span.file == kNoFile) {
+        return fail(error, console);
+    }
+    Diagnostics diagnostics;
+    diagnostics.add(DiagnosticCode::BadSceneValue, file.span, error.message);
+    static_cast<void>(console.show(diagnostics, sources));
+    return Status::Failure;
 }
 
 Result<GreyMap> read_map(const std::string& path,
@@ -145,25 +160,35 @@ load_scene(const std::string& path, const Console& console, SourceMap& sources, 
 }
 
 Status grow_species(const Scene& scene,
+                    const SourceMap& sources,
                     const std::string& folder,
                     const ForestLimits& limits,
                     const Console& console,
                     GrownForest& grown) {
     Result<Terrain> terrain = make_terrain(scene.terrain, folder, console);
     if (!terrain) {
-        return fail(Error{fmt::format("terrain: {}", terrain.error().message)}, console);
+        return fail_at(scene.terrain.map,
+                       Error{fmt::format("terrain: {}", terrain.error().message)}, sources,
+                       console);
     }
     grown.terrain.emplace(std::move(terrain.value()));
     if (!scene.density_map.path.empty()) {
         Result<GreyMap> map = read_map(path_in(folder, scene.density_map.path), 0, 0, console);
         if (!map) {
-            return fail(map.error(), console);
+            return fail_at(scene.density_map, map.error(), sources, console);
         }
         grown.density_map = std::move(map.value());
     }
     const Clock::time_point start = Clock::now();
     grown.forest.key = scene.placement.key;
     for (const SceneSpecies& species : scene.species) {
+        std::error_code ignored;
+        if (!std::filesystem::exists(path_in(folder, species.grammar.path), ignored)) {
+            return fail_at(
+                species.grammar,
+                Error{fmt::format("there is no file `{}`", path_in(folder, species.grammar.path))},
+                sources, console);
+        }
         ForestSpecies& made = grown.forest.species.emplace_back();
         made.name = species.name;
         made.years_of_stage = species.years_of_stage;

@@ -39,8 +39,10 @@ struct GrownForest {
 [[nodiscard]] Status
 load_scene(const std::string& path, const Console& console, SourceMap& sources, Scene& scene);
 
-/// Everything but the trees. Paths are relative to `folder`.
+/// Everything but the trees. Paths are relative to `folder`; what cannot be read is shown where the
+/// scene names it.
 [[nodiscard]] Status grow_species(const Scene& scene,
+                                  const SourceMap& sources,
                                   const std::string& folder,
                                   const ForestLimits& limits,
                                   const Console& console,
