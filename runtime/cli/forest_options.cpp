@@ -129,7 +129,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     app.add_flag("--bake", command.bake, "One mesh of all triangles");
     add_parsed(app, "--cell", command.cell, metres(0.0F),
                "Side of the squares of ground whose trees are instanced together; 0: all are "
-               "(default 0)")
+               "(default 100)")
         ->type_name("METRES");
     add_parsed(app, "--key", command.key,
                whole(0, static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())),

@@ -123,7 +123,7 @@ struct ForestCommand {
     std::optional<ForestTile> tile;
     bool expand = false;
     bool bake = false;
-    float cell = 0.0F; // m, of the squares whose instances are one node; 0: all are
+    float cell = 100.0F; // m, of the squares whose instances are one node; 0: all are
     std::uint32_t frames = 0;
     bool check = false;
     bool stats = false;
