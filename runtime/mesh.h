@@ -69,6 +69,9 @@ struct MeshOptions {
     std::uint32_t level = 0;
     /// Sides of every cross-section; 0: as the skeleton says.
     std::uint32_t sides = 0;
+    /// Of Tubes, in metres: each ring has as few sides as keep it so near to its circle, and at
+    /// most those of its level; 0: all have those of their level.
+    float deviation = 0.0F;
     bool texture_coordinates = true;
     bool tangents = true;
     bool colours = true;

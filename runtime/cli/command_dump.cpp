@@ -25,8 +25,8 @@ std::string find_conflict(const DumpCommand& command) {
     const bool meshes = command.stage == Stage::Mesh;
     const bool draws = meshes || command.stage == Stage::Skeleton;
     if (!meshes && command.mesh != MeshOptions{}) {
-        return "only --stage mesh makes a mesh, so --method, --sides, --level, --subdivisions, "
-               "--bark-noise and --droop do not go with another stage";
+        return "only --stage mesh makes a mesh, so --method, --sides, --level, --deviation, "
+               "--subdivisions, --bark-noise and --droop do not go with another stage";
     }
     if (meshes && command.origins) {
         return "a mesh names its segments, whose origins --stage skeleton prints: --origins does "

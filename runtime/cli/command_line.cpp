@@ -121,6 +121,14 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
                "Level of detail: 0 the finest, each next one with about half the sides (default 0)")
         ->type_name("K")
         ->group("Mesh");
+    constexpr float kMaxDeviation = 1000.0F;
+    add_parsed(
+        app, "--deviation", mesh.deviation,
+        [](const std::string& text) { return parse_number(text, 0.0F, kMaxDeviation); },
+        "Give each ring of a tube only the sides that keep it so near to its circle; 0: all "
+        "(default 0)")
+        ->type_name("METRES")
+        ->group("Mesh");
     constexpr std::uint64_t kMaxSubdivisions = 5;
     add_parsed(app, "--subdivisions", mesh.subdivisions, whole(0, kMaxSubdivisions),
                "Rounds of smoothing of --method boxes (default 2)")

@@ -28,6 +28,7 @@ constexpr std::uint32_t kMostLevels = 8;
 constexpr float kHidden = 0.9F;
 constexpr float kThickestBranch = 1.5F; // in radii of the parent; above, the base is closed
 constexpr float kCollarSlope = 0.13F;
+constexpr float kLeastSine = 0.5F;  // of the angle of a branch, that a collar allows for
 constexpr float kMostOfEdge = 0.7F; // that a collar may take
 constexpr float kMostParts = 16.0F; // of an edge that is cut for noise
 
@@ -59,20 +60,11 @@ bool coincide(const glm::vec3& a, const glm::vec3& b, float radius) {
     return !(greatest_coordinate(b - a) > kResolution * (greatest_coordinate(a) + radius));
 }
 
-/// Half of a side of the polygon with unit corners: sin(pi / sides).
-float half_side(std::uint32_t sides) {
-    const Direction& next = directions(sides)[1];
-    return 0.5F * std::sqrt((1.0F - next.cosine) * (1.0F - next.cosine) + next.sine * next.sine);
-}
 /// An odd number near `sides`. The width of a polygon varies with the view by 1 / cos(pi / 2n) for
 /// odd n and by 1 / cos(pi / n) for even n: five sides are nearer to round than eight, three than
 /// six.
 std::uint32_t fewer_sides(std::uint32_t sides) {
     return sides <= 3 ? 3 : sides == 4 ? 5 : (sides - 1) | 1U;
-}
-/// From its centre to the middle of a side: cos(pi / sides).
-float inner_radius(std::uint32_t sides) {
-    return std::sqrt(0.5F * (1.0F + directions(sides)[1].cosine));
 }
 
 } // namespace
@@ -80,14 +72,15 @@ float inner_radius(std::uint32_t sides) {
 AxisReader::AxisReader(const Skeleton& skeleton, const Axes& axes, const MeshOptions& options)
     : skeleton_(skeleton), axes_(axes), options_(options) {
     const std::uint32_t level = std::min(options.level, kMostLevels);
+    if (options.deviation > 0.0F) {
+        counts_.emplace(options.deviation);
+    }
     for (std::uint32_t i = 0; i < sides_.size(); ++i) {
         const std::uint32_t whole = usable_sides(options.sides != 0 ? options.sides : i);
         const std::uint32_t fewer = level == 0 ? whole : fewer_sides(whole >> level);
-        sides_[i] = static_cast<std::uint8_t>(fewer);
-        // The mean width of a convex shape is its circumference / pi (Cauchy), so a polygon of
-        // fewer sides is as wide as the first one if it is as long around.
-        widening_[i] = static_cast<float>(whole) * half_side(whole) /
-                       (static_cast<float>(fewer) * half_side(fewer));
+        sides_[i] = static_cast<std::uint8_t>(counts_ ? whole : fewer);
+        widening_[i] = counts_ ? 1.0F : widening(whole, fewer);
+        most_sides_[whole] = static_cast<std::uint8_t>(fewer);
     }
 }
 
@@ -111,6 +104,7 @@ bool AxisReader::read(Run& run) {
     joints_.clear();
     stale_ = false;
     plain_ = true;
+    flare_ = {};
     const Segment* last = nullptr;
     bool pointed = false;
     std::uint32_t at = segment_;
@@ -119,11 +113,11 @@ bool AxisReader::read(Run& run) {
         if (!(segment.length > 0.0F)) {
             continue;
         }
-        const float widening = widening_[segment.sides];
+        const float wider = widening_[segment.sides];
         const float radius =
-            drawn_radius(segment.base_radius * widening, segment.base, sides_of(segment));
-        const bool draws = radius > 0.0F || drawn_radius(segment.tip_radius * widening,
-                                                         segment.base, sides_of(segment)) > 0.0F;
+            drawn_radius(segment.base_radius * wider, segment.base, sides_of(segment));
+        const bool draws = radius > 0.0F || drawn_radius(segment.tip_radius * wider, segment.base,
+                                                         sides_of(segment)) > 0.0F;
         pointed = last != nullptr && radius == 0.0F;
         if (pointed || (last != nullptr && !draws)) {
             pointed = draws;
@@ -168,7 +162,13 @@ bool AxisReader::read(Run& run) {
     if (options_.bark_noise > 0.0F) {
         subdivide();
     }
-    if (!plain_ || options_.level > 0 || options_.bark_noise > 0.0F) {
+    if (counts_) {
+        fit_sides();
+        joints_.front().radius =
+            open ? std::min(joints_.front().radius, hidden_) : joints_.front().radius;
+        run.radii = radii_;
+    }
+    if (!plain_ || counts_ || options_.level > 0 || options_.bark_noise > 0.0F) {
         set_rings();
     }
     run.joints = joints_;
@@ -245,10 +245,14 @@ bool AxisReader::begins_in_parent(Run& run) {
         return false;
     }
     const std::uint32_t after = axes_.next[child.parent];
-    const float radius =
-        widening_[parent.sides] *
-        (after < kForked ? skeleton_.segments[after].base_radius : parent.tip_radius);
-    const float hidden = kHidden * inner_radius(sides_of(parent)) * radius;
+    float radius = widening_[parent.sides] *
+                   (after < kForked ? skeleton_.segments[after].base_radius : parent.tip_radius);
+    std::uint32_t sides = sides_of(parent);
+    if (counts_) {
+        sides = counts_->at(radius, most_sides_[sides_of(parent)]);
+        radius *= counts_->widening(sides_of(parent), sides);
+    }
+    const float hidden = kHidden * inner_radius(sides) * radius;
     Joint& base = joints_.front();
     if (!(parent.length > 0.0F) || base.radius > kThickestBranch * radius ||
         drawn_radius(hidden, base.centre, base.sides) == 0.0F) {
@@ -258,6 +262,8 @@ bool AxisReader::begins_in_parent(Run& run) {
         add_collar(parent, radius);
     }
     joints_.front().radius = std::min(joints_.front().radius, hidden);
+    hidden_ = hidden;
+    flare_[0] = std::min(flare_[0], hidden);
     return true;
 }
 
@@ -265,11 +271,18 @@ bool AxisReader::begins_in_parent(Run& run) {
 void AxisReader::add_collar(const Segment& parent, float parent_radius) {
     Joint& base = joints_[0];
     const float cosine = glm::dot(heading(parent.frame), base.heading);
-    const float sine = std::sqrt(std::max(1.0F - cosine * cosine, 0.25F));
+    const float sine = std::sqrt(std::max(1.0F - cosine * cosine, kLeastSine * kLeastSine));
     const float reach = parent_radius / sine + 1.5F * base.radius;
     if (!(reach < kMostOfEdge * base.length) || base.radius == 0.0F ||
         coincide(base.centre, base.centre + reach * base.heading, base.radius)) {
         return;
+    }
+    if (counts_ && !(options_.bark_noise > 0.0F)) {
+        // A plant that bends keeps its numbers of sides: they are those of the longest collar.
+        const float longest = parent_radius / kLeastSine + 1.5F * base.radius;
+        const float widest = std::max(joints_[1].radius - base.radius, 0.0F);
+        flare_ = {base.radius + kCollarSlope * longest,
+                  base.radius + widest * std::min(longest / base.length, 1.0F)};
     }
     Joint collar = base;
     collar.centre = base.centre + reach * base.heading;
@@ -308,6 +321,28 @@ void AxisReader::subdivide() {
     }
     spare_.push_back(joints_.back());
     joints_.swap(spare_);
+}
+
+/// Sides by radius, for joints that have all that they can have.
+void AxisReader::fit_sides() {
+    radii_.clear();
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+        Joint& joint = joints_[i];
+        radii_.push_back(joint.radius);
+        const bool flares = i < flare_.size() && flare_[i] > 0.0F;
+        const std::uint32_t sides =
+            counts_->at(flares ? flare_[i] : joint.radius, most_sides_[joint.sides]);
+        joint.radius =
+            std::min(joint.radius * counts_->widening(joint.sides, sides), kGreatestRadius);
+        joint.sides = static_cast<std::uint8_t>(sides);
+    }
+    // A pointed end has the sides of the ring beside it.
+    if (joints_.front().radius == 0.0F) {
+        joints_.front().sides = joints_[1].sides;
+    }
+    if (joints_.back().radius == 0.0F) {
+        joints_.back().sides = joints_[joints_.size() - 2].sides;
+    }
 }
 
 /// For joints that are not plain: how they bend, and none too thin for its neighbours.

@@ -4,9 +4,11 @@
 
 #include "runtime/mesh.h"
 #include "runtime/meshing/axes.h"
+#include "runtime/meshing/polygon_sides.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +36,9 @@ enum class TubeEnd : std::uint8_t {
 /// Joints without a gap, at least two.
 struct Run {
     std::span<const Joint> joints;
+    /// Of the joints, before each was widened for its own number of sides; empty if all have what
+    /// they were asked to have.
+    std::span<const float> radii;
     TubeEnd begin = TubeEnd::Flat;
     TubeEnd end = TubeEnd::Blunt;
     glm::vec3 side{}; // about perpendicular to the first heading, where u is 0
@@ -55,6 +60,7 @@ private:
     bool begins_in_parent(Run& run);
     void add_collar(const Segment& parent, float parent_radius);
     void subdivide();
+    void fit_sides();
     void set_rings();
     [[nodiscard]] std::uint8_t sides_of(const Segment& segment) const {
         return sides_[segment.sides];
@@ -65,6 +71,12 @@ private:
     const MeshOptions& options_;
     std::array<std::uint8_t, 256> sides_{}; // by those of the segment
     std::array<float, 256> widening_{};     // of the radius, for fewer sides
+    // Where sides depend on the radius, sides_ and joints have those of level 0, until fit_sides().
+    std::optional<SideCounts> counts_;
+    std::array<std::uint8_t, kMaxSides + 1> most_sides_{}; // of the level, by those of level 0
+    float hidden_ = 0.0F;          // radius that the corners of an open base have at most
+    std::array<float, 2> flare_{}; // radii of the collar at any angle; 0: none
+    std::vector<float> radii_;
     std::vector<Joint> joints_;
     std::vector<Joint> spare_;
     std::uint32_t segment_ = kNoSegment; // the next one to read

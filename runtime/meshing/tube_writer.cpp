@@ -81,7 +81,9 @@ float slope_of(const Run& run, std::size_t i) {
     const std::size_t low = i == 0 ? 0 : i - 1;
     const std::size_t high = std::min(i + 1, run.joints.size() - 1);
     const float length = (i == 0 ? 0.0F : run.joints[low].length) + run.joints[i].length;
-    const float slope = (run.joints[high].radius - run.joints[low].radius) / length;
+    const float rise = run.radii.empty() ? run.joints[high].radius - run.joints[low].radius
+                                         : run.radii[high] - run.radii[low];
+    const float slope = rise / length;
     return std::min(std::max(slope, -kGreatestSlope), kGreatestSlope); // without branches
 }
 

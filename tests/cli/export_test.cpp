@@ -223,8 +223,11 @@ TEST_CASE("with JSON messages, statistics of an export are one JSON object") {
 
 TEST_CASE("dump --stage mesh prints the mesh that export writes") {
     const ScratchFolder folder;
-    const std::vector<std::vector<std::string>> all{
-        {}, {"--sides", "5"}, {"--method", "boxes", "--subdivisions", "0"}, {"--level", "2"}};
+    const std::vector<std::vector<std::string>> all{{},
+                                                    {"--sides", "5"},
+                                                    {"--method", "boxes", "--subdivisions", "0"},
+                                                    {"--level", "2"},
+                                                    {"--deviation", "0.01"}};
     for (const std::vector<std::string>& options : all) {
         std::vector<std::string> dump{"dump", "--stage", "mesh", "--threads", "2", "-"};
         std::vector<std::string> written{"export", "-", "-o", folder / "a.off"};

@@ -87,6 +87,8 @@ TEST_CASE("random skeletons make good meshes at every level", "[mesh][tubes]") {
         options.level = seed % 4;
         options.sides = seed % 5 == 0 ? 3 + seed % 40 : 0;
         options.bark_noise = seed % 7 == 0 ? 0.3F : 0.0F;
+        options.deviation = seed % 2 == 0 ? 0.0F : 0.3F / static_cast<float>(seed);
+        options.segments = seed % 4 > 1;
         const Mesh mesh = tubes(skeleton, options);
         CHECK(mesh.positions.empty() == mesh.parts.empty());
     }

@@ -112,6 +112,8 @@ TEST_CASE("vertices of any tree hang on segments that they are at, by every meth
         const Skeleton plant = random_tree(seed, 3);
         for (const MeshOptions& options :
              {MeshOptions{}, MeshOptions{.level = 2}, MeshOptions{.level = 1, .bark_noise = 0.2F},
+              MeshOptions{.deviation = 0.003F},
+              MeshOptions{.level = 1, .deviation = 0.003F, .bark_noise = 0.2F},
               MeshOptions{.method = MeshMethod::Cylinders},
               MeshOptions{.method = MeshMethod::Boxes},
               MeshOptions{.method = MeshMethod::Boxes, .subdivisions = 0}}) {
