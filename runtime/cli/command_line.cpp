@@ -103,7 +103,6 @@ void add_run_limits(CLI::App& app, std::uint64_t& max_bytes, std::uint32_t& thre
         ->group("Limits");
 }
 
-/// What make_mesh() is asked for.
 void add_mesh(CLI::App& app, MeshOptions& mesh) {
     add_choice<MeshMethod>(app, "--method", mesh.method,
                            {{"tubes", MeshMethod::Tubes},
@@ -142,6 +141,35 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
                "Bending of leaves by gravity, 0 to 1 (default 0)")
         ->type_name("D")
         ->group("Mesh");
+}
+
+UsageError describe(const CLI::ParseError& error, const CLI::App& app, const std::string& command) {
+    UsageError usage;
+    usage.help = fmt::format("`{} --help` lists what may be written", command);
+    usage.message = error.what();
+    const auto is = [&](CLI::ExitCodes code) {
+        return error.get_exit_code() == static_cast<int>(code);
+    };
+    if (is(CLI::ExitCodes::ExtrasError)) {
+        const std::vector<std::string> extras = app.remaining(true);
+        const std::string extra = extras.empty() ? std::string() : extras.front();
+        usage.message = extra.starts_with('-') ? fmt::format("unknown option `{}`", extra)
+                                               : fmt::format("unexpected argument `{}`", extra);
+        std::vector<std::string> names;
+        for (const CLI::Option* option : app.get_options()) {
+            for (const std::string& name : option->get_lnames()) {
+                names.push_back("--" + name);
+            }
+        }
+        const std::vector<std::string_view> candidates(names.begin(), names.end());
+        if (const auto nearest = nearest_name(extra, candidates)) {
+            usage.help = fmt::format("did you mean `{}`?", *nearest);
+        }
+    } else if (is(CLI::ExitCodes::RequiredError)) {
+        usage.message =
+            fmt::format("{} is missing", usage.message.substr(0, usage.message.find(' ')));
+    }
+    return usage;
 }
 
 namespace {
@@ -325,37 +353,6 @@ void add_explain(CLI::App& app, ExplainCommand& command) {
     app.footer("Example: lsc explain look-alike");
 }
 
-/// The message that CLI11 has for a mistake, in this program's words, with the nearest name.
-UsageError describe(const CLI::ParseError& error, const CLI::App& app, const std::string& command) {
-    UsageError usage;
-    usage.help = fmt::format("`lsc {}{}--help` lists what may be written", command,
-                             command.empty() ? "" : " ");
-    usage.message = error.what();
-    const auto is = [&](CLI::ExitCodes code) {
-        return error.get_exit_code() == static_cast<int>(code);
-    };
-    if (is(CLI::ExitCodes::ExtrasError)) {
-        const std::vector<std::string> extras = app.remaining(true);
-        const std::string extra = extras.empty() ? std::string() : extras.front();
-        usage.message = extra.starts_with('-') ? fmt::format("unknown option `{}`", extra)
-                                               : fmt::format("unexpected argument `{}`", extra);
-        std::vector<std::string> names;
-        for (const CLI::Option* option : app.get_options()) {
-            for (const std::string& name : option->get_lnames()) {
-                names.push_back("--" + name);
-            }
-        }
-        const std::vector<std::string_view> candidates(names.begin(), names.end());
-        if (const auto nearest = nearest_name(extra, candidates)) {
-            usage.help = fmt::format("did you mean `{}`?", *nearest);
-        }
-    } else if (is(CLI::ExitCodes::RequiredError)) {
-        usage.message =
-            fmt::format("{} is missing", usage.message.substr(0, usage.message.find(' ')));
-    }
-    return usage;
-}
-
 /// The command of that name, or nothing.
 const CLI::App* find_command(const CLI::App& app, const std::string& name) {
     for (const CLI::App* command : app.get_subcommands({})) {
@@ -429,7 +426,7 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
         return PrintText{"lsc " LSC_VERSION "\n"};
     } catch (const CLI::ParseError& error) {
         return describe(error, command == nullptr ? app : *command,
-                        command == nullptr ? "" : command->get_name());
+                        command == nullptr ? "lsc" : "lsc " + command->get_name());
     }
     if (check.parsed()) {
         return std::move(all.check);

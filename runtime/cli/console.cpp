@@ -76,7 +76,7 @@ void Console::say(std::string_view severity, std::string_view message) const {
         io_.err << object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
                 << '\n';
     } else {
-        io_.err << "lsc: " << severity << ": " << message << '\n';
+        io_.err << io_.program << ": " << severity << ": " << message << '\n';
     }
 }
 
@@ -95,7 +95,7 @@ void Console::info(std::string_view message) const {
         if (options_.format == MessageFormat::Json) {
             say("note", message);
         } else {
-            io_.err << "lsc: " << message << '\n';
+            io_.err << io_.program << ": " << message << '\n';
         }
     }
 }

@@ -62,7 +62,7 @@ struct Dispatch {
 
 /// Without allocating: there is no memory.
 int out_of_memory(const Io& io) {
-    io.err << "lsc: error: out of memory\n" << std::flush;
+    io.err << io.program << ": error: out of memory\n" << std::flush;
     return static_cast<int>(Status::Limit);
 }
 

@@ -17,6 +17,7 @@ struct Io {
     bool err_is_terminal = false; // colour and progress on `auto`
     /// Becomes true on Ctrl-C; the run then ends with 130 as soon as it can.
     const std::atomic<bool>* interrupted = nullptr;
+    const char* program = "lsc"; // that speaks
 };
 
 /// Runs `lsc ARGUMENTS...` (without the program's name). Returns the exit status: 0 fine, 1 the

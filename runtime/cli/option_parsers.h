@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runtime/cli/arguments.h"
+#include "runtime/cli/command_line.h"
 #include "runtime/cli/options.h"
 
 #include <CLI/CLI.hpp>
@@ -66,11 +67,18 @@ inline Result<float> fraction(const std::string& text) {
     return parse_number(text, 0.0F, 1.0F);
 }
 
+/// The message that CLI11 has for a mistake, in this program's words, with the nearest name.
+/// `command` is what is written before the options of `app`.
+[[nodiscard]] UsageError
+describe(const CLI::ParseError& error, const CLI::App& app, const std::string& command);
+
 void add_messages(CLI::App& app, MessageOptions& options);
 void add_deny(CLI::App& app, MessageOptions& options);
 void add_dialect(CLI::App& app, std::string& dialect);
 void add_grammar(CLI::App& app, GrammarOptions& options);
 void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed);
+/// What make_mesh() is asked for.
+void add_mesh(CLI::App& app, MeshOptions& mesh);
 void add_run_limits(CLI::App& app, std::uint64_t& max_bytes, std::uint32_t& threads);
 
 /// The options of `lsc forest`.

@@ -8,8 +8,11 @@ set(allowed_grammar "grammar/.*")
 set(allowed_compiler "compiler/.*" "grammar/[^/]+")
 set(allowed_runtime "runtime/([^/]+|(derive|expressions|turtle|meshing|physics|export|terrain|placement|scene)/[^/]+)" "${contract}" "${base}")
 set(allowed_cli "runtime/cli/.*" "(grammar|compiler|runtime)/[^/]+")
-set(allowed_viewer "viewer/.*" "runtime/[^/]+" "compiler/(compile|program)\\.h" "${contract}"
-  "grammar/(render_diagnostic|parse|dialect)\\.h" "${base}")
+set(allowed_viewer "viewer/[^/]+" "runtime/[^/]+" "${base}")
+set(allowed_viewer_gl "viewer/([^/]+|gl/[^/]+)" "runtime/[^/]+" "${base}")
+# The program: it reads, compiles and grows as `lsc` does.
+set(allowed_viewer_app "viewer/([^/]+|app/[^/]+|gl/(headless|window)\\.h)" "runtime/([^/]+|cli/[^/]+)"
+  "(compiler|grammar)/[^/]+")
 
 set(failures "")
 file(GLOB_RECURSE sources RELATIVE "${ROOT}"
@@ -20,6 +23,8 @@ foreach(path ${sources})
   endif()
   if(path MATCHES "^runtime/cli/")
     set(folder cli)
+  elseif(path MATCHES "^viewer/(gl|app)/")
+    set(folder viewer_${CMAKE_MATCH_1})
   else()
     string(REGEX REPLACE "/.*" "" folder "${path}")
   endif()
@@ -43,7 +48,7 @@ foreach(path ${sources})
       # A header in a sub-folder belongs to the folder above it alone.
       if(fine AND included MATCHES "^([^/]+)/[^/]+/")
         set(owner "${CMAKE_MATCH_1}")
-        if(NOT path MATCHES "^${owner}/")
+        if(NOT path MATCHES "^${owner}/" AND NOT folder STREQUAL "viewer_app")
           set(fine FALSE)
         endif()
       endif()
@@ -57,7 +62,10 @@ foreach(path ${sources})
         list(APPEND failures "${path}:${number}: ${folder}/ may not include ${included}")
       endif()
     endif()
-    if(NOT folder MATCHES "^(cli|viewer)$" AND NOT path MATCHES "^grammar/contract\\.(h|cpp)$"
+    if(line MATCHES "#include <(epoxy|GL|EGL)/" AND NOT folder STREQUAL "viewer_gl")
+      list(APPEND failures "${path}: only viewer/gl knows OpenGL: ${line}")
+    endif()
+    if(NOT folder MATCHES "^(cli|viewer_app)$" AND NOT path MATCHES "^grammar/contract\\.(h|cpp)$"
         AND line MATCHES "(std::(cout|cerr|exit|abort)|[^a-z_]f?printf\\()")
       list(APPEND failures "${path}: a library may not print or end the process: ${line}")
     endif()

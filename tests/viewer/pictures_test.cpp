@@ -1,0 +1,174 @@
+// Pictures of lsview beside stored ones, which a person has looked at. LSYS_BLESS=1 in the
+// environment stores what is drawn now; look at it.
+#include "tests/viewer/lsview_run.h"
+#include "tests/viewer/picture.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+using namespace lsys::tests;
+
+namespace {
+
+struct Scene {
+    std::string name;
+    std::vector<std::string> arguments;
+};
+
+std::string stored(const std::string& name) {
+    return LSYS_SOURCE_DIR "/tests/viewer/pictures/" + name + ".png";
+}
+
+/// What lsview draws for `arguments`, as the bytes of a PNG.
+std::string drawn(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--screenshot", "-"});
+    LscRun run = run_lsview(arguments);
+    CAPTURE(run.err);
+    REQUIRE(run.status == 0);
+    return std::move(run.out);
+}
+
+void compare(const Scene& scene) {
+    CAPTURE(scene.name);
+    std::vector<std::string> arguments = scene.arguments;
+    arguments.insert(arguments.end(), {"--size", "320x240"});
+    const std::string png = drawn(arguments);
+    const char* const bless = std::getenv("LSYS_BLESS");
+    if (bless != nullptr && *bless == '1') {
+        write_text(stored(scene.name), png);
+    }
+    const Picture now = decode_picture(png);
+    const Picture then = read_picture(stored(scene.name));
+    REQUIRE(now.width == then.width);
+    REQUIRE(now.height == then.height);
+    const PictureDifference difference = difference_of(now, then);
+    CHECK(difference.mean < 1.0);
+    CHECK(difference.far < 0.01);
+}
+
+} // namespace
+
+TEST_CASE("plants look as they did") {
+    compare(GENERATE(values<Scene>({
+        {"bush", {sample("abop-1-25-bush")}},
+        {"carey-tree", {sample("carey-type-0")}},
+        {"koch-island", {sample("abop-1-6-koch-island")}},
+        {"hilbert-space", {sample("abop-1-19-hilbert-space")}},
+        {"ternary-tree", {sample("abop-2-8a")}},
+        {"thesis-7-1-bent", {sample("crankshaw-7-1"), "--gravity", "9.81"}},
+        {"thesis-7-1-wind", {sample("crankshaw-7-1"), "--wind", "3,0,0,0.5", "--time", "2"}},
+        {"flowers", {sample("abop-lychnis")}},
+        {"wireframe", {sample("crankshaw-7-3"), "--wireframe"}},
+        {"boxes", {sample("sys-figure-1"), "--method", "boxes"}},
+        {"near",
+         {sample("carey-type-0"), "--camera", "eye 2,1.2,2 target 0,1.5,0 fov 60", "--bark-noise",
+          "0.3"}},
+    })));
+}
+
+TEST_CASE("the same picture every run, and of any stripes") {
+    const std::vector<std::string> arguments = {sample("abop-1-25-bush"), "--size", "150x80"};
+    CHECK(drawn(arguments) == drawn(arguments));
+    // A picture of more pixels than are drawn at once, beside a smaller one of the same view.
+    const Picture large = decode_picture(drawn({sample("crankshaw-7-1"), "--size", "2600x2600"}));
+    const Picture small = decode_picture(drawn({sample("crankshaw-7-1"), "--size", "325x325"}));
+    Picture reduced{325, 325, std::vector<std::uint8_t>(std::size_t{4} * 325 * 325)};
+    for (std::size_t y = 0; y < 325; ++y) {
+        for (std::size_t x = 0; x < 325; ++x) {
+            for (std::size_t c = 0; c < 4; ++c) {
+                unsigned sum = 0;
+                for (std::size_t k = 0; k < 64; ++k) {
+                    sum += large.texels[4 * ((8 * y + k / 8) * 2600 + 8 * x + k % 8) + c];
+                }
+                reduced.texels[4 * (y * 325 + x) + c] = static_cast<std::uint8_t>(sum / 64);
+            }
+        }
+    }
+    const PictureDifference difference = difference_of(reduced, small);
+    CHECK(difference.mean < 2.0);
+    CHECK(difference.far < 0.02);
+}
+
+TEST_CASE("a picture may be one pixel") {
+    const Picture picture = decode_picture(drawn({sample("abop-1-24a"), "--size", "1x1"}));
+    CHECK(picture.width == 1);
+    CHECK(picture.height == 1);
+}
+
+TEST_CASE("a series has as many pictures as asked for, each another") {
+    const ScratchFolder folder;
+    const LscRun run =
+        run_lsview({sample("crankshaw-7-1"), "--screenshot", folder / "a.png", "--frames", "3",
+                    "--turntable", "--size", "64x48", "--stats", "-"});
+    CAPTURE(run.err);
+    REQUIRE(run.status == 0);
+    const std::string first = read_text(folder / "a.0001.png");
+    const std::string second = read_text(folder / "a.0002.png");
+    CHECK(first != second);
+    CHECK(second != read_text(folder / "a.0003.png"));
+    const nlohmann::json stats = nlohmann::json::parse(run.out);
+    CHECK(stats["pictures"] == 3);
+    CHECK(stats["errors"].empty());
+    CHECK(stats["triangles"] > stats["mesh_triangles"]);
+    CHECK(stats["width"] == 64);
+}
+
+TEST_CASE("wind moves a plant, and no wind leaves it as it is") {
+    const std::vector<std::string> still = {sample("crankshaw-7-1"), "--size", "160x120"};
+    std::vector<std::string> calm = still;
+    calm.insert(calm.end(), {"--wind", "0,0,0"});
+    CHECK(drawn(still) == drawn(calm));
+    std::vector<std::string> windy = still;
+    windy.insert(windy.end(), {"--wind", "15,0,0"});
+    CHECK(difference_of(decode_picture(drawn(still)), decode_picture(drawn(windy))).far > 0.001);
+}
+
+TEST_CASE("what cannot be shown ends with a message") {
+    struct Mistake {
+        std::vector<std::string> arguments;
+        int status;
+        std::string part;
+    };
+    const ScratchFolder folder;
+    write_text(folder / "bad.lsys", "#w : F(;\n");
+    const std::vector<Mistake> mistakes = {
+        {{}, 2, "FILE is missing"},
+        {{"none.lsys", "--screenshot", "-"}, 2, "none.lsys"},
+        {{folder / "bad.lsys", "--screenshot", "-"}, 1, "bad.lsys:1:"},
+        {{sample("abop-1-24a"), "--screenshot", "-", "--size", "16385x2"}, 2, "each 1 to 16384"},
+        {{sample("abop-1-24a"), "--screenshot", "-", "--size", "0x2"}, 2, "each 1 to 16384"},
+        {{sample("abop-1-24a"), "--screenshot", "-", "--size", "12"}, 2, "WIDTHxHEIGHT"},
+        {{sample("abop-1-24a"), "--screenshot", "-", "--camera", "up"}, 2, "--camera: a camera is"},
+        {{sample("abop-1-24a"), "--turntable"}, 2, "series of pictures"},
+        {{sample("abop-1-24a"), "--screenshot", "-", "--frames", "2"}, 2, "standard output"},
+        {{sample("abop-1-24a"), "--screenshot", "-", "--shaders", folder / "none"}, 2, "no shader"},
+        {{sample("abop-1-24a"), "--screenshot", folder / "no/such.png"}, 2, "such.png"},
+        {{sample("abop-1-24a"), "--screenshto", "-"}, 2, "did you mean `--screenshot`?"},
+    };
+    for (const Mistake& mistake : mistakes) {
+        CAPTURE(mistake.part);
+        const LscRun run = run_lsview(mistake.arguments);
+        CHECK(run.status == mistake.status);
+        CHECK(run.err.find(mistake.part) != std::string::npos);
+        CHECK(run.out.empty());
+    }
+}
+
+TEST_CASE("a shader with a mistake is shown with its place") {
+    const ScratchFolder folder;
+    const std::string shaders = LSYS_SOURCE_DIR "/viewer/shaders/";
+    for (const char* const name : {"frame.glsl", "light.glsl", "sky.vert.glsl"}) {
+        write_text(folder / name, read_text(shaders + name));
+    }
+    write_text(folder / "sky.frag.glsl",
+               "#include \"light.glsl\"\n\nout vec4 colour;\nvoid main() { x; }\n");
+    const LscRun run =
+        run_lsview({sample("abop-1-24a"), "--screenshot", "-", "--shaders", folder / ""});
+    CHECK(run.status == 2);
+    CAPTURE(run.err);
+    CHECK(run.err.find("sky.frag.glsl:4") != std::string::npos);
+}

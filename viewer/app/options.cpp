@@ -1,0 +1,157 @@
+#include "viewer/app/options.h"
+
+#include "runtime/cli/arguments.h"
+#include "runtime/cli/option_parsers.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lsys::view {
+
+namespace {
+
+using lsc::add_parsed;
+using lsc::parse_number;
+using lsc::whole;
+
+constexpr std::uint64_t kMostPixels = 16'384; // along a side of a picture
+constexpr std::uint64_t kMostFrames = 1'000'000;
+
+struct Size {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+};
+
+Result<Size> parse_picture_size(const std::string& text) {
+    const std::size_t cross = text.find('x');
+    const Result<std::uint64_t> width =
+        lsc::parse_whole(std::string_view(text).substr(0, cross), 1, kMostPixels);
+    const Result<std::uint64_t> height =
+        cross == std::string::npos
+            ? Result<std::uint64_t>(Error{})
+            : lsc::parse_whole(std::string_view(text).substr(cross + 1), 1, kMostPixels);
+    if (!width || !height) {
+        return Error{fmt::format("`{}` is no size of a picture; write WIDTHxHEIGHT, each 1 to {}",
+                                 text, kMostPixels)};
+    }
+    return Size{static_cast<std::uint32_t>(width.value()),
+                static_cast<std::uint32_t>(height.value())};
+}
+
+void add_picture(CLI::App& app, ViewOptions& options) {
+    app.add_option("--screenshot", options.screenshot,
+                   "Write a PNG instead of opening a window; no display is needed")
+        ->type_name("FILE")
+        ->group("Picture");
+    app.add_option_function<std::string>(
+           "--size",
+           [&options](const std::string& text) {
+               const Result<Size> size = parse_picture_size(text);
+               if (!size) {
+                   throw CLI::ValidationError("--size", size.error().message);
+               }
+               options.width = size.value().width;
+               options.height = size.value().height;
+           },
+           "Size of the window or picture in pixels (default 1280x720)")
+        ->type_name("WxH")
+        ->group("Picture");
+    app.add_option("--camera", options.camera,
+                   "Where from: `eye X,Y,Z target X,Y,Z fov DEGREES`, or parts of it (default: all "
+                   "is in view)")
+        ->type_name("LINE")
+        ->group("Picture");
+    constexpr float kLongest = 86'400.0F;
+    add_parsed(
+        app, "--time", options.time,
+        [](const std::string& text) { return parse_number(text, 0.0F, kLongest); },
+        "Seconds since the wind began (default 0)")
+        ->type_name("SECONDS")
+        ->group("Picture");
+    add_parsed(app, "--frames", options.frames, whole(1, kMostFrames),
+               "Write a numbered series of pictures: a.png becomes a.0001.png and so on")
+        ->type_name("N")
+        ->group("Picture");
+    constexpr float kSlowest = 0.1F;
+    constexpr float kFastest = 1000.0F;
+    add_parsed(
+        app, "--fps", options.frames_per_second,
+        [](const std::string& text) { return parse_number(text, kSlowest, kFastest); },
+        "Pictures a second of a series (default 24)")
+        ->type_name("F")
+        ->group("Picture");
+    app.add_flag("--turntable", options.turntable, "The series goes once around the plant")
+        ->group("Picture");
+    app.add_option("--stats", options.stats,
+                   "Write counts and times of the pictures as JSON; `-` is standard output")
+        ->type_name("FILE")
+        ->group("Picture");
+    app.add_flag("!--no-shadows", options.shadows, "Without shadows")->group("Picture");
+    app.add_flag("!--no-ground", options.ground, "Without the ground under a plant")
+        ->group("Picture");
+    app.add_flag("--wireframe", options.wireframe, "Edges of the triangles only")->group("Picture");
+    app.add_option("--shaders", options.shaders,
+                   "Read shaders from this folder instead of those built in")
+        ->type_name("FOLDER")
+        ->group("Picture");
+}
+
+void add_bending(CLI::App& app, ViewOptions& options) {
+    constexpr float kMostGravity = 1000.0F;
+    add_parsed(
+        app, "--gravity", options.gravity,
+        [](const std::string& text) { return parse_number(text, 0.0F, kMostGravity); },
+        "Let the plant bend under its weight: m/s^2, 9.81 on earth")
+        ->type_name("G")
+        ->group("Bending");
+    add_parsed(app, "--wind", options.wind, lsc::parse_wind,
+               "Let wind bend it: x,y,z in m/s, and the gusts' part of it")
+        ->type_name("X,Y,Z[,GUST]")
+        ->group("Bending");
+}
+
+} // namespace
+
+ParsedOptions parse_options(std::span<const std::string> arguments) {
+    ViewOptions options;
+    CLI::App app("Shows plants of L-systems, live in a window or as pictures.", "lsview");
+    app.add_option("FILE", options.file, "A grammar or a .lsb file")->required();
+    add_picture(app, options);
+    lsc::add_grammar(app, options.grammar);
+    lsc::add_seed(app, options.seed);
+    add_bending(app, options);
+    lsc::add_mesh(app, options.mesh);
+    lsc::add_run_limits(app, options.max_bytes, options.threads);
+    lsc::add_messages(app, options.messages);
+    app.set_version_flag("--version", "lsview " LSC_VERSION, "Print the version and exit");
+    app.footer("Exit status: 0 fine, 1 errors in a grammar, 2 a file, the display or the command "
+               "line, 3 a limit.\n"
+               "Example: lsview tree.lsys --screenshot tree.png --size 1920x1080");
+    try {
+        app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    } catch (const CLI::CallForHelp&) {
+        return lsc::PrintText{app.help()};
+    } catch (const CLI::CallForVersion&) {
+        return lsc::PrintText{"lsview " LSC_VERSION "\n"};
+    } catch (const CLI::ParseError& error) {
+        return lsc::describe(error, app, "lsview");
+    }
+    if ((options.frames != 0 || !options.stats.empty()) && options.screenshot.empty()) {
+        return lsc::UsageError{"--frames and --stats belong to pictures",
+                               "add `--screenshot FILE`"};
+    }
+    if (options.turntable && options.frames == 0) {
+        return lsc::UsageError{"--turntable is a series of pictures", "add `--frames N`"};
+    }
+    if (options.frames != 0 && options.screenshot == "-") {
+        return lsc::UsageError{"a series of pictures does not go to standard output",
+                               "write `--screenshot FILE`"};
+    }
+    return options;
+}
+
+} // namespace lsys::view

@@ -1,0 +1,49 @@
+// What the command line of lsview asks for.
+#pragma once
+
+#include "runtime/cli/command_line.h"
+#include "runtime/cli/options.h"
+#include "runtime/mesh.h"
+#include "runtime/physics.h"
+#include "viewer/camera.h"
+#include "viewer/renderer.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+
+namespace lsys::view {
+
+struct ViewOptions {
+    lsc::MessageOptions messages;
+    lsc::GrammarOptions grammar;
+    std::optional<std::uint64_t> seed;
+    std::string file;
+    MeshOptions mesh;
+    std::uint32_t threads = 0;
+    std::uint64_t max_bytes = 0;
+
+    std::string camera; // to_text() of a Camera or parts of one; empty: all is in view
+    std::uint32_t width = 1280;
+    std::uint32_t height = 720;
+    std::optional<float> gravity; // m/s^2
+    std::optional<Wind> wind;
+    float time = 0.0F; // s, of wind
+    bool shadows = true;
+    bool ground = true;
+    bool wireframe = false;
+    std::string shaders; // a folder instead of the built-in ones
+
+    std::string screenshot;   // a picture instead of a window; `-`: standard output
+    std::uint32_t frames = 0; // a numbered series; 0: one picture
+    float frames_per_second = 24.0F;
+    bool turntable = false; // the series goes once around
+    std::string stats;      // a JSON file; `-`: standard output
+};
+
+using ParsedOptions = std::variant<ViewOptions, lsc::PrintText, lsc::UsageError>;
+[[nodiscard]] ParsedOptions parse_options(std::span<const std::string> arguments);
+
+} // namespace lsys::view

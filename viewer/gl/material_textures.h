@@ -1,0 +1,25 @@
+// MaterialTextures: the pictures of runtime/texture.h on the device, made when first asked for.
+#pragma once
+
+#include "runtime/mesh.h"
+#include "viewer/gl/objects.h"
+
+#include <array>
+
+namespace lsys::view {
+
+class MaterialTextures {
+public:
+    explicit MaterialTextures(Device& device) : device_(&device) {}
+
+    /// Of a kind that has_texture().
+    [[nodiscard]] GLuint base(MaterialKind kind);
+    [[nodiscard]] GLuint bark_normals();
+
+private:
+    Device* device_;
+    std::array<TextureObject, 4> bases_; // by MaterialKind
+    TextureObject normals_;
+};
+
+} // namespace lsys::view

@@ -1,0 +1,194 @@
+#include "viewer/renderer.h"
+
+#include "viewer/gl/frame_block.h"
+#include "viewer/gl/material_textures.h"
+#include "viewer/gl/plant_mesh.h"
+#include "viewer/gl/program.h"
+#include "viewer/gl/shadow_map.h"
+#include "viewer/gl/target.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace lsys::view {
+
+namespace {
+
+constexpr std::uint32_t kShadowTexels = 2048;
+constexpr std::uint32_t kSamples = 4;
+constexpr GLuint kFrameBinding = 0;
+constexpr GLuint kShadowTexture = 0;
+// What ground.*.glsl ask for.
+constexpr GLint kDisc = 0;
+constexpr GLint kUnit = 1;
+constexpr float kDiscInRadii = 14.0F; // of the plant
+
+struct Programs {
+    ProgramObject sky;
+    ProgramObject mesh;
+    ProgramObject shadow;
+    ProgramObject ground;
+};
+
+Result<Programs> make_programs(Device& device, const ShaderSource& shaders) {
+    Programs programs;
+    struct Wanted {
+        ProgramObject Programs::*program;
+        const char* vertex;
+        const char* fragment;
+    };
+    const std::array<Wanted, 4> wanted = {
+        {{&Programs::sky, "sky.vert.glsl", "sky.frag.glsl"},
+         {&Programs::mesh, "mesh.vert.glsl", "mesh.frag.glsl"},
+         {&Programs::shadow, "shadow.vert.glsl", "shadow.frag.glsl"},
+         {&Programs::ground, "ground.vert.glsl", "ground.frag.glsl"}}};
+    for (const Wanted& one : wanted) {
+        Result<ProgramObject> made = make_program(device, shaders, one.vertex, one.fragment);
+        if (!made) {
+            return made.error();
+        }
+        programs.*one.program = std::move(made.value());
+    }
+    return programs;
+}
+
+/// The plant and the ground that its shadow falls on.
+Bounds lit_bounds(const Bounds& plant) {
+    Bounds bounds = plant;
+    const float height = plant.high.y - plant.low.y;
+    const float wide = std::max(plant.high.x - plant.low.x, plant.high.z - plant.low.z);
+    const float reach = 0.5F * height + 0.05F * wide;
+    bounds.low -= glm::vec3(reach, 0.0F, reach);
+    bounds.high += glm::vec3(reach, 0.0F, reach);
+    return bounds;
+}
+
+class GlRenderer final : public Renderer {
+public:
+    GlRenderer()
+        : target_(device_), shadow_(device_, kShadowTexels), textures_(device_), plant_(device_),
+          frame_(device_), empty_(make_vertex_array(device_)) {}
+
+    void show_plant(const Mesh& mesh) override {
+        plant_.upload(mesh);
+        shadow_.invalidate();
+    }
+    const Bounds& bounds() const override { return plant_.bounds(); }
+
+    Result<Done> reload(const ShaderSource& shaders) override {
+        Result<Programs> made = make_programs(device_, shaders);
+        if (!made) {
+            return made.error();
+        }
+        programs_ = std::move(made.value());
+        return Done{};
+    }
+
+    FrameStats draw(const Frame& frame, const PixelArea& area) override {
+        FrameStats stats;
+        glm::mat4 shadow_from_world(1.0F);
+        if (frame.shadows && !bounds().empty) {
+            shadow_from_world =
+                shadow_matrix(lit_bounds(bounds()), frame.light.to_sun, kShadowTexels);
+        }
+        FrameBlock block = make_frame_block(frame, area, shadow_from_world);
+        if (bounds().empty) {
+            block.to_sun.w = 0.0F;
+        }
+        frame_.fill(std::span<const FrameBlock>(&block, 1));
+        glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
+        glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+        glEnable(GL_DEPTH_TEST);
+        glDisable(GL_BLEND);
+        glFrontFace(GL_CCW);
+        if (block.to_sun.w != 0.0F && shadow_.is_stale(shadow_from_world)) {
+            draw_shadows(shadow_from_world, stats);
+        }
+        target_.begin(area.width, area.height, kSamples);
+        glDepthFunc(GL_GEQUAL); // nearer is larger
+        glBindTextureUnit(kShadowTexture, shadow_.texture());
+        glUseProgram(programs_.mesh.name());
+        glPolygonMode(GL_FRONT_AND_BACK, frame.style == PlantStyle::Wireframe ? GL_LINE : GL_FILL);
+        if (frame.style == PlantStyle::Surface) {
+            glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+        }
+        stats.draws += plant_.draw(textures_, true);
+        stats.triangles += plant_.triangles();
+        glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+        glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+        glDisable(GL_CULL_FACE);
+        glBindVertexArray(empty_.name());
+        if (frame.ground && !bounds().empty) {
+            draw_ground(stats);
+        }
+        glUseProgram(programs_.sky.name());
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        ++stats.draws;
+        ++stats.triangles;
+        target_.resolve();
+        return stats;
+    }
+    void read(std::vector<std::uint8_t>& pixels) override { target_.read(pixels); }
+    void present(std::uint32_t width, std::uint32_t height) override {
+        target_.present(width, height);
+    }
+
+    std::string device_name() const override { return device_.renderer(); }
+    std::uint64_t live_objects() const override { return device_.live_objects(); }
+    std::uint64_t uploaded_bytes() const override { return device_.uploaded_bytes(); }
+    const std::vector<std::string>& errors() const override { return device_.errors(); }
+
+private:
+    void draw_shadows(const glm::mat4& matrix, FrameStats& stats) {
+        shadow_.begin(matrix);
+        glDepthFunc(GL_LEQUAL);
+        glEnable(GL_POLYGON_OFFSET_FILL);
+        glPolygonOffset(1.5F, 2.0F);
+        glEnable(GL_DEPTH_CLAMP);
+        glUseProgram(programs_.shadow.name());
+        stats.draws += plant_.draw(textures_, false);
+        stats.triangles += plant_.triangles();
+        glDisable(GL_DEPTH_CLAMP);
+        glDisable(GL_POLYGON_OFFSET_FILL);
+    }
+
+    void draw_ground(FrameStats& stats) {
+        const Bounds& plant = bounds();
+        const glm::vec3 size = plant.high - plant.low;
+        const float radius = 0.5F * std::max(std::max(size.x, size.y), size.z);
+        // A power of ten: about ten lines along the plant.
+        const float unit = std::pow(10.0F, std::floor(std::log10(std::max(radius, 1e-6F))) - 0.0F);
+        glUseProgram(programs_.ground.name());
+        const float below = std::min(plant.low.y, 0.0F) - 1e-4F * radius;
+        glUniform4f(kDisc, 0.5F * (plant.low.x + plant.high.x), below,
+                    0.5F * (plant.low.z + plant.high.z), kDiscInRadii * radius);
+        glUniform1f(kUnit, unit);
+        glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+        ++stats.draws;
+        stats.triangles += 2;
+    }
+
+    Device device_; // outlives what follows
+    Programs programs_;
+    Target target_;
+    ShadowMap shadow_;
+    MaterialTextures textures_;
+    PlantMesh plant_;
+    Buffer frame_;
+    VertexArray empty_;
+};
+
+} // namespace
+
+Result<std::unique_ptr<Renderer>> Renderer::make(const ShaderSource& shaders) {
+    auto renderer = std::make_unique<GlRenderer>();
+    const Result<Done> loaded = renderer->reload(shaders);
+    if (!loaded) {
+        return loaded.error();
+    }
+    return std::unique_ptr<Renderer>(std::move(renderer));
+}
+
+} // namespace lsys::view

@@ -1,0 +1,99 @@
+// Renderer: pictures of plants. The one interface of everything that draws; what stands behind it
+// (gl/) is the only code that knows OpenGL. A context has to be current whenever it is called.
+#pragma once
+
+#include "grammar/result.h"
+#include "runtime/mesh.h"
+#include "runtime/physics.h"
+#include "viewer/camera.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys::view {
+
+/// The text of a shader by its file's name; none: there is no such file.
+using ShaderSource = std::function<std::optional<std::string>(std::string_view name)>;
+/// Those that are part of the program.
+[[nodiscard]] std::optional<std::string> built_in_shader(std::string_view name);
+
+/// The light of a clear day; linear RGB.
+struct Light {
+    glm::vec3 to_sun{0.44F, 0.72F, 0.54F}; // any length
+    glm::vec3 sun{2.9F, 2.7F, 2.35F};
+    glm::vec3 sky{0.36F, 0.55F, 0.95F};
+    glm::vec3 horizon{0.78F, 0.86F, 0.95F};
+    glm::vec3 ground{0.22F, 0.20F, 0.16F}; // what comes from below
+    float extinction = 0.0F;               // of the air, 1/m
+    float exposure = 0.8F;
+};
+
+/// How plants are shown.
+enum class PlantStyle : std::uint8_t { Surface, Wireframe };
+
+/// A rectangle of a picture, pixels from its lower left corner.
+struct PixelArea {
+    std::uint32_t x = 0;
+    std::uint32_t y = 0;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+};
+
+/// One picture.
+struct Frame {
+    Camera camera;
+    Light light;
+    std::uint32_t width = 1280;
+    std::uint32_t height = 720;
+    double time = 0.0; // s, of wind
+    Wind wind;
+    bool shadows = true;
+    bool ground = true; // under a single plant
+    PlantStyle style = PlantStyle::Surface;
+};
+
+struct FrameStats {
+    std::uint64_t draws = 0;
+    std::uint64_t triangles = 0;
+};
+
+class Renderer {
+public:
+    /// Error: a shader does not compile.
+    [[nodiscard]] static Result<std::unique_ptr<Renderer>> make(const ShaderSource& shaders);
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+    virtual ~Renderer() = default;
+
+    /// The plant that is shown from now on, instead of the one before. `mesh` may then go.
+    virtual void show_plant(const Mesh& mesh) = 0;
+    /// Of what is shown.
+    [[nodiscard]] virtual const Bounds& bounds() const = 0;
+
+    /// Compiles the shaders anew. Error: the ones before stay.
+    [[nodiscard]] virtual Result<Done> reload(const ShaderSource& shaders) = 0;
+
+    /// Draws what lies within `area` of the picture into memory of the renderer's own.
+    virtual FrameStats draw(const Frame& frame, const PixelArea& area) = 0;
+    /// The rows of the last picture from top to bottom, four bytes a pixel.
+    virtual void read(std::vector<std::uint8_t>& pixels) = 0;
+    /// Copies the last picture to the window whose context is current.
+    virtual void present(std::uint32_t width, std::uint32_t height) = 0;
+
+    /// "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6".
+    [[nodiscard]] virtual std::string device_name() const = 0;
+    [[nodiscard]] virtual std::uint64_t live_objects() const = 0;
+    [[nodiscard]] virtual std::uint64_t uploaded_bytes() const = 0;
+    /// What the driver reported as wrong, since the start.
+    [[nodiscard]] virtual const std::vector<std::string>& errors() const = 0;
+
+protected:
+    Renderer() = default;
+};
+
+} // namespace lsys::view

@@ -1,0 +1,35 @@
+#include "light.glsl"
+layout(binding = 1) uniform sampler2D base_texture;
+layout(binding = 2) uniform sampler2D normal_texture;
+layout(location = 0) uniform vec4 base_colour;
+layout(location = 1) uniform ivec4 kind; // x: textured, y: bumpy, z: cut out, w: of light through it
+in vec3 place;
+in vec3 across;
+in vec2 uv;
+in vec4 along;
+out vec4 colour;
+void main() {
+    vec3 albedo = base_colour.rgb;
+    if (kind.x != 0) {
+        vec4 texel = texture(base_texture, uv);
+        if (kind.z != 0 && texel.a < 0.5) {
+            discard;
+        }
+        albedo *= texel.rgb;
+    }
+    vec3 geometric = normalize(across);
+    vec3 normal = geometric;
+    if (kind.y != 0) {
+        vec3 t = normalize(along.xyz - geometric * dot(geometric, along.xyz));
+        vec3 b = cross(geometric, t) * along.w;
+        vec3 bump = texture(normal_texture, uv).xyz * 2.0 - 1.0;
+        normal = normalize(t * bump.x + b * bump.y + geometric * bump.z);
+    }
+    if (!gl_FrontFacing) {
+        normal = -normal;
+        geometric = -geometric;
+    }
+    float lit = sunlight(place, geometric);
+    float through = kind.w != 0 ? 0.5 : 0.0;
+    colour = displayed(seen(shade(albedo, normal, place, lit, through), place));
+}

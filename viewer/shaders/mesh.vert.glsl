@@ -1,0 +1,16 @@
+#include "frame.glsl"
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 texture_coordinate;
+layout(location = 3) in vec4 tangent;
+out vec3 place;
+out vec3 across;
+out vec2 uv;
+out vec4 along;
+void main() {
+    place = position;
+    across = normal;
+    uv = texture_coordinate;
+    along = tangent;
+    gl_Position = frame.view_projection * vec4(position, 1.0);
+}
