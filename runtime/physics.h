@@ -20,6 +20,8 @@ struct Wind {
     glm::vec3 velocity{0.0F}; // m/s
     /// Amplitude of gusts, as a part of the velocity: a smooth function of time; 0 is steady wind.
     float gust = 0.0F;
+
+    friend bool operator==(const Wind&, const Wind&) = default;
 };
 
 /// What is not finite counts as 0, and so does what is negative where that has no meaning.

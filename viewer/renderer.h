@@ -6,11 +6,13 @@
 #include "runtime/mesh.h"
 #include "runtime/physics.h"
 #include "viewer/camera.h"
+#include "viewer/lines.h"
 
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,10 +33,12 @@ struct Light {
     glm::vec3 ground{0.22F, 0.20F, 0.16F}; // what comes from below
     float extinction = 0.0F;               // of the air, 1/m
     float exposure = 0.8F;
+
+    friend bool operator==(const Light&, const Light&) = default;
 };
 
 /// How plants are shown.
-enum class PlantStyle : std::uint8_t { Surface, Wireframe };
+enum class PlantStyle : std::uint8_t { Surface, Wireframe, None };
 
 /// A rectangle of a picture, pixels from its lower left corner.
 struct PixelArea {
@@ -55,6 +59,8 @@ struct Frame {
     bool shadows = true;
     bool ground = true; // under a single plant
     PlantStyle style = PlantStyle::Surface;
+
+    friend bool operator==(const Frame&, const Frame&) = default;
 };
 
 struct FrameStats {
@@ -72,6 +78,8 @@ public:
 
     /// The plant that is shown from now on, instead of the one before. `mesh` may then go.
     virtual void show_plant(const Mesh& mesh) = 0;
+    /// The lines that are drawn over everything from now on, instead of those before.
+    virtual void show_lines(std::span<const LineVertex> lines) = 0;
     /// Of what is shown.
     [[nodiscard]] virtual const Bounds& bounds() const = 0;
 

@@ -68,6 +68,7 @@ Status run_pictures(const ViewOptions& options, const Console& console) {
     console.detail(
         fmt::format("drawing by {}: {}", context.value()->way(), renderer.value()->device_name()));
     renderer.value()->show_plant(document.mesh);
+    renderer.value()->show_lines(make_lines(document.plant.skeleton, options.lines));
     Camera from = camera.value();
     if (options.camera.empty()) {
         if (is_plane(renderer.value()->bounds())) {

@@ -93,7 +93,24 @@ void add_picture(CLI::App& app, ViewOptions& options) {
     app.add_flag("!--no-shadows", options.shadows, "Without shadows")->group("Picture");
     app.add_flag("!--no-ground", options.ground, "Without the ground under a plant")
         ->group("Picture");
-    app.add_flag("--wireframe", options.wireframe, "Edges of the triangles only")->group("Picture");
+    lsc::add_choice<PlantStyle>(app, "--style", options.style,
+                                {{"surface", PlantStyle::Surface},
+                                 {"wireframe", PlantStyle::Wireframe},
+                                 {"none", PlantStyle::None}},
+                                "Surfaces (default), edges of their triangles, or neither")
+        ->group("Picture");
+    app.add_flag_callback(
+           "--wireframe", [&options] { options.style = PlantStyle::Wireframe; },
+           "The same as --style wireframe")
+        ->group("Picture");
+    lsc::add_choice<LineKind>(
+        app, "--lines", options.lines,
+        {{"none", LineKind::None},
+         {"skeleton", LineKind::Skeleton},
+         {"path", LineKind::TurtlePath}},
+        "Lines over all: segments by order of branching, or the turtle's path by time "
+        "(default none)")
+        ->group("Picture");
     app.add_option("--shaders", options.shaders,
                    "Read shaders from this folder instead of those built in")
         ->type_name("FOLDER")

@@ -33,7 +33,8 @@ struct ViewOptions {
     float time = 0.0F; // s, of wind
     bool shadows = true;
     bool ground = true;
-    bool wireframe = false;
+    PlantStyle style = PlantStyle::Surface;
+    LineKind lines = LineKind::None;
     std::string shaders; // a folder instead of the built-in ones
 
     std::string screenshot;   // a picture instead of a window; `-`: standard output

@@ -180,7 +180,7 @@ lsc::Status take_pictures(const ViewOptions& options,
     frame.height = options.height;
     frame.shadows = options.shadows;
     frame.ground = options.ground;
-    frame.style = options.wireframe ? PlantStyle::Wireframe : PlantStyle::Surface;
+    frame.style = options.style;
     frame.wind = options.wind.value_or(Wind{});
     Motion motion(options, document);
     Skeleton pose;
@@ -207,6 +207,7 @@ lsc::Status take_pictures(const ViewOptions& options,
                 return status;
             }
             renderer.show_plant(document.mesh);
+            renderer.show_lines(make_lines(pose, options.lines));
             times.bend.push_back(milliseconds_since(start));
         }
         if (options.turntable) {

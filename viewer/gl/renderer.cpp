@@ -1,6 +1,7 @@
 #include "viewer/renderer.h"
 
 #include "viewer/gl/frame_block.h"
+#include "viewer/gl/line_set.h"
 #include "viewer/gl/material_textures.h"
 #include "viewer/gl/plant_mesh.h"
 #include "viewer/gl/program.h"
@@ -30,6 +31,7 @@ struct Programs {
     ProgramObject mesh;
     ProgramObject shadow;
     ProgramObject ground;
+    ProgramObject line;
 };
 
 Result<Programs> make_programs(Device& device, const ShaderSource& shaders) {
@@ -39,11 +41,12 @@ Result<Programs> make_programs(Device& device, const ShaderSource& shaders) {
         const char* vertex;
         const char* fragment;
     };
-    const std::array<Wanted, 4> wanted = {
+    const std::array<Wanted, 5> wanted = {
         {{&Programs::sky, "sky.vert.glsl", "sky.frag.glsl"},
          {&Programs::mesh, "mesh.vert.glsl", "mesh.frag.glsl"},
          {&Programs::shadow, "shadow.vert.glsl", "shadow.frag.glsl"},
-         {&Programs::ground, "ground.vert.glsl", "ground.frag.glsl"}}};
+         {&Programs::ground, "ground.vert.glsl", "ground.frag.glsl"},
+         {&Programs::line, "line.vert.glsl", "line.frag.glsl"}}};
     for (const Wanted& one : wanted) {
         Result<ProgramObject> made = make_program(device, shaders, one.vertex, one.fragment);
         if (!made) {
@@ -69,13 +72,16 @@ class GlRenderer final : public Renderer {
 public:
     GlRenderer()
         : target_(device_), shadow_(device_, kShadowTexels), textures_(device_), plant_(device_),
-          frame_(device_), empty_(make_vertex_array(device_)) {}
+          lines_(device_), frame_(device_), empty_(make_vertex_array(device_)) {}
 
     void show_plant(const Mesh& mesh) override {
         plant_.upload(mesh);
         shadow_.invalidate();
     }
-    const Bounds& bounds() const override { return plant_.bounds(); }
+    void show_lines(std::span<const LineVertex> lines) override { lines_.upload(lines); }
+    const Bounds& bounds() const override {
+        return plant_.bounds().empty ? lines_.bounds() : plant_.bounds();
+    }
 
     Result<Done> reload(const ShaderSource& shaders) override {
         Result<Programs> made = make_programs(device_, shaders);
@@ -89,12 +95,12 @@ public:
     FrameStats draw(const Frame& frame, const PixelArea& area) override {
         FrameStats stats;
         glm::mat4 shadow_from_world(1.0F);
-        if (frame.shadows && !bounds().empty) {
+        if (frame.shadows && frame.style != PlantStyle::None && !plant_.bounds().empty) {
             shadow_from_world =
-                shadow_matrix(lit_bounds(bounds()), frame.light.to_sun, kShadowTexels);
+                shadow_matrix(lit_bounds(plant_.bounds()), frame.light.to_sun, kShadowTexels);
         }
         FrameBlock block = make_frame_block(frame, area, shadow_from_world);
-        if (bounds().empty) {
+        if (frame.style == PlantStyle::None || plant_.bounds().empty) {
             block.to_sun.w = 0.0F;
         }
         frame_.fill(std::span<const FrameBlock>(&block, 1));
@@ -109,15 +115,9 @@ public:
         target_.begin(area.width, area.height, kSamples);
         glDepthFunc(GL_GEQUAL); // nearer is larger
         glBindTextureUnit(kShadowTexture, shadow_.texture());
-        glUseProgram(programs_.mesh.name());
-        glPolygonMode(GL_FRONT_AND_BACK, frame.style == PlantStyle::Wireframe ? GL_LINE : GL_FILL);
-        if (frame.style == PlantStyle::Surface) {
-            glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+        if (frame.style != PlantStyle::None) {
+            draw_plant(frame.style, stats);
         }
-        stats.draws += plant_.draw(textures_, true);
-        stats.triangles += plant_.triangles();
-        glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-        glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
         glDisable(GL_CULL_FACE);
         glBindVertexArray(empty_.name());
         if (frame.ground && !bounds().empty) {
@@ -127,6 +127,9 @@ public:
         glDrawArrays(GL_TRIANGLES, 0, 3);
         ++stats.draws;
         ++stats.triangles;
+        glDepthFunc(GL_ALWAYS);
+        glUseProgram(programs_.line.name());
+        stats.draws += lines_.draw();
         target_.resolve();
         return stats;
     }
@@ -154,6 +157,19 @@ private:
         glDisable(GL_POLYGON_OFFSET_FILL);
     }
 
+    void draw_plant(PlantStyle style, FrameStats& stats) {
+        glUseProgram(programs_.mesh.name());
+        if (style == PlantStyle::Wireframe) {
+            glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+        } else {
+            glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+        }
+        stats.draws += plant_.draw(textures_, true);
+        stats.triangles += plant_.triangles();
+        glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+        glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    }
+
     void draw_ground(FrameStats& stats) {
         const Bounds& plant = bounds();
         const glm::vec3 size = plant.high - plant.low;
@@ -176,6 +192,7 @@ private:
     ShadowMap shadow_;
     MaterialTextures textures_;
     PlantMesh plant_;
+    LineSet lines_;
     Buffer frame_;
     VertexArray empty_;
 };

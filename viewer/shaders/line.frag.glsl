@@ -1,0 +1,5 @@
+in vec4 line_colour;
+out vec4 colour;
+void main() {
+    colour = line_colour;
+}
