@@ -68,6 +68,31 @@ WordPrinter::WordPrinter(const Bytecode& bytecode) {
         }
     }
     buffer_.resize(kBufferBytes);
+    if (std::all_of(spellings_.begin(), spellings_.end(), [](const Spelling& spelling) {
+            return spelling.length == 1 && spelling.parameter_count == 0 &&
+                   !spelling.ends_identifier;
+        })) {
+        for (const Spelling& spelling : spellings_) {
+            letters_.push_back(spelling.head[0]);
+        }
+    }
+}
+
+/// A table instead of texts.
+bool WordPrinter::write_letters(std::span<const std::uint8_t> codes, const Sink& sink) {
+    const char* const letters = letters_.data();
+    while (!codes.empty()) {
+        const std::size_t count = std::min(codes.size(), buffer_.size());
+        char* const to = buffer_.data();
+        for (std::size_t i = 0; i < count; ++i) {
+            to[i] = letters[codes[i]];
+        }
+        if (!sink({to, count})) {
+            return false;
+        }
+        codes = codes.subspan(count);
+    }
+    return true;
 }
 
 void WordPrinter::make_pairs() {
@@ -174,6 +199,9 @@ bool WordPrinter::print(const Word& word, const Sink& flush) {
     const float* const parameters = word.parameters().data();
     switch (word.code_width()) {
     case 1:
+        if (!letters_.empty()) {
+            return write_letters(word.codes<std::uint8_t>(), flush);
+        }
         return write(word.codes<std::uint8_t>().data(), word.module_count(), parameters, flush);
     case 2:
         return write(word.codes<std::uint16_t>().data(), word.module_count(), parameters, flush);

@@ -52,6 +52,7 @@ private:
     using Sink = std::function<bool(std::string_view)>;
 
     void make_pairs();
+    [[nodiscard]] bool write_letters(std::span<const std::uint8_t> codes, const Sink& sink);
 
     template <typename C>
     [[nodiscard]] bool
@@ -59,7 +60,8 @@ private:
 
     std::vector<Spelling> spellings_; // by code; folded arguments included
     std::vector<std::string> long_texts_;
-    std::vector<Pair> pairs_; // by after_identifier_, first and second code; empty: not made
+    std::vector<char> letters_; // by code, if each code is one character and that is all
+    std::vector<Pair> pairs_;   // by after_identifier_, first and second code; empty: not made
     std::vector<char> buffer_;
     bool after_identifier_ = false;
 };

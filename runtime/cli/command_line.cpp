@@ -395,23 +395,28 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
     app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
     app.require_subcommand(1);
     app.footer("`lsc COMMAND --help` says more of each.");
-    CLI::App& check = *app.add_subcommand("check", "Check grammars, and mend what is certain");
-    CLI::App& compile = *app.add_subcommand("compile", "Compile a grammar to a .lsb file");
-    CLI::App& dump = *app.add_subcommand("dump", "Derive a word and print it");
-    CLI::App& exported = *app.add_subcommand("export", "Write one plant as a 3D file or a drawing");
-    CLI::App& forest =
-        *app.add_subcommand("forest", "Grow a forest of distinct plants from a few, and write it");
-    CLI::App& stats = *app.add_subcommand("stats", "Predict the size of every generation");
-    CLI::App& format = *app.add_subcommand("fmt", "Lay out grammars in the common style");
-    CLI::App& explain = *app.add_subcommand("explain", "Explain a diagnostic, with examples");
-    add_check(check, all.check);
-    add_compile(compile, all.compile);
-    add_dump(dump, all.dump);
-    add_export(exported, all.exported);
-    add_forest(forest, all.forest);
-    add_stats(stats, all.stats);
-    add_format(format, all.format);
-    add_explain(explain, all.explain);
+    // The options of a command are made only where it is the one that is run.
+    const std::string first = arguments.empty() ? std::string() : arguments.front();
+    const auto add = [&](const char* name, const char* text, auto& command,
+                         auto&& add_options) -> CLI::App& {
+        CLI::App& added = *app.add_subcommand(name, text);
+        if (first == name) {
+            add_options(added, command);
+        }
+        return added;
+    };
+    CLI::App& check =
+        add("check", "Check grammars, and mend what is certain", all.check, add_check);
+    CLI::App& compile =
+        add("compile", "Compile a grammar to a .lsb file", all.compile, add_compile);
+    CLI::App& dump = add("dump", "Derive a word and print it", all.dump, add_dump);
+    CLI::App& exported =
+        add("export", "Write one plant as a 3D file or a drawing", all.exported, add_export);
+    CLI::App& forest = add("forest", "Grow a forest of distinct plants from a few, and write it",
+                           all.forest, add_forest);
+    CLI::App& stats = add("stats", "Predict the size of every generation", all.stats, add_stats);
+    CLI::App& format = add("fmt", "Lay out grammars in the common style", all.format, add_format);
+    add("explain", "Explain a diagnostic, with examples", all.explain, add_explain);
 
     if (std::optional<UsageError> usage = unknown_command(arguments, app)) {
         return *usage;

@@ -129,12 +129,37 @@ TEST_CASE("a long word is printed as its modules are one after the other") {
     CHECK(whole == pieces);
 }
 
+TEST_CASE("a long word of letters is one character a module") {
+    BytecodeBuilder builder;
+    builder.settings.print_letters = true;
+    builder.axiom("A").production("p : A : * : A + B [ A ]").production("q : B : * : - A");
+    const Bytecode bytecode = builder.build();
+    DeriveOptions options;
+    options.generations = 16;
+    Derivation derivation(bytecode, options);
+    REQUIRE(derivation.start() == DeriveStatus::Ok);
+    REQUIRE(derivation.run_to(options.generations) == DeriveStatus::Ok);
+    const Word& word = derivation.word();
+    REQUIRE(word.module_count() > 200'000);
+    std::string whole;
+    CHECK(WordPrinter(bytecode).print(word, [&whole](std::string_view piece) {
+        whole += piece;
+        return true;
+    }));
+    std::string expected;
+    for (const std::uint8_t code : word.codes<std::uint8_t>()) {
+        expected += bytecode.symbol(bytecode.symbol_of(code)).name;
+    }
+    CHECK(whole == expected);
+}
+
 TEST_CASE("printing stops when the reader has enough") {
     BytecodeBuilder builder;
+    builder.settings.print_letters = GENERATE(true, false);
     builder.axiom("A").production("p : A : * : A A");
     const Bytecode bytecode = builder.build();
     DeriveOptions options;
-    options.generations = 18;
+    options.generations = 18; // 262,144 modules
     Derivation derivation(bytecode, options);
     REQUIRE(derivation.start() == DeriveStatus::Ok);
     REQUIRE(derivation.run_to(18) == DeriveStatus::Ok);
