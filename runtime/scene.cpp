@@ -22,6 +22,7 @@ std::optional<Scene> parse_scene(FileId file, const SourceMap& sources, Diagnost
     read_placement_table(reader.table("placement"), scene, found);
     static_cast<void>(reader.entry("species"));
     read_species_list(*root, scene, found);
+    read_painting_table(reader.table("painted"), scene, found);
     reader.finish();
     found.sort_by_place();
     for (const Diagnostic& diagnostic : found.all()) {

@@ -6,6 +6,7 @@
 #include "grammar/diagnostic.h"
 #include "grammar/source.h"
 #include "runtime/instance_cache.h"
+#include "runtime/painting.h"
 #include "runtime/placement.h"
 #include "runtime/region.h"
 #include "runtime/terrain.h"
@@ -65,6 +66,7 @@ struct Scene {
     std::vector<SceneSpecies> species; // at least one
     /// With key, region of the terrain, and a species for each of `species`; without density_map.
     PlacementOptions placement;
+    Painting painting;     // what was changed by hand
     SceneFile density_map; // DensityMap, DensityCells; spans the region of the terrain
     SourceSpan span;       // of `[placement]`; kNoFile: there is none
 };

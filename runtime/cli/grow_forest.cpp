@@ -225,6 +225,7 @@ Status place_forest(const Scene& scene,
         return fail(Error{fmt::format("placement: {}", placed.error().message)}, console);
     }
     grown.forest.trees = std::move(placed.value().trees);
+    apply_painting(scene.painting, options.region, *grown.terrain, grown.forest.trees);
     grown.placed = placed.value().report;
     grown.place_seconds = seconds_since(start);
     if (const std::string note = placement_note(grown.placed); !note.empty()) {

@@ -59,6 +59,8 @@ constexpr KeyPlace kPlaces[] = {
     {"spacing", "[placement]"},
     {"density", "[placement]"},
     {"years", "[placement]"},
+    {"trees", "[painted]"},
+    {"erased", "[painted]"},
     {"key", "the file, above its tables"},
 };
 

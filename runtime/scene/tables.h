@@ -15,4 +15,7 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
 /// The placement has been read. `root`: the file, which holds the list of species.
 void read_species_list(const SceneValue& root, Scene& scene, Diagnostics& diagnostics);
 
+/// The species have been read. `table`: of `[painted]`, nullptr where there is none.
+void read_painting_table(const SceneValue* table, Scene& scene, Diagnostics& diagnostics);
+
 } // namespace lsys

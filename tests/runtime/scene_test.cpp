@@ -460,3 +460,33 @@ TEST_CASE("damaged scenes are mended or reported where they are damaged") {
     CHECK(refused > 1500);
     CHECK(refused < 3000);
 }
+
+TEST_CASE("painted trees and erased ones") {
+    const Scene scene =
+        scene_of("[[species]]\ngrammar = \"a.lsys\"\nname = \"a\"\n"
+                 "[[species]]\ngrammar = \"b.lsys\"\nname = \"b\"\n"
+                 "[painted]\ntrees = [[\"b\", 1, 2.5, 180, 0.5]]\nerased = [9, 4]\n");
+    REQUIRE(scene.painting.trees.size() == 1);
+    CHECK(scene.painting.trees[0].species == 1);
+    CHECK(scene.painting.trees[0].x == 1.0F);
+    CHECK(scene.painting.trees[0].z == 2.5F);
+    CHECK(scene.painting.trees[0].yaw == Approx(3.14159265F));
+    CHECK(scene.painting.trees[0].scale == 0.5F);
+    CHECK(scene.painting.erased == std::vector<std::uint32_t>{4, 9});
+}
+
+TEST_CASE("mistakes in paintings are shown at their place") {
+    const std::string species = "[[species]]\ngrammar = \"a.lsys\"\nname = \"pine\"\n[painted]\n";
+    CHECK(parsed(species + "trees = 3\n").messages.find("5:9-10: `trees` must be a list") == 0);
+    CHECK(parsed(species + "trees = [[\"pin\", 1, 2, 3, 1]]\n")
+              .messages.find("5:11-16: there is no species `pin` [bad-scene-value]\n  help: did "
+                             "you mean `pine`?") == 0);
+    CHECK(parsed(species + "trees = [[\"pine\", 1, 2, 3]]\n")
+              .messages.find("5:10-27: a painted tree is a list") == 0);
+    CHECK(parsed(species + "trees = [[\"pine\", 1, 2, 3, 0]]\n")
+              .messages.find("5:28-29: the scale of a painted tree is 0") == 0);
+    CHECK(parsed(species + "erased = [-1]\n")
+              .messages.find("5:11-13: the number of an erased tree is -1") == 0);
+    CHECK(parsed(species + "erazed = []\n").messages.find("`[painted]` has no key `erazed`") !=
+          std::string::npos);
+}
