@@ -2,12 +2,14 @@
 
 #include "grammar/diagnostic.h"
 #include "grammar/source.h"
+#include "runtime/random.h"
 #include "runtime/scene.h"
 #include "runtime/scene/document.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <numbers>
 #include <optional>
@@ -85,12 +87,16 @@ std::optional<Scene> read(std::string text) {
 
 } // namespace
 
-Tree painted_tree(const PaintedTree& painted, std::size_t index, const Terrain& terrain) {
+Tree painted_tree(const PaintedTree& painted, const Terrain& terrain) {
     Tree tree;
     tree.position = {painted.x, terrain.height(painted.x, painted.z), painted.z};
     tree.yaw = painted.yaw;
     tree.scale = painted.scale;
-    tree.number = kFirstPainted + static_cast<std::uint32_t>(index);
+    const PhiloxBlock words =
+        philox4x32({std::bit_cast<std::uint32_t>(painted.x),
+                    std::bit_cast<std::uint32_t>(painted.z), painted.species, 0},
+                   {0, 0});
+    tree.number = kFirstPainted | words[0];
     tree.species = painted.species;
     return tree;
 }
@@ -108,9 +114,9 @@ void apply_painting(const Painting& painting,
                                    }),
                     trees.end());
     }
-    for (std::size_t i = 0; i < painting.trees.size(); ++i) {
-        if (region.contains(painting.trees[i].x, painting.trees[i].z)) {
-            trees.push_back(painted_tree(painting.trees[i], i, terrain));
+    for (const PaintedTree& painted : painting.trees) {
+        if (region.contains(painted.x, painted.z)) {
+            trees.push_back(painted_tree(painted, terrain));
         }
     }
 }

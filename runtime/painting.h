@@ -16,7 +16,8 @@
 
 namespace lsys {
 
-/// Painted trees have numbers from here on, in their order.
+/// Painted trees have numbers from here on, by where they stand: a tree looks the same whatever
+/// else is painted.
 inline constexpr std::uint32_t kFirstPainted = 0x8000'0000U;
 inline constexpr std::size_t kMaxPainted = 10'000'000;
 
@@ -38,9 +39,8 @@ struct Painting {
     friend bool operator==(const Painting&, const Painting&) = default;
 };
 
-/// The tree that stands where it was painted, as the `index`th.
-[[nodiscard]] Tree
-painted_tree(const PaintedTree& painted, std::size_t index, const Terrain& terrain);
+/// The tree that stands where it was painted.
+[[nodiscard]] Tree painted_tree(const PaintedTree& painted, const Terrain& terrain);
 
 /// Takes the erased trees away and puts behind the others those that were painted within `region`.
 void apply_painting(const Painting& painting,
