@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -108,10 +109,10 @@ struct Owners {
     LargeVector<std::uint32_t> triangles;
 };
 
-Owners find_owners(const Mesh& mesh, std::uint64_t things) {
-    const std::uint64_t count = mesh.indices.size() / 3;
+Owners find_owners(const Mesh& mesh, std::span<const std::uint32_t> indices, std::uint64_t things) {
+    const std::uint64_t count = indices.size() / 3;
     const auto owner = [&](std::uint64_t triangle) {
-        const std::uint32_t thing = mesh.segments[mesh.indices[3 * triangle]][0];
+        const std::uint32_t thing = mesh.segments[indices[3 * triangle]][0];
         LSYS_CHECK(thing < things, thing, things);
         return thing;
     };
@@ -138,9 +139,10 @@ Owners find_owners(const Mesh& mesh, std::uint64_t things) {
 class ListWriter {
 public:
     ListWriter(const InstanceCache& cache, const Mesh& mesh)
-        : cache_(cache), mesh_(mesh), segments_(cache.skeleton.segments.size()),
-          polygons_(cache.skeleton.polygons.size()),
-          owners_(find_owners(mesh, segments_ + polygons_ + cache.skeleton.objects.size())) {}
+        : cache_(cache), mesh_(mesh), indices_(mesh.indices.expanded()),
+          segments_(cache.skeleton.segments.size()), polygons_(cache.skeleton.polygons.size()),
+          owners_(
+              find_owners(mesh, indices_, segments_ + polygons_ + cache.skeleton.objects.size())) {}
 
     /// Indices of an instance by part of the mesh.
     void count(const Instance& instance, std::span<std::uint64_t> counts) const {
@@ -152,7 +154,7 @@ public:
                LargeVector<std::uint32_t>& indices) const {
         visit(instance, [&](std::size_t part, std::uint32_t triangle) {
             const auto from =
-                mesh_.indices.begin() + static_cast<std::ptrdiff_t>(std::uint64_t{3} * triangle);
+                indices_.begin() + static_cast<std::ptrdiff_t>(std::uint64_t{3} * triangle);
             std::copy(from, from + 3, indices.begin() + static_cast<std::ptrdiff_t>(at[part]));
             at[part] += 3;
         });
@@ -186,6 +188,7 @@ private:
 
     const InstanceCache& cache_;
     const Mesh& mesh_;
+    LargeVector<std::uint32_t> indices_; // of the mesh
     std::uint64_t segments_;
     std::uint64_t polygons_;
     Owners owners_;
@@ -240,8 +243,7 @@ list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceM
     if (parts.size() > kMost) {
         return InstanceMeshStatus::TooManyVertices;
     }
-    const std::uint64_t vertex_bytes =
-        mesh.byte_count() - mesh.indices.size() * sizeof(std::uint32_t);
+    const std::uint64_t vertex_bytes = mesh.byte_count() - mesh.indices.byte_count();
     if (indices > options.max_bytes / sizeof(std::uint32_t) ||
         vertex_bytes + indices * sizeof(std::uint32_t) > options.max_bytes) {
         return InstanceMeshStatus::Limit;

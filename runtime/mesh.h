@@ -4,6 +4,7 @@
 #pragma once
 
 #include "runtime/skeleton.h"
+#include "runtime/triangle_list.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -45,7 +46,7 @@ struct Mesh {
     LargeVector<glm::vec4> tangents;            // empty if not asked for; w is the bitangent's sign
     LargeVector<std::uint16_t> colours;   // palette index of each vertex; empty if not asked for
     LargeVector<VertexSegments> segments; // empty if not asked for
-    LargeVector<std::uint32_t> indices;
+    TriangleList indices;
     std::vector<MeshPart> parts; // one for each material in use, in order of indices
     std::vector<Material> materials;
 
@@ -53,7 +54,7 @@ struct Mesh {
         return positions.size() * sizeof(glm::vec3) + normals.size() * sizeof(glm::vec3) +
                texture_coordinates.size() * sizeof(glm::vec2) +
                tangents.size() * sizeof(glm::vec4) + colours.size() * sizeof(std::uint16_t) +
-               segments.size() * sizeof(VertexSegments) + indices.size() * sizeof(std::uint32_t);
+               segments.size() * sizeof(VertexSegments) + indices.byte_count();
     }
 };
 

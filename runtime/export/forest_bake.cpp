@@ -76,9 +76,10 @@ public:
         mesh_.texture_coordinates.resize(textured_ ? vertices : 0);
         mesh_.tangents.resize(tangents_ ? vertices : 0);
         mesh_.colours.resize(colours_ ? vertices : 0);
-        mesh_.indices.resize(indices);
+        indices_.resize(indices);
         put_ground();
         put_trees();
+        mesh_.indices = std::move(indices_);
         return MeshStatus::Ok;
     }
 
@@ -144,10 +145,8 @@ private:
         copy(colours_, ground.colours, mesh_.colours);
         for (const MeshPart& part : ground.parts) {
             std::uint64_t& at = ground_at_[materials_.of_ground[part.material]];
-            const auto from =
-                ground.indices.begin() + static_cast<std::ptrdiff_t>(part.first_index);
-            std::copy_n(from, part.index_count,
-                        mesh_.indices.begin() + static_cast<std::ptrdiff_t>(at));
+            ground.indices.read(part.first_index,
+                                std::span(indices_).subspan(at, part.index_count));
             at += part.index_count;
         }
     }
@@ -194,7 +193,7 @@ private:
         for (const MeshPart& part : kind.meshes->parts_of(branch.instance)) {
             std::uint64_t& to = share.indices[materials_.of_kinds[k][part.material]];
             for (std::uint64_t i = 0; i < part.index_count; ++i) {
-                mesh_.indices[to++] = base + own_[k].indices[part.first_index + i];
+                indices_[to++] = base + own_[k].indices[part.first_index + i];
             }
         }
         share.vertices = at;
@@ -209,6 +208,7 @@ private:
     std::vector<std::size_t> first_kind_; // of each species
     std::size_t kinds_ = 0;
     std::vector<Share> shares_;
+    LargeVector<std::uint32_t> indices_;   // until they are the mesh's
     std::vector<std::uint64_t> ground_at_; // indices of the ground, by material
     bool textured_ = true;
     bool tangents_ = true;

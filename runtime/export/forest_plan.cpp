@@ -165,7 +165,8 @@ ForestMaterials find_forest_materials(const ForestScene& scene, const ForestPlan
 InstanceVertices number_vertices(const ForestKind& kind, const ForestPlan& plan) {
     const Mesh& mesh = kind.meshes->mesh;
     InstanceVertices own;
-    own.indices.resize(mesh.indices.size());
+    const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
+    own.indices.resize(indices.size());
     // The instance that has met a vertex last, and its number there.
     std::vector<std::uint32_t> met_by(mesh.positions.size(), kNone);
     std::vector<std::uint32_t> numbers(mesh.positions.size());
@@ -176,7 +177,7 @@ InstanceVertices number_vertices(const ForestKind& kind, const ForestPlan& plan)
         }
         for (const MeshPart& part : kind.meshes->parts_of(i)) {
             for (std::uint64_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
-                const std::uint32_t vertex = mesh.indices[k];
+                const std::uint32_t vertex = indices[k];
                 if (met_by[vertex] != i) {
                     met_by[vertex] = i;
                     numbers[vertex] =

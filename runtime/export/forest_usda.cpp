@@ -162,10 +162,11 @@ private:
     }
 
     void put_ground(const Mesh& mesh) {
+        TriangleReader indices(mesh.indices);
         put_surface(
             mesh, "Ground", mesh.positions.size(), mesh.parts, materials_.of_ground,
             [](std::uint64_t i) { return i; }, [](const glm::vec3& v, bool) { return v; },
-            [&mesh](std::uint64_t i) { return mesh.indices[i]; });
+            [&indices](std::uint64_t i) { return indices[i]; });
     }
 
     void put_instancer(const ForestKind& kind,

@@ -27,8 +27,9 @@ bool is_coloured(const Mesh& mesh, const MeshPart& part) {
     }
     const glm::vec3 own(mesh.materials[part.material].colour);
     std::uint32_t seen = ~std::uint32_t{0}; // a palette index that is the material's colour
+    TriangleReader indices(mesh.indices);
     for (std::uint64_t i = 0; i < part.index_count; ++i) {
-        const std::uint16_t colour = mesh.colours[mesh.indices[part.first_index + i]];
+        const std::uint16_t colour = mesh.colours[indices[part.first_index + i]];
         if (colour != seen) {
             if (palette_colour(colour) != own) {
                 return true;
@@ -193,7 +194,8 @@ void write_gltf_data(const Mesh& mesh,
             write_rotations(*motion, write);
             break;
         case GltfArray::Indices:
-            write(std::as_bytes(std::span(mesh.indices)));
+            for_each_chunk(mesh.indices,
+                           [&](std::uint64_t, auto part) { write(std::as_bytes(part)); });
             break;
         case GltfArray::Image: {
             std::string padded = data.images[view.image];

@@ -39,14 +39,14 @@ void put_line(PieceWriter& out, std::string_view keyword, const std::array<float
 }
 
 /// A corner names its position, texture coordinate and normal by the same number.
-void put_faces(const Mesh& mesh, const MeshPart& part, bool textured, PieceWriter& out) {
+void put_faces(TriangleReader& indices, const MeshPart& part, bool textured, PieceWriter& out) {
     for (std::uint64_t i = 0; i + 2 < part.index_count && !out.stopped(); i += 3) {
         char* at = out.room(kLineBytes);
         *at++ = 'f';
         for (std::uint64_t corner = i; corner < i + 3; ++corner) {
             *at++ = ' ';
             const char* const digits = at;
-            at = put_number(at, std::uint64_t{mesh.indices[part.first_index + corner]} + 1);
+            at = put_number(at, std::uint64_t{indices[part.first_index + corner]} + 1);
             const std::string_view number(digits, static_cast<std::size_t>(at - digits));
             *at++ = '/';
             if (textured) {
@@ -84,9 +84,10 @@ void write_obj(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
         put_line<3>(out, "vn", {n.x, n.y, n.z});
     }
     const std::vector<std::string> words = material_words(mesh);
+    TriangleReader indices(mesh.indices);
     for (const MeshPart& part : mesh.parts) {
         out.put(fmt::format("usemtl {}\n", words[part.material]));
-        put_faces(mesh, part, textured, out);
+        put_faces(indices, part, textured, out);
     }
 }
 

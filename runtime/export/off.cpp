@@ -34,6 +34,7 @@ void write_off(const Mesh& mesh, bool plus, PieceWriter& out) {
         *at++ = '\n';
         out.used(at);
     }
+    TriangleReader indices(mesh.indices);
     for (const MeshPart& part : mesh.parts) {
         const bool leaf = mesh.materials[part.material].kind == MaterialKind::Leaf;
         for (std::uint64_t i = 0; i + 2 < part.index_count && !out.stopped(); i += 3) {
@@ -41,7 +42,7 @@ void write_off(const Mesh& mesh, bool plus, PieceWriter& out) {
             *at++ = '3';
             for (std::uint64_t corner = i; corner < i + 3; ++corner) {
                 *at++ = ' ';
-                at = put_number(at, std::uint64_t{mesh.indices[part.first_index + corner]});
+                at = put_number(at, std::uint64_t{indices[part.first_index + corner]});
             }
             if (plus) {
                 at = put_text(at, leaf ? " 1" : " 0");

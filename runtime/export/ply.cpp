@@ -71,13 +71,14 @@ void write_ply(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
         out.used(at);
     }
     constexpr std::size_t kFaceBytes = 1 + 3 * sizeof(std::uint32_t);
+    TriangleReader indices(mesh.indices);
     for (const MeshPart& part : mesh.parts) {
-        const std::uint32_t* corner = mesh.indices.data() + part.first_index;
+        std::uint64_t corner = part.first_index;
         for (std::uint64_t i = 0; i < part.index_count / 3 && !out.stopped(); ++i, corner += 3) {
+            const std::array corners{indices[corner], indices[corner + 1], indices[corner + 2]};
             char* const at = out.room(kFaceBytes);
             *at = 3;
-            std::memcpy(at + 1, corner, 3 * sizeof *corner);
-            out.used(at + kFaceBytes);
+            out.used(put_bytes(at + 1, corners));
         }
     }
 }

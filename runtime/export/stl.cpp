@@ -27,12 +27,13 @@ void write_stl(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
     out.put(header);
     const auto count = static_cast<std::uint32_t>(triangle_count(mesh));
     out.put_array(std::span(&count, 1));
+    TriangleReader indices(mesh.indices);
     for (const MeshPart& part : mesh.parts) {
-        const std::uint32_t* corner = mesh.indices.data() + part.first_index;
+        std::uint64_t corner = part.first_index;
         for (std::uint64_t i = 0; i < part.index_count / 3 && !out.stopped(); ++i, corner += 3) {
-            const glm::vec3& a = mesh.positions[corner[0]];
-            const glm::vec3& b = mesh.positions[corner[1]];
-            const glm::vec3& c = mesh.positions[corner[2]];
+            const glm::vec3& a = mesh.positions[indices[corner]];
+            const glm::vec3& b = mesh.positions[indices[corner + 1]];
+            const glm::vec3& c = mesh.positions[indices[corner + 2]];
             const glm::vec3 across = glm::cross(b - a, c - a);
             const float length = glm::length(across);
             const glm::vec3 normal = length > 0.0F ? across / length : glm::vec3(0.0F);

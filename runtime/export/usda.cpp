@@ -17,6 +17,7 @@ namespace {
 /// Index of the part that item `i` of all parts belongs to is found by going on from the last.
 struct PartCursor {
     const Mesh& mesh;
+    TriangleReader indices{mesh.indices};
     std::size_t part = 0;
     std::uint64_t first = 0; // corners of the parts before
 
@@ -25,7 +26,7 @@ struct PartCursor {
             first += mesh.parts[part].index_count / 3 * 3;
             ++part;
         }
-        return mesh.indices[mesh.parts[part].first_index + (corner - first)];
+        return indices[mesh.parts[part].first_index + (corner - first)];
     }
 };
 

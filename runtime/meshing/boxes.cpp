@@ -30,8 +30,8 @@ constexpr std::uint64_t kVerticesOfPiece = 1U << 14;
 
 /// Faces by the part they belong to, as triangles.
 struct Parts {
-    std::vector<MeshBuilder::PartSize> sizes; // by rising material
-    std::vector<std::uint64_t> first_index;
+    std::vector<MeshBuilder::PartSize> sizes;   // by rising material
+    std::vector<std::span<std::uint32_t>> room; // for the indices of each
     std::map<std::uint16_t, std::size_t> of_colour;
 };
 
@@ -46,12 +46,9 @@ Parts find_parts(const PolygonMesh& mesh, std::uint32_t steps) {
         begin = mesh.face_ends[face];
     }
     Parts parts;
-    std::uint64_t first = 0;
     for (const auto& [material, count] : sizes) {
         parts.of_colour[material.palette] = parts.sizes.size();
         parts.sizes.push_back({.material = material, .index_count = count});
-        parts.first_index.push_back(first);
-        first += count;
     }
     return parts;
 }
@@ -130,12 +127,12 @@ void write_vertex(const CatmullClark& surface, std::uint32_t vertex, const MeshB
     }
 }
 
-/// Fans from the first corner; of quads, over the shorter diagonal.
+/// Writes fans from the first corner, of quads over the shorter diagonal, to the front of `room`.
 void write_face(const PolygonMesh& mesh,
                 std::uint32_t begin,
                 std::uint32_t end,
-                const MeshBlock& block,
-                std::uint64_t& index) {
+                std::uint32_t first_vertex,
+                std::span<std::uint32_t>& room) {
     const auto corner = [&](std::uint32_t i) { return mesh.corners[begin + i % (end - begin)]; };
     const auto apart = [&](std::uint32_t i, std::uint32_t j) {
         const glm::vec3 way = mesh.positions[corner(j)] - mesh.positions[corner(i)];
@@ -144,7 +141,8 @@ void write_face(const PolygonMesh& mesh,
     const std::uint32_t first = end - begin == 4 && apart(1, 3) < apart(0, 2) ? 1 : 0;
     for (std::uint32_t i = 1; i + 1 < end - begin; ++i) {
         for (const std::uint32_t at : {first, first + i, first + i + 1}) {
-            block.indices[index++] = block.first_vertex + corner(at);
+            room.front() = first_vertex + corner(at);
+            room = room.subspan(1);
         }
     }
 }
@@ -162,7 +160,7 @@ void write(const CatmullClark& surface, Parts& parts, Workers& workers, const Me
     for (std::size_t face = 0; face < mesh.face_ends.size(); ++face) {
         const std::size_t part =
             parts.of_colour.size() == 1 ? 0 : parts.of_colour.find(mesh.colours[face])->second;
-        write_face(mesh, begin, mesh.face_ends[face], block, parts.first_index[part]);
+        write_face(mesh, begin, mesh.face_ends[face], block.first_vertex, parts.room[part]);
         begin = mesh.face_ends[face];
     }
 }
@@ -180,14 +178,14 @@ void append_boxes(const Skeleton& skeleton, const MeshOptions& options, MeshBuil
     MeshBlock block;
     if (skeleton.segments.size() > kMostSegments || counts.corners >= kMostCorners) {
         // More vertices than there can be.
-        (void)builder.reserve_parts({}, ~std::uint64_t{0}, block);
+        (void)builder.place_parts({}, ~std::uint64_t{0}, block);
         return;
     }
     if (counts.corners == 0) {
         return;
     }
     Parts parts = find_parts(boxes, steps);
-    if (!builder.reserve_parts(parts.sizes, counts.vertices, block)) {
+    if (!builder.reserve_parts(parts.sizes, counts.vertices, block, parts.room)) {
         return;
     }
     Workers workers(options.threads);

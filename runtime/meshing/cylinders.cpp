@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -65,8 +66,11 @@ Cone cone_of(const Segment& segment, const MeshOptions& options) {
 /// Writes cones one after the other.
 class ConeWriter {
 public:
-    ConeWriter(const MeshBlock& block, std::uint64_t vertex, std::uint64_t index)
-        : block_(block), vertex_(vertex), index_(index) {}
+    ConeWriter(const MeshBlock& block,
+               std::span<std::uint32_t> indices,
+               std::uint64_t vertex,
+               std::uint64_t index)
+        : block_(block), indices_(indices), vertex_(vertex), index_(index) {}
 
     void write(const Segment& segment, std::uint32_t number, const Cone& cone) {
         number_ = number;
@@ -150,11 +154,12 @@ private:
 
     void put_triangle(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
         for (const std::uint64_t corner : {a, b, c}) {
-            block_.indices[index_++] = static_cast<std::uint32_t>(block_.first_vertex + corner);
+            indices_[index_++] = static_cast<std::uint32_t>(block_.first_vertex + corner);
         }
     }
 
     const MeshBlock& block_;
+    std::span<std::uint32_t> indices_; // of the part
     std::uint64_t vertex_;
     std::uint64_t index_;
     glm::mat3 axes_{1.0F};
@@ -165,6 +170,7 @@ private:
 struct Piece {
     std::uint64_t first = 0; // in Groups::items
     std::uint64_t end = 0;
+    std::size_t part = 0;
     std::uint64_t vertices = 0;
     std::uint64_t indices = 0;
 };
@@ -188,6 +194,7 @@ void append_cylinders(const Skeleton& skeleton, const MeshOptions& options, Mesh
             Piece& piece = pieces.emplace_back();
             piece.first = group.first + i;
             piece.end = group.first + std::min(group.count, i + kSegmentsOfPiece);
+            piece.part = first_piece.size() - 1;
         }
     }
     first_piece.push_back(pieces.size());
@@ -201,24 +208,24 @@ void append_cylinders(const Skeleton& skeleton, const MeshOptions& options, Mesh
         }
     });
     std::uint64_t vertices = 0;
-    std::uint64_t indices = 0;
     std::vector<MeshBuilder::PartSize> sizes;
     for (std::size_t group = 0; group < groups.groups.size(); ++group) {
-        const std::uint64_t before = indices;
+        std::uint64_t indices = 0; // of the part
         for (std::size_t i = first_piece[group]; i < first_piece[group + 1]; ++i) {
             Piece& piece = pieces[i];
             vertices += std::exchange(piece.vertices, vertices);
             indices += std::exchange(piece.indices, indices);
         }
         const auto palette = static_cast<std::uint16_t>(groups.groups[group].key);
-        sizes.push_back({.material = wood_material(palette), .index_count = indices - before});
+        sizes.push_back({.material = wood_material(palette), .index_count = indices});
     }
     MeshBlock block;
-    if (!builder.reserve_parts(sizes, vertices, block)) {
+    std::vector<std::span<std::uint32_t>> indices;
+    if (!builder.reserve_parts(sizes, vertices, block, indices)) {
         return;
     }
     workers.for_each(pieces.size(), [&](std::uint64_t i) {
-        ConeWriter writer(block, pieces[i].vertices, pieces[i].indices);
+        ConeWriter writer(block, indices[pieces[i].part], pieces[i].vertices, pieces[i].indices);
         for (std::uint64_t item = pieces[i].first; item < pieces[i].end; ++item) {
             const std::uint32_t number = groups.items[item];
             const Segment& segment = skeleton.segments[number];

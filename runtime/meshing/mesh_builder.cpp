@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace lsys {
 
@@ -104,7 +105,7 @@ MeshBuilder::MeshBuilder(const MeshOptions& options, Mesh& mesh) : options_(opti
 }
 
 /// Counts what is to come, if it fits.
-bool MeshBuilder::take(std::uint64_t vertices, std::uint64_t indices) {
+bool MeshBuilder::take(std::uint64_t vertices, std::uint64_t triangle_bytes) {
     if (status_ != MeshStatus::Ok) {
         return false;
     }
@@ -119,12 +120,11 @@ bool MeshBuilder::take(std::uint64_t vertices, std::uint64_t indices) {
                                           (options_.segments ? sizeof(VertexSegments) : 0);
     const std::uint64_t limit = options_.max_bytes;
     const std::uint64_t vertex_bytes = (vertices_ + vertices) * bytes_of_vertex;
-    if (vertex_bytes > limit ||
-        indices_ + indices > (limit - vertex_bytes) / sizeof(std::uint32_t)) {
+    if (vertex_bytes > limit || triangle_bytes_ + triangle_bytes > limit - vertex_bytes) {
         status_ = MeshStatus::Limit;
         return false;
     }
-    indices_ += indices;
+    triangle_bytes_ += triangle_bytes;
     return true;
 }
 
@@ -148,25 +148,49 @@ void MeshBuilder::grow_vertices(MeshBlock& block, std::uint64_t count) {
     vertices_ = needed;
 }
 
+bool MeshBuilder::place_parts(std::vector<WholePart> parts,
+                              std::uint64_t vertices,
+                              MeshBlock& block) {
+    LSYS_CHECK(parts_.empty() && vertices_ == 0, parts_.size(), vertices_);
+    std::uint64_t bytes = 0;
+    for (const WholePart& part : parts) {
+        bytes += part.triangles.byte_count();
+    }
+    if (!take(vertices, bytes)) {
+        return false;
+    }
+    for (WholePart& part : parts) {
+        LSYS_CHECK(parts_.empty() || parts_.back().material < part.material);
+        parts_.push_back(
+            {.material = part.material, .triangles = std::move(part.triangles), .indices = {}});
+    }
+    first_parts_ = parts_.size();
+    block = {};
+    grow_vertices(block, vertices);
+    return true;
+}
+
 bool MeshBuilder::reserve_parts(std::span<const PartSize> parts,
                                 std::uint64_t vertices,
-                                MeshBlock& block) {
+                                MeshBlock& block,
+                                std::vector<std::span<std::uint32_t>>& indices) {
     LSYS_CHECK(parts_.empty() && vertices_ == 0, parts_.size(), vertices_);
-    std::uint64_t indices = 0;
+    std::uint64_t count = 0;
     for (const PartSize& size : parts) {
-        indices += size.index_count;
+        count += size.index_count;
     }
-    if (!take(vertices, indices)) {
+    if (!take(vertices, count * sizeof(std::uint32_t))) {
         return false;
     }
     for (const PartSize& size : parts) {
         LSYS_CHECK(parts_.empty() || parts_.back().material < size.material);
-        parts_.push_back({.material = size.material, .in_place = size.index_count, .indices = {}});
+        Part& part =
+            parts_.emplace_back(Part{.material = size.material, .triangles = {}, .indices = {}});
+        indices.push_back(grow(part.indices, 0, size.index_count));
     }
-    parts_in_place_ = parts_.size();
+    first_parts_ = parts_.size();
     block = {};
     grow_vertices(block, vertices);
-    block.indices = grow(mesh_.indices, 0, indices);
     return true;
 }
 
@@ -177,7 +201,7 @@ std::uint32_t MeshBuilder::part(const MaterialKey& material) {
     if (found != parts_.end()) {
         return static_cast<std::uint32_t>(found - parts_.begin());
     }
-    parts_.push_back({.material = material, .in_place = 0, .indices = {}});
+    parts_.push_back({.material = material, .triangles = {}, .indices = {}});
     return static_cast<std::uint32_t>(parts_.size() - 1);
 }
 
@@ -186,7 +210,7 @@ bool MeshBuilder::reserve(std::uint32_t part,
                           std::uint64_t indices,
                           MeshBlock& block) {
     LSYS_CHECK(part < parts_.size(), part, parts_.size());
-    if (!take(vertices, indices)) {
+    if (!take(vertices, indices * sizeof(std::uint32_t))) {
         return false;
     }
     block = {};
@@ -196,53 +220,29 @@ bool MeshBuilder::reserve(std::uint32_t part,
     return true;
 }
 
-/// Moves the indices of all parts to where they stay; `order` gets the parts in their order there.
-void MeshBuilder::place_parts(std::vector<std::uint32_t>& order) {
-    order.resize(parts_.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::sort(
-        order.begin() + static_cast<std::ptrdiff_t>(parts_in_place_), order.end(),
-        [&](std::uint32_t a, std::uint32_t b) { return parts_[a].material < parts_[b].material; });
-    std::uint64_t in_place = 0;
-    for (const Part& part : parts_) {
-        in_place += part.in_place;
-    }
-    grow(mesh_.indices, in_place, indices_);
-    std::uint64_t end = indices_;
-    for (auto at = order.rbegin(); at != order.rend(); ++at) {
-        Part& part = parts_[*at];
-        const std::uint64_t begin = end - part.in_place - part.indices.size();
-        in_place -= part.in_place;
-        const auto data = mesh_.indices.begin();
-        const auto from = data + static_cast<std::ptrdiff_t>(in_place);
-        if (begin != in_place) {
-            std::copy_backward(from, from + static_cast<std::ptrdiff_t>(part.in_place),
-                               data + static_cast<std::ptrdiff_t>(begin + part.in_place));
-        }
-        std::copy(part.indices.begin(), part.indices.end(),
-                  data + static_cast<std::ptrdiff_t>(begin + part.in_place));
-        end = begin;
-    }
-}
-
 MeshStatus MeshBuilder::finish() {
     if (status_ != MeshStatus::Ok) {
         mesh_ = {};
         return status_;
     }
-    std::vector<std::uint32_t> order;
-    place_parts(order);
+    std::vector<std::uint32_t> order(parts_.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(
+        order.begin() + static_cast<std::ptrdiff_t>(first_parts_), order.end(),
+        [&](std::uint32_t a, std::uint32_t b) { return parts_[a].material < parts_[b].material; });
     mesh_.positions.resize(vertices_);
     mesh_.normals.resize(vertices_);
     mesh_.texture_coordinates.resize(options_.texture_coordinates ? vertices_ : 0);
     mesh_.tangents.resize(options_.tangents ? vertices_ : 0);
     mesh_.colours.resize(options_.colours ? vertices_ : 0);
     mesh_.segments.resize(options_.segments ? vertices_ : 0);
-    mesh_.indices.resize(indices_);
-    std::uint64_t first = 0;
+    mesh_.indices = {};
     for (const std::uint32_t index : order) {
-        const Part& part = parts_[index];
-        const std::uint64_t count = part.in_place + part.indices.size();
+        Part& part = parts_[index];
+        const std::uint64_t first = mesh_.indices.size();
+        mesh_.indices.append(std::move(part.triangles), 0);
+        mesh_.indices.append(std::move(part.indices));
+        const std::uint64_t count = mesh_.indices.size() - first;
         if (count == 0) {
             continue;
         }
@@ -250,7 +250,6 @@ MeshStatus MeshBuilder::finish() {
                                .first_index = first,
                                .index_count = count});
         mesh_.materials.push_back(make_material(part.material));
-        first += count;
     }
     parts_.clear();
     return MeshStatus::Ok;

@@ -59,8 +59,12 @@ public:
         MaterialKey material;
         std::uint64_t index_count = 0;
     };
+    struct WholePart {
+        MaterialKey material;
+        TriangleList triangles;
+    };
 
-    /// Writes into `mesh`, whose memory is used again. Both outlive the builder.
+    /// Writes into `mesh`, whose vertices' memory is used again. Both outlive the builder.
     MeshBuilder(const MeshOptions& options, Mesh& mesh);
     MeshBuilder(const MeshBuilder&) = delete;
     MeshBuilder& operator=(const MeshBuilder&) = delete;
@@ -74,10 +78,16 @@ public:
         return std::span(mesh_.segments).first(options_.segments ? vertices_ : 0);
     }
 
-    /// Only as the first thing: room for whole parts, by rising material, whose indices lie where
-    /// they stay. False: does not fit, nothing was done.
+    /// Only as the first thing: parts by rising material, which come before all others, and room
+    /// for their vertices; `triangles` count them from the first. False: does not fit, nothing was
+    /// done.
     [[nodiscard]] bool
-    reserve_parts(std::span<const PartSize> parts, std::uint64_t vertices, MeshBlock& block);
+    place_parts(std::vector<WholePart> parts, std::uint64_t vertices, MeshBlock& block);
+    /// The same with room for the indices of each part.
+    [[nodiscard]] bool reserve_parts(std::span<const PartSize> parts,
+                                     std::uint64_t vertices,
+                                     MeshBlock& block,
+                                     std::vector<std::span<std::uint32_t>>& indices);
 
     /// Number of the part of a material, for the calls below.
     [[nodiscard]] std::uint32_t part(const MaterialKey& material);
@@ -91,21 +101,20 @@ public:
 private:
     struct Part {
         MaterialKey material;
-        std::uint64_t in_place = 0; // indices that reserve_parts() gave
+        TriangleList triangles; // that came whole
         LargeVector<std::uint32_t> indices;
     };
 
-    bool take(std::uint64_t vertices, std::uint64_t indices);
+    bool take(std::uint64_t vertices, std::uint64_t triangle_bytes);
     void grow_vertices(MeshBlock& block, std::uint64_t count);
-    void place_parts(std::vector<std::uint32_t>& order);
 
     const MeshOptions& options_;
     Mesh& mesh_;
     MeshStatus status_ = MeshStatus::Ok;
     std::uint64_t vertices_ = 0;
-    std::uint64_t indices_ = 0;
-    std::vector<Part> parts_; // those of reserve_parts() first
-    std::size_t parts_in_place_ = 0;
+    std::uint64_t triangle_bytes_ = 0;
+    std::vector<Part> parts_; // those of place_parts() and reserve_parts() first
+    std::size_t first_parts_ = 0;
 };
 
 } // namespace lsys

@@ -23,33 +23,6 @@ constexpr float kBallHeight = 0.62F;
 // How much of the bisector the first of three tangents of a bend has: a third of 90 degrees.
 constexpr float kThird = 0.57735F;
 
-std::uint64_t cap_vertices(TubeEnd end, std::uint64_t columns) {
-    switch (end) {
-    case TubeEnd::Flat:
-    case TubeEnd::Blunt:
-        return 1;
-    case TubeEnd::Ball:
-        return columns + 1;
-    case TubeEnd::Point:
-    case TubeEnd::Open:
-        break;
-    }
-    return 0;
-}
-std::uint64_t cap_triangles(TubeEnd end, std::uint64_t sides) {
-    switch (end) {
-    case TubeEnd::Flat:
-    case TubeEnd::Blunt:
-        return sides;
-    case TubeEnd::Ball:
-        return 3 * sides;
-    case TubeEnd::Point:
-    case TubeEnd::Open:
-        break;
-    }
-    return 0;
-}
-
 glm::vec3 any_perpendicular(const glm::vec3& unit) {
     const glm::vec3 other =
         std::abs(unit.y) < 0.9F ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(1.0F, 0.0F, 0.0F);
@@ -89,45 +62,8 @@ float slope_of(const Run& run, std::size_t i) {
 
 } // namespace
 
-void count_tube(const Run& run,
-                const MeshOptions& options,
-                const ColourSlots& slots,
-                std::uint64_t& vertices,
-                std::vector<std::uint64_t>& indices) {
-    const std::span<const Joint> joints = run.joints;
-    const std::size_t last = joints.size() - 1;
-    std::uint32_t slot = slots[joints[0].colour];
-    std::uint64_t triangles = cap_triangles(run.begin, joints[0].sides);
-    vertices += cap_vertices(run.begin, columns_of(joints[0].sides, options)) +
-                columns_of(joints[0].sides, options);
-    for (std::size_t i = 1; i <= last; ++i) {
-        const Joint& joint = joints[i];
-        const std::uint64_t sides = joint.sides;
-        const std::uint64_t columns = columns_of(joint.sides, options);
-        const bool pointed =
-            (i == 1 && run.begin == TubeEnd::Point) || (i == last && run.end == TubeEnd::Point);
-        triangles += pointed ? sides : joints[i - 1].sides + sides;
-        triangles += (joint.rings - std::uint64_t{1}) * 2 * sides;
-        vertices += joint.rings * columns;
-        if (joint.colour != joints[i - 1].colour) {
-            indices[slot] += 3 * triangles;
-            triangles = 0;
-            slot = slots[joint.colour];
-            vertices += columns;
-        }
-    }
-    triangles += cap_triangles(run.end, joints[last].sides);
-    vertices += cap_vertices(run.end, columns_of(joints[last].sides, options));
-    indices[slot] += 3 * triangles;
-}
-
-TubeWriter::TubeWriter(const MeshBlock& block,
-                       const MeshOptions& options,
-                       const ColourSlots& slots,
-                       std::uint64_t vertex,
-                       std::span<const std::uint64_t> index)
-    : block_(block), options_(options), slots_(slots), seam_(columns_of(0, options) != 0),
-      vertex_(vertex), index_(index.begin(), index.end()) {}
+TubeWriter::TubeWriter(const MeshBlock& block, const MeshOptions& options, std::uint64_t vertex)
+    : block_(block), options_(options), seam_(columns_of(0, options) != 0), vertex_(vertex) {}
 
 void TubeWriter::write(const Run& run) {
     const std::span<const Joint> joints = run.joints;
@@ -149,7 +85,10 @@ void TubeWriter::write(const Run& run) {
               .slope = slope_of(run, 0),
               .sides = joints[0].sides,
               .colour = joints[0].colour};
-    begin(run, ring);
+    if (run.begin == TubeEnd::Flat) {
+        put_tip(ring.centre, -tangent_, ring.arc, ring);
+    }
+    put_ring(ring);
     for (std::size_t i = 1; i <= last; ++i) {
         const Joint& before = joints[i - 1];
         const Joint& joint = joints[i];
@@ -159,9 +98,8 @@ void TubeWriter::write(const Run& run) {
         ring.arc += static_cast<double>(before.length);
         ring.sides = joint.sides;
         ring.colour = before.colour;
-        const bool from_point = i == 1 && run.begin == TubeEnd::Point;
         if (joint.rings > 1) {
-            bend(before, joint, ring, from_point);
+            bend(before, joint, ring);
         } else {
             // The ring lies in the plane that halves the bend, as an ellipse: both edges are as
             // thick as the radius says.
@@ -171,7 +109,7 @@ void TubeWriter::write(const Run& run) {
             carry(before.heading, sum * (1.0F / twice));
             ring.mitre = joint.heading - before.heading;
             ring.stretch = 0.25F / (half_cosine * (1.0F + half_cosine));
-            link_ring(ring, slots_[before.colour], from_point);
+            put_ring(ring);
             change_colour(ring, joint.colour);
         }
     }
@@ -196,7 +134,7 @@ void TubeWriter::carry(const glm::vec3& edge, const glm::vec3& tangent) {
 
 /// Two or three rings around a joint, each bending by at most 60 degrees. They lie a little apart,
 /// so that no corners coincide where the axis of the bend meets them.
-void TubeWriter::bend(const Joint& before, const Joint& joint, Ring ring, bool from_point) {
+void TubeWriter::bend(const Joint& before, const Joint& joint, Ring ring) {
     const glm::vec3& in = before.heading;
     const float cosine = glm::dot(in, joint.heading);
     const glm::vec3 turn = glm::cross(in, joint.heading);
@@ -215,26 +153,25 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring ring, bool f
     const float on = 0.75F * std::min(kSpread * joint.radius, 0.25F * joint.length);
     const glm::vec3 centre = ring.centre;
     const double arc = ring.arc;
-    const std::uint32_t slot = slots_[before.colour];
     ring.stretch = stretch;
 
     carry(in, first);
     ring.centre = centre - back * in;
     ring.arc = arc - static_cast<double>(back);
     ring.mitre = glm::cross(axis, first);
-    link_ring(ring, slot, from_point);
+    put_ring(ring);
     if (joint.rings > 2) {
         carry(tangent_, middle);
         ring.centre = centre;
         ring.arc = arc;
         ring.mitre = glm::cross(axis, middle);
-        link_ring(ring, slot, false);
+        put_ring(ring);
     }
     carry(tangent_, last);
     ring.centre = centre + on * joint.heading;
     ring.arc = arc + static_cast<double>(on);
     ring.mitre = glm::cross(axis, last);
-    link_ring(ring, slot, false);
+    put_ring(ring);
     change_colour(ring, joint.colour);
 }
 
@@ -242,27 +179,12 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring ring, bool f
 void TubeWriter::change_colour(Ring& ring, std::uint16_t colour) {
     if (ring.colour != colour) {
         ring.colour = colour;
-        ring_ = vertex_;
         put_ring(ring);
-    }
-}
-
-void TubeWriter::begin(const Run& run, const Ring& ring) {
-    const std::uint64_t centre = vertex_;
-    if (run.begin == TubeEnd::Flat) {
-        put_tip(ring.centre, -tangent_, ring.arc, ring);
-    }
-    ring_ = vertex_;
-    ring_sides_ = ring.sides;
-    put_ring(ring);
-    if (run.begin == TubeEnd::Flat) {
-        fan(ring_, ring.sides, centre, 0, false, slots_[ring.colour]);
     }
 }
 
 /// `ring` is the last one written.
 void TubeWriter::end(const Run& run, Ring ring) {
-    const std::uint32_t slot = slots_[ring.colour];
     if (run.end == TubeEnd::Point) {
         return;
     }
@@ -276,27 +198,10 @@ void TubeWriter::end(const Run& run, Ring ring) {
         ring.radius = kBallRing * radius;
         ring.slope = -1.0F;
         ring.arc = arc + static_cast<double>(kBallHeight * radius);
-        link_ring(ring, slot, false);
+        put_ring(ring);
     }
-    const std::uint64_t top = vertex_;
     put_tip(base + (height * radius) * tangent_, tangent_,
             arc + static_cast<double>(height * radius), ring);
-    fan(ring_, ring_sides_, top, 0, true, slot);
-}
-
-/// Writes a ring and the strip from the last one.
-void TubeWriter::link_ring(const Ring& ring, std::uint32_t slot, bool from_point) {
-    const std::uint64_t first = vertex_;
-    put_ring(ring);
-    if (ring.radius == 0.0F) {
-        fan(ring_, ring_sides_, first, 1, true, slot);
-    } else if (from_point) {
-        fan(first, ring.sides, ring_, 1, false, slot);
-    } else {
-        strip(ring_, ring_sides_, first, ring.sides, slot);
-    }
-    ring_ = first;
-    ring_sides_ = ring.sides;
 }
 
 } // namespace lsys

@@ -42,7 +42,8 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
     mesh.positions.resize(vertices);
     mesh.normals.resize(vertices);
     mesh.texture_coordinates.resize(vertices);
-    mesh.indices.resize(6 * columns * rows);
+    LargeVector<std::uint32_t> indices;
+    indices.resize(6 * columns * rows);
 
     Workers workers(options.threads);
     workers.for_each(rows + 1, [&](std::uint64_t row) {
@@ -65,7 +66,7 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
         for (std::uint32_t column = 0; column < options.columns; ++column) {
             const auto corner = static_cast<std::uint32_t>(row * (columns + 1) + column);
             const std::uint32_t below = corner + options.columns + 1; // the next row, greater z
-            std::uint32_t* const to = mesh.indices.data() + 6 * (row * columns + column);
+            std::uint32_t* const to = indices.data() + 6 * (row * columns + column);
             // Counter-clockwise from above: Z before X.
             const bool falling = ((row + column) & 1U) == 0;
             const std::array<std::uint32_t, 6> cell =
@@ -78,6 +79,7 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
             }
         }
     });
+    mesh.indices = std::move(indices);
     Material ground;
     ground.name = "ground";
     ground.colour = {0.12F, 0.10F, 0.05F, 1.0F};

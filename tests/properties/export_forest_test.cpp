@@ -107,7 +107,7 @@ struct Shape {
 
 Shape shape_of(const Mesh& mesh) {
     Shape shape;
-    for (const std::uint32_t index : mesh.indices) {
+    for (const std::uint32_t index : mesh.indices.expanded()) {
         shape.sum += glm::dvec3(mesh.positions[index]);
         shape.bounds.add(mesh.positions[index]);
     }

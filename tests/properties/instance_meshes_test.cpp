@@ -250,7 +250,7 @@ TEST_CASE("instances within one another share vertices") {
     }
     CHECK(end == meshes.mesh.indices.size());
     CHECK(end > heroes_mesh.indices.size());
-    for (const std::uint32_t index : meshes.mesh.indices) {
+    for (const std::uint32_t index : meshes.mesh.indices.expanded()) {
         REQUIRE(index < meshes.mesh.positions.size());
     }
     CHECK(meshes.mesh.segments.empty());

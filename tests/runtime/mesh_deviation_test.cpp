@@ -34,8 +34,9 @@ bool same(const Mesh& a, const Mesh& b) {
 /// Triangles whose front is not the side that the normals at its corners are on.
 std::size_t turned_over(const Mesh& mesh) {
     std::size_t turned = 0;
-    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-        const std::uint32_t* const corner = &mesh.indices[i];
+    const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        const std::uint32_t* const corner = &indices[i];
         const glm::dvec3 front = test::twice_area(
             mesh.positions[corner[0]], mesh.positions[corner[1]], mesh.positions[corner[2]]);
         const glm::vec3 normal =

@@ -63,7 +63,7 @@ TEST_CASE("objects of all levels are whole meshes that use their vertices") {
             test::check_mesh(mesh, {});
             CHECK(test::triangles_turned_over(mesh) == 0);
             std::vector<bool> used(mesh.positions.size());
-            for (const std::uint32_t index : mesh.indices) {
+            for (const std::uint32_t index : mesh.indices.expanded()) {
                 used[index] = true;
             }
             CHECK(std::count(used.begin(), used.end(), false) == 0);

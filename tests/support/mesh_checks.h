@@ -80,7 +80,7 @@ inline std::size_t triangles_turned_over(const Mesh& mesh) {
 
 inline Bounds bounds_of(const Mesh& mesh) {
     Bounds bounds;
-    for (const std::uint32_t index : mesh.indices) {
+    for (const std::uint32_t index : mesh.indices.expanded()) {
         bounds.add(mesh.positions[index]);
     }
     return bounds;

@@ -37,7 +37,10 @@ void PlantMesh::upload(const Mesh& mesh) {
     normals_.fill(std::span<const glm::vec3>(mesh.normals));
     texture_coordinates_.fill(std::span<const glm::vec2>(mesh.texture_coordinates));
     tangents_.fill(std::span<const glm::vec4>(mesh.tangents));
-    indices_.fill(std::span<const std::uint32_t>(mesh.indices));
+    indices_.reserve(mesh.indices.size() * sizeof(std::uint32_t));
+    for_each_chunk(mesh.indices, [&](std::uint64_t first, std::span<const std::uint32_t> part) {
+        indices_.write(part, first * sizeof(std::uint32_t));
+    });
     glVertexArrayVertexBuffer(array_.name(), 0, positions_.name(), 0, sizeof(glm::vec3));
     glVertexArrayVertexBuffer(array_.name(), 1, normals_.name(), 0, sizeof(glm::vec3));
     glVertexArrayVertexBuffer(array_.name(), 2, texture_coordinates_.name(), 0, sizeof(glm::vec2));
