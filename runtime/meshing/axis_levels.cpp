@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMostLeftOut = 32;
 
 /// Whether the edge from joint `first` to joint `last` may stand for those between.
-bool stands_for(const std::vector<Joint>& joints,
+bool stands_for(const LargeVector<Joint>& joints,
                 std::size_t first,
                 std::size_t last,
                 float tolerance) {
@@ -52,7 +52,7 @@ void aim(Joint& from, const glm::vec3& to) {
         std::min(length, static_cast<double>(std::numeric_limits<float>::max())));
 }
 
-void leave_out_joints(std::vector<Joint>& joints, std::vector<Joint>& spare, float tolerance) {
+void leave_out_joints(LargeVector<Joint>& joints, LargeVector<Joint>& spare, float tolerance) {
     spare.clear();
     std::size_t first = 0;
     while (first + 1 < joints.size()) {

@@ -144,8 +144,7 @@ bool AxisReader::read(Run& run) {
     if (!add_end(end, end_radius)) {
         return false;
     }
-    const glm::quat& frame = skeleton_.segments[run.first_segment].frame;
-    run.side = frame * glm::vec3(1.0F, 0.0F, 0.0F);
+    run.side = side_of(skeleton_, run.first_segment);
     run.end = joints_.back().radius == 0.0F ? TubeEnd::Point
               : at == kForked               ? TubeEnd::Ball
                                             : TubeEnd::Blunt;

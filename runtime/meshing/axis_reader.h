@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
+#include <utility>
 
 namespace lsys {
 
@@ -45,6 +45,11 @@ struct Run {
     std::uint32_t first_segment = 0;
 };
 
+/// Run::side of a run that begins with a segment.
+[[nodiscard]] inline glm::vec3 side_of(const Skeleton& skeleton, std::uint32_t first_segment) {
+    return skeleton.segments[first_segment].frame * glm::vec3(1.0F, 0.0F, 0.0F);
+}
+
 class AxisReader {
 public:
     AxisReader(const Skeleton& skeleton, const Axes& axes, const MeshOptions& options);
@@ -52,6 +57,11 @@ public:
     void start(std::uint32_t first_segment);
     /// The next run of the axis; false after the last one. It is good until the next call.
     [[nodiscard]] bool next(Run& run);
+    /// The joints of the last run and their radii, which stay where they are.
+    void take(LargeVector<Joint>& joints, LargeVector<float>& radii) {
+        joints = std::exchange(joints_, {});
+        radii = std::exchange(radii_, {});
+    }
 
 private:
     bool read(Run& run);
@@ -76,9 +86,9 @@ private:
     std::array<std::uint8_t, kMaxSides + 1> most_sides_{}; // of the level, by those of level 0
     float hidden_ = 0.0F;          // radius that the corners of an open base have at most
     std::array<float, 2> flare_{}; // radii of the collar at any angle; 0: none
-    std::vector<float> radii_;
-    std::vector<Joint> joints_;
-    std::vector<Joint> spare_;
+    LargeVector<float> radii_;
+    LargeVector<Joint> joints_;
+    LargeVector<Joint> spare_;
     std::uint32_t segment_ = kNoSegment; // the next one to read
     bool attached_ = false;              // nothing of the axis was left out so far
     bool plain_ = true;                  // no joint has to be looked at again

@@ -48,20 +48,23 @@ void put_ellipses(glm::vec3* positions,
 } // namespace
 
 void TubeWriter::put_ring(const Ring& ring) {
-    const std::uint64_t first = vertex_;
+    const std::uint64_t first = at_.vertex;
     const std::uint32_t columns = columns_of(ring.sides, options_);
-    vertex_ += columns;
+    at_.vertex += columns;
+    if (skips_) {
+        return;
+    }
     if (noise_ != nullptr) {
         put_noise(ring, first);
     } else {
-        const glm::vec3 binormal = glm::cross(tangent_, normal_);
+        const glm::vec3 binormal = glm::cross(at_.tangent, at_.normal);
         const glm::vec3 wide = ring.stretch * ring.mitre;
         const float part = 1.0F / std::sqrt(1.0F + ring.slope * ring.slope);
         const Ellipse position{
             lanes(ring.centre),
-            lanes(ring.radius * (normal_ + glm::dot(normal_, ring.mitre) * wide)),
+            lanes(ring.radius * (at_.normal + glm::dot(at_.normal, ring.mitre) * wide)),
             lanes(ring.radius * (binormal + glm::dot(binormal, ring.mitre) * wide))};
-        const Ellipse normal{lanes((-ring.slope * part) * tangent_), lanes(part * normal_),
+        const Ellipse normal{lanes((-ring.slope * part) * at_.tangent), lanes(part * at_.normal),
                              lanes(part * binormal)};
         put_ellipses(block_.positions.data() + first, position, block_.normals.data() + first,
                      normal, directions(ring.sides), columns);
@@ -90,9 +93,9 @@ void TubeWriter::put_textured(const Ring& ring, std::uint64_t first) {
     }
     glm::vec4* to = block_.tangents.data() + first;
     const Direction* at = directions(ring.sides);
-    const glm::vec3 binormal = glm::cross(tangent_, normal_);
+    const glm::vec3 binormal = glm::cross(at_.tangent, at_.normal);
     if (noise_ == nullptr) {
-        const Lanes a = lanes(normal_);
+        const Lanes a = lanes(at_.normal);
         const Lanes b = lanes(binormal);
         const Lanes sign = lanes(glm::vec3(0.0F), 1.0F);
         for (std::uint32_t i = 0; i < columns; ++i) {
@@ -102,18 +105,18 @@ void TubeWriter::put_textured(const Ring& ring, std::uint64_t first) {
     }
     for (std::uint32_t i = 0; i < columns; ++i) {
         const glm::vec3& normal = block_.normals[first + i];
-        const glm::vec3 around = at[i].cosine * binormal - at[i].sine * normal_;
+        const glm::vec3 around = at[i].cosine * binormal - at[i].sine * at_.normal;
         to[i] = glm::vec4(glm::normalize(around - normal * glm::dot(normal, around)), 1.0F);
     }
 }
 
 void TubeWriter::put_noise(const Ring& ring, std::uint64_t first) {
     const Direction* at = directions(ring.sides);
-    const glm::vec3 binormal = glm::cross(tangent_, normal_);
+    const glm::vec3 binormal = glm::cross(at_.tangent, at_.normal);
     const float amount = std::min(options_.bark_noise, 0.9F);
     for (std::uint32_t i = 0; i < ring.sides; ++i) {
-        const glm::vec3 out = at[i].cosine * normal_ + at[i].sine * binormal;
-        const glm::vec3 around = at[i].cosine * binormal - at[i].sine * normal_;
+        const glm::vec3 out = at[i].cosine * at_.normal + at[i].sine * binormal;
+        const glm::vec3 around = at[i].cosine * binormal - at[i].sine * at_.normal;
         const NoiseSample noise =
             noise_->at(static_cast<float>(i) / static_cast<float>(ring.sides), ring.arc);
         const float factor = 1.0F + amount * noise.value;
@@ -122,7 +125,7 @@ void TubeWriter::put_noise(const Ring& ring, std::uint64_t first) {
             std::clamp(ring.slope * factor + ring.radius * amount * noise.by_length, -8.0F, 8.0F);
         block_.positions[first + i] = ring.centre + (ring.radius * factor) * offset;
         block_.normals[first + i] =
-            glm::normalize(out - along * tangent_ - (amount * noise.by_angle / factor) * around);
+            glm::normalize(out - along * at_.tangent - (amount * noise.by_angle / factor) * around);
     }
     if (seam_) {
         block_.positions[first + ring.sides] = block_.positions[first];
@@ -134,12 +137,15 @@ void TubeWriter::put_tip(const glm::vec3& position,
                          const glm::vec3& normal,
                          double arc,
                          const Ring& ring) {
-    block_.set(vertex_, {.position = position,
-                         .normal = normal,
-                         .texture_coordinate = {0.5F, v_of(arc)},
-                         .tangent = glm::vec4(normal_, 1.0F),
-                         .palette = ring.colour});
-    ++vertex_;
+    const std::uint64_t vertex = at_.vertex++;
+    if (skips_) {
+        return;
+    }
+    block_.set(vertex, {.position = position,
+                        .normal = normal,
+                        .texture_coordinate = {0.5F, v_of(arc)},
+                        .tangent = glm::vec4(at_.normal, 1.0F),
+                        .palette = ring.colour});
 }
 
 } // namespace lsys

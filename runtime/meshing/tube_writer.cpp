@@ -63,38 +63,69 @@ float slope_of(const Run& run, std::size_t i) {
 } // namespace
 
 TubeWriter::TubeWriter(const MeshBlock& block, const MeshOptions& options, std::uint64_t vertex)
-    : block_(block), options_(options), seam_(columns_of(0, options) != 0), vertex_(vertex) {}
+    : block_(block), options_(options), seam_(columns_of(0, options) != 0) {
+    at_.vertex = vertex;
+}
 
 void TubeWriter::write(const Run& run) {
+    at_ = begin(run);
+    go(run, run.joints.size());
+}
+
+TubeWriter::Place TubeWriter::begin(const Run& run) const {
+    Place place;
+    place.vertex = at_.vertex;
+    place.tangent = run.joints[0].heading;
+    place.normal = across(run.side, place.tangent);
+    if (seam_ || options_.bark_noise > 0.0F) {
+        place.circumference = mean_circumference(run);
+    }
+    return place;
+}
+
+void TubeWriter::write(const Run& run, Place& place, std::size_t end) {
+    at_ = place;
+    go(run, end);
+    place = at_;
+}
+
+void TubeWriter::skip(const Run& run, Place& place, std::size_t end) {
+    skips_ = true;
+    write(run, place, end);
+    skips_ = false;
+}
+
+void TubeWriter::go(const Run& run, std::size_t end) {
     const std::span<const Joint> joints = run.joints;
     const std::size_t last = joints.size() - 1;
-    tangent_ = joints[0].heading;
-    normal_ = across(run.side, tangent_);
-    steps_ = 0;
     std::optional<BarkNoise> noise;
     if (seam_ || options_.bark_noise > 0.0F) {
-        const double circumference = mean_circumference(run);
-        v_scale_ = 1.0 / circumference;
+        v_scale_ = 1.0 / at_.circumference;
         if (options_.bark_noise > 0.0F) {
-            noise.emplace(static_cast<float>(circumference), run.first_segment);
+            noise.emplace(static_cast<float>(at_.circumference), run.first_segment);
         }
     }
     noise_ = noise ? &*noise : nullptr;
-    Ring ring{.centre = joints[0].centre,
-              .radius = joints[0].radius,
-              .slope = slope_of(run, 0),
-              .sides = joints[0].sides,
-              .colour = joints[0].colour};
-    if (run.begin == TubeEnd::Flat) {
-        put_tip(ring.centre, -tangent_, ring.arc, ring);
+    Ring ring;
+    ring.arc = at_.arc;
+    if (at_.joint == 0 && end > 0) {
+        ring.centre = joints[0].centre;
+        ring.radius = joints[0].radius;
+        ring.slope = slope_of(run, 0);
+        ring.sides = joints[0].sides;
+        ring.colour = joints[0].colour;
+        if (run.begin == TubeEnd::Flat) {
+            put_tip(ring.centre, -at_.tangent, ring.arc, ring);
+        }
+        put_ring(ring);
+        at_.joint = 1;
     }
-    put_ring(ring);
-    for (std::size_t i = 1; i <= last; ++i) {
+    for (std::size_t i = at_.joint; i < end; ++i) {
         const Joint& before = joints[i - 1];
         const Joint& joint = joints[i];
         ring.centre = joint.centre;
         ring.radius = joint.radius;
-        ring.slope = slope_of(run, i);
+        ring.slope = skips_ ? 0.0F : slope_of(run, i);
         ring.arc += static_cast<double>(before.length);
         ring.sides = joint.sides;
         ring.colour = before.colour;
@@ -113,22 +144,26 @@ void TubeWriter::write(const Run& run) {
             change_colour(ring, joint.colour);
         }
     }
-    ring.colour = joints[last].colour;
-    end(run, ring);
+    at_.joint = end;
+    at_.arc = ring.arc;
+    if (end > last) {
+        ring.colour = joints[last].colour;
+        close(run, ring);
+    }
 }
 
 /// Carries the frame along `edge` to where the axis goes along `tangent`, both unit.
 void TubeWriter::carry(const glm::vec3& edge, const glm::vec3& tangent) {
-    const glm::vec3 left = normal_ - edge * (2.0F * glm::dot(edge, normal_));
-    const glm::vec3 left_tangent = tangent_ - edge * (2.0F * glm::dot(edge, tangent_));
+    const glm::vec3 left = at_.normal - edge * (2.0F * glm::dot(edge, at_.normal));
+    const glm::vec3 left_tangent = at_.tangent - edge * (2.0F * glm::dot(edge, at_.tangent));
     const glm::vec3 mirror = tangent - left_tangent;
     const float scale = 2.0F / glm::dot(mirror, mirror);
-    normal_ = left - mirror * (scale * glm::dot(mirror, left));
-    tangent_ = tangent;
+    at_.normal = left - mirror * (scale * glm::dot(mirror, left));
+    at_.tangent = tangent;
     // A million steps leave it a unit vector across the tangent.
-    if (++steps_ % kStepsToDrift == 0) {
-        normal_ -= tangent * glm::dot(tangent, normal_);
-        normal_ *= 1.5F - 0.5F * glm::dot(normal_, normal_);
+    if (++at_.steps % kStepsToDrift == 0) {
+        at_.normal -= tangent * glm::dot(tangent, at_.normal);
+        at_.normal *= 1.5F - 0.5F * glm::dot(at_.normal, at_.normal);
     }
 }
 
@@ -139,9 +174,9 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring ring) {
     const float cosine = glm::dot(in, joint.heading);
     const glm::vec3 turn = glm::cross(in, joint.heading);
     const float sine = std::sqrt(glm::dot(turn, turn));
-    const glm::vec3 axis = sine > 1e-3F
-                               ? turn / sine
-                               : across(glm::cross(in, normal_), in); // which way, if it turns back
+    const glm::vec3 axis =
+        sine > 1e-3F ? turn / sine
+                     : across(glm::cross(in, at_.normal), in); // which way, if it turns back
     const glm::vec3 across_in = glm::cross(axis, in);
     const glm::vec3 middle = std::sqrt(std::max(0.5F + 0.5F * cosine, 0.0F)) * in +
                              std::sqrt(std::max(0.5F - 0.5F * cosine, 0.0F)) * across_in;
@@ -161,13 +196,13 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring ring) {
     ring.mitre = glm::cross(axis, first);
     put_ring(ring);
     if (joint.rings > 2) {
-        carry(tangent_, middle);
+        carry(at_.tangent, middle);
         ring.centre = centre;
         ring.arc = arc;
         ring.mitre = glm::cross(axis, middle);
         put_ring(ring);
     }
-    carry(tangent_, last);
+    carry(at_.tangent, last);
     ring.centre = centre + on * joint.heading;
     ring.arc = arc + static_cast<double>(on);
     ring.mitre = glm::cross(axis, last);
@@ -184,7 +219,7 @@ void TubeWriter::change_colour(Ring& ring, std::uint16_t colour) {
 }
 
 /// `ring` is the last one written.
-void TubeWriter::end(const Run& run, Ring ring) {
+void TubeWriter::close(const Run& run, Ring ring) {
     if (run.end == TubeEnd::Point) {
         return;
     }
@@ -194,13 +229,13 @@ void TubeWriter::end(const Run& run, Ring ring) {
     float height = kBluntHeight;
     if (run.end == TubeEnd::Ball) {
         height = 1.0F;
-        ring.centre = base + (kBallHeight * radius) * tangent_;
+        ring.centre = base + (kBallHeight * radius) * at_.tangent;
         ring.radius = kBallRing * radius;
         ring.slope = -1.0F;
         ring.arc = arc + static_cast<double>(kBallHeight * radius);
         put_ring(ring);
     }
-    put_tip(base + (height * radius) * tangent_, tangent_,
+    put_tip(base + (height * radius) * at_.tangent, at_.tangent,
             arc + static_cast<double>(height * radius), ring);
 }
 

@@ -6,6 +6,7 @@
 #include "runtime/meshing/axis_reader.h"
 #include "runtime/meshing/mesh_builder.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace lsys {
@@ -22,9 +23,25 @@ public:
     /// Writes from vertex `vertex` of the block on.
     TubeWriter(const MeshBlock& block, const MeshOptions& options, std::uint64_t vertex);
 
-    void write(const Run& run);
+    /// Where the writing of a run is between two joints, and the frame there.
+    struct Place {
+        std::size_t joint = 0; // the next one
+        std::uint64_t vertex = 0;
+        double arc = 0.0;
+        double circumference = 0.0; // at the mean radius, where it is needed
+        glm::vec3 tangent{};
+        glm::vec3 normal{}; // where the first corner is seen from the axis
+        std::uint32_t steps = 0;
+    };
 
-    [[nodiscard]] std::uint64_t vertex() const { return vertex_; }
+    void write(const Run& run);
+    [[nodiscard]] Place begin(const Run& run) const;
+    /// Writes what begins before joint `end`; the place moves there.
+    void write(const Run& run, Place& place, std::size_t end);
+    /// Moves the place as write() does, and writes nothing.
+    void skip(const Run& run, Place& place, std::size_t end);
+
+    [[nodiscard]] std::uint64_t vertex() const { return at_.vertex; }
 
 private:
     /// Where a ring lies and how; the axes of its ellipse are stretched along `mitre`.
@@ -39,6 +56,7 @@ private:
         std::uint16_t colour = 0;
     };
 
+    void go(const Run& run, std::size_t end);
     void carry(const glm::vec3& edge, const glm::vec3& tangent);
     void bend(const Joint& before, const Joint& joint, Ring ring);
     void change_colour(Ring& ring, std::uint16_t colour);
@@ -46,17 +64,15 @@ private:
     void put_textured(const Ring& ring, std::uint64_t first);
     void put_noise(const Ring& ring, std::uint64_t first);
     void put_tip(const glm::vec3& position, const glm::vec3& normal, double arc, const Ring& ring);
-    void end(const Run& run, Ring ring);
+    void close(const Run& run, Ring ring);
     [[nodiscard]] float v_of(double arc) const { return static_cast<float>(-arc * v_scale_); }
 
     MeshBlock block_;
     const MeshOptions& options_;
     bool seam_;
-    std::uint64_t vertex_;
+    bool skips_ = false;
+    Place at_;
     // Of the run that is being written:
-    glm::vec3 tangent_{};
-    glm::vec3 normal_{}; // where the first corner is seen from the axis
-    std::uint32_t steps_ = 0;
     double v_scale_ = 0.0;
     const BarkNoise* noise_ = nullptr;
 };

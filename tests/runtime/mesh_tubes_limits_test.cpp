@@ -191,6 +191,45 @@ TEST_CASE("an axis a million segments deep keeps its frame", "[mesh][tubes]") {
     CHECK(worst < 1e-4F);
 }
 
+TEST_CASE("threads that share a long axis make the same tube", "[mesh][tubes]") {
+    // Longer than one part of a run, with branches before and behind, bends of all kinds, two
+    // colours, and a gap, behind which the next run is long too.
+    test::Numbers numbers(5);
+    Plant plant;
+    std::uint32_t last = kNoSegment;
+    glm::vec3 direction(0, 1, 0);
+    for (std::uint32_t i = 0; i < 30'000; ++i) {
+        direction = glm::normalize(direction + (i % 97 == 0 ? 3.0F : 0.3F) * numbers.direction());
+        const float radius = 0.05F + 0.03F * std::sin(0.01F * static_cast<float>(i));
+        last = plant.add(last, direction, i == 12'000 ? 0.0F : 0.3F,
+                         {.base_radius = i == 15'000 ? 0.0F : radius,
+                          .tip_radius = radius,
+                          .colour = static_cast<std::uint16_t>(i / 3000 % 2 * 3)});
+        if (i % 5000 == 10) {
+            plant.add(last, numbers.direction(), 0.5F, {.base_radius = 0.02F, .order = 1});
+        }
+    }
+    MeshOptions options;
+    SECTION("bare") {
+        options = kBare;
+    }
+    SECTION("with all") {}
+    SECTION("with noise, and sides by radius") {
+        options.bark_noise = 0.2F;
+        options.deviation = 0.002F;
+    }
+    SECTION("coarse") {
+        options.level = 2;
+    }
+    options.threads = 1;
+    const Mesh one = tubes(plant.skeleton(), options);
+    for (const std::uint32_t threads : {2U, 3U, 7U}) {
+        CAPTURE(threads);
+        options.threads = threads;
+        CHECK(same_bytes(one, tubes(plant.skeleton(), options)));
+    }
+}
+
 TEST_CASE("a segment drawn backwards begins an axis", "[mesh][tubes]") {
     // F(1) F(-0.5) F(1): the second one is turned around and ends where the first one does.
     Plant plant;
