@@ -14,14 +14,6 @@ Turtle::State::quick_forward(const Action& action, const float* arguments, Pose&
     // Also false for what is not a number.
     const bool fits = std::abs(end.x) + std::abs(end.y) + std::abs(end.z) <= kMaxFloat &&
                       now.width <= std::numeric_limits<float>::max() && length >= 0.0F;
-    if (lines_only) {
-        if (!fits || lines.size() == lines.capacity()) {
-            return false;
-        }
-        lines.emplace_back(Line{position_of(pose), position_of(end)});
-        pose = end;
-        return true;
-    }
     if (!fits || skeleton.segments.size() == skeleton.segments.capacity()) {
         return false;
     }
@@ -46,9 +38,9 @@ Turtle::State::quick_forward(const Action& action, const float* arguments, Pose&
         origins.push_back(each);
         return true;
     };
-    return lines_only || (add(skeleton.segments, skeleton.segment_origins, from) &&
-                          add(skeleton.objects, skeleton.object_origins, from) &&
-                          add(skeleton.polygons, skeleton.polygon_origins, polygon_origin));
+    return add(skeleton.segments, skeleton.segment_origins, from) &&
+           add(skeleton.objects, skeleton.object_origins, from) &&
+           add(skeleton.polygons, skeleton.polygon_origins, polygon_origin);
 }
 
 template <bool kOrigins, typename C>
@@ -196,18 +188,14 @@ TurtleStatus Turtle::reserve(const Word& word) {
         count(word.codes<std::uint32_t>());
         break;
     }
-    const bool origins = word.keeps_origins() && !state.lines_only;
+    const bool origins = word.keeps_origins();
     const std::uint64_t bytes = segments * sizeof(Segment) + objects * sizeof(PlacedObject) +
                                 (origins ? (segments + objects) * sizeof(Origin) : 0);
     if (bytes > state.options.max_bytes) {
         return state.status = TurtleStatus::Limit;
     }
     try {
-        if (state.lines_only) {
-            state.lines.reserve(std::min(segments, kMaxSkeletonItems));
-        } else {
-            state.skeleton.segments.reserve(std::min(segments, kMaxSkeletonItems));
-        }
+        state.skeleton.segments.reserve(std::min(segments, kMaxSkeletonItems));
         state.skeleton.objects.reserve(std::min(objects, kMaxSkeletonItems));
         if (origins) {
             state.skeleton.segment_origins.reserve(std::min(segments, kMaxSkeletonItems));
@@ -274,9 +262,6 @@ const Skeleton& Turtle::skeleton() const {
 }
 Skeleton Turtle::take_skeleton() {
     return std::move(state_->skeleton);
-}
-LargeVector<Line> Turtle::take_lines() {
-    return std::move(state_->lines);
 }
 const std::array<TurtleFault, kTurtleFaultKinds>& Turtle::faults() const {
     return state_->faults;

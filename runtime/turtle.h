@@ -99,14 +99,7 @@ struct TurtleOptions {
     std::vector<float> mesh_lengths;
     std::uint64_t max_bytes = ~std::uint64_t{0}; // of the skeleton
     const std::atomic<bool>* cancelled = nullptr;
-    bool lines_only = false;           // take_lines() instead of the segments of a skeleton
     BranchWatcher* branches = nullptr; // outlives the turtle; none: every branch is drawn
-};
-
-/// A segment without a body: where it begins and ends.
-struct Line {
-    glm::vec3 from{};
-    glm::vec3 to{};
 };
 
 /// Draws a word that comes in pieces.
@@ -137,7 +130,6 @@ public:
 
     [[nodiscard]] const Skeleton& skeleton() const;
     [[nodiscard]] Skeleton take_skeleton();
-    [[nodiscard]] LargeVector<Line> take_lines();
     [[nodiscard]] const std::array<TurtleFault, kTurtleFaultKinds>& faults() const;
 
 private:

@@ -26,9 +26,6 @@ bool Turtle::State::draw(
     if (has_tropism) {
         bend(now.pose, bytecode.settings.tropism);
     }
-    if (lines_only) {
-        return draw_line(length);
-    }
     if (!has_room(skeleton.segments)) {
         return false;
     }
@@ -46,19 +43,6 @@ bool Turtle::State::draw(
     if (length < 0.0) { // half a turn about the right axis
         segment.frame = segment.frame * glm::quat(0.0F, 1.0F, 0.0F, 0.0F);
     }
-    return true;
-}
-
-bool Turtle::State::draw_line(double length) {
-    if (!has_room(lines)) {
-        return false;
-    }
-    const glm::vec3 from = position_of(now.pose);
-    advance(now.pose, length);
-    if (!is_fine_place()) {
-        return false;
-    }
-    lines.push_back({from, position_of(now.pose)});
     return true;
 }
 

@@ -51,7 +51,6 @@ struct Turtle::State {
         skeleton.mesh_files = table.mesh_files;
         relative = is_relative(settings.turtle);
         has_tropism = settings.has_tropism;
-        lines_only = options.lines_only;
         begin();
     }
 
@@ -80,7 +79,6 @@ struct Turtle::State {
     bool forward(const Action& action, const float* arguments, float part);
     bool tapered(const Action& action, const float* arguments);
     bool draw(double length, float base_width, float tip_width, float spring, const float* mass);
-    bool draw_line(double length);
     Segment& put_segment(const Pose& base,
                          float length,
                          float base_width,
@@ -135,8 +133,6 @@ struct Turtle::State {
     Origin polygon_origin;      // of the `{` of the polygon closed last
     std::uint64_t cut = 0;      // open brackets within a part that is cut off, and 1
     TurtleStatus status = TurtleStatus::Ok;
-    LargeVector<Line> lines; // instead of segments, if only they are wanted
-    bool lines_only = false;
     bool relative = false; // widths are factors of the length
     bool has_tropism = false;
     // The last segment whose mass was worked out.
