@@ -107,7 +107,7 @@ void TriangleList::read_patches(const Block& block,
     for (; !to.empty(); ++patch) {
         const std::uint64_t begin = patch == block.patches.begin() ? 0 : std::prev(patch)->end;
         const bool bands = patch->shape == Shape::Bands;
-        const std::uint64_t unit = bands ? 6U * patch->sides : patch->end - begin;
+        const std::uint64_t unit = bands ? std::uint64_t{6} * patch->sides : patch->end - begin;
         const std::uint32_t columns = patch->sides + (patch->seam ? 1U : 0U);
         if (bands) {
             pattern.set(patch->sides, patch->seam);
