@@ -15,8 +15,9 @@ constexpr Colour kJump = {150, 150, 150, 255};
 
 /// From blue (0) by green and yellow to red (1).
 Colour ramp(float at) {
-    const auto channel = [at](float middle) {
-        const float value = std::clamp(1.5F - 4.0F * std::abs(at - middle), 0.0F, 1.0F);
+    const float hue = 0.2F + 0.65F * at;
+    const auto channel = [hue](float middle) {
+        const float value = std::clamp(1.5F - 4.0F * std::abs(hue - middle), 0.0F, 1.0F);
         return static_cast<std::uint8_t>(std::lround(255.0F * value));
     };
     return {channel(0.75F), channel(0.5F), channel(0.25F), 255};

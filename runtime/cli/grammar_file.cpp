@@ -90,7 +90,12 @@ Result<Done> compile_text(const std::string& path,
                           const FileLoader& load,
                           Grammar& grammar) {
     const FileId root = grammar.sources.add(shown_path(path), std::move(bytes));
-    Ast ast = parse_lsys(root, {grammar.sources, grammar.names, grammar.diagnostics, load});
+    const FileLoader load_included = [&load, &grammar](const std::string& wanted) {
+        grammar.included.push_back(wanted);
+        return load(wanted);
+    };
+    Ast ast =
+        parse_lsys(root, {grammar.sources, grammar.names, grammar.diagnostics, load_included});
     CompileOptions compile_options;
     compile_options.definitions = options.definitions;
     compile_options.generations = options.generations;

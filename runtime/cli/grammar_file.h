@@ -14,6 +14,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lsys::lsc {
 
@@ -22,9 +23,10 @@ struct Grammar {
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
-    std::optional<Program> program;   // of a source without errors
-    std::optional<Bytecode> bytecode; // without errors
-    bool is_module_file = false;      // read from a .lsb: `sources` is empty
+    std::optional<Program> program;    // of a source without errors
+    std::optional<Bytecode> bytecode;  // without errors
+    std::vector<std::string> included; // what #include asked for, whether it could be read or not
+    bool is_module_file = false;       // read from a .lsb: `sources` is empty
 };
 
 /// Reads files for #include.

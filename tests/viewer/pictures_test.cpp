@@ -64,7 +64,7 @@ TEST_CASE("plants look as they did") {
         {"flowers", {sample("abop-lychnis")}},
         {"wireframe", {sample("crankshaw-7-3"), "--wireframe"}},
         {"skeleton-lines", {sample("abop-1-24d"), "--style", "none", "--lines", "skeleton"}},
-        {"turtle-path", {sample("abop-1-30a-acropetal"), "--lines", "path"}},
+        {"turtle-path", {sample("crankshaw-7-1"), "--lines", "path"}},
         {"boxes", {sample("sys-figure-1"), "--method", "boxes"}},
         {"near",
          {sample("carey-type-0"), "--camera", "eye 2,1.2,2 target 0,1.5,0 fov 60", "--bark-noise",

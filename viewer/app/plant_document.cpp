@@ -1,6 +1,7 @@
 #include "viewer/app/plant_document.h"
 
 #include <chrono>
+#include <filesystem>
 
 namespace lsys::view {
 
@@ -24,6 +25,9 @@ lsc::Status make_plant_document(const ViewOptions& options,
         return status;
     }
     document.load_seconds = seconds_since(start);
+    if (console.interrupted()) {
+        return lsc::Status::Interrupted;
+    }
     lsc::PlantRequest request;
     request.file = options.file;
     request.generations = options.grammar.generations;
@@ -35,6 +39,9 @@ lsc::Status make_plant_document(const ViewOptions& options,
     if (status != lsc::Status::Fine) {
         return status;
     }
+    if (console.interrupted()) {
+        return lsc::Status::Interrupted;
+    }
     start = Clock::now();
     MeshOptions mesh = options.mesh;
     mesh.threads = options.threads;
@@ -43,6 +50,21 @@ lsc::Status make_plant_document(const ViewOptions& options,
                              console, document.mesh);
     document.mesh_seconds = seconds_since(start);
     return status;
+}
+
+std::vector<std::string> files_of(const ViewOptions& options, const PlantDocument& document) {
+    std::vector<std::string> files = {options.file};
+    const std::vector<std::string>& included = document.grammar.included;
+    files.insert(files.end(), included.begin(), included.end());
+    if (document.grammar.bytecode) {
+        const std::filesystem::path folder = std::filesystem::path(options.file).parent_path();
+        for (const BytecodeSymbol& symbol : document.grammar.bytecode->symbols) {
+            if (symbol.turtle == TurtleOperation::MeshFile) {
+                files.push_back((folder / symbol.mesh_file).string());
+            }
+        }
+    }
+    return files;
 }
 
 } // namespace lsys::view

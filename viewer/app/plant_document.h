@@ -8,6 +8,9 @@
 #include "runtime/mesh.h"
 #include "viewer/app/options.h"
 
+#include <string>
+#include <vector>
+
 namespace lsys::view {
 
 struct PlantDocument {
@@ -18,9 +21,15 @@ struct PlantDocument {
     double mesh_seconds = 0.0;
 };
 
-/// Reads, compiles, derives, draws and meshes. Fine: all of it is there.
+/// Reads, compiles, derives, draws and meshes. Fine: all of it is there. Else what was made until
+/// then is.
 [[nodiscard]] lsc::Status make_plant_document(const ViewOptions& options,
                                               const lsc::Console& console,
                                               PlantDocument& document);
+
+/// The files that the document was made of, as far as they are known: the grammar, what it
+/// includes, the meshes of its `#object`.
+[[nodiscard]] std::vector<std::string> files_of(const ViewOptions& options,
+                                                const PlantDocument& document);
 
 } // namespace lsys::view

@@ -1,0 +1,154 @@
+#include "tests/support/lsc_run.h"
+#include "viewer/app/file_watch.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <thread>
+
+using namespace lsys::tests;
+using namespace lsys::view;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// What a watch told.
+class Told {
+public:
+    void add(const std::vector<std::string>& files) {
+        const std::lock_guard lock(mutex_);
+        files_.insert(files_.end(), files.begin(), files.end());
+        ++times_;
+        changed_.notify_all();
+    }
+    /// Whether a change of `file` is told within a long time; forgets it.
+    bool waits_for(const std::string& file) {
+        std::unique_lock lock(mutex_);
+        const bool told = changed_.wait_for(lock, 10s, [&] {
+            return std::find(files_.begin(), files_.end(), file) != files_.end();
+        });
+        files_.clear();
+        return told;
+    }
+    int times() {
+        const std::lock_guard lock(mutex_);
+        return times_;
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::vector<std::string> files_;
+    int times_ = 0;
+};
+
+struct Watching {
+    explicit Watching(const FileWatch::Options& options)
+        : watch(options,
+                [this](const std::vector<std::string>& files, FileWatch::Clock::time_point) {
+                    told.add(files);
+                }) {}
+    Told told;
+    FileWatch watch;
+};
+
+FileWatch::Options with_inotify() {
+    FileWatch::Options options;
+    options.poll = 1h; // or it would not be inotify that is tested
+    options.missing = 20ms;
+    return options;
+}
+
+FileWatch::Options without_inotify() {
+    FileWatch::Options options;
+    options.use_inotify = false;
+    options.poll = 5ms;
+    options.missing = 20ms;
+    return options;
+}
+
+/// The thread of the watch has taken up what it is to watch.
+void settle() {
+    std::this_thread::sleep_for(100ms);
+}
+
+} // namespace
+
+TEST_CASE("a file that is written, replaced, removed or made is told") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    const std::string other = folder / "leaf.obj";
+    write_text(file, "one");
+    Watching watching(GENERATE(with_inotify(), without_inotify()));
+    watching.watch.watch({file, other});
+    settle();
+    write_text(file, "written");
+    CHECK(watching.told.waits_for(file));
+    write_text(folder / "plant.lsys~", "renamed");
+    std::filesystem::rename(folder / "plant.lsys~", file);
+    CHECK(watching.told.waits_for(file));
+    write_text(file, "written again");
+    CHECK(watching.told.waits_for(file));
+    std::filesystem::remove(file);
+    CHECK(watching.told.waits_for(file));
+    write_text(file, "back");
+    CHECK(watching.told.waits_for(file));
+    write_text(other, "new");
+    CHECK(watching.told.waits_for(other));
+}
+
+TEST_CASE("a link is watched where it leads") {
+    const ScratchFolder folder;
+    std::filesystem::create_directory(folder / "real");
+    const std::string real = folder / "real/plant.lsys";
+    const std::string link = folder / "plant.lsys";
+    write_text(real, "one");
+    std::filesystem::create_symlink(real, link);
+    Watching watching(with_inotify());
+    watching.watch.watch({link});
+    settle();
+    write_text(real, "two");
+    CHECK(watching.told.waits_for(link));
+}
+
+TEST_CASE("what follows at once is one change, and other files are none") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    write_text(file, "one");
+    FileWatch::Options options = with_inotify();
+    options.quiet = 200ms;
+    Watching watching(options);
+    watching.watch.watch({file});
+    settle();
+    for (int i = 0; i < 20; ++i) {
+        write_text(folder / "other.lsys", "x");
+        write_text(file, std::string(static_cast<std::size_t>(i), 'x'));
+    }
+    CHECK(watching.told.waits_for(file));
+    CHECK(watching.told.times() == 1);
+}
+
+TEST_CASE("a file that others are written beside is told in time") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    write_text(file, "one");
+    Watching watching(with_inotify());
+    watching.watch.watch({file});
+    settle();
+    std::atomic<bool> ends{false};
+    std::thread noise([&] {
+        while (!ends) {
+            write_text(folder / "other.txt", "x");
+            std::this_thread::sleep_for(1ms);
+        }
+    });
+    write_text(file, "two");
+    CHECK(watching.told.waits_for(file));
+    ends = true;
+    noise.join();
+}

@@ -1,0 +1,116 @@
+#include "tests/support/lsc_run.h"
+#include "tests/viewer/lsview_run.h"
+#include "viewer/app/plant_loader.h"
+
+#include <catch2/catch.hpp>
+
+#include <thread>
+
+using namespace lsys;
+using namespace lsys::tests;
+using namespace lsys::view;
+using namespace std::chrono_literals;
+
+namespace {
+
+ViewOptions options_of(const std::string& file) {
+    ViewOptions options;
+    options.file = file;
+    options.max_bytes = std::uint64_t{1} << 30;
+    return options;
+}
+
+/// What is made within a long time.
+LoadOutcome wait_for(PlantLoader& loader) {
+    for (const auto start = SteadyClock::now(); SteadyClock::now() - start < 60s;) {
+        if (std::optional<LoadOutcome> outcome = loader.take()) {
+            return std::move(*outcome);
+        }
+        std::this_thread::sleep_for(1ms);
+    }
+    FAIL("nothing was made");
+    return {};
+}
+
+// Doubles for ever, with a condition that takes time.
+constexpr const char* kEndless = "#n = 40;\n#w : A(0);\n#p : A(x) : x >= 0 : A(x) F A(x);\n"
+                                 "#q : A(x) : x < 0 : F;\n";
+
+} // namespace
+
+TEST_CASE("a loader makes the plant and says which files are behind it") {
+    PlantLoader loader([] {});
+    loader.request(options_of(sample("teach-include")), SteadyClock::now());
+    const LoadOutcome outcome = wait_for(loader);
+    CHECK(outcome.status == lsc::Status::Fine);
+    CHECK(outcome.messages.empty());
+    CHECK(outcome.document->plant.modules > 0);
+    CHECK_FALSE(outcome.document->mesh.indices.empty());
+    REQUIRE(outcome.files.size() == 2);
+    CHECK(outcome.files[0] == sample("teach-include"));
+    CHECK(outcome.files[1].ends_with("leaf.lsys"));
+    CHECK_FALSE(loader.is_busy());
+}
+
+TEST_CASE("what is wrong is said as lsc says it, and missing files are known") {
+    const ScratchFolder folder;
+    write_text(folder / "bad.lsys", "#n = 2;\n#include \"none.lsys\";\n#w : F(;\n");
+    PlantLoader loader([] {});
+    loader.request(options_of(folder / "bad.lsys"), SteadyClock::now());
+    const LoadOutcome outcome = wait_for(loader);
+    CHECK(outcome.status == lsc::Status::AuthorErrors);
+    CHECK(outcome.messages == run_lsc({"check", folder / "bad.lsys"}, "").err);
+    CHECK(outcome.files == std::vector<std::string>{folder / "bad.lsys", folder / "none.lsys"});
+}
+
+TEST_CASE("the newest request wins, and what takes long is given up") {
+    const ScratchFolder folder;
+    write_text(folder / "endless.lsys", kEndless);
+    ViewOptions endless = options_of(folder / "endless.lsys");
+    endless.max_bytes = std::uint64_t{1} << 40;
+    endless.grammar.max_modules = std::uint64_t{1} << 42;
+    PlantLoader loader([] {});
+    loader.request(endless, SteadyClock::now());
+    std::this_thread::sleep_for(50ms); // it is being made
+    ViewOptions newer = options_of(sample("teach-param"));
+    for (std::uint32_t n = 1; n <= 4; ++n) {
+        newer.grammar.generations = n;
+        loader.request(newer, SteadyClock::now());
+    }
+    const LoadOutcome outcome = wait_for(loader);
+    CHECK(outcome.status == lsc::Status::Fine);
+    CHECK(outcome.document->plant.generations == 4);
+    CHECK_FALSE(loader.take());
+}
+
+TEST_CASE("a loader that goes gives up what it makes") {
+    const ScratchFolder folder;
+    write_text(folder / "endless.lsys", kEndless);
+    ViewOptions endless = options_of(folder / "endless.lsys");
+    endless.max_bytes = std::uint64_t{1} << 40;
+    endless.grammar.max_modules = std::uint64_t{1} << 42;
+    const auto start = SteadyClock::now();
+    {
+        PlantLoader loader([] {});
+        loader.request(endless, SteadyClock::now());
+        std::this_thread::sleep_for(20ms);
+    }
+    CHECK(SteadyClock::now() - start < 30s);
+}
+
+TEST_CASE("a request is repeated with what the file says now") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    write_text(file, "#n = 0;\n#w : F;\n");
+    PlantLoader loader([] {});
+    loader.repeat(SteadyClock::now());
+    CHECK_FALSE(loader.is_busy());
+    loader.request(options_of(file), SteadyClock::now());
+    CHECK(wait_for(loader).document->plant.modules == 1);
+    write_text(file, "#n = 0;\n#w : F F F;\n");
+    const auto since = SteadyClock::now();
+    loader.repeat(since);
+    const LoadOutcome outcome = wait_for(loader);
+    CHECK(outcome.document->plant.modules == 3);
+    CHECK(outcome.since == since);
+}
