@@ -174,6 +174,15 @@ Camera framing(const Camera& camera, const Bounds& bounds, float aspect) {
     return result;
 }
 
+Camera first_view(const Camera& camera, const Bounds& bounds, float aspect) {
+    const glm::vec3 size = bounds.high - bounds.low;
+    Camera from = camera;
+    if (size.z < 0.05F * std::max(size.x, size.y)) {
+        from.eye = from.target + glm::vec3(0.0F, 0.0F, 1.0F);
+    }
+    return framing(from, bounds, aspect);
+}
+
 glm::mat4 view_matrix(const Camera& camera) {
     const glm::vec3 along = forward_of(camera);
     return glm::lookAtRH(camera.eye, camera.target,

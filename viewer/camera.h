@@ -39,6 +39,9 @@ struct Camera {
 /// high.
 [[nodiscard]] Camera framing(const Camera& camera, const Bounds& bounds, float aspect);
 
+/// All of a box is in view, from the front if it is a drawing in the plane of X and Y.
+[[nodiscard]] Camera first_view(const Camera& camera, const Bounds& bounds, float aspect);
+
 /// Unit, to where the camera looks; its right and its up.
 [[nodiscard]] glm::vec3 forward_of(const Camera& camera);
 [[nodiscard]] glm::vec3 right_of(const Camera& camera);

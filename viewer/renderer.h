@@ -46,6 +46,8 @@ struct PixelArea {
     std::uint32_t y = 0;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
+
+    friend bool operator==(const PixelArea&, const PixelArea&) = default;
 };
 
 /// One picture.
@@ -90,8 +92,8 @@ public:
     virtual FrameStats draw(const Frame& frame, const PixelArea& area) = 0;
     /// The rows of the last picture from top to bottom, four bytes a pixel.
     virtual void read(std::vector<std::uint8_t>& pixels) = 0;
-    /// Copies the last picture to the window whose context is current.
-    virtual void present(std::uint32_t width, std::uint32_t height) = 0;
+    /// Copies the last picture to this part of the window whose context is current.
+    virtual void present(const PixelArea& area) = 0;
 
     /// "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6".
     [[nodiscard]] virtual std::string device_name() const = 0;

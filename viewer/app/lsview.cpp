@@ -1,18 +1,17 @@
 #include "viewer/app/lsview.h"
 
 #include "runtime/cli/console.h"
-#include "runtime/cli/files.h"
 #include "runtime/cli/tell.h"
 #include "viewer/app/options.h"
 #include "viewer/app/pictures.h"
 #include "viewer/app/plant_document.h"
+#include "viewer/app/shader_folder.h"
+#include "viewer/app/window_run.h"
 #include "viewer/gl/headless.h"
 #include "viewer/renderer.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <new>
 #include <ostream>
@@ -26,25 +25,6 @@ namespace {
 
 using lsc::Console;
 using lsc::Status;
-
-/// The shaders of a folder, or those that are built in.
-ShaderSource shaders_of(const std::string& folder, const Console& console) {
-    if (folder.empty()) {
-        return built_in_shader;
-    }
-    return [folder, &console](std::string_view name) -> std::optional<std::string> {
-        constexpr std::uint64_t kMostBytes = 1 << 20;
-        Result<std::string> text =
-            lsc::read_file((std::filesystem::path(folder) / name).string(), kMostBytes, console);
-        return text ? std::optional(std::move(text.value())) : std::nullopt;
-    };
-}
-
-/// A drawing in the plane of X and Y.
-bool is_plane(const Bounds& bounds) {
-    const glm::vec3 size = bounds.high - bounds.low;
-    return size.z < 0.05F * std::max(size.x, size.y);
-}
 
 Status run_pictures(const ViewOptions& options, const Console& console) {
     const Result<Camera> camera = parse_camera(options.camera, Camera{});
@@ -71,11 +51,8 @@ Status run_pictures(const ViewOptions& options, const Console& console) {
     renderer.value()->show_lines(make_lines(document.plant.skeleton, options.lines));
     Camera from = camera.value();
     if (options.camera.empty()) {
-        if (is_plane(renderer.value()->bounds())) {
-            from.eye = from.target + glm::vec3(0.0F, 0.0F, 1.0F);
-        }
-        from = framing(from, renderer.value()->bounds(),
-                       static_cast<float>(options.width) / static_cast<float>(options.height));
+        from = first_view(from, renderer.value()->bounds(),
+                          static_cast<float>(options.width) / static_cast<float>(options.height));
     }
     return take_pictures(options, from, document, *renderer.value(), console);
 }
@@ -95,7 +72,9 @@ struct Dispatch {
         return Status::Failure;
     }
     Status operator()(const ViewOptions& options) const {
-        return run_pictures(options, Console(io, options.messages));
+        const Console console(io, options.messages);
+        return options.screenshot.empty() ? run_window(options, console)
+                                          : run_pictures(options, console);
     }
 };
 

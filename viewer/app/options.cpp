@@ -145,9 +145,12 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     lsc::add_run_limits(app, options.max_bytes, options.threads);
     lsc::add_messages(app, options.messages);
     app.set_version_flag("--version", "lsview " LSC_VERSION, "Print the version and exit");
-    app.footer("Exit status: 0 fine, 1 errors in a grammar, 2 a file, the display or the command "
-               "line, 3 a limit.\n"
-               "Example: lsview tree.lsys --screenshot tree.png --size 1920x1080");
+    app.footer(
+        "Without --screenshot a window opens; F1 shows its keys. Files that change are shown at "
+        "once.\n"
+        "Exit status: 0 fine, 1 errors in a grammar, 2 a file, the display or the command "
+        "line, 3 a limit.\n"
+        "Example: lsview tree.lsys --screenshot tree.png --size 1920x1080");
     try {
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
     } catch (const CLI::CallForHelp&) {
@@ -167,6 +170,11 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     if (options.frames != 0 && options.screenshot == "-") {
         return lsc::UsageError{"a series of pictures does not go to standard output",
                                "write `--screenshot FILE`"};
+    }
+    if (options.file == "-" && options.screenshot.empty()) {
+        return lsc::UsageError{"a window reads its file again and again, so it cannot show "
+                               "standard input",
+                               "add `--screenshot FILE`, or write the grammar to a file"};
     }
     return options;
 }

@@ -143,7 +143,7 @@ std::optional<LoadOutcome> PlantLoader::take() {
 
 bool PlantLoader::is_busy() const {
     const std::lock_guard lock(state_->mutex);
-    return state_->is_making || state_->waiting;
+    return state_->is_making || state_->waiting || state_->made;
 }
 
 } // namespace lsys::view

@@ -43,7 +43,7 @@ public:
     /// What was made last and not yet taken. Gives up what is being made if something newer waits
     /// and it has taken long: a slider that is dragged shows plants on the way.
     [[nodiscard]] std::optional<LoadOutcome> take();
-    /// Something is being made or waits.
+    /// Something waits, is being made or was not taken yet.
     [[nodiscard]] bool is_busy() const;
 
 private:

@@ -134,9 +134,7 @@ public:
         return stats;
     }
     void read(std::vector<std::uint8_t>& pixels) override { target_.read(pixels); }
-    void present(std::uint32_t width, std::uint32_t height) override {
-        target_.present(width, height);
-    }
+    void present(const PixelArea& area) override { target_.present(area); }
 
     std::string device_name() const override { return device_.renderer(); }
     std::uint64_t live_objects() const override { return device_.live_objects(); }

@@ -74,11 +74,14 @@ void Target::read(std::vector<std::uint8_t>& pixels) const {
     }
 }
 
-void Target::present(std::uint32_t width, std::uint32_t height) const {
+void Target::present(const PixelArea& area) const {
+    const auto x = static_cast<GLint>(area.x);
+    const auto y = static_cast<GLint>(area.y);
+    const bool same_size = area.width == width_ && area.height == height_;
     glBlitNamedFramebuffer(resolved_ ? resolved_.name() : drawn_.name(), 0, 0, 0,
-                           static_cast<GLint>(width_), static_cast<GLint>(height_), 0, 0,
-                           static_cast<GLint>(width), static_cast<GLint>(height),
-                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
+                           static_cast<GLint>(width_), static_cast<GLint>(height_), x, y,
+                           x + static_cast<GLint>(area.width), y + static_cast<GLint>(area.height),
+                           GL_COLOR_BUFFER_BIT, same_size ? GL_NEAREST : GL_LINEAR);
 }
 
 } // namespace lsys::view

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "viewer/gl/objects.h"
+#include "viewer/renderer.h"
 
 #include <cstdint>
 #include <vector>
@@ -18,8 +19,8 @@ public:
     void resolve();
     /// Rows from top to bottom, four bytes a pixel.
     void read(std::vector<std::uint8_t>& pixels) const;
-    /// To the framebuffer of the window.
-    void present(std::uint32_t width, std::uint32_t height) const;
+    /// To this part of the framebuffer of the window.
+    void present(const PixelArea& area) const;
 
 private:
     Device* device_;

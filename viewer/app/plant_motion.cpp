@@ -1,0 +1,146 @@
+#include "viewer/app/plant_motion.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+namespace lsys::view {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kLongestLeap = 0.1; // s: a plant that takes longer than that moves more slowly
+
+} // namespace
+
+struct PlantMotion::State {
+    std::shared_ptr<const PlantDocument> document;
+    MeshOptions mesh_options;
+    std::function<void()> done;
+    std::mutex mutex; // of what follows
+    std::condition_variable changed;
+    std::optional<Bending> asked;
+    BentPlant made;
+    bool is_made = false;
+    bool stops = false;
+    std::thread thread;
+    // Of the thread alone.
+    std::unique_ptr<PlantPhysics> physics;
+    float stiffness = 1.0F;
+
+    void set_bending(const Bending& bending) {
+        if (physics == nullptr || bending.stiffness != stiffness) {
+            stiffness = bending.stiffness;
+            Skeleton rest = document->plant.skeleton;
+            for (Segment& segment : rest.segments) {
+                segment.spring *= stiffness;
+            }
+            physics = std::make_unique<PlantPhysics>(rest, bending.forces);
+        } else {
+            physics->set(bending.forces);
+        }
+    }
+
+    /// False: the motion ends.
+    bool wait_for_room() {
+        std::optional<Bending> bending;
+        {
+            std::unique_lock lock(mutex);
+            changed.wait(lock, [this] { return stops || !is_made; });
+            if (stops) {
+                return false;
+            }
+            bending = std::exchange(asked, std::nullopt);
+        }
+        if (bending) {
+            set_bending(*bending);
+        }
+        return true;
+    }
+
+    void move_on() {
+        BentPlant next;
+        Clock::time_point last = Clock::now();
+        while (wait_for_room()) {
+            const Clock::time_point now = Clock::now();
+            const double step = static_cast<double>(physics->options().time_step);
+            const double passed =
+                std::min(std::chrono::duration<double>(now - last).count(), kLongestLeap);
+            if (passed < step) {
+                std::this_thread::sleep_for(std::chrono::duration<double>(step - passed));
+                continue;
+            }
+            last = now;
+            for (double ahead = 0.5 * step; ahead < passed; ahead += step) {
+                physics->step();
+            }
+            physics->pose(next.skeleton);
+            if (make_mesh(next.skeleton, document->plant.user_meshes, mesh_options, next.mesh) !=
+                MeshStatus::Ok) {
+                return; // the plant at rest fitted; this one stays as it is
+            }
+            next.time = physics->time();
+            next.seconds = std::chrono::duration<double>(Clock::now() - now).count();
+            {
+                const std::lock_guard lock(mutex);
+                std::swap(made, next);
+                is_made = true;
+            }
+            done();
+        }
+    }
+
+    void run() {
+        try {
+            move_on();
+        } catch (const std::bad_alloc&) { // the plant stays as it is
+        } catch (const std::length_error&) {
+        }
+    }
+};
+
+PlantMotion::PlantMotion(std::shared_ptr<const PlantDocument> document,
+                         const Bending& bending,
+                         const MeshOptions& mesh,
+                         std::function<void()> done)
+    : state_(std::make_unique<State>()) {
+    state_->document = std::move(document);
+    state_->mesh_options = mesh;
+    state_->done = std::move(done);
+    state_->asked = bending;
+    state_->thread = std::thread([state = state_.get()] { state->run(); });
+}
+
+PlantMotion::~PlantMotion() {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->stops = true;
+        state_->changed.notify_one();
+    }
+    state_->thread.join();
+}
+
+void PlantMotion::set(const Bending& bending) {
+    const std::lock_guard lock(state_->mutex);
+    state_->asked = bending;
+}
+
+bool PlantMotion::take(BentPlant& plant) {
+    const std::lock_guard lock(state_->mutex);
+    if (!state_->is_made) {
+        return false;
+    }
+    std::swap(plant, state_->made);
+    state_->is_made = false;
+    state_->changed.notify_one();
+    return true;
+}
+
+} // namespace lsys::view

@@ -1,0 +1,42 @@
+#include "viewer/app/shader_folder.h"
+
+#include "runtime/cli/files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+namespace lsys::view {
+
+ShaderSource shaders_of(const std::string& folder, const lsc::Console& console) {
+    if (folder.empty()) {
+        return built_in_shader;
+    }
+    return [folder, console](std::string_view name) -> std::optional<std::string> {
+        constexpr std::uint64_t kMostBytes = 1 << 20;
+        Result<std::string> text =
+            lsc::read_file((std::filesystem::path(folder) / name).string(), kMostBytes, console);
+        return text ? std::optional(std::move(text.value())) : std::nullopt;
+    };
+}
+
+std::vector<std::string> shader_files(const std::string& folder) {
+    std::vector<std::string> files;
+    if (folder.empty()) {
+        return files;
+    }
+    std::error_code error;
+    std::filesystem::directory_iterator entry(folder, error);
+    while (!error && entry != std::filesystem::directory_iterator()) {
+        if (entry->path().extension() == ".glsl") {
+            files.push_back(entry->path().string());
+        }
+        entry.increment(error);
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+} // namespace lsys::view

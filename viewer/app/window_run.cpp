@@ -1,0 +1,148 @@
+#include "viewer/app/window_run.h"
+
+#include "runtime/cli/files.h"
+#include "runtime/cli/tell.h"
+#include "viewer/app/controls.h"
+#include "viewer/app/live_view.h"
+#include "viewer/app/panels.h"
+#include "viewer/app/shader_folder.h"
+#include "viewer/gl/window.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <utility>
+
+namespace lsys::view {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// How long to wait for input, s.
+constexpr double kIdle = 0.5; // and a second Ctrl-C is not needed for longer than that
+constexpr double kBusy = 0.02;
+// A camera that flies past slow pictures would be anywhere.
+constexpr double kLongestLeap = 0.1;
+/// Panels take so many pictures to settle after an input.
+constexpr int kPicturesAfterInput = 3;
+
+std::string title_of(const std::string& file) {
+    return std::filesystem::path(file).filename().string() + " - lsview";
+}
+
+class WindowRun {
+public:
+    WindowRun(Window& window, LiveView& view) : window_(window), view_(view) {}
+
+    /// False: the user quits.
+    bool step() {
+        const double wait = pictures_left_ > 0 || controls_.is_moving() ? 0.0
+                            : view_.is_busy()                           ? kBusy
+                                                                        : kIdle;
+        const WindowInput input = window_.wait(wait);
+        const Clock::time_point now = Clock::now();
+        const double passed =
+            std::min(std::chrono::duration<double>(now - last_).count(), kLongestLeap);
+        last_ = now;
+        const float picture_height = static_cast<float>(window_.height());
+        const bool flew = panels_.flies;
+        const std::string file = view_.settings.file;
+        controls_.apply(input, passed, picture_height, view_, panels_);
+        if (panels_.flies != flew) {
+            window_.capture_mouse(panels_.flies);
+        }
+        if (view_.settings.file != file) {
+            window_.set_title(title_of(view_.settings.file));
+        }
+        if (panels_.quits || input.closes) {
+            return false;
+        }
+        const bool has_news = view_.update();
+        if (input.any || has_news) {
+            pictures_left_ = kPicturesAfterInput;
+        }
+        draw();
+        return true;
+    }
+
+private:
+    void draw() {
+        const std::uint32_t width = window_.width();
+        const std::uint32_t height = window_.height();
+        if (width == 0 || height == 0) {
+            return;
+        }
+        PixelArea area{0, 0, width, height};
+        if (panels_.panels) {
+            area.x = std::min(static_cast<std::uint32_t>(panel_width(window_.scale())), width - 1);
+            area.width = width - area.x;
+        }
+        const Clock::time_point start = Clock::now();
+        const bool drew = view_.draw(area.width, area.height);
+        if (!drew && pictures_left_ == 0) {
+            return;
+        }
+        pictures_left_ = drew ? std::max(pictures_left_, 1) : pictures_left_ - 1;
+        view_.present(area);
+        window_.begin_panels();
+        draw_panels(view_, panels_, window_.scale());
+        window_.show();
+        if (drew) {
+            view_.shown(std::chrono::duration<double>(Clock::now() - start).count());
+        }
+    }
+
+    Window& window_;
+    LiveView& view_;
+    Controls controls_;
+    PanelState panels_;
+    Clock::time_point last_ = Clock::now();
+    int pictures_left_ = kPicturesAfterInput;
+};
+
+} // namespace
+
+lsc::Status run_window(const ViewOptions& options, const lsc::Console& console) {
+    const Result<Camera> camera = parse_camera(options.camera, Camera{});
+    if (!camera) {
+        return lsc::fail(Error{fmt::format("--camera: {}", camera.error().message)}, console);
+    }
+    // A file that cannot be read is a mistake on the command line; one with errors is shown.
+    if (const Result<std::string> bytes = lsc::read_file(options.file, ~std::uint64_t{0}, console);
+        !bytes) {
+        return lsc::fail(bytes.error(), console);
+    }
+    Result<std::unique_ptr<Window>> window =
+        Window::make(title_of(options.file), options.width, options.height);
+    if (!window) {
+        const lsc::Status status = lsc::fail(window.error(), console);
+        console.help("`--screenshot FILE` makes a picture without a window");
+        return status;
+    }
+    Result<std::unique_ptr<Renderer>> renderer =
+        Renderer::make(shaders_of(options.shaders, console));
+    if (!renderer) {
+        return lsc::fail(renderer.error(), console);
+    }
+    console.detail(fmt::format("drawing by a window: {}", renderer.value()->device_name()));
+    LiveView view(options, console, *renderer.value(),
+                  [made = window.value().get()] { made->wake(); });
+    view.settings.camera = camera.value();
+    WindowRun run(*window.value(), view);
+    while (run.step()) {
+        if (console.interrupted()) {
+            return lsc::Status::Interrupted;
+        }
+    }
+    console.detail(fmt::format("--camera \"{}\"", to_text(view.settings.camera)));
+    if (!renderer.value()->errors().empty()) {
+        return lsc::fail(Error{fmt::format("OpenGL: {}", renderer.value()->errors().front())},
+                         console);
+    }
+    return lsc::Status::Fine;
+}
+
+} // namespace lsys::view

@@ -1,0 +1,255 @@
+#include "viewer/gl/window.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <epoxy/gl.h>
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <utility>
+
+namespace lsys::view {
+
+namespace {
+
+struct NamedKey {
+    int code;
+    Key key;
+};
+constexpr std::array<NamedKey, 8> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape},
+                                                 {GLFW_KEY_TAB, Key::Tab},
+                                                 {GLFW_KEY_PAGE_UP, Key::PageUp},
+                                                 {GLFW_KEY_PAGE_DOWN, Key::PageDown},
+                                                 {GLFW_KEY_LEFT_SHIFT, Key::Shift},
+                                                 {GLFW_KEY_RIGHT_SHIFT, Key::Shift},
+                                                 {GLFW_KEY_F1, Key::F1},
+                                                 {GLFW_KEY_SPACE, Key::Space}}};
+
+/// Letters by what stands on the key, whatever the layout of the keyboard.
+Key key_of(int code, int scan_code) {
+    const auto* const named =
+        std::find_if(kNamedKeys.begin(), kNamedKeys.end(),
+                     [code](const NamedKey& one) { return one.code == code; });
+    if (named != kNamedKeys.end()) {
+        return named->key;
+    }
+    const char* const name = glfwGetKeyName(code, scan_code);
+    if (name != nullptr && name[1] == '\0' && name[0] >= 'a' && name[0] <= 'z') {
+        return static_cast<Key>(name[0] - 'a' + 'A');
+    }
+    return code >= GLFW_KEY_A && code <= GLFW_KEY_Z ? static_cast<Key>(code) : Key::None;
+}
+
+std::string why_glfw_failed() {
+    const char* reason = nullptr;
+    return glfwGetError(&reason) == GLFW_NO_ERROR || reason == nullptr ? std::string("unknown")
+                                                                       : std::string(reason);
+}
+
+} // namespace
+
+struct Window::State {
+    GLFWwindow* window = nullptr;
+    bool has_panels = false;
+    bool captured = false;
+    // Between two wait().
+    WindowInput input;
+    glm::vec2 mouse{0.0F};
+    bool has_mouse = false;
+    std::array<bool, 3> held{}; // buttons, pressed outside of the panels
+    std::vector<std::pair<int, Key>> keys;
+
+    static State& of(GLFWwindow* window) {
+        return *static_cast<State*>(glfwGetWindowUserPointer(window));
+    }
+
+    void press_button(int button, int action) {
+        input.any = true;
+        if (button >= 0 && static_cast<std::size_t>(button) < held.size()) {
+            held[static_cast<std::size_t>(button)] =
+                action == GLFW_PRESS && (captured || !ImGui::GetIO().WantCaptureMouse);
+        }
+    }
+
+    void move_mouse(const glm::vec2& to) {
+        input.any = true;
+        const glm::vec2 way = has_mouse ? to - mouse : glm::vec2(0.0F);
+        mouse = to;
+        has_mouse = true;
+        if (captured) {
+            input.motion += way;
+        } else if (held[GLFW_MOUSE_BUTTON_LEFT]) {
+            input.left_drag += way;
+        } else if (held[GLFW_MOUSE_BUTTON_RIGHT] || held[GLFW_MOUSE_BUTTON_MIDDLE]) {
+            input.right_drag += way;
+        }
+    }
+
+    void press_key(int code, int scan_code, int action, int modifiers) {
+        input.any = true;
+        const Key key = key_of(code, scan_code);
+        if (action == GLFW_RELEASE) {
+            std::erase_if(keys, [code](const auto& held_key) { return held_key.first == code; });
+        } else if (key != Key::None && !ImGui::GetIO().WantTextInput) {
+            input.presses.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0});
+            if (action == GLFW_PRESS) {
+                keys.emplace_back(code, key);
+            }
+        }
+    }
+
+    /// ImGui's own come on top of these and call them.
+    void listen() {
+        glfwSetWindowUserPointer(window, this);
+        glfwSetMouseButtonCallback(window,
+                                   [](GLFWwindow* from, int button, int action, int /*modifiers*/) {
+                                       of(from).press_button(button, action);
+                                   });
+        glfwSetCursorPosCallback(window, [](GLFWwindow* from, double x, double y) {
+            of(from).move_mouse({static_cast<float>(x), static_cast<float>(y)});
+        });
+        glfwSetScrollCallback(window, [](GLFWwindow* from, double /*x*/, double y) {
+            State& state = of(from);
+            state.input.any = true;
+            if (state.captured || !ImGui::GetIO().WantCaptureMouse) {
+                state.input.wheel += static_cast<float>(y);
+            }
+        });
+        glfwSetKeyCallback(
+            window, [](GLFWwindow* from, int code, int scan_code, int action, int modifiers) {
+                of(from).press_key(code, scan_code, action, modifiers);
+            });
+        glfwSetCharCallback(window,
+                            [](GLFWwindow* from, unsigned /*c*/) { of(from).input.any = true; });
+        glfwSetDropCallback(window, [](GLFWwindow* from, int count, const char** paths) {
+            State& state = of(from);
+            state.input.any = true;
+            state.input.dropped.assign(paths, paths + count);
+        });
+        glfwSetWindowRefreshCallback(window, [](GLFWwindow* from) { of(from).input.any = true; });
+        glfwSetFramebufferSizeCallback(
+            window, [](GLFWwindow* from, int, int) { of(from).input.any = true; });
+        glfwSetWindowFocusCallback(window, [](GLFWwindow* from, int /*focused*/) {
+            State& state = of(from);
+            state.input.any = true;
+            state.keys.clear(); // their release may go elsewhere
+            state.held = {};
+        });
+    }
+};
+
+Window::Window() : state_(std::make_unique<State>()) {}
+
+Window::~Window() {
+    if (state_->has_panels) {
+        ImGui_ImplOpenGL3_Shutdown();
+        ImGui_ImplGlfw_Shutdown();
+        ImGui::DestroyContext();
+    }
+    if (state_->window != nullptr) {
+        glfwDestroyWindow(state_->window);
+    }
+    glfwTerminate();
+}
+
+Result<std::unique_ptr<Window>>
+Window::make(const std::string& title, std::uint32_t width, std::uint32_t height) {
+    if (glfwInit() == GLFW_FALSE) {
+        return Error{fmt::format("there is no display for a window ({})", why_glfw_failed())};
+    }
+    std::unique_ptr<Window> made(new Window()); // ends GLFW
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0); // pictures are drawn elsewhere
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    State& state = *made->state_;
+    state.window = glfwCreateWindow(static_cast<int>(width), static_cast<int>(height),
+                                    title.c_str(), nullptr, nullptr);
+    if (state.window == nullptr) {
+        return Error{fmt::format("the display has no OpenGL 4.5 ({})", why_glfw_failed())};
+    }
+    glfwMakeContextCurrent(state.window);
+    glfwSwapInterval(1);
+    state.listen();
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr; // writes no file
+    ImGui::StyleColorsDark();
+    ImGui::GetStyle().ScaleAllSizes(made->scale());
+    ImGui::GetIO().FontGlobalScale = made->scale();
+    ImGui_ImplGlfw_InitForOpenGL(state.window, true);
+    ImGui_ImplOpenGL3_Init("#version 450 core");
+    state.has_panels = true;
+    return made;
+}
+
+WindowInput Window::wait(double seconds) {
+    if (seconds > 0.0) {
+        glfwWaitEventsTimeout(seconds);
+    } else {
+        glfwPollEvents();
+    }
+    WindowInput input = std::exchange(state_->input, {});
+    for (const auto& [code, key] : state_->keys) {
+        input.held.push_back(key);
+    }
+    input.closes = glfwWindowShouldClose(state_->window) == GLFW_TRUE;
+    return input;
+}
+
+void Window::wake() const {
+    glfwPostEmptyEvent();
+}
+
+std::uint32_t Window::width() const {
+    int width = 0;
+    glfwGetFramebufferSize(state_->window, &width, nullptr);
+    return static_cast<std::uint32_t>(std::max(width, 0));
+}
+
+std::uint32_t Window::height() const {
+    int height = 0;
+    glfwGetFramebufferSize(state_->window, nullptr, &height);
+    return static_cast<std::uint32_t>(std::max(height, 0));
+}
+
+float Window::scale() const {
+    float across = 1.0F;
+    glfwGetWindowContentScale(state_->window, &across, nullptr);
+    return std::clamp(across, 1.0F, 4.0F);
+}
+
+void Window::set_title(const std::string& title) {
+    glfwSetWindowTitle(state_->window, title.c_str());
+}
+
+void Window::capture_mouse(bool captured) {
+    state_->captured = captured;
+    state_->has_mouse = false;
+    state_->held = {};
+    glfwSetInputMode(state_->window, GLFW_CURSOR,
+                     captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+    ImGuiIO& io = ImGui::GetIO();
+    io.ConfigFlags = captured ? io.ConfigFlags | ImGuiConfigFlags_NoMouse
+                              : io.ConfigFlags & ~ImGuiConfigFlags_NoMouse;
+}
+
+void Window::begin_panels() {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+}
+
+void Window::show() {
+    ImGui::Render();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    glfwSwapBuffers(state_->window);
+}
+
+} // namespace lsys::view
