@@ -1,5 +1,6 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/files.h"
+#include "runtime/cli/forest_scene.h"
 #include "runtime/cli/grow_forest.h"
 #include "runtime/cli/tell.h"
 #include "runtime/domination.h"
@@ -23,8 +24,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kUsualSize = 100.0; // m
-constexpr std::uint64_t kUsualCount = 1000;
 constexpr std::uint32_t kGroundCells = 128; // along each side
 
 enum class Kind : std::uint8_t { None, Instances, Mesh, Statistics };
@@ -86,82 +85,6 @@ std::string find_conflict(const ForestCommand& command, const Target& target) {
         return "--frames writes a numbered series, so it needs -o FILE";
     }
     return {};
-}
-
-bool is_scene(const std::string& path) {
-    return std::filesystem::path(path).extension() == ".toml";
-}
-
-/// A scene of grammars alone.
-Scene scene_of(const std::vector<std::string>& grammars) {
-    Scene scene;
-    scene.terrain.region = {0.0, 0.0, kUsualSize, kUsualSize};
-    scene.placement.region = scene.terrain.region;
-    scene.placement.count = kUsualCount;
-    for (const std::string& path : grammars) {
-        SceneSpecies& species = scene.species.emplace_back();
-        species.name = std::filesystem::path(path).stem().string();
-        species.grammar.path = path;
-        scene.placement.species.emplace_back();
-    }
-    return scene;
-}
-
-template <typename Target, typename Value>
-void take(const std::optional<Value>& option, Target& target) {
-    if (option) {
-        target = static_cast<Target>(*option);
-    }
-}
-
-/// What the options say in place of the scene. Error: a tile of a placement that has none.
-Result<Done> apply(const ForestCommand& command, Scene& scene) {
-    for (SceneSpecies& species : scene.species) {
-        take(command.heroes, species.cache.heroes);
-        take(command.seed, species.cache.seed);
-        take(command.cache_cap, species.cache.cap);
-        take(command.tolerance, species.cache.tolerance);
-        take(command.rho, species.rho);
-        if (command.grammar.generations) {
-            species.stages = {*command.grammar.generations};
-            species.years_of_stage = 0.0F;
-        }
-        for (const Definition& definition : command.grammar.definitions) {
-            const auto same = [&](const SceneDefinition& each) {
-                return each.name == definition.name;
-            };
-            std::erase_if(species.definitions, same);
-            species.definitions.push_back({definition.name, definition.value, {}});
-        }
-    }
-    PlacementOptions& placement = scene.placement;
-    take(command.key, placement.key);
-    take(command.method, placement.method);
-    take(command.count, placement.count);
-    take(command.spacing, placement.spacing);
-    take(command.density, placement.density);
-    take(command.years, placement.years);
-    if (!command.density_map.empty()) {
-        scene.density_map.path = std::filesystem::absolute(command.density_map).string();
-    }
-    if (command.size) {
-        const auto side = static_cast<double>(*command.size);
-        scene.terrain.region = {0.0, 0.0, side, side};
-        placement.region = scene.terrain.region;
-    }
-    if (command.tile) {
-        if (!is_tileable(placement.method)) {
-            return Error{"--tile: this placement is made as a whole; jittered, uniform-cells, "
-                         "poisson-cells and density-cells have tiles that fit"};
-        }
-        const ForestTile& tile = *command.tile;
-        placement.region = {static_cast<double>(tile.column) * tile.size,
-                            static_cast<double>(tile.row) * tile.size, tile.size, tile.size};
-        if (scene.terrain.kind != TerrainKind::HeightMap) {
-            scene.terrain.region = placement.region;
-        }
-    }
-    return Done{};
 }
 
 /// Everything that the files of one run share.
@@ -477,26 +400,12 @@ Status run_forest(const ForestCommand& command, const Console& console) {
     if (const std::string conflict = find_conflict(command, target.value()); !conflict.empty()) {
         return fail(Error{conflict}, console);
     }
-    SourceMap sources;
-    Scene scene;
-    std::string folder;
-    const auto scenes = std::count_if(command.files.begin(), command.files.end(), is_scene);
-    if (scenes > 0 && command.files.size() > 1) {
-        return fail(Error{"a scene names its grammars, so it stands alone"}, console);
+    CommandScene loaded;
+    if (const Status status = load_command_scene(command, console, loaded);
+        status != Status::Fine) {
+        return status;
     }
-    if (scenes > 0) {
-        const std::string& path = command.files.front();
-        const Status status = load_scene(path, console, sources, scene);
-        if (status != Status::Fine) {
-            return status;
-        }
-        folder = std::filesystem::path(path).parent_path().string();
-    } else {
-        scene = scene_of(command.files);
-    }
-    if (const Result<Done> applied = apply(command, scene); !applied) {
-        return fail(applied.error(), console);
-    }
+    const Scene& scene = loaded.scene;
     const bool grows = scene.placement.method == PlacementMethod::Domination;
     if (command.frames != 0 && !grows) {
         return fail(Error{"--frames shows a forest that grows, which is --placement domination"},
@@ -504,7 +413,7 @@ Status run_forest(const ForestCommand& command, const Console& console) {
     }
     const ForestLimits limits{command.threads, command.grammar.max_modules, command.max_bytes};
     Run run{command, console, target.value(), scene, {}, {}, {}};
-    Status status = grow_species(scene, sources, folder, limits, console, run.grown);
+    Status status = grow_species(scene, loaded.sources, loaded.folder, limits, console, run.grown);
     if (status != Status::Fine || command.check) {
         return status;
     }

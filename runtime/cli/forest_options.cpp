@@ -38,7 +38,7 @@ auto metres(float least) {
     return [least](const std::string& text) { return parse_number(text, least, 1e6F); };
 }
 
-void add_placement(CLI::App& app, ForestCommand& command) {
+void add_placement(CLI::App& app, ForestCommand& command, const char* size) {
     const char* const group = "Placement";
     add_choice<std::optional<PlacementMethod>>(
         app, "--placement", command.method,
@@ -57,7 +57,7 @@ void add_placement(CLI::App& app, ForestCommand& command) {
                "(default 1000)")
         ->type_name("N")
         ->group(group);
-    add_parsed(app, "--size", command.size, metres(1e-3F),
+    add_parsed(app, size, command.size, metres(1e-3F),
                "Side of the ground, a square from the origin on (default 100)")
         ->type_name("METRES")
         ->group(group);
@@ -77,11 +77,6 @@ void add_placement(CLI::App& app, ForestCommand& command) {
         ->group(group);
     add_parsed(app, "--years", command.years, whole(0, kMaxYears),
                "Years that a forest of domination grows")
-        ->type_name("N")
-        ->group(group);
-    constexpr std::uint64_t kMostFrames = 10'000;
-    add_parsed(app, "--frames", command.frames, whole(0, kMostFrames),
-               "Write the forest of domination so many times while it grows, as a numbered series")
         ->type_name("N")
         ->group(group);
     add_parsed(app, "--tile", command.tile, parse_tile,
@@ -114,6 +109,15 @@ void add_cache(CLI::App& app, ForestCommand& command) {
 
 } // namespace
 
+void add_forest_scene(CLI::App& app, ForestCommand& command, const char* size) {
+    add_parsed(app, "--key", command.key,
+               whole(0, static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())),
+               "What the forest is made from: the same key, the same forest (default 0)")
+        ->type_name("K");
+    add_placement(app, command, size);
+    add_cache(app, command);
+}
+
 void add_forest(CLI::App& app, ForestCommand& command) {
     app.add_option("FILE", command.files, "A scene (.toml), or grammars, one for each species")
         ->required();
@@ -131,12 +135,12 @@ void add_forest(CLI::App& app, ForestCommand& command) {
                "Side of the squares of ground whose trees are instanced together; 0: all are "
                "(default 100)")
         ->type_name("METRES");
-    add_parsed(app, "--key", command.key,
-               whole(0, static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())),
-               "What the forest is made from: the same key, the same forest (default 0)")
-        ->type_name("K");
-    add_placement(app, command);
-    add_cache(app, command);
+    add_forest_scene(app, command, "--size");
+    constexpr std::uint64_t kMostFrames = 10'000;
+    add_parsed(app, "--frames", command.frames, whole(0, kMostFrames),
+               "Write the forest of domination so many times while it grows, as a numbered series")
+        ->type_name("N")
+        ->group("Placement");
     add_parsed(app, "--sides", command.mesh.sides, whole(kMinSides, kMaxSides),
                "Sides of every cross-section, instead of the grammar's")
         ->type_name("N")

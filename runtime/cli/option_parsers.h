@@ -81,6 +81,9 @@ void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed);
 void add_mesh(CLI::App& app, MeshOptions& mesh);
 void add_run_limits(CLI::App& app, std::uint64_t& max_bytes, std::uint32_t& threads);
 
+/// The options of forests that take the place of what a scene says: key, placement, instances.
+/// `size`: the name of the one for the side of the ground.
+void add_forest_scene(CLI::App& app, ForestCommand& command, const char* size);
 /// The options of `lsc forest`.
 void add_forest(CLI::App& app, ForestCommand& command);
 
