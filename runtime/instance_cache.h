@@ -138,6 +138,10 @@ public:
     /// order. A function of cache, key and tree alone. Returns how many.
     template <typename Visit>
     std::uint32_t expand(const Tree& tree, Visit&& visit);
+    /// The instance that expand() visits first: of the whole plant.
+    [[nodiscard]] std::uint32_t root_instance(const Tree& tree) {
+        return choose(cache_.slots[0], tree.number, 0);
+    }
 
 private:
     struct Pending {

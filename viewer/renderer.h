@@ -6,8 +6,10 @@
 #include "runtime/mesh.h"
 #include "runtime/physics.h"
 #include "viewer/camera.h"
+#include "viewer/forest_model.h"
 #include "viewer/lines.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -61,6 +63,10 @@ struct Frame {
     bool shadows = true;
     bool ground = true; // under a single plant
     PlantStyle style = PlantStyle::Surface;
+    std::uint32_t samples = 4; // of a pixel: 1 or 4
+    // Of a forest.
+    std::uint64_t most_triangles = 1'500'000; // of branches; with more, trees are drawn coarser
+    std::uint32_t most_expansions = ~0U;      // trees whose branches are made for one picture
 
     friend bool operator==(const Frame&, const Frame&) = default;
 };
@@ -68,6 +74,34 @@ struct Frame {
 struct FrameStats {
     std::uint64_t draws = 0;
     std::uint64_t triangles = 0;
+};
+
+/// Of the last picture of a forest.
+struct ForestFrameStats {
+    std::array<std::uint32_t, kTreeLevels> trees_of_level{}; // drawn as branches
+    std::uint64_t far_trees = 0;                             // as impostors
+    std::uint64_t horizon_trees = 0;                         // with others of their cell
+    std::uint64_t horizon_cells = 0;
+    std::uint64_t drawn_branches = 0;
+    std::uint32_t expanded_trees = 0;
+    std::uint32_t waiting_trees = 0;
+    float detail = 1.0F; // by which sizes were multiplied, so that most_triangles was kept
+    FrameStats branches;
+    FrameStats impostors;
+    FrameStats terrain;
+    FrameStats shadow;
+    double cull_milliseconds = 0.0; // with the making of branches
+};
+
+/// Of the forest that is shown.
+struct ForestSizes {
+    std::uint64_t trees = 0;
+    std::uint64_t tree_bytes = 0;
+    std::uint64_t branch_bytes = 0;
+    std::uint64_t mesh_bytes = 0;
+    std::uint64_t texture_bytes = 0;
+    double upload_milliseconds = 0.0;
+    double portrait_milliseconds = 0.0;
 };
 
 class Renderer {
@@ -82,6 +116,9 @@ public:
     virtual void show_plant(const Mesh& mesh) = 0;
     /// The lines that are drawn over everything from now on, instead of those before.
     virtual void show_lines(std::span<const LineVertex> lines) = 0;
+    /// The forest that is shown from now on instead. Its forest and terrain outlive what is shown.
+    /// Error: a shader does not compile.
+    [[nodiscard]] virtual Result<Done> show_forest(ForestModel model) = 0;
     /// Of what is shown.
     [[nodiscard]] virtual const Bounds& bounds() const = 0;
 
@@ -90,6 +127,9 @@ public:
 
     /// Draws what lies within `area` of the picture into memory of the renderer's own.
     virtual FrameStats draw(const Frame& frame, const PixelArea& area) = 0;
+    /// Of the last draw(); nothing if no forest is shown.
+    [[nodiscard]] virtual const ForestFrameStats& forest_stats() const = 0;
+    [[nodiscard]] virtual ForestSizes forest_sizes() const = 0;
     /// The rows of the last picture from top to bottom, four bytes a pixel.
     virtual void read(std::vector<std::uint8_t>& pixels) = 0;
     /// Copies the last picture to this part of the window whose context is current.

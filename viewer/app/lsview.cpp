@@ -2,6 +2,8 @@
 
 #include "runtime/cli/console.h"
 #include "runtime/cli/tell.h"
+#include "viewer/app/forest_document.h"
+#include "viewer/app/forest_pictures.h"
 #include "viewer/app/options.h"
 #include "viewer/app/pictures.h"
 #include "viewer/app/plant_document.h"
@@ -26,35 +28,82 @@ namespace {
 using lsc::Console;
 using lsc::Status;
 
-Status run_pictures(const ViewOptions& options, const Console& console) {
-    const Result<Camera> camera = parse_camera(options.camera, Camera{});
-    if (!camera) {
-        return lsc::fail(Error{fmt::format("--camera: {}", camera.error().message)}, console);
-    }
-    PlantDocument document;
-    const Status made = make_plant_document(options, console, document);
-    if (made != Status::Fine) {
-        return made;
-    }
-    const Result<std::unique_ptr<Headless>> context = Headless::make();
+/// A renderer without a window, and the context that it draws in.
+struct HiddenRenderer {
+    std::unique_ptr<Headless> context; // goes last
+    std::unique_ptr<Renderer> renderer;
+};
+
+Status make_renderer(const ViewOptions& options, const Console& console, HiddenRenderer& made) {
+    Result<std::unique_ptr<Headless>> context = Headless::make();
     if (!context) {
         return lsc::fail(context.error(), console);
     }
+    made.context = std::move(context.value());
     Result<std::unique_ptr<Renderer>> renderer =
         Renderer::make(shaders_of(options.shaders, console));
     if (!renderer) {
         return lsc::fail(renderer.error(), console);
     }
+    made.renderer = std::move(renderer.value());
     console.detail(
-        fmt::format("drawing by {}: {}", context.value()->way(), renderer.value()->device_name()));
-    renderer.value()->show_plant(document.mesh);
-    renderer.value()->show_lines(make_lines(document.plant.skeleton, options.lines));
-    Camera from = camera.value();
+        fmt::format("drawing by {}: {}", made.context->way(), made.renderer->device_name()));
+    return Status::Fine;
+}
+
+Status
+run_forest_pictures(const ViewOptions& options, const Camera& camera, const Console& console) {
+    ForestDocument document;
+    Status status = make_forest_document(options, console, document);
+    if (status != Status::Fine) {
+        return status;
+    }
+    const Camera from = above_ground(
+        options.camera.empty() ? overview(document, static_cast<float>(options.width) /
+                                                        static_cast<float>(options.height))
+                               : camera,
+        *document.grown.terrain);
+    HiddenRenderer made;
+    status = make_renderer(options, console, made);
+    if (status != Status::Fine) {
+        return status;
+    }
+    if (const Result<Done> shown = made.renderer->show_forest(std::move(document.model)); !shown) {
+        return lsc::fail(shown.error(), console);
+    }
+    return take_forest_pictures(options, from, document, *made.renderer, console);
+}
+
+Status
+run_plant_pictures(const ViewOptions& options, const Camera& camera, const Console& console) {
+    PlantDocument document;
+    Status status = make_plant_document(options, console, document);
+    if (status != Status::Fine) {
+        return status;
+    }
+    HiddenRenderer made;
+    status = make_renderer(options, console, made);
+    if (status != Status::Fine) {
+        return status;
+    }
+    Renderer& renderer = *made.renderer;
+    renderer.show_plant(document.mesh);
+    renderer.show_lines(make_lines(document.plant.skeleton, options.lines));
+    Camera from = camera;
     if (options.camera.empty()) {
-        from = first_view(from, renderer.value()->bounds(),
+        from = first_view(from, renderer.bounds(),
                           static_cast<float>(options.width) / static_cast<float>(options.height));
     }
-    return take_pictures(options, from, document, *renderer.value(), console);
+    return take_pictures(options, from, document, renderer, console);
+}
+
+Status run_pictures(const ViewOptions& options, const Console& console) {
+    const Result<Camera> camera = parse_camera(options.camera, Camera{});
+    if (!camera) {
+        return lsc::fail(Error{fmt::format("--camera: {}", camera.error().message)}, console);
+    }
+    return options.is_forest ? run_forest_pictures(options, camera.value(), console)
+                             : run_plant_pictures(options, camera.value(), console);
 }
 
 struct Dispatch {

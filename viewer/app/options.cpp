@@ -1,6 +1,7 @@
 #include "viewer/app/options.h"
 
 #include "runtime/cli/arguments.h"
+#include "runtime/cli/forest_scene.h"
 #include "runtime/cli/option_parsers.h"
 
 #include <CLI/CLI.hpp>
@@ -111,6 +112,24 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         "Lines over all: segments by order of branching, or the turtle's path by time "
         "(default none)")
         ->group("Picture");
+    add_parsed(
+        app, "--samples", options.samples,
+        [](const std::string& text) -> Result<std::uint64_t> {
+            const Result<std::uint64_t> samples = lsc::parse_whole(text, 1, 4);
+            return samples && (samples.value() == 1 || samples.value() == 4)
+                       ? samples
+                       : Result<std::uint64_t>(Error{fmt::format("`{}` is neither 1 nor 4", text)});
+        },
+        "Samples of a pixel, 1 or 4 (default 4)")
+        ->type_name("N")
+        ->group("Picture");
+    constexpr std::uint64_t kMostTriangles = 1'000'000'000;
+    add_parsed(
+        app, "--triangles", options.most_triangles, whole(0, kMostTriangles),
+        "The most triangles of branches in a picture of a forest; with more, trees are drawn "
+        "coarser (default 1500000)")
+        ->type_name("N")
+        ->group("Picture");
     app.add_option("--shaders", options.shaders,
                    "Read shaders from this folder instead of those built in")
         ->type_name("FOLDER")
@@ -131,16 +150,27 @@ void add_bending(CLI::App& app, ViewOptions& options) {
         ->group("Bending");
 }
 
+/// Whether any option is of forests alone.
+bool asks_for_forest(const lsc::ForestCommand& forest) {
+    return forest.key || forest.heroes || forest.rho || forest.cache_cap || forest.tolerance ||
+           forest.method || forest.count || forest.size || forest.spacing || forest.density ||
+           forest.years || forest.tile || !forest.density_map.empty();
+}
+
 } // namespace
 
 ParsedOptions parse_options(std::span<const std::string> arguments) {
     ViewOptions options;
-    CLI::App app("Shows plants of L-systems, live in a window or as pictures.", "lsview");
-    app.add_option("FILE", options.file, "A grammar or a .lsb file")->required();
+    CLI::App app("Shows plants and forests of L-systems, live in a window or as pictures.",
+                 "lsview");
+    app.add_option("FILE", options.forest.files,
+                   "A grammar or a .lsb file; a scene (.toml), or the grammars of a forest")
+        ->required();
     add_picture(app, options);
     lsc::add_grammar(app, options.grammar);
     lsc::add_seed(app, options.seed);
     add_bending(app, options);
+    lsc::add_forest_scene(app, options.forest, "--forest-size");
     lsc::add_mesh(app, options.mesh);
     lsc::add_run_limits(app, options.max_bytes, options.threads);
     lsc::add_messages(app, options.messages);
@@ -150,7 +180,10 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
         "once.\n"
         "Exit status: 0 fine, 1 errors in a grammar, 2 a file, the display or the command "
         "line, 3 a limit.\n"
-        "Example: lsview tree.lsys --screenshot tree.png --size 1920x1080");
+        "Examples: lsview tree.lsys --screenshot tree.png --size 1920x1080\n"
+        "          lsview wood.toml --screenshot wood.png\n"
+        "          lsview oak.lsys birch.lsys --count 10000 --forest-size 700 --screenshot "
+        "wood.png");
     try {
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
     } catch (const CLI::CallForHelp&) {
@@ -159,6 +192,15 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
         return lsc::PrintText{"lsview " LSC_VERSION "\n"};
     } catch (const CLI::ParseError& error) {
         return lsc::describe(error, app, "lsview");
+    }
+    options.file = options.forest.files.front();
+    options.is_forest = options.forest.files.size() > 1 || lsc::is_scene(options.file) ||
+                        asks_for_forest(options.forest);
+    if (options.is_forest && options.gravity) {
+        return lsc::UsageError{"--gravity bends a plant, not a forest", "leave it out"};
+    }
+    if (options.is_forest && options.screenshot.empty()) {
+        return lsc::UsageError{"a forest is shown as pictures", "add `--screenshot FILE`"};
     }
     if ((options.frames != 0 || !options.stats.empty()) && options.screenshot.empty()) {
         return lsc::UsageError{"--frames and --stats belong to pictures",

@@ -20,7 +20,9 @@ struct ViewOptions {
     lsc::MessageOptions messages;
     lsc::GrammarOptions grammar;
     std::optional<std::uint64_t> seed;
-    std::string file;
+    std::string file;          // the first one
+    bool is_forest = false;    // a scene, or grammars with options of forests
+    lsc::ForestCommand forest; // its files and what takes the place of what a scene says
     MeshOptions mesh;
     std::uint32_t threads = 0;
     std::uint64_t max_bytes = 0;
@@ -35,7 +37,9 @@ struct ViewOptions {
     bool ground = true;
     PlantStyle style = PlantStyle::Surface;
     LineKind lines = LineKind::None;
-    std::string shaders; // a folder instead of the built-in ones
+    std::uint32_t samples = 4;
+    std::uint64_t most_triangles = 1'500'000; // of the branches of a forest in a picture
+    std::string shaders;                      // a folder instead of the built-in ones
 
     std::string screenshot;   // a picture instead of a window; `-`: standard output
     std::uint32_t frames = 0; // a numbered series; 0: one picture

@@ -10,8 +10,10 @@
 
 namespace lsys::view {
 
-FrameBlock
-make_frame_block(const Frame& frame, const PixelArea& area, const glm::mat4& shadow_from_world) {
+FrameBlock make_frame_block(const Frame& frame,
+                            const PixelArea& area,
+                            const glm::mat4& shadow_from_world,
+                            std::uint32_t shadow_texels) {
     const auto width = static_cast<float>(frame.width);
     const auto height = static_cast<float>(frame.height);
     const auto part_width = static_cast<float>(area.width);
@@ -33,8 +35,10 @@ make_frame_block(const Frame& frame, const PixelArea& area, const glm::mat4& sha
     block.to_sun = glm::vec4(glm::normalize(light.to_sun), frame.shadows ? 1.0F : 0.0F);
     block.sun = glm::vec4(light.sun, light.extinction);
     block.sky = glm::vec4(light.sky, light.exposure);
-    block.horizon = glm::vec4(light.horizon, 0.0F);
-    block.ground = glm::vec4(light.ground, 0.0F);
+    const float texel = 1.0F / static_cast<float>(shadow_texels);
+    const glm::vec3 across(shadow_from_world[0].x, shadow_from_world[1].x, shadow_from_world[2].x);
+    block.horizon = glm::vec4(light.horizon, 2.0F * texel / glm::length(across));
+    block.ground = glm::vec4(light.ground, texel);
     block.wind = glm::vec4(frame.wind.velocity, frame.wind.gust);
     block.viewport = {static_cast<float>(area.x), static_cast<float>(area.y), width, height};
     return block;

@@ -23,9 +23,11 @@ struct FrameBlock {
 };
 static_assert(sizeof(FrameBlock) == 3 * 64 + 8 * 16);
 
-/// Of the part of a frame's picture within `area`.
-[[nodiscard]] FrameBlock
-make_frame_block(const Frame& frame, const PixelArea& area, const glm::mat4& shadow_from_world);
+/// Of the part of a frame's picture within `area`. `shadow_texels`: along a side of the map.
+[[nodiscard]] FrameBlock make_frame_block(const Frame& frame,
+                                          const PixelArea& area,
+                                          const glm::mat4& shadow_from_world,
+                                          std::uint32_t shadow_texels);
 
 /// Takes the box to the cube of a shadow map whose light comes from `to_sun`; depth 0 is nearest
 /// to the sun. `texels`: the size of the map, so that its texels stay where they are in the world.

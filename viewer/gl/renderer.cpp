@@ -1,5 +1,6 @@
 #include "viewer/renderer.h"
 
+#include "viewer/gl/forest_pass.h"
 #include "viewer/gl/frame_block.h"
 #include "viewer/gl/line_set.h"
 #include "viewer/gl/material_textures.h"
@@ -18,7 +19,6 @@ namespace lsys::view {
 namespace {
 
 constexpr std::uint32_t kShadowTexels = 2048;
-constexpr std::uint32_t kSamples = 4;
 constexpr GLuint kFrameBinding = 0;
 constexpr GLuint kShadowTexture = 0;
 // What ground.*.glsl ask for.
@@ -72,35 +72,59 @@ class GlRenderer final : public Renderer {
 public:
     GlRenderer()
         : target_(device_), shadow_(device_, kShadowTexels), textures_(device_), plant_(device_),
-          lines_(device_), frame_(device_), empty_(make_vertex_array(device_)) {}
+          lines_(device_), forest_(device_), frame_(device_), empty_(make_vertex_array(device_)) {}
 
     void show_plant(const Mesh& mesh) override {
         plant_.upload(mesh);
         shadow_.invalidate();
+        is_forest_ = false;
+    }
+    Result<Done> show_forest(ForestModel model) override {
+        if (!has_forest_shaders_) {
+            if (Result<Done> done = forest_.reload(shaders_); !done) {
+                return done;
+            }
+            has_forest_shaders_ = true;
+        }
+        forest_.show(std::move(model), textures_);
+        shadow_.invalidate();
+        is_forest_ = true;
+        return Done{};
+    }
+    const Bounds& bounds() const override {
+        return is_forest_              ? forest_.bounds()
+               : plant_.bounds().empty ? lines_.bounds()
+                                       : plant_.bounds();
     }
     void show_lines(std::span<const LineVertex> lines) override { lines_.upload(lines); }
-    const Bounds& bounds() const override {
-        return plant_.bounds().empty ? lines_.bounds() : plant_.bounds();
-    }
 
     Result<Done> reload(const ShaderSource& shaders) override {
         Result<Programs> made = make_programs(device_, shaders);
         if (!made) {
             return made.error();
         }
+        if (has_forest_shaders_) {
+            if (Result<Done> done = forest_.reload(shaders); !done) {
+                return done;
+            }
+        }
+        shaders_ = shaders;
         programs_ = std::move(made.value());
         return Done{};
     }
 
     FrameStats draw(const Frame& frame, const PixelArea& area) override {
         FrameStats stats;
+        forest_stats_ = {};
+        const Bounds lit = is_forest_              ? forest_.lit_bounds(frame)
+                           : plant_.bounds().empty ? Bounds{}
+                                                   : lit_bounds(plant_.bounds());
         glm::mat4 shadow_from_world(1.0F);
-        if (frame.shadows && frame.style != PlantStyle::None && !plant_.bounds().empty) {
-            shadow_from_world =
-                shadow_matrix(lit_bounds(plant_.bounds()), frame.light.to_sun, kShadowTexels);
+        if (frame.shadows && frame.style != PlantStyle::None && !lit.empty) {
+            shadow_from_world = shadow_matrix(lit, frame.light.to_sun, kShadowTexels);
         }
-        FrameBlock block = make_frame_block(frame, area, shadow_from_world);
-        if (frame.style == PlantStyle::None || plant_.bounds().empty) {
+        FrameBlock block = make_frame_block(frame, area, shadow_from_world, kShadowTexels);
+        if (frame.style == PlantStyle::None || lit.empty) {
             block.to_sun.w = 0.0F;
         }
         frame_.fill(std::span<const FrameBlock>(&block, 1));
@@ -109,18 +133,26 @@ public:
         glEnable(GL_DEPTH_TEST);
         glDisable(GL_BLEND);
         glFrontFace(GL_CCW);
-        if (block.to_sun.w != 0.0F && shadow_.is_stale(shadow_from_world)) {
-            draw_shadows(shadow_from_world, stats);
+        if (is_forest_) {
+            forest_.prepare(frame);
         }
-        target_.begin(area.width, area.height, kSamples);
+        if (block.to_sun.w != 0.0F && shadow_.is_stale(shadow_from_world)) {
+            draw_shadows(shadow_from_world, lit, stats);
+        }
+        target_.begin(area.width, area.height, frame.samples);
         glDepthFunc(GL_GEQUAL); // nearer is larger
         glBindTextureUnit(kShadowTexture, shadow_.texture());
-        if (frame.style != PlantStyle::None) {
+        if (is_forest_) {
+            glPolygonMode(GL_FRONT_AND_BACK,
+                          frame.style == PlantStyle::Wireframe ? GL_LINE : GL_FILL);
+            forest_.draw(textures_, forest_stats_);
+            glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+        } else if (frame.style != PlantStyle::None) {
             draw_plant(frame.style, stats);
         }
         glDisable(GL_CULL_FACE);
         glBindVertexArray(empty_.name());
-        if (frame.ground && !bounds().empty) {
+        if (frame.ground && !is_forest_ && !bounds().empty) {
             draw_ground(stats);
         }
         glUseProgram(programs_.sky.name());
@@ -131,7 +163,16 @@ public:
         glUseProgram(programs_.line.name());
         stats.draws += lines_.draw();
         target_.resolve();
+        for (const FrameStats* pass : {&forest_stats_.branches, &forest_stats_.impostors,
+                                       &forest_stats_.terrain, &forest_stats_.shadow}) {
+            stats.draws += pass->draws;
+            stats.triangles += pass->triangles;
+        }
         return stats;
+    }
+    const ForestFrameStats& forest_stats() const override { return forest_stats_; }
+    ForestSizes forest_sizes() const override {
+        return is_forest_ ? forest_.sizes() : ForestSizes{};
     }
     void read(std::vector<std::uint8_t>& pixels) override { target_.read(pixels); }
     void present(const PixelArea& area) override { target_.present(area); }
@@ -142,15 +183,19 @@ public:
     const std::vector<std::string>& errors() const override { return device_.errors(); }
 
 private:
-    void draw_shadows(const glm::mat4& matrix, FrameStats& stats) {
+    void draw_shadows(const glm::mat4& matrix, const Bounds& lit, FrameStats& stats) {
         shadow_.begin(matrix);
         glDepthFunc(GL_LEQUAL);
         glEnable(GL_POLYGON_OFFSET_FILL);
         glPolygonOffset(1.5F, 2.0F);
         glEnable(GL_DEPTH_CLAMP);
-        glUseProgram(programs_.shadow.name());
-        stats.draws += plant_.draw(textures_, false);
-        stats.triangles += plant_.triangles();
+        if (is_forest_) {
+            forest_.draw_shadows(lit, forest_stats_);
+        } else {
+            glUseProgram(programs_.shadow.name());
+            stats.draws += plant_.draw(textures_, false);
+            stats.triangles += plant_.triangles();
+        }
         glDisable(GL_DEPTH_CLAMP);
         glDisable(GL_POLYGON_OFFSET_FILL);
     }
@@ -191,6 +236,11 @@ private:
     MaterialTextures textures_;
     PlantMesh plant_;
     LineSet lines_;
+    ForestPass forest_;
+    ForestFrameStats forest_stats_;
+    bool is_forest_ = false; // what is shown
+    ShaderSource shaders_;   // those of forests are compiled when one is shown
+    bool has_forest_shaders_ = false;
     Buffer frame_;
     VertexArray empty_;
 };

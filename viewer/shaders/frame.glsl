@@ -7,8 +7,8 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 to_sun;    // unit; w: 1 if there are shadows
     vec4 sun;       // linear RGB; w: extinction of the air, 1/m
     vec4 sky;       // from above; w: exposure
-    vec4 horizon;
-    vec4 ground;    // from below
+    vec4 horizon;   // w: side of a texel of the shadow map, m
+    vec4 ground;    // from below; w: the same, as a part of the map
     vec4 wind;      // m/s; w: gusts, as a part of it
     vec4 viewport;  // pixels: x, y, width, height of the whole picture
 } frame;

@@ -1,0 +1,304 @@
+// Which trees are drawn as what, beside the same found one by one.
+#include "tests/support/forest.h"
+#include "viewer/forest_model.h"
+#include "viewer/forest_view.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <random>
+#include <set>
+#include <tuple>
+#include <vector>
+
+using namespace lsys;
+using namespace lsys::view;
+
+namespace {
+
+const char* const kBush = R"(#set names letters; #set angle 25; #w : A;
+#p : A : ~ 0.5 : F[+A][-A]/A; #q : A : ~ 0.3 : F[+A]//A; #r : A : ~ 0.2 : FF[&A]F;)";
+
+/// Trees of one species on a square of level ground.
+struct Wood {
+    Forest forest;
+    std::unique_ptr<Terrain> terrain;
+    ForestModel model;
+};
+
+std::unique_ptr<Wood> make_wood(std::uint32_t count, float side) {
+    auto wood = std::make_unique<Wood>();
+    CacheOptions options;
+    options.heroes = 6;
+    ForestStage stage;
+    stage.generations = 5;
+    stage.cache = test::plant(kBush, 5, 0.6F, options).cache;
+    ForestSpecies species;
+    species.name = "bush";
+    species.stages.push_back(std::move(stage));
+    wood->forest.species.push_back(std::move(species));
+    wood->forest.key = 5;
+    std::mt19937 draws(1);
+    std::uniform_real_distribution<float> place(0.0F, side);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Tree tree;
+        tree.position = {place(draws), 0.0F, place(draws)};
+        tree.yaw = place(draws);
+        tree.scale = 0.5F + place(draws) / side;
+        tree.number = i;
+        wood->forest.trees.push_back(tree);
+    }
+    const auto size = static_cast<double>(side);
+    wood->terrain = std::make_unique<Terrain>(Terrain::flat({0.0, 0.0, size, size}).value());
+    REQUIRE(make_forest_model(wood->forest, *wood->terrain, {{}}, {}, wood->model) ==
+            InstanceMeshStatus::Ok);
+    return wood;
+}
+
+Camera looking(const glm::vec3& eye, const glm::vec3& target, float field = 50.0F) {
+    return {eye, target, field};
+}
+
+std::vector<Camera> cameras() {
+    return {looking({100, 2, 100}, {0, 2, 50}),
+            looking({-20, 60, -30}, {100, 0, 100}),
+            looking({100, 400, 100}, {100, 0, 100.1F}),
+            looking({5, 1, 5}, {200, 1, 190}, 100.0F),
+            looking({100, 3, 30}, {100, 30, 29}),
+            looking({-3000, 50, 100}, {100, 0, 100}, 20.0F)};
+}
+
+RingOptions usual() {
+    RingOptions options;
+    options.level_pixels = {200.0F, 120.0F, 80.0F, 40.0F};
+    return options;
+}
+
+/// What is drawn as branches: tree, instance, level.
+std::vector<std::array<std::uint32_t, 3>> branches_of(ForestView& view, const ForestLists& lists) {
+    std::vector<std::array<std::uint32_t, 3>> branches;
+    for (const BranchRun& run : lists.runs) {
+        for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
+            const PoolBranch& branch = view.pool().branches()[lists.branches[i]];
+            CHECK(branch.mesh == run.instance);
+            branches.push_back({branch.tree, branch.mesh, run.level});
+        }
+    }
+    return branches;
+}
+
+} // namespace
+
+TEST_CASE("every tree in view is in exactly one ring") {
+    const auto wood = make_wood(3000, 200.0F);
+    ForestView view(wood->model);
+    CHECK(view.trees().size() == 3000);
+    for (const Camera& camera : cameras()) {
+        const ViewVolume volume = view_volume(camera, 640, 480);
+        const ForestLists& lists = view.select(volume, usual());
+        std::vector<std::uint32_t> rings(view.trees().size());
+        std::set<std::uint32_t> near;
+        std::map<std::uint32_t, std::set<std::uint32_t>> levels;
+        for (const auto& [tree, instance, level] : branches_of(view, lists)) {
+            near.insert(tree);
+            levels[tree].insert(level);
+        }
+        for (const auto& [tree, of_tree] : levels) {
+            CHECK(of_tree.size() == 1);
+        }
+        CHECK(near.size() == lists.branch_trees());
+        for (const std::uint32_t tree : near) {
+            ++rings[tree];
+        }
+        for (const std::uint32_t tree : lists.trees) {
+            ++rings[tree];
+        }
+        std::uint64_t clumped = 0;
+        for (const std::uint32_t c : lists.clumps) {
+            const ForestCell& cell = view.cells()[c];
+            clumped += cell.count;
+            for (std::uint32_t i = 0; i < cell.count; ++i) {
+                ++rings[cell.first + i];
+            }
+        }
+        CHECK(clumped == lists.clumped_trees);
+        // One by one: nothing that is in view is left out, and nothing is drawn twice.
+        const glm::mat4 matrix =
+            projection_matrix(camera, 640.0F / 480.0F, 0.1F) * view_matrix(camera);
+        std::size_t in_view = 0;
+        for (std::uint32_t t = 0; t < view.trees().size(); ++t) {
+            REQUIRE(rings[t] <= 1);
+            const TreeForm& form = wood->model.forms[0];
+            const ViewTree& tree = view.trees()[t];
+            bool seen = false;
+            for (const float height : {form.low, 0.5F * (form.low + form.high), form.high}) {
+                const glm::vec4 clip =
+                    matrix *
+                    glm::vec4(tree.position + glm::vec3(0.0F, tree.scale * height, 0.0F), 1.0F);
+                seen = seen ||
+                       (clip.w > 0.1F && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w);
+            }
+            in_view += seen ? 1 : 0;
+            if (seen) {
+                CAPTURE(t, to_text(camera));
+                REQUIRE(rings[t] == 1);
+            }
+        }
+        CAPTURE(to_text(camera), in_view);
+    }
+}
+
+TEST_CASE("all corners of a tree lie within its ball") {
+    const auto wood = make_wood(200, 50.0F);
+    ForestView view(wood->model);
+    const TreeForm& form = wood->model.forms[0];
+    const std::vector<Bounds> bounds = bounds_of(*form.cache, form.levels[0]);
+    TreeExpander expander(*form.cache, wood->forest.key);
+    for (const ViewTree& tree : view.trees()) {
+        const Ball ball = view.reach_of(tree);
+        expander.expand(wood->forest.trees[tree.tree], [&](const BranchInstance& branch) {
+            const Bounds& box = bounds[branch.instance];
+            if (box.empty) {
+                return;
+            }
+            for (const glm::vec3& corner : {box.low, box.high}) {
+                const glm::vec3 at = branch.position + branch.rotation * (branch.scale * corner);
+                REQUIRE(glm::distance(at, ball.centre) <= 1.001F * ball.radius);
+            }
+        });
+        const InstanceCache& cache = *form.cache;
+        const std::uint32_t root = expander.root_instance(wood->forest.trees[tree.tree]);
+        CHECK(cache.instances[root].slot == 0);
+        // The tree that stands for it is of the same hero, if there is one for each.
+        const std::uint32_t other = expander.root_instance(form.portraits[tree.portrait]);
+        if (cache.slots[0].variant_count <= kMostPortraits) {
+            CHECK(other == root);
+        }
+    }
+}
+
+TEST_CASE("what is listed does not know what was looked at before") {
+    const auto wood = make_wood(3000, 200.0F);
+    std::vector<Camera> all = cameras();
+    for (std::size_t last = 0; last < all.size(); ++last) {
+        const ViewVolume volume = view_volume(all[last], 800, 450);
+        ForestView fresh(wood->model);
+        const ForestLists first = fresh.select(volume, usual());
+        const auto expected = branches_of(fresh, first);
+        ForestView used(wood->model);
+        for (std::size_t i = 0; i < 3 * all.size(); ++i) {
+            static_cast<void>(
+                used.select(view_volume(all[(i * 5 + last) % all.size()], 800, 450), usual()));
+        }
+        const ForestLists& again = used.select(volume, usual());
+        CHECK(branches_of(used, again) == expected);
+        CHECK(again.trees == first.trees);
+        CHECK(again.clumps == first.clumps);
+        CHECK(again.detail == first.detail);
+    }
+}
+
+TEST_CASE("places of trees never overlap, and are used again") {
+    const auto wood = make_wood(2000, 100.0F);
+    ForestView view(wood->model);
+    RingOptions options = usual();
+    options.level_pixels = {400.0F, 200.0F, 100.0F, 30.0F};
+    std::uint64_t most = 0;
+    for (std::uint32_t step = 0; step < 200; ++step) {
+        const float along = static_cast<float>(step % 100);
+        const ForestLists& lists = view.select(
+            view_volume(looking({along, 2, 50}, {along + 1, 2, 50}), 640, 480), options);
+        std::uint32_t end = 0;
+        std::uint64_t used = 0;
+        std::map<std::uint32_t, std::uint32_t> ordered; // by first place
+        for (const auto& [tree, span] : view.pool().spans()) {
+            CHECK(ordered.emplace(span.first, span.count).second);
+        }
+        for (const auto& [first, count] : ordered) {
+            REQUIRE(first >= end);
+            end = first + count;
+            used += count;
+        }
+        REQUIRE(end <= view.pool().branches().size());
+        REQUIRE(used == view.pool().used());
+        most = std::max(most, used);
+        for (const std::uint32_t place : lists.branches) {
+            REQUIRE(place < end);
+        }
+    }
+    CHECK(view.pool().branches().size() < 2 * most);
+}
+
+TEST_CASE("a pool that is full forgets what is not in use, and then refuses") {
+    BranchPool pool(10);
+    const std::vector<PoolBranch> four(4);
+    pool.begin_turn(1);
+    CHECK(pool.add(1, four) == PoolSpan{0, 4});
+    CHECK(pool.add(2, four) == PoolSpan{4, 4});
+    CHECK(pool.add(3, four).count == 0);
+    pool.begin_turn(5);
+    CHECK(pool.find(2).count == 4);
+    CHECK(pool.add(3, four) == PoolSpan{0, 4}); // in place of 1
+    CHECK(pool.find(1).count == 0);
+    CHECK(pool.take_written() == std::vector<PoolSpan>{{0, 8}, {0, 4}});
+    pool.begin_turn(0);
+    pool.begin_turn(0);
+    CHECK(pool.used() == 0);
+    CHECK(pool.add(4, std::vector<PoolBranch>(10)) == PoolSpan{0, 10});
+    CHECK(pool.add(5, std::vector<PoolBranch>(11)).count == 0);
+}
+
+TEST_CASE("triangles are bounded, and trees wait where too many come near at once") {
+    const auto wood = make_wood(3000, 200.0F);
+    ForestView view(wood->model);
+    const ViewVolume volume = view_volume(cameras()[0], 1280, 720);
+    RingOptions options = usual();
+    const std::uint64_t all = view.select(volume, options).triangles;
+    REQUIRE(all > 2000);
+    options.most_triangles = all / 4;
+    const ForestLists bounded = view.select(volume, options);
+    CHECK(bounded.triangles <= all / 4 + all / 40); // trees are not like the mean of the portraits
+    CHECK(bounded.detail < 1.0F);
+    CHECK(bounded.branch_trees() > 0);
+    options.most_triangles = 0;
+    CHECK(view.select(volume, options).branch_trees() == 0);
+    ForestView other(wood->model);
+    options = usual();
+    options.most_expansions = 3;
+    const ForestLists first = other.select(volume, options);
+    CHECK(first.branch_trees() == 3);
+    CHECK(first.expanded == 3);
+    CHECK(first.waiting > 0);
+    const ForestLists second = other.select(volume, options);
+    CHECK(second.branch_trees() == 6);
+    CHECK(second.waiting + 3 == first.waiting);
+}
+
+TEST_CASE("coarser levels have fewer triangles, and leave the finest as it is") {
+    const auto wood = make_wood(10, 20.0F);
+    const TreeForm& form = wood->model.forms[0];
+    for (std::uint32_t level = 1; level < kTreeLevels; ++level) {
+        CHECK(form.triangles[level] <= form.triangles[level - 1]);
+    }
+    const InstanceCache same = coarsened(*form.cache, 0, form.height());
+    CHECK(same.skeleton.segments.size() == form.cache->skeleton.segments.size());
+    for (std::size_t i = 0; i < same.skeleton.segments.size(); ++i) {
+        CHECK(same.skeleton.segments[i].base_radius ==
+              form.cache->skeleton.segments[i].base_radius);
+    }
+}
+
+TEST_CASE("a forest without trees lists nothing") {
+    const auto wood = make_wood(0, 20.0F);
+    ForestView view(wood->model);
+    const ForestLists& lists = view.select(view_volume(Camera{}, 64, 48), {});
+    CHECK(lists.branches.empty());
+    CHECK(lists.trees.empty());
+    CHECK(lists.clumps.empty());
+    CHECK(view.bounds().empty);
+}

@@ -1,0 +1,108 @@
+#include "viewer/app/forest_document.h"
+
+#include "runtime/cli/forest_scene.h"
+#include "runtime/cli/tell.h"
+#include "runtime/turtle_diagnostic.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace lsys::view {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+} // namespace
+
+lsc::Status make_forest_document(const ViewOptions& options,
+                                 const lsc::Console& console,
+                                 ForestDocument& document) {
+    Clock::time_point start = Clock::now();
+    lsc::ForestCommand command = options.forest;
+    command.grammar = options.grammar;
+    command.seed = options.seed;
+    lsc::CommandScene loaded;
+    lsc::Status status = lsc::load_command_scene(command, console, loaded);
+    if (status != lsc::Status::Fine) {
+        return status;
+    }
+    document.parse_seconds = seconds_since(start);
+    const lsc::ForestLimits limits{options.threads, options.grammar.max_modules, options.max_bytes};
+    status = lsc::grow_species(loaded.scene, loaded.sources, loaded.folder, limits, console,
+                               document.grown);
+    if (status == lsc::Status::Fine) {
+        status = lsc::place_forest(loaded.scene, limits, console, document.grown);
+    }
+    if (status != lsc::Status::Fine) {
+        return status;
+    }
+    start = Clock::now();
+    MeshOptions mesh = options.mesh;
+    mesh.threads = options.threads;
+    mesh.max_bytes = options.max_bytes;
+    const lsc::GrownForest& grown = document.grown;
+    switch (
+        make_forest_model(grown.forest, *grown.terrain, grown.user_meshes, mesh, document.model)) {
+    case InstanceMeshStatus::Ok:
+        break;
+    case InstanceMeshStatus::Joined:
+        return lsc::fail(Error{"--method boxes: a branch and its parent are one surface there, so "
+                               "a forest cannot be put together from them"},
+                         console);
+    case InstanceMeshStatus::TooManyVertices:
+    case InstanceMeshStatus::Limit:
+    case InstanceMeshStatus::OutOfMemory: {
+        Diagnostics diagnostics;
+        diagnostics.add(plant_limit_diagnostic("the mesh of the heroes", options.max_bytes));
+        static_cast<void>(console.show(diagnostics, {}));
+        return lsc::Status::Limit;
+    }
+    }
+    document.mesh_seconds = seconds_since(start);
+    return lsc::Status::Fine;
+}
+
+Camera overview(const ForestDocument& document, float aspect) {
+    Bounds bounds;
+    for (const Tree& tree : document.grown.forest.trees) {
+        const TreeForm& form = document.model.forms[document.model.form_of(tree)];
+        const glm::vec3 wide(tree.scale * form.radius, 0.0F, tree.scale * form.radius);
+        bounds.add(tree.position - wide);
+        bounds.add(tree.position + wide + glm::vec3(0.0F, tree.scale * form.high, 0.0F));
+    }
+    Camera camera;
+    camera.target = glm::vec3(0.0F);
+    camera.eye = {0.55F, 0.42F, 0.8F};
+    return framing(camera, bounds, aspect);
+}
+
+Camera above_ground(const Camera& camera, const Terrain& terrain) {
+    constexpr float kEyeHeight = 1.7F;
+    constexpr float kLowest = 0.3F;
+    const float ground = terrain.height(camera.eye.x, camera.eye.z);
+    if (camera.eye.y >= ground + kLowest) {
+        return camera;
+    }
+    const float lift = ground + kEyeHeight - camera.eye.y;
+    Camera lifted = camera;
+    lifted.eye.y += lift;
+    lifted.target.y += lift;
+    return lifted;
+}
+
+Light forest_light(const ForestDocument& document) {
+    const Region& region = document.grown.terrain->region();
+    const auto across = static_cast<float>(std::hypot(region.width, region.depth));
+    Light light;
+    light.extinction = 0.8F / std::max(across, 1200.0F);
+    light.exposure = 0.85F;
+    return light;
+}
+
+} // namespace lsys::view

@@ -1,0 +1,33 @@
+// ForestDocument: a scene and the forest it makes, from the file to meshes of branches. What there
+// is to say on the way is said on the console that is handed in.
+#pragma once
+
+#include "runtime/cli/console.h"
+#include "runtime/cli/grow_forest.h"
+#include "viewer/app/options.h"
+#include "viewer/forest_model.h"
+
+namespace lsys::view {
+
+struct ForestDocument {
+    lsc::GrownForest grown;
+    ForestModel model; // of `grown`, which must not move
+    double parse_seconds = 0.0;
+    double mesh_seconds = 0.0;
+};
+
+/// Reads, derives, places and meshes. Fine: all of it is there.
+[[nodiscard]] lsc::Status make_forest_document(const ViewOptions& options,
+                                               const lsc::Console& console,
+                                               ForestDocument& document);
+
+/// Where a forest is seen from if nobody says: from beside and above, all of it in view.
+[[nodiscard]] Camera overview(const ForestDocument& document, float aspect);
+
+/// A camera whose eye is not in the ground: at least as high above it as a person's.
+[[nodiscard]] Camera above_ground(const Camera& camera, const Terrain& terrain);
+
+/// The light of a forest: the day of Light, with air as thick as its size asks for.
+[[nodiscard]] Light forest_light(const ForestDocument& document);
+
+} // namespace lsys::view

@@ -1,0 +1,116 @@
+#include "viewer/app/forest_pictures.h"
+
+#include "viewer/app/picture_series.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <sys/resource.h>
+
+namespace lsys::view {
+
+namespace {
+
+nlohmann::ordered_json pass_stats(const FrameStats& pass) {
+    nlohmann::ordered_json stats;
+    stats["draws"] = pass.draws;
+    stats["triangles"] = pass.triangles;
+    return stats;
+}
+
+std::uint64_t peak_bytes() {
+    struct rusage usage {};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+std::string stats_text(const ViewOptions& options,
+                       const Camera& camera,
+                       const ForestDocument& document,
+                       const Renderer& renderer,
+                       const PictureSeries& series,
+                       const std::vector<double>& cull,
+                       const FrameStats& shadow) {
+    const ForestFrameStats& frame = renderer.forest_stats();
+    const ForestSizes sizes = renderer.forest_sizes();
+    nlohmann::ordered_json stats;
+    stats["file"] = options.file;
+    stats["device"] = renderer.device_name();
+    stats["width"] = options.width;
+    stats["height"] = options.height;
+    stats["samples"] = options.samples;
+    stats["camera"] = to_text(camera);
+    stats["trees"] = sizes.trees;
+    nlohmann::ordered_json& rings = stats["trees_drawn"];
+    for (std::size_t level = 0; level < frame.trees_of_level.size(); ++level) {
+        rings[fmt::format("level_{}", level)] = frame.trees_of_level[level];
+    }
+    rings["impostors"] = frame.far_trees;
+    rings["in_cells"] = frame.horizon_trees;
+    stats["cells_drawn"] = frame.horizon_cells;
+    stats["branches_drawn"] = frame.drawn_branches;
+    stats["trees_expanded"] = frame.expanded_trees;
+    stats["detail"] = frame.detail;
+    stats["pictures"] = series.draw.size();
+    stats["draws"] = series.drawn.draws;
+    stats["triangles"] = series.drawn.triangles;
+    nlohmann::ordered_json& passes = stats["passes"];
+    passes["branches"] = pass_stats(frame.branches);
+    passes["impostors"] = pass_stats(frame.impostors);
+    passes["terrain"] = pass_stats(frame.terrain);
+    passes["shadow"] = pass_stats(shadow); // of the series
+    nlohmann::ordered_json& bytes = stats["bytes"];
+    bytes["trees"] = sizes.tree_bytes;
+    bytes["branches"] = sizes.branch_bytes;
+    bytes["meshes"] = sizes.mesh_bytes;
+    bytes["textures"] = sizes.texture_bytes;
+    bytes["uploaded"] = renderer.uploaded_bytes();
+    bytes["peak_resident"] = peak_bytes();
+    stats["live_objects"] = renderer.live_objects();
+    stats["errors"] = renderer.errors();
+    stats["digest"] = fmt::format("{:016x}", series.digest);
+    nlohmann::ordered_json& milliseconds = stats["milliseconds"];
+    milliseconds["parse"] = 1e3 * document.parse_seconds;
+    milliseconds["heroes"] = 1e3 * document.grown.cache_seconds;
+    milliseconds["place"] = 1e3 * document.grown.place_seconds;
+    milliseconds["mesh"] = 1e3 * document.mesh_seconds;
+    milliseconds["upload"] = sizes.upload_milliseconds;
+    milliseconds["portraits"] = sizes.portrait_milliseconds;
+    milliseconds["first_draw"] = series.draw.empty() ? 0.0 : series.draw.front();
+    milliseconds["cull"] = median(cull);
+    milliseconds["draw"] = median(series.draw);
+    milliseconds["fastest_draw"] =
+        series.draw.empty() ? 0.0 : *std::min_element(series.draw.begin(), series.draw.end());
+    milliseconds["read"] = median(series.read);
+    milliseconds["write"] = median(series.write);
+    return stats.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+} // namespace
+
+lsc::Status take_forest_pictures(const ViewOptions& options,
+                                 const Camera& camera,
+                                 const ForestDocument& document,
+                                 Renderer& renderer,
+                                 const lsc::Console& console) {
+    PictureSeries series;
+    std::vector<double> cull;
+    FrameStats shadow;
+    const auto after = [&](const Frame& /*frame*/) {
+        const ForestFrameStats& drawn = renderer.forest_stats();
+        cull.push_back(drawn.cull_milliseconds);
+        shadow.draws += drawn.shadow.draws;
+        shadow.triangles += drawn.shadow.triangles;
+    };
+    Frame frame = frame_of(options, camera);
+    frame.light = forest_light(document);
+    const lsc::Status status = take_series(options, frame, renderer, console, {}, after, series);
+    return status != lsc::Status::Fine || options.stats.empty()
+               ? status
+               : write_stats_text(
+                     options, stats_text(options, camera, document, renderer, series, cull, shadow),
+                     console);
+}
+
+} // namespace lsys::view

@@ -1,0 +1,18 @@
+// Pictures of a forest as files, without a window.
+#pragma once
+
+#include "runtime/cli/console.h"
+#include "viewer/app/forest_document.h"
+#include "viewer/app/options.h"
+#include "viewer/renderer.h"
+
+namespace lsys::view {
+
+/// `renderer` shows the forest.
+[[nodiscard]] lsc::Status take_forest_pictures(const ViewOptions& options,
+                                               const Camera& camera,
+                                               const ForestDocument& document,
+                                               Renderer& renderer,
+                                               const lsc::Console& console);
+
+} // namespace lsys::view

@@ -1,0 +1,159 @@
+#include "viewer/app/picture_series.h"
+
+#include "runtime/cli/files.h"
+#include "runtime/cli/tell.h"
+#include "runtime/texture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <numbers>
+#include <utility>
+
+namespace lsys::view {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Pixels that are drawn at once: a larger picture is drawn in stripes.
+constexpr std::uint64_t kStripePixels = std::uint64_t{1} << 22;
+
+/// Rows of a picture, drawn stripe by stripe.
+Texture
+draw_picture(const Frame& frame, Renderer& renderer, FrameStats& stats, double& read_milliseconds) {
+    Texture picture;
+    picture.width = frame.width;
+    picture.height = frame.height;
+    const auto rows = static_cast<std::uint32_t>(
+        std::clamp<std::uint64_t>(kStripePixels / frame.width, 1, frame.height));
+    std::vector<std::uint8_t> stripe;
+    for (std::uint32_t top = frame.height; top != 0;) {
+        const std::uint32_t height = std::min(rows, top);
+        top -= height;
+        const FrameStats drawn = renderer.draw(frame, {0, top, frame.width, height});
+        stats.draws += drawn.draws;
+        stats.triangles += drawn.triangles;
+        const Clock::time_point start = Clock::now();
+        renderer.read(stripe);
+        read_milliseconds += milliseconds_since(start);
+        if (height == frame.height) {
+            picture.texels = std::move(stripe);
+        } else {
+            picture.texels.insert(picture.texels.end(), stripe.begin(), stripe.end());
+        }
+    }
+    return picture;
+}
+
+/// FNV-1a: tells whether two runs made the same picture.
+std::uint64_t digest_of(const std::vector<std::uint8_t>& texels) {
+    std::uint64_t digest = 0xCBF29CE484222325U;
+    for (const std::uint8_t texel : texels) {
+        digest = (digest ^ texel) * 0x100000001B3U;
+    }
+    return digest;
+}
+
+/// tree.png and 12: tree.0012.png
+std::string numbered(const std::string& path, std::uint32_t number) {
+    const std::filesystem::path name(path);
+    std::filesystem::path result = name;
+    return result.replace_extension(fmt::format(".{:04}{}", number, name.extension().string()))
+        .string();
+}
+
+} // namespace
+
+double median(std::vector<double> values) {
+    if (values.empty()) {
+        return 0.0;
+    }
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+Frame frame_of(const ViewOptions& options, const Camera& camera) {
+    Frame frame;
+    frame.camera = camera;
+    frame.width = options.width;
+    frame.height = options.height;
+    frame.shadows = options.shadows;
+    frame.ground = options.ground;
+    frame.style = options.style;
+    frame.wind = options.wind.value_or(Wind{});
+    frame.samples = options.samples;
+    frame.most_triangles = options.most_triangles;
+    return frame;
+}
+
+lsc::Status take_series(const ViewOptions& options,
+                        Frame frame,
+                        Renderer& renderer,
+                        const lsc::Console& console,
+                        const std::function<lsc::Status(const Frame& frame)>& prepare,
+                        const std::function<void(const Frame& frame)>& after,
+                        PictureSeries& series) {
+    const Camera camera = frame.camera;
+    const std::uint32_t count = std::max(options.frames, 1U);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (console.interrupted()) {
+            return lsc::Status::Interrupted;
+        }
+        frame.time = static_cast<double>(options.time) +
+                     static_cast<double>(i) / static_cast<double>(options.frames_per_second);
+        if (options.turntable) {
+            frame.camera = orbited(camera,
+                                   2.0F * std::numbers::pi_v<float> * static_cast<float>(i) /
+                                       static_cast<float>(count),
+                                   0.0F);
+        }
+        if (prepare) {
+            const Clock::time_point start = Clock::now();
+            if (const lsc::Status status = prepare(frame); status != lsc::Status::Fine) {
+                return status;
+            }
+            series.prepare.push_back(milliseconds_since(start));
+        }
+        Clock::time_point start = Clock::now();
+        series.drawn = {};
+        double read_milliseconds = 0.0;
+        const Texture picture = draw_picture(frame, renderer, series.drawn, read_milliseconds);
+        series.draw.push_back(milliseconds_since(start));
+        series.read.push_back(read_milliseconds);
+        if (after) {
+            after(frame);
+        }
+        start = Clock::now();
+        series.digest ^= digest_of(picture.texels) + i;
+        const std::string bytes = encode_png(picture);
+        if (bytes.empty()) {
+            return lsc::fail(Error{"there is no memory for the picture"}, console);
+        }
+        const std::string path =
+            options.frames == 0 ? options.screenshot : numbered(options.screenshot, i + 1);
+        if (const Result<Done> written = lsc::write_file(path, bytes, console); !written) {
+            return lsc::fail(written.error(), console);
+        }
+        series.write.push_back(milliseconds_since(start));
+    }
+    return renderer.errors().empty()
+               ? lsc::Status::Fine
+               : lsc::fail(Error{fmt::format("OpenGL: {}", renderer.errors().front())}, console);
+}
+
+lsc::Status
+write_stats_text(const ViewOptions& options, const std::string& text, const lsc::Console& console) {
+    const Result<Done> written =
+        options.stats == "-" ? console.write(text) : lsc::write_file(options.stats, text, console);
+    return written ? lsc::Status::Fine : lsc::fail(written.error(), console);
+}
+
+} // namespace lsys::view

@@ -1,0 +1,285 @@
+#include "viewer/forest_model.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsys::view {
+
+namespace {
+
+/// Radii of twigs that a level leaves out, as a part of the tree's height.
+constexpr std::array<float, kTreeLevels> kThinnest = {0.0F, 0.0F, 0.0008F, 0.0016F};
+/// Of how many leaves a level shows one.
+constexpr std::array<std::uint32_t, kTreeLevels> kLeavesOfOne = {1, 1, 2, 4};
+/// With fewer, all are shown.
+constexpr std::size_t kFewLeaves = 24;
+
+bool is_leaf(const PlacedObject& object) {
+    return object.kind == TurtleOperation::Leaf || object.kind == TurtleOperation::MeshFile ||
+           object.kind == TurtleOperation::Flower;
+}
+
+/// Whether a leaf is one of those that are shown; those of a level are among those of a finer one.
+bool is_shown(std::size_t leaf, std::uint32_t leaves_of_one) {
+    const std::uint64_t mixed = (leaf + 1) * 0x9E3779B97F4A7C15U;
+    return (mixed >> 40 & (leaves_of_one - 1)) == 0;
+}
+
+Ball ball_of(const Bounds& bounds) {
+    if (bounds.empty) {
+        return {};
+    }
+    return {0.5F * (bounds.low + bounds.high), 0.5F * glm::distance(bounds.low, bounds.high)};
+}
+
+/// The smallest ball around both.
+Ball joined(const Ball& a, const Ball& b) {
+    const float distance = glm::distance(a.centre, b.centre);
+    if (distance + b.radius <= a.radius) {
+        return a;
+    }
+    if (distance + a.radius <= b.radius) {
+        return b;
+    }
+    const float radius = 0.5F * (distance + a.radius + b.radius);
+    return {a.centre + (b.centre - a.centre) * ((radius - a.radius) / distance),
+            radius * 1.0001F}; // and rounding
+}
+
+/// The first tree whose whole plant is `instance`.
+bool find_portrait(const InstanceCache& cache,
+                   std::uint64_t key,
+                   std::uint32_t instance,
+                   Tree& tree) {
+    constexpr std::uint32_t kMostTries = 4096;
+    TreeExpander expander(cache, key);
+    for (tree.number = 0; tree.number < kMostTries; ++tree.number) {
+        if (expander.root_instance(tree) == instance) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void find_portraits(TreeForm& form, std::uint64_t key) {
+    const InstanceCache& cache = *form.cache;
+    const InstanceSlot& whole = cache.slots[0];
+    form.portrait_of.assign(cache.instances.size(), 0);
+    for (std::uint32_t v = 0; v < whole.variant_count; ++v) {
+        const std::uint32_t instance = cache.variants[whole.first_variant + v];
+        Tree tree;
+        if (form.portraits.size() < kMostPortraits && find_portrait(cache, key, instance, tree)) {
+            form.portrait_of[instance] = static_cast<std::uint32_t>(form.portraits.size());
+            form.portraits.push_back(tree);
+        } else {
+            form.portrait_of[instance] = v % kMostPortraits;
+        }
+    }
+    for (std::uint32_t& portrait : form.portrait_of) {
+        portrait = std::min(portrait, static_cast<std::uint32_t>(form.portraits.size()) - 1);
+    }
+}
+
+/// The cylinder about the portraits, and what is drawn of them.
+void measure_portraits(TreeForm& form, std::uint64_t key, const std::vector<Bounds>& bounds) {
+    TreeExpander expander(*form.cache, key);
+    const auto count = static_cast<double>(form.portraits.size());
+    for (const Tree& tree : form.portraits) {
+        expander.expand(tree, [&](const BranchInstance& branch) {
+            form.branches += 1.0 / count;
+            const Bounds& box = bounds[branch.instance];
+            for (unsigned corner = 0; corner < 8 && !box.empty; ++corner) {
+                const glm::vec3 from = {(corner & 1U) != 0 ? box.high.x : box.low.x,
+                                        (corner & 2U) != 0 ? box.high.y : box.low.y,
+                                        (corner & 4U) != 0 ? box.high.z : box.low.z};
+                const glm::vec3 at = branch.position + branch.rotation * (branch.scale * from);
+                form.radius = std::max(form.radius, std::hypot(at.x, at.z));
+                form.low = std::min(form.low, at.y);
+                form.high = std::max(form.high, at.y);
+            }
+        });
+    }
+}
+
+InstanceMeshStatus make_form(const InstanceCache& cache,
+                             std::uint64_t key,
+                             const std::vector<UserMesh>& user_meshes,
+                             const MeshOptions& options,
+                             TreeForm& form) {
+    form.cache = &cache;
+    MeshOptions level_options = options;
+    level_options.tangents = false;
+    level_options.colours = false;
+    InstanceMeshStatus status =
+        make_instance_meshes(cache, user_meshes, level_options, form.levels[0]);
+    if (status != InstanceMeshStatus::Ok) {
+        return status;
+    }
+    find_portraits(form, key);
+    const std::vector<Bounds> bounds = bounds_of(cache, form.levels[0]);
+    form.reach = reaches_of(cache, bounds)[0];
+    measure_portraits(form, key, bounds);
+    for (std::uint32_t level = 1; level < kTreeLevels; ++level) {
+        level_options.level = options.level + level;
+        status = make_instance_meshes(coarsened(cache, level, form.height()), user_meshes,
+                                      level_options, form.levels[level]);
+        if (status != InstanceMeshStatus::Ok) {
+            return status;
+        }
+    }
+    for (std::uint32_t level = 0; level < kTreeLevels; ++level) {
+        form.mesh_triangles[level].resize(cache.instances.size());
+        for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
+            form.mesh_triangles[level][i] =
+                static_cast<std::uint32_t>(form.levels[level].triangles_of(i));
+        }
+    }
+    TreeExpander expander(cache, key);
+    const auto count = static_cast<double>(form.portraits.size());
+    for (const Tree& tree : form.portraits) {
+        expander.expand(tree, [&](const BranchInstance& branch) {
+            for (std::uint32_t level = 0; level < kTreeLevels; ++level) {
+                form.triangles[level] += form.mesh_triangles[level][branch.instance] / count;
+            }
+        });
+    }
+    return InstanceMeshStatus::Ok;
+}
+
+} // namespace
+
+std::uint64_t ForestModel::mesh_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const TreeForm& form : forms) {
+        for (const InstanceMeshes& level : form.levels) {
+            bytes += level.byte_count();
+        }
+    }
+    return bytes;
+}
+
+std::vector<Bounds> bounds_of(const InstanceCache& cache, const InstanceMeshes& meshes) {
+    const LargeVector<std::uint32_t> indices = meshes.mesh.indices.expanded();
+    std::vector<Bounds> bounds(cache.instances.size());
+    for (std::uint32_t i = 0; i < bounds.size(); ++i) {
+        const Instance& instance = cache.instances[i];
+        const glm::quat inverse = glm::conjugate(glm::quat(instance.frame));
+        for (const MeshPart& part : meshes.parts_of(i)) {
+            for (std::uint64_t k = 0; k < part.index_count; ++k) {
+                const glm::vec3& at = meshes.mesh.positions[indices[part.first_index + k]];
+                bounds[i].add(inverse * (at - glm::vec3(instance.position)));
+            }
+        }
+    }
+    return bounds;
+}
+
+std::vector<Ball> reaches_of(const InstanceCache& cache, const std::vector<Bounds>& bounds) {
+    std::vector<Ball> reaches(cache.slots.size());
+    std::vector<bool> known(cache.slots.size());
+    // Depth first; what an exit leads to is known before what has the exit.
+    std::vector<std::uint32_t> pending{0};
+    std::vector<bool> begun(cache.slots.size());
+    while (!pending.empty()) {
+        const std::uint32_t index = pending.back();
+        const InstanceSlot& slot = cache.slots[index];
+        if (known[index]) {
+            pending.pop_back();
+            continue;
+        }
+        const bool again = begun[index];
+        begun[index] = true;
+        bool waits = false;
+        for (std::uint32_t v = 0; v < slot.variant_count && !again; ++v) {
+            const Instance& instance = cache.instances[cache.variants[slot.first_variant + v]];
+            for (std::uint32_t e = 0; e < instance.exit_count; ++e) {
+                const std::uint32_t next = cache.exits[instance.first_exit + e].slot;
+                if (!known[next] && !begun[next]) {
+                    pending.push_back(next);
+                    waits = true;
+                }
+            }
+        }
+        if (waits) {
+            continue;
+        }
+        Ball all;
+        for (std::uint32_t v = 0; v < slot.variant_count; ++v) {
+            const std::uint32_t i = cache.variants[slot.first_variant + v];
+            const Instance& instance = cache.instances[i];
+            Ball ball = ball_of(bounds[i]);
+            for (std::uint32_t e = 0; e < instance.exit_count; ++e) {
+                const InstanceExit& exit = cache.exits[instance.first_exit + e];
+                const Ball& further = reaches[exit.slot];
+                ball =
+                    joined(ball, {exit.position + exit.rotation * further.centre, further.radius});
+            }
+            all = v == 0 ? ball : joined(all, ball);
+        }
+        reaches[index] = all;
+        known[index] = true;
+        pending.pop_back();
+    }
+    return reaches;
+}
+
+InstanceCache coarsened(const InstanceCache& cache, std::uint32_t level, float height) {
+    InstanceCache coarse = cache;
+    Skeleton& skeleton = coarse.skeleton;
+    const float thinnest = kThinnest[level] * height;
+    for (Segment& segment : skeleton.segments) {
+        if (std::max(segment.base_radius, segment.tip_radius) < thinnest) {
+            segment.base_radius = 0.0F;
+            segment.tip_radius = 0.0F;
+        }
+    }
+    const std::uint32_t leaves_of_one = kLeavesOfOne[level];
+    const float larger = std::sqrt(static_cast<float>(leaves_of_one));
+    const std::size_t heroes = std::max(cache.heroes, 1U);
+    if (skeleton.objects.size() >= kFewLeaves * heroes) {
+        for (std::size_t i = 0; i < skeleton.objects.size(); ++i) {
+            PlacedObject& object = skeleton.objects[i];
+            if (is_leaf(object)) {
+                object.size *= is_shown(i, leaves_of_one) ? larger : 0.0F;
+            }
+        }
+    }
+    if (skeleton.polygons.size() >= kFewLeaves * heroes) {
+        for (std::size_t i = 0; i < skeleton.polygons.size(); ++i) {
+            const Polygon& polygon = skeleton.polygons[i];
+            const float factor = is_shown(i, leaves_of_one) ? larger : 0.0F;
+            const glm::vec3 stem = skeleton.corners[polygon.first_corner];
+            for (std::uint32_t c = 1; c < polygon.corner_count; ++c) {
+                glm::vec3& corner = skeleton.corners[polygon.first_corner + c];
+                corner = stem + factor * (corner - stem);
+            }
+        }
+    }
+    return coarse;
+}
+
+InstanceMeshStatus make_forest_model(const Forest& forest,
+                                     const Terrain& terrain,
+                                     const std::vector<std::vector<UserMesh>>& user_meshes,
+                                     const MeshOptions& options,
+                                     ForestModel& model) {
+    model = {};
+    model.forest = &forest;
+    model.terrain = &terrain;
+    for (std::size_t s = 0; s < forest.species.size(); ++s) {
+        model.first_form.push_back(static_cast<std::uint32_t>(model.forms.size()));
+        for (const ForestStage& stage : forest.species[s].stages) {
+            const InstanceMeshStatus status = make_form(stage.cache, forest.key, user_meshes[s],
+                                                        options, model.forms.emplace_back());
+            if (status != InstanceMeshStatus::Ok) {
+                return status;
+            }
+        }
+    }
+    return InstanceMeshStatus::Ok;
+}
+
+} // namespace lsys::view

@@ -1,0 +1,317 @@
+#include "viewer/forest_view.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace lsys::view {
+
+namespace {
+
+constexpr double kTreesOfCell = 16.0;
+constexpr std::uint32_t kFewTrees = 4; // a cell of fewer is never drawn as one
+constexpr std::uint32_t kTurnsKept = 32;
+constexpr float kDetailStep = 0.87F;
+constexpr float kNearest = 0.1F; // m: distances below count as this
+
+float pixels_of(const ViewVolume& volume, const glm::vec3& place, float height) {
+    return height * volume.pixels / std::max(glm::distance(volume.eye, place), kNearest);
+}
+
+} // namespace
+
+ViewVolume view_volume(const Camera& camera, std::uint32_t width, std::uint32_t height) {
+    const float tangent = std::tan(0.5F * glm::radians(camera.field_of_view));
+    const float aspect = static_cast<float>(width) / static_cast<float>(height);
+    const glm::vec3 along = forward_of(camera);
+    // As view_matrix() has it, which differs where the camera looks straight up or down.
+    const glm::mat4 view = view_matrix(camera);
+    const glm::vec3 across(view[0][0], view[1][0], view[2][0]);
+    const glm::vec3 up(view[0][1], view[1][1], view[2][1]);
+    ViewVolume volume;
+    volume.eye = camera.eye;
+    volume.pixels = 0.5F * static_cast<float>(height) / tangent;
+    const std::array<glm::vec3, 5> normals = {glm::normalize(along * (tangent * aspect) + across),
+                                              glm::normalize(along * (tangent * aspect) - across),
+                                              glm::normalize(along * tangent + up),
+                                              glm::normalize(along * tangent - up), along};
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        volume.planes[i] = glm::vec4(normals[i], -glm::dot(normals[i], camera.eye));
+    }
+    return volume;
+}
+
+ForestView::ForestView(const ForestModel& model) : model_(model) {
+    std::uint32_t meshes = 0;
+    for (const TreeForm& form : model_.forms) {
+        expanders_.emplace_back(*form.cache, model_.forest->key);
+        first_mesh_.push_back(meshes);
+        meshes += kTreeLevels * static_cast<std::uint32_t>(form.cache->instances.size());
+    }
+    mesh_counts_.resize(meshes);
+    sort_into_cells();
+}
+
+Ball ForestView::reach_of(const ViewTree& tree) const {
+    const TreeForm& form = model_.forms[tree.form];
+    const float yaw = model_.forest->trees[tree.tree].yaw;
+    const glm::vec3& c = form.reach.centre;
+    const glm::vec3 turned(std::cos(yaw) * c.x + std::sin(yaw) * c.z, c.y,
+                           std::cos(yaw) * c.z - std::sin(yaw) * c.x);
+    return {tree.position + tree.scale * turned, tree.scale * form.reach.radius};
+}
+
+Ball ForestView::portrait_ball(const ViewTree& tree) const {
+    const TreeForm& form = model_.forms[tree.form];
+    return {tree.position + glm::vec3(0.0F, tree.scale * 0.5F * (form.low + form.high), 0.0F),
+            tree.scale * std::hypot(form.radius, 0.5F * form.height())};
+}
+
+void ForestView::sort_into_cells() {
+    const LargeVector<Tree>& trees = model_.forest->trees;
+    if (trees.empty()) {
+        return;
+    }
+    glm::vec2 low(trees.front().position.x, trees.front().position.z);
+    glm::vec2 high = low;
+    for (const Tree& tree : trees) {
+        const glm::vec2 at(tree.position.x, tree.position.z);
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    }
+    const double area = std::max(static_cast<double>(high.x - low.x), 1.0) *
+                        std::max(static_cast<double>(high.y - low.y), 1.0);
+    cell_size_ = std::sqrt(area * kTreesOfCell / static_cast<double>(trees.size()));
+    const auto columns =
+        static_cast<std::uint64_t>(static_cast<double>(high.x - low.x) / cell_size_) + 1;
+    const auto rows =
+        static_cast<std::uint64_t>(static_cast<double>(high.y - low.y) / cell_size_) + 1;
+    const auto cell_of = [&](const Tree& tree) {
+        const auto column =
+            static_cast<std::uint64_t>(static_cast<double>(tree.position.x - low.x) / cell_size_);
+        const auto row =
+            static_cast<std::uint64_t>(static_cast<double>(tree.position.z - low.y) / cell_size_);
+        return std::min(row, rows - 1) * columns + std::min(column, columns - 1);
+    };
+    cells_.resize(columns * rows);
+    for (const Tree& tree : trees) {
+        ++cells_[cell_of(tree)].count;
+    }
+    std::uint32_t sum = 0;
+    for (ForestCell& cell : cells_) {
+        cell.first = sum;
+        sum += cell.count;
+        cell.count = 0;
+    }
+    trees_.resize(trees.size());
+    for (std::uint32_t i = 0; i < trees.size(); ++i) {
+        const Tree& tree = trees[i];
+        ForestCell& cell = cells_[cell_of(tree)];
+        ViewTree& made = trees_[cell.first + cell.count++];
+        made.position = tree.position;
+        made.scale = tree.scale;
+        made.tree = i;
+        made.form = static_cast<std::uint16_t>(model_.form_of(tree));
+        made.portrait = static_cast<std::uint16_t>(
+            model_.forms[made.form].portrait_of[expanders_[made.form].root_instance(tree)]);
+    }
+    std::vector<std::uint32_t> of_form(model_.forms.size());
+    for (ForestCell& cell : cells_) {
+        Bounds box;
+        std::fill(of_form.begin(), of_form.end(), 0);
+        for (std::uint32_t i = 0; i < cell.count; ++i) {
+            const ViewTree& tree = trees_[cell.first + i];
+            const Ball reach = reach_of(tree);
+            const Ball portrait = portrait_ball(tree);
+            for (const Ball& ball : {reach, portrait}) {
+                box.add(ball.centre - ball.radius);
+                box.add(ball.centre + ball.radius);
+            }
+            cell.tallest = std::max(cell.tallest, tree.scale * model_.forms[tree.form].height());
+            ++of_form[tree.form];
+        }
+        cell.low = box.low;
+        cell.high = box.high;
+        cell.form = static_cast<std::uint16_t>(std::max_element(of_form.begin(), of_form.end()) -
+                                               of_form.begin());
+        if (cell.count != 0) {
+            bounds_.add(box.low);
+            bounds_.add(box.high);
+        }
+    }
+}
+
+const ForestLists& ForestView::select(const ViewVolume& volume, const RingOptions& options) {
+    lists_.branches.clear();
+    lists_.runs.clear();
+    lists_.trees.clear();
+    lists_.clumps.clear();
+    lists_.trees_of_level = {};
+    lists_.clumped_trees = 0;
+    lists_.triangles = 0;
+    lists_.expanded = 0;
+    lists_.waiting = 0;
+    candidates_.clear();
+    far_.clear();
+    seen_cells_.clear();
+    for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+        const ForestCell& cell = cells_[c];
+        if (cell.count == 0) {
+            continue;
+        }
+        const Ball ball = {0.5F * (cell.low + cell.high),
+                           0.5F * glm::distance(cell.low, cell.high)};
+        if (volume.meets(ball)) {
+            seen_cells_.emplace_back(
+                glm::distance(volume.eye, glm::clamp(volume.eye, cell.low, cell.high)), c);
+        }
+    }
+    std::sort(seen_cells_.begin(), seen_cells_.end());
+    for (const auto& [distance, c] : seen_cells_) {
+        const ForestCell& cell = cells_[c];
+        if (cell.count >= kFewTrees &&
+            cell.tallest * volume.pixels / std::max(distance, kNearest) < options.horizon_pixels) {
+            lists_.clumps.push_back(c);
+            lists_.clumped_trees += cell.count;
+        } else {
+            visit_trees(cell, volume, options);
+        }
+    }
+    lists_.detail = fitting_detail(options);
+    pool_.begin_turn(kTurnsKept);
+    list_branches(options);
+    lists_.trees.insert(lists_.trees.end(), far_.begin(), far_.end());
+    return lists_;
+}
+
+void ForestView::visit_trees(const ForestCell& cell,
+                             const ViewVolume& volume,
+                             const RingOptions& options) {
+    for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
+        const ViewTree& tree = trees_[t];
+        const Ball portrait = portrait_ball(tree);
+        const float pixels =
+            pixels_of(volume, portrait.centre, tree.scale * model_.forms[tree.form].height());
+        if (pixels >= options.level_pixels.back()) {
+            if (volume.meets(reach_of(tree))) {
+                candidates_.push_back({t, pixels});
+            }
+        } else if (volume.meets(portrait)) {
+            far_.push_back(t);
+        }
+    }
+}
+
+std::uint32_t ForestView::level_of(float pixels, const RingOptions& options) {
+    std::uint32_t level = 0;
+    while (level < kTreeLevels && pixels < options.level_pixels[level]) {
+        ++level;
+    }
+    return level;
+}
+
+float ForestView::fitting_detail(const RingOptions& options) const {
+    float detail = 1.0F;
+    for (;; detail *= kDetailStep) {
+        double triangles = 0.0;
+        bool any = false;
+        for (const Candidate& candidate : candidates_) {
+            const std::uint32_t level = level_of(candidate.pixels * detail, options);
+            if (level < kTreeLevels) {
+                triangles += model_.forms[trees_[candidate.tree].form].triangles[level];
+                any = true;
+            }
+        }
+        if (!any || triangles <= static_cast<double>(options.most_triangles)) {
+            return detail;
+        }
+    }
+}
+
+void ForestView::list_branches(const RingOptions& options) {
+    struct Drawn {
+        PoolSpan span;
+        std::uint32_t first_mesh = 0;
+    };
+    std::vector<Drawn> drawn;
+    std::vector<PoolBranch> made;
+    std::fill(mesh_counts_.begin(), mesh_counts_.end(), 0);
+    std::uint32_t total = 0;
+    for (const Candidate& candidate : candidates_) {
+        const ViewTree& tree = trees_[candidate.tree];
+        const std::uint32_t level = level_of(candidate.pixels * lists_.detail, options);
+        if (level == kTreeLevels) {
+            lists_.trees.push_back(candidate.tree);
+            continue;
+        }
+        PoolSpan span = pool_.find(candidate.tree);
+        if (span.count == 0 && lists_.expanded < options.most_expansions) {
+            const InstanceCache& cache = *model_.forms[tree.form].cache;
+            made.clear();
+            expanders_[tree.form].expand(
+                model_.forest->trees[tree.tree], [&](const BranchInstance& branch) {
+                    made.push_back(
+                        pool_branch(branch, cache.instances[branch.instance], candidate.tree));
+                });
+            span = pool_.add(candidate.tree, made);
+            lists_.expanded += span.count != 0 ? 1 : 0;
+        }
+        if (span.count == 0) {
+            lists_.trees.push_back(candidate.tree);
+            ++lists_.waiting;
+            continue;
+        }
+        ++lists_.trees_of_level[level];
+        const auto instances =
+            static_cast<std::uint32_t>(model_.forms[tree.form].cache->instances.size());
+        drawn.push_back({span, first_mesh_[tree.form] + level * instances});
+        for (std::uint32_t i = 0; i < span.count; ++i) {
+            ++mesh_counts_[drawn.back().first_mesh + pool_.branches()[span.first + i].mesh];
+        }
+        total += span.count;
+    }
+    std::uint32_t first = 0;
+    std::size_t mesh = 0;
+    for (std::uint32_t f = 0; f < model_.forms.size(); ++f) {
+        const TreeForm& form = model_.forms[f];
+        for (std::uint32_t level = 0; level < kTreeLevels; ++level) {
+            for (std::uint32_t i = 0; i < form.cache->instances.size(); ++i, ++mesh) {
+                const std::uint32_t count = mesh_counts_[mesh];
+                mesh_counts_[mesh] = first; // where its list goes on
+                if (count != 0) {
+                    lists_.runs.push_back({f, level, i, first, count});
+                    lists_.triangles += count * form.mesh_triangles[level][i];
+                    first += count;
+                }
+            }
+        }
+    }
+    lists_.branches.resize(total);
+    for (const Drawn& tree : drawn) {
+        for (std::uint32_t i = 0; i < tree.span.count; ++i) {
+            const std::uint32_t place = tree.span.first + i;
+            lists_.branches[mesh_counts_[tree.first_mesh + pool_.branches()[place].mesh]++] = place;
+        }
+    }
+}
+
+void ForestView::find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const {
+    for (const ForestCell& cell : cells_) {
+        if (cell.count != 0 && cell.low.x <= box.high.x && cell.high.x >= box.low.x &&
+            cell.low.z <= box.high.z && cell.high.z >= box.low.z) {
+            for (std::uint32_t i = 0; i < cell.count; ++i) {
+                trees.push_back(cell.first + i);
+            }
+        }
+    }
+}
+
+std::uint64_t ForestView::byte_count() const {
+    return trees_.size() * sizeof(ViewTree) + cells_.size() * sizeof(ForestCell);
+}
+
+} // namespace lsys::view

@@ -1,0 +1,156 @@
+// ForestView: which trees of a forest are drawn as what, for a camera. Trees lie in cells of the
+// ground; each tree in view is in one ring, by how large it is in the picture:
+//   near     its branches, finest level
+//   middle   its branches, coarser levels
+//   far      one picture of a tree (impostor)
+//   horizon  one picture for all trees of a cell
+// Branches are made when a tree comes near and forgotten after it has left. What is listed is a
+// function of forest and camera alone, whatever was looked at before.
+#pragma once
+
+#include "viewer/branch_pool.h"
+#include "viewer/camera.h"
+#include "viewer/forest_model.h"
+
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace lsys::view {
+
+/// What a camera sees: to the inside of all planes. There is no far one.
+struct ViewVolume {
+    std::array<glm::vec4, 5> planes{}; // unit normals to the inside
+    glm::vec3 eye{};
+    float pixels = 1.0F; // of something as large as it is far away
+
+    [[nodiscard]] bool meets(const Ball& ball) const {
+        for (const glm::vec4& plane : planes) {
+            if (plane.x * ball.centre.x + plane.y * ball.centre.y + plane.z * ball.centre.z +
+                    plane.w <
+                -ball.radius) {
+                return false;
+            }
+        }
+        return true;
+    }
+};
+[[nodiscard]] ViewVolume
+view_volume(const Camera& camera, std::uint32_t width, std::uint32_t height);
+
+struct RingOptions {
+    /// Heights of a tree in pixels from which on it is drawn as each level of branches.
+    std::array<float, kTreeLevels> level_pixels{860.0F, 430.0F, 260.0F, 150.0F};
+    /// Below this, cells are drawn as one.
+    float horizon_pixels = 10.0F;
+    /// Of branches; with more, all trees count as smaller than they are.
+    std::uint64_t most_triangles = 1'500'000;
+    /// Trees whose branches are made for one picture; others have to wait, as impostors.
+    std::uint32_t most_expansions = ~0U;
+};
+
+/// Branches of one instance and level: places in the list of branches.
+struct BranchRun {
+    std::uint32_t form = 0;
+    std::uint32_t level = 0;
+    std::uint32_t instance = 0;
+    std::uint32_t first = 0; // in ForestLists::branches
+    std::uint32_t count = 0;
+};
+
+struct ForestLists {
+    std::vector<std::uint32_t> branches; // places in the pool, by run
+    std::vector<BranchRun> runs;
+    std::vector<std::uint32_t> trees;  // far: numbers of ForestView::trees(), near cells first
+    std::vector<std::uint32_t> clumps; // horizon: cells, near ones first
+    std::array<std::uint32_t, kTreeLevels> trees_of_level{};
+    std::uint64_t clumped_trees = 0; // of the cells in `clumps`
+    std::uint64_t triangles = 0;     // of branches
+    std::uint32_t expanded = 0;      // trees whose branches were made for this
+    std::uint32_t waiting = 0;       // that should have branches but are far for now
+    float detail = 1.0F;             // factor of sizes, so that most_triangles is kept
+
+    [[nodiscard]] std::uint64_t branch_trees() const {
+        std::uint64_t sum = 0;
+        for (const std::uint32_t count : trees_of_level) {
+            sum += count;
+        }
+        return sum;
+    }
+};
+
+/// A tree as it is looked for, in order of cells.
+struct ViewTree {
+    glm::vec3 position{};
+    float scale = 1.0F;
+    std::uint32_t tree = 0; // in Forest::trees
+    std::uint16_t form = 0;
+    std::uint16_t portrait = 0; // in TreeForm::portraits
+};
+static_assert(sizeof(ViewTree) == 24);
+
+/// A square of the ground.
+struct ForestCell {
+    std::uint32_t first = 0; // in ForestView::trees()
+    std::uint32_t count = 0;
+    glm::vec3 low{}; // around its trees, radii included
+    glm::vec3 high{};
+    float tallest = 0.0F;   // m
+    std::uint16_t form = 0; // that most of its trees are of
+};
+
+class ForestView {
+public:
+    /// The model outlives the view.
+    explicit ForestView(const ForestModel& model);
+
+    [[nodiscard]] const ForestLists& select(const ViewVolume& volume, const RingOptions& options);
+
+    [[nodiscard]] const ForestModel& model() const { return model_; }
+    [[nodiscard]] std::span<const ViewTree> trees() const { return trees_; }
+    [[nodiscard]] std::span<const ForestCell> cells() const { return cells_; }
+    [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+    [[nodiscard]] double cell_size() const { return cell_size_; } // m
+    [[nodiscard]] BranchPool& pool() { return pool_; }
+    /// Trees that stand in cells that meet a box seen from above, by cell.
+    void find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const;
+    /// Around a tree, whatever branches it has.
+    [[nodiscard]] Ball reach_of(const ViewTree& tree) const;
+    /// Around its impostor.
+    [[nodiscard]] Ball portrait_ball(const ViewTree& tree) const;
+    [[nodiscard]] std::uint64_t byte_count() const;
+
+private:
+    /// A tree that is large enough for branches.
+    struct Candidate {
+        std::uint32_t tree = 0;
+        float pixels = 0.0F;
+    };
+
+    void sort_into_cells();
+    void visit_trees(const ForestCell& cell, const ViewVolume& volume, const RingOptions& options);
+    /// kTreeLevels: none, an impostor.
+    [[nodiscard]] static std::uint32_t level_of(float pixels, const RingOptions& options);
+    [[nodiscard]] float fitting_detail(const RingOptions& options) const;
+    void list_branches(const RingOptions& options);
+
+    const ForestModel& model_;
+    LargeVector<ViewTree> trees_;
+    std::vector<ForestCell> cells_;
+    Bounds bounds_;
+    double cell_size_ = 1.0;
+    BranchPool pool_;
+    std::vector<TreeExpander> expanders_;   // by form
+    std::vector<std::uint32_t> first_mesh_; // of each form: instances times levels
+    ForestLists lists_;
+    std::vector<Candidate> candidates_;
+    std::vector<std::uint32_t> far_;
+    std::vector<std::pair<float, std::uint32_t>> seen_cells_; // by distance
+    std::vector<std::uint32_t> mesh_counts_;
+};
+
+} // namespace lsys::view

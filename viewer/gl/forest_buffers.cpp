@@ -1,0 +1,278 @@
+#include "viewer/gl/forest_buffers.h"
+
+#include <glm/common.hpp>
+#include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace lsys::view {
+
+namespace {
+
+// Bindings of forest.glsl and branch.frag.glsl.
+constexpr GLuint kBranches = 0;
+constexpr GLuint kTrees = 1;
+constexpr GLuint kForms = 2;
+constexpr GLuint kLooks = 3;
+constexpr GLuint kBranchAttribute = 4;
+
+struct Vertex {
+    std::array<std::int16_t, 3> position{}; // in 1/32767 of the form's box
+    std::uint16_t look = 0;
+    std::array<std::int8_t, 2> normal{}; // octahedral, in 1/127
+    std::array<std::uint8_t, 2> unused{};
+    std::array<std::uint16_t, 2> texture_coordinate{}; // binary16
+};
+static_assert(sizeof(Vertex) == 16);
+
+struct Look {
+    glm::vec4 colour{};
+    std::array<std::uint32_t, 4> kind{};
+};
+
+struct FormRecord {
+    glm::vec4 cylinder{};
+    glm::vec4 pictures{};
+};
+
+struct TreeRecord {
+    glm::vec3 root{};
+    float scale = 1.0F;
+    std::uint32_t yaw_phase = 0;
+    std::uint32_t form_portrait = 0;
+};
+static_assert(sizeof(TreeRecord) == 24);
+
+std::int16_t snorm16(float value) {
+    return static_cast<std::int16_t>(std::lround(std::clamp(value, -1.0F, 1.0F) * 32767.0F));
+}
+
+std::array<std::int8_t, 2> folded(const glm::vec3& n) {
+    const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    glm::vec2 e = sum > 0.0F ? glm::vec2(n.x, n.y) / sum : glm::vec2(0.0F);
+    if (n.z < 0.0F) {
+        e = {std::copysign(1.0F - std::abs(e.y), e.x), std::copysign(1.0F - std::abs(e.x), e.y)};
+    }
+    const auto part = [](float v) { return static_cast<std::int8_t>(std::lround(v * 127.0F)); };
+    return {part(e.x), part(e.y)};
+}
+
+BranchClass class_of(const Material& material) {
+    if (material.cut_out && material.textured) {
+        return BranchClass::CutOut;
+    }
+    return material.two_sided ? BranchClass::TwoSided : BranchClass::OneSided;
+}
+
+/// The looks of a mesh's materials, those alike once.
+std::vector<std::uint16_t> add_looks(const std::vector<Material>& materials,
+                                     std::vector<Look>& looks) {
+    std::vector<std::uint16_t> numbers;
+    for (const Material& material : materials) {
+        Look look;
+        look.colour = material.colour;
+        look.kind[0] = material.textured ? 1 : 0;
+        look.kind[1] =
+            material.kind == MaterialKind::Leaf || material.kind == MaterialKind::Flower ? 1 : 0;
+        const auto same = std::find_if(looks.begin(), looks.end(), [&](const Look& other) {
+            return other.colour == look.colour && other.kind == look.kind;
+        });
+        numbers.push_back(static_cast<std::uint16_t>(same - looks.begin()));
+        if (same == looks.end()) {
+            looks.push_back(look);
+        }
+    }
+    return numbers;
+}
+
+} // namespace
+
+ForestBuffers::ForestBuffers(Device& device)
+    : array_(make_vertex_array(device)), vertices_(device), indices_(device), looks_(device),
+      forms_(device), trees_(device), branches_(device),
+      lists_(device), commands_{Buffer(device), Buffer(device), Buffer(device)} {
+    const GLuint array = array_.name();
+    for (GLuint i = 0; i <= kBranchAttribute; ++i) {
+        glEnableVertexArrayAttrib(array, i);
+        glVertexArrayAttribBinding(array, i, i == kBranchAttribute ? 1 : 0);
+    }
+    glVertexArrayAttribFormat(array, 0, 3, GL_SHORT, GL_TRUE, offsetof(Vertex, position));
+    glVertexArrayAttribIFormat(array, 1, 1, GL_UNSIGNED_SHORT, offsetof(Vertex, look));
+    glVertexArrayAttribFormat(array, 2, 2, GL_BYTE, GL_TRUE, offsetof(Vertex, normal));
+    glVertexArrayAttribFormat(array, 3, 2, GL_HALF_FLOAT, GL_FALSE,
+                              offsetof(Vertex, texture_coordinate));
+    glVertexArrayAttribIFormat(array, kBranchAttribute, 1, GL_UNSIGNED_INT, 0);
+    glVertexArrayBindingDivisor(array, 1, 1);
+}
+
+void ForestBuffers::upload(ForestModel& model) {
+    std::vector<Look> looks;
+    std::vector<FormRecord> forms;
+    std::uint64_t vertex_count = 0;
+    std::uint64_t index_count = 0;
+    std::uint32_t layer = 0;
+    for (const TreeForm& form : model.forms) {
+        float box = 1e-6F;
+        for (const InstanceMeshes& level : form.levels) {
+            vertex_count += level.mesh.positions.size();
+            index_count += level.mesh.indices.size();
+            for (const glm::vec3& at : level.mesh.positions) {
+                const glm::vec3 size = glm::abs(at);
+                box = std::max({box, size.x, size.y, size.z});
+            }
+        }
+        forms.push_back({{form.radius, form.low, form.high, box},
+                         {static_cast<float>(layer), 0.0F, 0.0F, 0.0F}});
+        layer += static_cast<std::uint32_t>(form.portraits.size());
+    }
+    vertices_.reserve(vertex_count * sizeof(Vertex));
+    indices_.reserve(index_count * sizeof(std::uint32_t));
+    mesh_bytes_ = vertex_count * sizeof(Vertex) + index_count * sizeof(std::uint32_t);
+    form_levels_.clear();
+    std::uint64_t first_vertex = 0;
+    std::uint64_t first_index = 0;
+    std::vector<Vertex> packed;
+    std::vector<std::uint32_t> listed;
+    for (std::size_t f = 0; f < model.forms.size(); ++f) {
+        auto& levels = form_levels_.emplace_back();
+        for (std::size_t l = 0; l < kTreeLevels; ++l) {
+            InstanceMeshes meshes = std::move(model.forms[f].levels[l]);
+            const Mesh& mesh = meshes.mesh;
+            const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
+            const std::vector<std::uint16_t> numbers = add_looks(mesh.materials, looks);
+            FormLevel& level = levels[l];
+            level.base_vertex = static_cast<std::int32_t>(first_vertex);
+            packed.assign(mesh.positions.size(), {});
+            for (std::size_t v = 0; v < packed.size(); ++v) {
+                const glm::vec3 at = mesh.positions[v] / forms[f].cylinder.w;
+                packed[v].position = {snorm16(at.x), snorm16(at.y), snorm16(at.z)};
+                packed[v].normal = folded(mesh.normals[v]);
+                if (!mesh.texture_coordinates.empty()) {
+                    const glm::vec2& uv = mesh.texture_coordinates[v];
+                    packed[v].texture_coordinate = {glm::packHalf1x16(uv.x),
+                                                    glm::packHalf1x16(uv.y)};
+                }
+            }
+            const auto instances = static_cast<std::uint32_t>(meshes.first_part.size()) - 1;
+            level.pieces.resize(instances);
+            listed.clear();
+            for (std::uint32_t i = 0; i < instances; ++i) {
+                // Parts are in order of materials, not of classes.
+                for (std::size_t kind = 0; kind < kBranchClasses; ++kind) {
+                    const std::size_t before = listed.size();
+                    for (const MeshPart& part : meshes.parts_of(i)) {
+                        if (static_cast<std::size_t>(class_of(mesh.materials[part.material])) !=
+                            kind) {
+                            continue;
+                        }
+                        for (std::uint64_t k = 0; k < part.index_count; ++k) {
+                            const std::uint32_t vertex = indices[part.first_index + k];
+                            packed[vertex].look = numbers[part.material];
+                            listed.push_back(vertex);
+                        }
+                    }
+                    level.pieces[i].first[kind] = static_cast<std::uint32_t>(first_index + before);
+                    level.pieces[i].count[kind] =
+                        static_cast<std::uint32_t>(listed.size() - before);
+                }
+            }
+            vertices_.write(std::span<const Vertex>(packed), first_vertex * sizeof(Vertex));
+            indices_.write(std::span<const std::uint32_t>(listed),
+                           first_index * sizeof(std::uint32_t));
+            first_vertex += mesh.positions.size();
+            first_index += listed.size();
+        }
+    }
+    looks_.fill(std::span<const Look>(looks));
+    forms_.fill(std::span<const FormRecord>(forms));
+    glVertexArrayVertexBuffer(array_.name(), 0, vertices_.name(), 0, sizeof(Vertex));
+    glVertexArrayElementBuffer(array_.name(), indices_.name());
+}
+
+void ForestBuffers::upload_trees(const ForestView& view) {
+    const std::span<const ViewTree> trees = view.trees();
+    trees_.reserve(trees.size() * sizeof(TreeRecord));
+    constexpr std::size_t kPiece = std::size_t{1} << 16U;
+    std::vector<TreeRecord> records;
+    for (std::size_t first = 0; first < trees.size(); first += kPiece) {
+        records.clear();
+        for (std::size_t t = first; t < std::min(first + kPiece, trees.size()); ++t) {
+            const ViewTree& tree = trees[t];
+            const Tree& full = view.model().forest->trees[tree.tree];
+            const float turns = full.yaw / (2.0F * std::numbers::pi_v<float>);
+            const auto yaw =
+                static_cast<std::uint32_t>(65536.0F * (turns - std::floor(turns))) & 0xFFFFU;
+            const std::uint32_t phase = full.number * 0x9E3779B1U >> 16U;
+            records.push_back({tree.position, tree.scale, phase << 16U | yaw,
+                               std::uint32_t{tree.portrait} << 16U | tree.form});
+        }
+        trees_.write(std::span<const TreeRecord>(records), first * sizeof(TreeRecord));
+    }
+}
+
+void ForestBuffers::set_form_trees(std::uint32_t forms) {
+    std::vector<TreeRecord> records(forms);
+    for (std::uint32_t f = 0; f < forms; ++f) {
+        records[f].form_portrait = f;
+    }
+    trees_.fill(std::span<const TreeRecord>(records));
+}
+
+void ForestBuffers::upload_branches(BranchPool& pool) {
+    const std::span<const PoolBranch> all = pool.branches();
+    branches_.grow(std::bit_ceil(std::max<std::size_t>(all.size_bytes(), 1024)));
+    for (const PoolSpan& span : pool.take_written()) {
+        branches_.write(all.subspan(span.first, span.count), span.first * sizeof(PoolBranch));
+    }
+}
+
+void ForestBuffers::set_branches(std::span<const PoolBranch> branches) {
+    branches_.fill(branches);
+}
+
+void ForestBuffers::command(const ForestLists& lists) {
+    lists_.fill(std::span<const std::uint32_t>(lists.branches));
+    glVertexArrayVertexBuffer(array_.name(), 1, lists_.name(), 0, sizeof(std::uint32_t));
+    std::array<std::vector<DrawCommand>, kBranchClasses> commands;
+    for (const BranchRun& run : lists.runs) {
+        const FormLevel& level = form_levels_[run.form][run.level];
+        const Piece& piece = level.pieces[run.instance];
+        for (std::size_t kind = 0; kind < kBranchClasses; ++kind) {
+            if (piece.count[kind] != 0) {
+                commands[kind].push_back({piece.count[kind], run.count, piece.first[kind],
+                                          level.base_vertex, run.first});
+            }
+        }
+    }
+    for (std::size_t kind = 0; kind < kBranchClasses; ++kind) {
+        commands_[kind].fill(std::span<const DrawCommand>(commands[kind]));
+        command_counts_[kind] = static_cast<std::uint32_t>(commands[kind].size());
+    }
+}
+
+std::uint64_t ForestBuffers::draw(BranchClass kind) const {
+    const auto index = static_cast<std::size_t>(kind);
+    if (command_counts_[index] == 0) {
+        return 0;
+    }
+    glBindVertexArray(array_.name());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_[index].name());
+    (kind == BranchClass::OneSided ? glEnable : glDisable)(GL_CULL_FACE);
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
+                                static_cast<GLsizei>(command_counts_[index]), sizeof(DrawCommand));
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+    return 1;
+}
+
+void ForestBuffers::bind_storage() const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBranches, branches_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, trees_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kForms, forms_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kLooks, looks_.name());
+}
+
+} // namespace lsys::view

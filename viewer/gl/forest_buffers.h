@@ -1,0 +1,84 @@
+// ForestBuffers: a forest's meshes, trees and forms on the device, as shaders/forest.glsl reads
+// them. One buffer of vertices and one of indices for all forms, levels and instances.
+#pragma once
+
+#include "viewer/forest_view.h"
+#include "viewer/gl/objects.h"
+
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lsys::view {
+
+/// What is drawn in one go.
+enum class BranchClass : std::uint8_t {
+    OneSided,
+    TwoSided,
+    CutOut, // two-sided leaves, cut out of a picture
+};
+inline constexpr std::size_t kBranchClasses = 3;
+
+struct DrawCommand { // as OpenGL has it
+    std::uint32_t count = 0;
+    std::uint32_t instance_count = 0;
+    std::uint32_t first_index = 0;
+    std::int32_t base_vertex = 0;
+    std::uint32_t base_instance = 0;
+};
+static_assert(sizeof(DrawCommand) == 20);
+
+class ForestBuffers {
+public:
+    explicit ForestBuffers(Device& device);
+
+    /// Takes the meshes out of the model. `first_layer`: of each form's portraits.
+    void upload(ForestModel& model);
+    void upload_trees(const ForestView& view);
+    /// Puts branches that the pool has written where shaders find them.
+    void upload_branches(BranchPool& pool);
+    /// For portraits: tree k is of form k, at the origin. upload_trees() has to follow.
+    void set_form_trees(std::uint32_t forms);
+    /// Branches from elsewhere instead, for portraits, before any upload_branches().
+    void set_branches(std::span<const PoolBranch> branches);
+    /// The commands of each class for lists of branches; uploads both.
+    void command(const ForestLists& lists);
+
+    /// With a program of branch.*.glsl bound; returns draws.
+    std::uint64_t draw(BranchClass kind) const;
+    void bind_storage() const;
+
+    [[nodiscard]] std::uint64_t mesh_bytes() const { return mesh_bytes_; }
+    [[nodiscard]] std::uint64_t tree_bytes() const { return trees_.capacity(); }
+    [[nodiscard]] std::uint64_t branch_bytes() const { return branches_.capacity(); }
+    [[nodiscard]] GLuint index_list() const { return lists_.name(); }
+
+private:
+    /// Triangles of an instance at a level.
+    struct Piece {
+        std::array<std::uint32_t, kBranchClasses> first{};
+        std::array<std::uint32_t, kBranchClasses> count{};
+    };
+    struct FormLevel {
+        std::int32_t base_vertex = 0;
+        std::vector<Piece> pieces; // by instance
+    };
+
+    VertexArray array_;
+    Buffer vertices_;
+    Buffer indices_;
+    Buffer looks_;
+    Buffer forms_;
+    Buffer trees_;
+    Buffer branches_;
+    Buffer lists_;
+    std::array<Buffer, kBranchClasses> commands_;
+    std::array<std::uint32_t, kBranchClasses> command_counts_{};
+    std::vector<std::array<FormLevel, kTreeLevels>> form_levels_;
+    std::uint64_t mesh_bytes_ = 0;
+};
+
+} // namespace lsys::view

@@ -1,0 +1,207 @@
+#include "viewer/gl/forest_pass.h"
+
+#include "viewer/gl/program.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace lsys::view {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr GLuint kBarkTexture = 1;
+constexpr GLuint kLeafTexture = 2;
+constexpr GLuint kAlbedos = 3;
+constexpr GLuint kNormals = 4;
+// The sun's map: half its side where the eye is near the ground, and at most (m).
+constexpr float kNearestLit = 45.0F;
+constexpr float kFarthestLit = 800.0F;
+constexpr float kGroundBeyond = 3000.0F; // m, of ground that is drawn around the forest
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+} // namespace
+
+ForestPass::ForestPass(Device& device)
+    : device_(&device), buffers_(device), portraits_(device), terrain_(device),
+      quads_(make_vertex_array(device)), quad_trees_(device) {
+    glEnableVertexArrayAttrib(quads_.name(), 0);
+    glVertexArrayAttribIFormat(quads_.name(), 0, 1, GL_UNSIGNED_INT, 0);
+    glVertexArrayAttribBinding(quads_.name(), 0, 0);
+    glVertexArrayBindingDivisor(quads_.name(), 0, 1);
+}
+
+Result<Done> ForestPass::reload(const ShaderSource& shaders) {
+    struct Wanted {
+        ProgramObject Programs::*program;
+        const char* vertex;
+        const char* fragment;
+        const char* defines;
+    };
+    constexpr std::array<Wanted, 4> kWanted = {
+        {{&Programs::solid, "branch.vert.glsl", "branch.frag.glsl", "#define ONE_TAP\n"},
+         {&Programs::cut_out, "branch.vert.glsl", "branch.frag.glsl",
+          "#define ONE_TAP\n#define CUT_OUT\n"},
+         {&Programs::impostor, "impostor.vert.glsl", "impostor.frag.glsl", "#define ONE_TAP\n"},
+         {&Programs::impostor_shadow, "impostor.vert.glsl", "impostor.frag.glsl",
+          "#define SHADOW\n"}}};
+    Programs programs;
+    for (const Wanted& one : kWanted) {
+        Result<ProgramObject> made =
+            make_program(*device_, shaders, one.vertex, one.fragment, one.defines);
+        if (!made) {
+            return made.error();
+        }
+        programs.*one.program = std::move(made.value());
+    }
+    if (Result<Done> done = portraits_.reload(shaders); !done) {
+        return done;
+    }
+    if (Result<Done> done = terrain_.reload(shaders); !done) {
+        return done;
+    }
+    programs_ = std::move(programs);
+    return Done{};
+}
+
+void ForestPass::show(ForestModel model, MaterialTextures& textures) {
+    Clock::time_point start = Clock::now();
+    lists_ = nullptr;
+    view_.reset();
+    model_ = std::move(model);
+    buffers_.upload(model_);
+    upload_seconds_ = seconds_since(start);
+    start = Clock::now();
+    portraits_.make(model_, buffers_, textures);
+    bake_seconds_ = seconds_since(start);
+    start = Clock::now();
+    view_ = std::make_unique<ForestView>(model_);
+    buffers_.upload_trees(*view_);
+    const Region& region = model_.terrain->region();
+    terrain_.show(*model_.terrain,
+                  static_cast<float>(std::hypot(region.width, region.depth)) + kGroundBeyond);
+    upload_seconds_ += seconds_since(start);
+}
+
+Bounds ForestPass::lit_bounds(const Frame& frame) const {
+    const Camera& camera = frame.camera;
+    const float ground = model_.terrain->height(camera.eye.x, camera.eye.z);
+    const float above = std::max(camera.eye.y - ground, 0.0F);
+    float half = kNearestLit;
+    while (half < kFarthestLit && half < 1.2F * above) {
+        half *= 1.5F;
+    }
+    // In front of the eye, or where it looks at from above.
+    const glm::vec3 along = forward_of(camera);
+    const glm::vec2 flat(along.x, along.z);
+    const float length = glm::length(flat);
+    const float down = along.y < -0.05F ? above / -along.y * length : 2.0F * half;
+    const float reach = std::min(0.75F * half, std::max(down, 0.0F));
+    const glm::vec2 wanted =
+        glm::vec2(camera.eye.x, camera.eye.z) +
+        (length > 1e-4F ? flat / length * (above > 0.5F * half ? down : reach) : glm::vec2(0.0F));
+    const float step = 0.25F * half;
+    const glm::vec2 middle = glm::round(wanted / step) * step;
+    const Bounds& all = bounds();
+    Bounds lit;
+    lit.add({middle.x - half, all.low.y, middle.y - half});
+    lit.add({middle.x + half, all.high.y, middle.y + half});
+    // No larger than the forest.
+    lit.low = glm::max(lit.low, all.low - glm::vec3(half * 0.25F, 0.0F, half * 0.25F));
+    lit.high = glm::min(lit.high, all.high + glm::vec3(half * 0.25F, 0.0F, half * 0.25F));
+    if (lit.low.x >= lit.high.x || lit.low.z >= lit.high.z) {
+        lit.low = {middle.x - half, all.low.y, middle.y - half};
+        lit.high = {middle.x + half, all.high.y, middle.y + half};
+    }
+    return lit;
+}
+
+void ForestPass::prepare(const Frame& frame) {
+    const Clock::time_point start = Clock::now();
+    volume_ = view_volume(frame.camera, frame.width, frame.height);
+    RingOptions rings;
+    rings.most_triangles = frame.most_triangles;
+    rings.most_expansions = frame.most_expansions;
+    lists_ = &view_->select(volume_, rings);
+    cull_seconds_ = seconds_since(start);
+    buffers_.upload_branches(view_->pool());
+    buffers_.command(*lists_);
+}
+
+std::uint64_t ForestPass::draw_impostors(const ProgramObject& program,
+                                         std::span<const std::uint32_t> trees) {
+    if (trees.empty()) {
+        return 0;
+    }
+    quad_trees_.fill(trees);
+    glVertexArrayVertexBuffer(quads_.name(), 0, quad_trees_.name(), 0, sizeof(std::uint32_t));
+    glUseProgram(program.name());
+    glBindTextureUnit(kAlbedos, portraits_.albedos());
+    glBindTextureUnit(kNormals, portraits_.normals());
+    glBindVertexArray(quads_.name());
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(trees.size()));
+    return 1;
+}
+
+void ForestPass::draw_shadows(const Bounds& lit, ForestFrameStats& stats) {
+    std::vector<std::uint32_t> trees;
+    view_->find_within(lit, trees);
+    buffers_.bind_storage();
+    glDisable(GL_CULL_FACE);
+    stats.shadow.draws += draw_impostors(programs_.impostor_shadow, trees);
+    stats.shadow.triangles += 2 * trees.size();
+}
+
+void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
+    buffers_.bind_storage();
+    glBindTextureUnit(kBarkTexture, textures.base(MaterialKind::Bark));
+    glBindTextureUnit(kLeafTexture, textures.base(MaterialKind::Leaf));
+    glUseProgram(programs_.solid.name());
+    stats.branches.draws += buffers_.draw(BranchClass::OneSided);
+    stats.branches.draws += buffers_.draw(BranchClass::TwoSided);
+    glUseProgram(programs_.cut_out.name());
+    stats.branches.draws += buffers_.draw(BranchClass::CutOut);
+    stats.branches.triangles += lists_->triangles;
+    glDisable(GL_CULL_FACE);
+    stats.impostors.draws += draw_impostors(programs_.impostor, lists_->trees);
+    stats.impostors.triangles += 2 * lists_->trees.size();
+    const FrameStats ground = terrain_.draw(volume_);
+    stats.terrain.draws += ground.draws;
+    stats.terrain.triangles += ground.triangles;
+    stats.trees_of_level = lists_->trees_of_level;
+    stats.far_trees = lists_->trees.size();
+    stats.horizon_trees = lists_->clumped_trees;
+    stats.horizon_cells = lists_->clumps.size();
+    stats.drawn_branches = lists_->branches.size();
+    stats.expanded_trees = lists_->expanded;
+    stats.waiting_trees = lists_->waiting;
+    stats.detail = lists_->detail;
+    stats.cull_milliseconds = 1e3 * cull_seconds_;
+}
+
+ForestSizes ForestPass::sizes() const {
+    ForestSizes sizes;
+    sizes.trees = view_->trees().size();
+    sizes.tree_bytes =
+        view_->byte_count() + buffers_.tree_bytes() + model_.forest->trees.size() * sizeof(Tree);
+    sizes.branch_bytes = buffers_.branch_bytes();
+    sizes.mesh_bytes = buffers_.mesh_bytes();
+    sizes.texture_bytes = portraits_.texture_bytes() + terrain_.texture_bytes();
+    sizes.upload_milliseconds = 1e3 * upload_seconds_;
+    sizes.portrait_milliseconds = 1e3 * bake_seconds_;
+    return sizes;
+}
+
+} // namespace lsys::view

@@ -1,0 +1,69 @@
+// ForestPass: draws a forest: branches of trees that are near, pictures of those that are far, the
+// ground, and the shadows of all of them. About six draws for any number of trees.
+#pragma once
+
+#include "grammar/result.h"
+#include "viewer/forest_view.h"
+#include "viewer/gl/forest_buffers.h"
+#include "viewer/gl/material_textures.h"
+#include "viewer/gl/portraits.h"
+#include "viewer/gl/terrain_pass.h"
+#include "viewer/renderer.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <cstdint>
+#include <memory>
+
+namespace lsys::view {
+
+class ForestPass {
+public:
+    explicit ForestPass(Device& device);
+
+    /// Error: a shader does not compile; those before stay.
+    [[nodiscard]] Result<Done> reload(const ShaderSource& shaders);
+    /// The forest that is drawn from now on. Forest and terrain outlive the pass or the next call.
+    void show(ForestModel model, MaterialTextures& textures);
+    [[nodiscard]] bool shows() const { return view_ != nullptr; }
+    [[nodiscard]] const Bounds& bounds() const { return view_->bounds(); }
+
+    /// What the sun is asked for around a camera. The same until the camera has gone some way.
+    [[nodiscard]] Bounds lit_bounds(const Frame& frame) const;
+    /// Chooses what is drawn for the frame and uploads it.
+    void prepare(const Frame& frame);
+    /// Into the shadow map that is bound: all that stands within `lit`.
+    void draw_shadows(const Bounds& lit, ForestFrameStats& stats);
+    /// Into the picture that is bound. Uses the texture unit 0 for the shadow map.
+    void draw(MaterialTextures& textures, ForestFrameStats& stats);
+
+    [[nodiscard]] ForestSizes sizes() const;
+
+private:
+    struct Programs {
+        ProgramObject solid;
+        ProgramObject cut_out;
+        ProgramObject impostor;
+        ProgramObject impostor_shadow;
+    };
+
+    std::uint64_t draw_impostors(const ProgramObject& program,
+                                 std::span<const std::uint32_t> trees);
+
+    Device* device_;
+    Programs programs_;
+    ForestModel model_;
+    std::unique_ptr<ForestView> view_;
+    ForestBuffers buffers_;
+    Portraits portraits_;
+    TerrainPass terrain_;
+    VertexArray quads_;
+    Buffer quad_trees_;
+    ViewVolume volume_;
+    const ForestLists* lists_ = nullptr;
+    double bake_seconds_ = 0.0;
+    double upload_seconds_ = 0.0;
+    double cull_seconds_ = 0.0;
+};
+
+} // namespace lsys::view

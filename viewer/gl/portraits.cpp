@@ -1,0 +1,327 @@
+#include "viewer/gl/portraits.h"
+
+#include "viewer/gl/frame_block.h"
+#include "viewer/gl/program.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace lsys::view {
+
+namespace {
+
+constexpr std::uint32_t kFiner = 2; // texels drawn for one that is kept, along a side
+constexpr std::uint32_t kWidth = Portraits::kYaws * Portraits::kTile;
+constexpr std::uint32_t kHeight = Portraits::kElevations * Portraits::kTile;
+constexpr GLsizei kLevels = 6; // the last tile has 4 texels a side
+constexpr float kMargin = 1.04F;
+constexpr std::array<float, Portraits::kElevations> kElevation = {0.0F, 0.6108652F, 1.3089969F};
+/// The finest level of branches that portraits are drawn of, while it has at most so many
+/// triangles.
+constexpr std::uint32_t kFinestLevel = 1;
+constexpr double kMostTriangles = 14'000.0;
+constexpr GLint kMiddle = 2;
+constexpr GLint kToEye = 3;
+constexpr std::uint8_t kOpaque = 128;
+
+struct Picture {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<std::uint8_t> albedos; // RGBA
+    std::vector<std::uint8_t> normals;
+};
+
+/// Half the size. What is there counts by its opacity.
+Picture halved(const Picture& from) {
+    Picture half{from.width / 2, from.height / 2, {}, {}};
+    half.albedos.resize(std::size_t{4} * half.width * half.height);
+    half.normals.resize(half.albedos.size());
+    for (std::uint32_t y = 0; y < half.height; ++y) {
+        for (std::uint32_t x = 0; x < half.width; ++x) {
+            std::array<unsigned, 4> albedo{};
+            std::array<unsigned, 4> normal{};
+            for (std::uint32_t k = 0; k < 4; ++k) {
+                const std::size_t at =
+                    std::size_t{4} * ((2 * y + (k >> 1U)) * from.width + 2 * x + (k & 1U));
+                const unsigned opacity = from.albedos[at + 3];
+                for (std::size_t c = 0; c < 3; ++c) {
+                    albedo[c] += opacity * from.albedos[at + c];
+                    normal[c] += opacity * from.normals[at + c];
+                }
+                normal[3] += opacity * from.normals[at + 3];
+                albedo[3] += opacity;
+            }
+            const std::size_t to = std::size_t{4} * (y * half.width + x);
+            for (std::size_t c = 0; c < 4 && albedo[3] != 0; ++c) {
+                half.normals[to + c] =
+                    static_cast<std::uint8_t>((normal[c] + albedo[3] / 2) / albedo[3]);
+                if (c < 3) {
+                    half.albedos[to + c] =
+                        static_cast<std::uint8_t>((albedo[c] + albedo[3] / 2) / albedo[3]);
+                }
+            }
+            half.albedos[to + 3] = static_cast<std::uint8_t>((albedo[3] + 2) / 4);
+        }
+    }
+    return half;
+}
+
+/// Gives texels that are empty the colour of those beside them, so that filters find one there.
+void spread(Picture& picture, std::uint32_t rounds) {
+    std::vector<std::uint8_t> known(std::size_t{picture.width} * picture.height);
+    for (std::size_t i = 0; i < known.size(); ++i) {
+        known[i] = picture.albedos[4 * i + 3] != 0 ? 1 : 0;
+    }
+    for (std::uint32_t round = 0; round < rounds; ++round) {
+        const std::vector<std::uint8_t> before = known;
+        for (std::uint32_t y = 0; y < picture.height; ++y) {
+            for (std::uint32_t x = 0; x < picture.width; ++x) {
+                const std::size_t at = std::size_t{y} * picture.width + x;
+                if (before[at] != 0) {
+                    continue;
+                }
+                const std::array<std::pair<bool, std::size_t>, 4> beside = {
+                    {{x > 0, at - 1},
+                     {x + 1 < picture.width, at + 1},
+                     {y > 0, at - picture.width},
+                     {y + 1 < picture.height, at + picture.width}}};
+                for (const auto& [is_there, other] : beside) {
+                    if (is_there && before[other] != 0) {
+                        for (std::size_t c = 0; c < 4; ++c) {
+                            picture.normals[4 * at + c] = picture.normals[4 * other + c];
+                            if (c < 3) {
+                                picture.albedos[4 * at + c] = picture.albedos[4 * other + c];
+                            }
+                        }
+                        known[at] = 1;
+                        break;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The opacities of a picture, multiplied so that the part of it that is there is `wanted`, or
+/// trees would thin out with the distance (Castano 2010, "Computing Alpha Mipmaps").
+std::vector<std::uint8_t> with_coverage(const Picture& picture, double wanted) {
+    std::array<std::size_t, 256> counts{};
+    const std::size_t texels = picture.albedos.size() / 4;
+    for (std::size_t i = 0; i < texels; ++i) {
+        ++counts[picture.albedos[4 * i + 3]];
+    }
+    // The opacity from which on texels are to be there.
+    std::size_t there = 0;
+    unsigned least = 255;
+    while (least > 1 &&
+           static_cast<double>(there + counts[least]) < wanted * static_cast<double>(texels)) {
+        there += counts[least];
+        --least;
+    }
+    std::vector<std::uint8_t> scaled = picture.albedos;
+    for (std::size_t i = 3; i < scaled.size(); i += 4) {
+        scaled[i] =
+            static_cast<std::uint8_t>(std::min(unsigned{scaled[i]} * kOpaque / least, 255U));
+    }
+    return scaled;
+}
+
+double coverage_of(const Picture& picture) {
+    double sum = 0.0;
+    for (std::size_t i = 3; i < picture.albedos.size(); i += 4) {
+        sum += static_cast<double>(picture.albedos[i]) / 255.0;
+    }
+    return 4.0 * sum / static_cast<double>(picture.albedos.size());
+}
+
+/// The branches of a portrait as lists of a level.
+ForestLists lists_of(const TreeForm& form,
+                     std::uint32_t form_index,
+                     std::uint32_t level,
+                     const std::vector<PoolBranch>& branches) {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> by_mesh;
+    for (std::uint32_t i = 0; i < branches.size(); ++i) {
+        by_mesh[branches[i].mesh].push_back(i);
+    }
+    ForestLists lists;
+    for (const auto& [mesh, places] : by_mesh) {
+        if (form.mesh_triangles[level][mesh] != 0) {
+            lists.runs.push_back({form_index, level, mesh,
+                                  static_cast<std::uint32_t>(lists.branches.size()),
+                                  static_cast<std::uint32_t>(places.size())});
+            lists.branches.insert(lists.branches.end(), places.begin(), places.end());
+        }
+    }
+    return lists;
+}
+
+} // namespace
+
+Result<Done> Portraits::reload(const ShaderSource& shaders) {
+    Result<ProgramObject> solid = make_program(*device_, shaders, "branch.vert.glsl",
+                                               "branch.frag.glsl", "#define PORTRAIT\n");
+    if (!solid) {
+        return solid.error();
+    }
+    Result<ProgramObject> cut_out =
+        make_program(*device_, shaders, "branch.vert.glsl", "branch.frag.glsl",
+                     "#define PORTRAIT\n#define CUT_OUT\n");
+    if (!cut_out) {
+        return cut_out.error();
+    }
+    solid_ = std::move(solid.value());
+    cut_out_ = std::move(cut_out.value());
+    return Done{};
+}
+
+void Portraits::draw_layer(const TreeForm& form,
+                           const ForestBuffers& buffers,
+                           Buffer& frame) const {
+    const float half_height = 0.5F * form.height();
+    const glm::vec3 middle(0.0F, 0.5F * (form.low + form.high), 0.0F);
+    const float deep = kMargin * std::hypot(form.radius, half_height);
+    for (std::uint32_t e = 0; e < kElevations; ++e) {
+        const float wide = kMargin * form.radius;
+        const float high = kMargin * (half_height * std::cos(kElevation[e]) +
+                                      form.radius * std::sin(kElevation[e]));
+        for (std::uint32_t y = 0; y < kYaws; ++y) {
+            const float yaw = 2.0F * std::numbers::pi_v<float> * static_cast<float>(y) /
+                              static_cast<float>(kYaws);
+            const glm::vec3 to_eye(std::sin(yaw) * std::cos(kElevation[e]), std::sin(kElevation[e]),
+                                   std::cos(yaw) * std::cos(kElevation[e]));
+            const glm::vec3 right(std::cos(yaw), 0.0F, -std::sin(yaw));
+            const glm::vec3 up = glm::cross(to_eye, right);
+            FrameBlock block;
+            glm::mat4& matrix = block.view_projection;
+            for (glm::length_t c = 0; c < 3; ++c) {
+                matrix[c] = {right[c] / wide, up[c] / high, 0.5F * to_eye[c] / deep, 0.0F};
+            }
+            matrix[3] = {-glm::dot(right, middle) / wide, -glm::dot(up, middle) / high,
+                         0.5F - 0.5F * glm::dot(to_eye, middle) / deep, 1.0F};
+            frame.fill(std::span<const FrameBlock>(&block, 1));
+            glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame.name());
+            glViewport(static_cast<GLint>(y * kTile * kFiner),
+                       static_cast<GLint>(e * kTile * kFiner), static_cast<GLsizei>(kTile * kFiner),
+                       static_cast<GLsizei>(kTile * kFiner));
+            for (const ProgramObject* program : {&solid_, &cut_out_}) {
+                glUseProgram(program->name());
+                glUniform4f(kMiddle, middle.x, middle.y, middle.z, deep);
+                glUniform3f(kToEye, to_eye.x, to_eye.y, to_eye.z);
+                if (program == &cut_out_) {
+                    buffers.draw(BranchClass::CutOut);
+                } else {
+                    buffers.draw(BranchClass::OneSided);
+                    buffers.draw(BranchClass::TwoSided);
+                }
+            }
+        }
+    }
+}
+
+void Portraits::upload_layer(std::uint32_t layer,
+                             std::vector<std::uint8_t>& albedos,
+                             std::vector<std::uint8_t>& normals) {
+    Picture picture{kWidth * kFiner, kHeight * kFiner, std::move(albedos), std::move(normals)};
+    picture = halved(picture);
+    const double wanted = coverage_of(picture);
+    for (GLint level = 0; level < kLevels; ++level) {
+        spread(picture, 2);
+        const std::vector<std::uint8_t> scaled = with_coverage(picture, wanted);
+        const auto width = static_cast<GLsizei>(picture.width);
+        const auto height = static_cast<GLsizei>(picture.height);
+        glTextureSubImage3D(albedos_.name(), level, 0, 0, static_cast<GLint>(layer), width, height,
+                            1, GL_RGBA, GL_UNSIGNED_BYTE, scaled.data());
+        glTextureSubImage3D(normals_.name(), level, 0, 0, static_cast<GLint>(layer), width, height,
+                            1, GL_RGBA, GL_UNSIGNED_BYTE, picture.normals.data());
+        device_->add_upload(scaled.size() + picture.normals.size());
+        picture = halved(picture);
+    }
+    // What was handed in is used again for the next layer.
+    albedos.resize(std::size_t{4} * kWidth * kFiner * kHeight * kFiner);
+    normals.resize(albedos.size());
+}
+
+void Portraits::make(const ForestModel& model, ForestBuffers& buffers, MaterialTextures& textures) {
+    layers_ = 0;
+    for (const TreeForm& form : model.forms) {
+        layers_ += static_cast<std::uint32_t>(form.portraits.size());
+    }
+    texture_bytes_ = 0;
+    for (TextureObject* texture : {&albedos_, &normals_}) {
+        *texture = make_texture(*device_, GL_TEXTURE_2D_ARRAY);
+        glTextureStorage3D(texture->name(), kLevels, GL_RGBA8, static_cast<GLsizei>(kWidth),
+                           static_cast<GLsizei>(kHeight), static_cast<GLsizei>(layers_));
+        glTextureParameteri(texture->name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+        glTextureParameteri(texture->name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        glTextureParameteri(texture->name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTextureParameteri(texture->name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        texture_bytes_ += std::uint64_t{4} * kWidth * kHeight * layers_ * 4 / 3;
+    }
+    const auto width = static_cast<GLsizei>(kWidth * kFiner);
+    const auto height = static_cast<GLsizei>(kHeight * kFiner);
+    Framebuffer target = make_framebuffer(*device_);
+    std::array<Renderbuffer, 3> storage;
+    constexpr std::array<GLenum, 3> kFormats = {GL_RGBA8, GL_RGBA8, GL_DEPTH_COMPONENT32F};
+    constexpr std::array<GLenum, 3> kPoints = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
+                                               GL_DEPTH_ATTACHMENT};
+    for (std::size_t i = 0; i < storage.size(); ++i) {
+        storage[i] = make_renderbuffer(*device_);
+        glNamedRenderbufferStorage(storage[i].name(), kFormats[i], width, height);
+        glNamedFramebufferRenderbuffer(target.name(), kPoints[i], GL_RENDERBUFFER,
+                                       storage[i].name());
+    }
+    glNamedFramebufferDrawBuffers(target.name(), 2, kPoints.data());
+    glBindFramebuffer(GL_FRAMEBUFFER, target.name());
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glEnable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_GEQUAL);
+    glBindTextureUnit(1, textures.base(MaterialKind::Bark));
+    glBindTextureUnit(2, textures.base(MaterialKind::Leaf));
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    Buffer frame(*device_);
+    std::vector<std::uint8_t> albedos(std::size_t{4} * kWidth * kFiner * kHeight * kFiner);
+    std::vector<std::uint8_t> normals(albedos.size());
+    std::vector<PoolBranch> branches;
+    buffers.set_form_trees(static_cast<std::uint32_t>(model.forms.size()));
+    std::uint32_t layer = 0;
+    for (std::uint32_t f = 0; f < model.forms.size(); ++f) {
+        const TreeForm& form = model.forms[f];
+        std::uint32_t level = kFinestLevel;
+        while (level + 1 < kTreeLevels && form.triangles[level] > kMostTriangles) {
+            ++level;
+        }
+        for (const Tree& tree : form.portraits) {
+            branches.clear();
+            TreeExpander expander(*form.cache, model.forest->key);
+            expander.expand(tree, [&](const BranchInstance& branch) {
+                branches.push_back(pool_branch(branch, form.cache->instances[branch.instance], f));
+            });
+            buffers.set_branches(branches);
+            buffers.command(lists_of(form, f, level, branches));
+            buffers.bind_storage();
+            constexpr std::array<GLfloat, 4> kNothing{};
+            constexpr GLfloat kFar = 0.0F;
+            glClearNamedFramebufferfv(target.name(), GL_COLOR, 0, kNothing.data());
+            glClearNamedFramebufferfv(target.name(), GL_COLOR, 1, kNothing.data());
+            glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &kFar);
+            draw_layer(form, buffers, frame);
+            glReadBuffer(GL_COLOR_ATTACHMENT0);
+            glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, albedos.data());
+            glReadBuffer(GL_COLOR_ATTACHMENT1);
+            glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, normals.data());
+            upload_layer(layer++, albedos, normals);
+        }
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+} // namespace lsys::view

@@ -1,0 +1,82 @@
+#include "frame.glsl"
+// Trees, their branches and forms. The C++ side is gl/forest_buffers.h.
+struct Branch {
+    vec4 place_scale; // m, of the heroes' origin
+    uvec4 turn;       // snorm16: xy, zw; mesh; tree
+};
+struct Form {
+    vec4 cylinder; // of trees of scale 1: radius, low, high; size of a vertex of 1, m
+    vec4 pictures; // first layer of its portraits
+};
+layout(std430, binding = 0) readonly buffer Branches { Branch branches[]; };
+layout(std430, binding = 1) readonly buffer Trees { uint trees[]; }; // six words each
+layout(std430, binding = 2) readonly buffer Forms { Form forms[]; };
+
+struct TreeAt {
+    vec3 root;
+    float scale;
+    float yaw;
+    uint form;
+    uint portrait;
+    float phase; // 0 to 1
+};
+
+TreeAt tree_at(uint index) {
+    uint at = 6u * index;
+    TreeAt tree;
+    tree.root = vec3(uintBitsToFloat(trees[at]), uintBitsToFloat(trees[at + 1u]),
+                     uintBitsToFloat(trees[at + 2u]));
+    tree.scale = uintBitsToFloat(trees[at + 3u]);
+    tree.yaw = float(trees[at + 4u] & 0xFFFFu) * (6.2831853 / 65536.0);
+    tree.phase = float(trees[at + 4u] >> 16) / 65536.0;
+    tree.form = trees[at + 5u] & 0xFFFFu;
+    tree.portrait = trees[at + 5u] >> 16;
+    return tree;
+}
+
+vec3 turned(vec4 q, vec3 v) {
+    return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
+}
+vec3 about_up(float angle, vec3 v) {
+    float s = sin(angle), c = cos(angle);
+    return vec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
+}
+vec3 octahedral(vec2 e) {
+    vec3 v = vec3(e, 1.0 - abs(e.x) - abs(e.y));
+    if (v.z < 0.0) {
+        v.xy = (1.0 - abs(v.yx)) * vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
+    }
+    return normalize(v);
+}
+
+// Where the wind moves a place of a tree. A function of the place and the tree alone, so that
+// branches that meet stay together. `loose`: 1 for leaves.
+vec3 in_wind(vec3 place, TreeAt tree, float loose) {
+    float speed = length(frame.wind.xyz);
+    if (speed < 1e-4) {
+        return place;
+    }
+    vec3 way = frame.wind.xyz / speed;
+    float time = frame.eye_time.w;
+    float height = tree.scale * (forms[tree.form].cylinder.z - forms[tree.form].cylinder.y);
+    vec3 from = place - tree.root;
+    float rise = clamp(from.y / height, 0.0, 1.2);
+    // Gusts travel with the wind.
+    float along = dot(tree.root, way);
+    float gust = 1.0 + frame.wind.w * sin(0.9 * time - 0.05 * along + 6.2831853 * tree.phase) *
+                           sin(0.37 * time - 0.021 * along);
+    float push = 0.004 * speed * gust;
+    float swing = 1.0 + 0.35 * sin(1.7 * time + 6.2831853 * tree.phase);
+    float away = length(from.xz) / height;
+    vec3 trunk = way * (push * swing * rise * rise);
+    float phase = 2.1 * from.x / height + 3.3 * from.z / height + 6.2831853 * tree.phase;
+    vec3 boughs = vec3(sin(2.9 * time + 4.0 * phase), 0.6 * sin(3.7 * time + 5.0 * phase),
+                       cos(3.1 * time + 4.5 * phase)) * (0.35 * push * gust * away);
+    vec3 moved = place + height * (trunk + boughs);
+    if (loose > 0.0) {
+        vec3 cell = 9.0 * place;
+        moved += loose * min(0.004 * speed * gust, 0.05) *
+                 sin(vec3(7.0, 9.0, 8.0) * time + cell.yzx + cell.zxy);
+    }
+    return moved;
+}

@@ -1,0 +1,35 @@
+#include "impostor.glsl"
+layout(location = 0) in uint index; // of the tree
+out vec3 place;
+out vec3 corner;         // in its layer, which goes along
+flat out vec4 to_eye;    // unit; depth of the picture, m
+flat out float yaw;
+void main() {
+    TreeAt tree = tree_at(index);
+    vec4 cylinder = forms[tree.form].cylinder;
+    vec3 middle = tree.root + vec3(0.0, tree.scale * 0.5 * (cylinder.y + cylinder.z), 0.0);
+#ifdef SHADOW
+    vec3 eye = frame.to_sun.xyz;
+#else
+    vec3 eye = normalize(frame.eye_time.xyz - middle);
+#endif
+    float upwards = asin(clamp(eye.y, 0.0, 1.0));
+    int elevation = upwards < 0.3054 ? 0 : upwards < 0.9599 ? 1 : 2;
+    float turns = (atan(eye.x, eye.z) - tree.yaw) / 6.2831853;
+    int view = int(floor(fract(turns) * float(kYaws) + 0.5)) % kYaws;
+    vec3 right = normalize(vec3(eye.z, 0.0, -eye.x) + vec3(1e-6, 0.0, 0.0));
+    vec3 up = cross(eye, right);
+    vec2 at = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+    vec3 size = tree.scale * picture_size(tree.form, elevation);
+    place = middle + (2.0 * at.x - 1.0) * size.x * right + (2.0 * at.y - 1.0) * size.y * up;
+    place = in_wind(place, tree, 0.0);
+    corner = vec3((vec2(view, elevation) + at) / vec2(kYaws, 3),
+                  forms[tree.form].pictures.x + float(tree.portrait));
+    to_eye = vec4(eye, size.z);
+    yaw = tree.yaw;
+#ifdef SHADOW
+    gl_Position = frame.shadow_from_world * vec4(place, 1.0);
+#else
+    gl_Position = frame.view_projection * vec4(place, 1.0);
+#endif
+}

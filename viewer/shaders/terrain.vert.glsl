@@ -1,0 +1,44 @@
+#include "frame.glsl"
+// CDLOD (Strugar 2010): corners move to those of the next level before it takes over.
+layout(binding = 1) uniform sampler2DArray heights; // a layer for each level, corners at texels
+layout(location = 0) uniform ivec2 origins[12];     // of each layer, in cells of its level
+layout(location = 12) uniform vec4 ranges;          // finest cell, range of level 0, part of it
+                                                    // where moving begins, eye above ground
+layout(location = 13) uniform int levels;
+layout(location = 0) in uvec2 corner;
+layout(location = 1) in ivec3 patch_at; // x, z in cells of its level; the level
+out vec3 place;
+out vec3 across;
+
+float height_at(ivec2 at, int level) {
+    return texelFetch(heights, ivec3(at - origins[level], level), 0).r;
+}
+
+vec3 normal_at(ivec2 at, int level) {
+    float cell = ranges.x * float(1 << level);
+    return normalize(vec3(height_at(at - ivec2(1, 0), level) - height_at(at + ivec2(1, 0), level),
+                          2.0 * cell,
+                          height_at(at - ivec2(0, 1), level) - height_at(at + ivec2(0, 1), level)));
+}
+
+void main() {
+    int level = patch_at.z;
+    ivec2 at = patch_at.xy + ivec2(corner);
+    ivec2 even = at - (at & 1);
+    float cell = ranges.x * float(1 << level);
+    float range = ranges.y * float(1 << level);
+    vec2 ground = vec2(at) * cell;
+    float away = length(vec3(ground - frame.eye_time.xz, ranges.w));
+    float morph = clamp((away - ranges.z * range) / (range - ranges.z * range), 0.0, 1.0);
+    vec3 normal = normal_at(at, level);
+    if (level + 1 == levels) {
+        morph = 0.0;
+    } else {
+        normal = mix(normal, normal_at(even / 2, level + 1), morph);
+    }
+    ground = mix(ground, vec2(even) * cell, morph);
+    float here = height_at(at, level);
+    place = vec3(ground.x, here + morph * (height_at(even, level) - here), ground.y);
+    across = normal;
+    gl_Position = frame.view_projection * vec4(place, 1.0);
+}
