@@ -75,7 +75,7 @@ std::pair<TriangleList, Indices> mixed_list(std::uint32_t seed) {
             high.first += ring.columns();
             TriangleList uneven;
             uneven.append_uneven_band(ring, high);
-            CHECK(uneven.size() == 6 * ring.sides);
+            CHECK(uneven.size() == std::uint64_t{6} * ring.sides);
             list.append(std::move(uneven), 0);
             for (std::uint32_t k = 0; k < ring.sides; ++k) {
                 indices.insert(indices.end(),
@@ -168,7 +168,7 @@ TEST_CASE("a tube of millions of rings takes some bytes", "[mesh]") {
         list.append_bands(ring, kBands);
         ring.first += kBands * ring.columns();
     }
-    const std::uint64_t unit = 6 * 64;
+    const std::uint64_t unit = std::uint64_t{6} * 64;
     REQUIRE(list.size() == 12 * unit * kBands);
     CHECK(list.byte_count() < 100);
     for (std::uint32_t part = 1; part < 12; ++part) {
