@@ -1,11 +1,14 @@
 // What a window shows, without one: the same exchange of plants, the same pictures.
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
+#include "viewer/app/controls.h"
 #include "viewer/app/live_view.h"
 #include "viewer/gl/headless.h"
 
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
 
+#include <filesystem>
 #include <sstream>
 #include <thread>
 
@@ -204,4 +207,111 @@ TEST_CASE("another file is opened with all in view") {
     REQUIRE(viewed.until_swaps(2));
     CHECK_FALSE(viewed.view.settings.camera == before);
     CHECK(viewed.view.document()->plant.generations == viewed.view.usual_generations());
+}
+
+TEST_CASE("keys change what is shown, letters move while flying") {
+    Viewed viewed(options_of(sample("teach-param")));
+    REQUIRE(viewed.until_swaps(1));
+    LiveSettings& settings = viewed.view.settings;
+    Controls controls;
+    PanelState panels;
+    const auto press = [&](Key key, bool control = false) {
+        WindowInput input;
+        input.presses = {{key, control}};
+        controls.apply(input, 0.01, 600.0F, viewed.view, panels);
+    };
+    press(Key::W);
+    CHECK(settings.style == PlantStyle::Wireframe);
+    press(Key::I);
+    CHECK(settings.style == PlantStyle::None);
+    press(Key::L);
+    CHECK(settings.lines == LineKind::Skeleton);
+    press(Key::S);
+    CHECK_FALSE(settings.shadows);
+    press(Key::PageDown);
+    CHECK(viewed.view.generations() == 6);
+    press(Key::N);
+    CHECK(settings.seed == 1);
+    press(Key::F1);
+    CHECK(panels.help);
+    press(Key::Escape);
+    CHECK_FALSE(panels.help);
+    press(Key::Q);
+    CHECK_FALSE(panels.quits);
+    const Camera before = settings.camera;
+    press(Key::Tab);
+    press(Key::G);
+    CHECK(settings.ground);
+    WindowInput flying;
+    flying.held = {Key::W};
+    controls.apply(flying, 0.1, 600.0F, viewed.view, panels);
+    CHECK(glm::dot(settings.camera.eye - before.eye, forward_of(before)) > 0.0F);
+    flying.held = {};
+    flying.motion = {50.0F, 0.0F};
+    const Camera there = settings.camera;
+    controls.apply(flying, 0.1, 600.0F, viewed.view, panels);
+    CHECK(settings.camera.eye == there.eye);
+    CHECK_FALSE(settings.camera.target == there.target);
+    press(Key::Tab);
+    CHECK_FALSE(panels.flies);
+    press(Key::Q, true);
+    CHECK(panels.quits);
+}
+
+TEST_CASE("the mouse orbits, pans and zooms, and a dropped file is opened") {
+    Viewed viewed(options_of(sample("teach-param")));
+    REQUIRE(viewed.until_swaps(1));
+    Camera& camera = viewed.view.settings.camera;
+    Controls controls;
+    PanelState panels;
+    const auto apply = [&](const WindowInput& input) {
+        controls.apply(input, 0.01, 600.0F, viewed.view, panels);
+    };
+    const Camera before = camera;
+    WindowInput input;
+    input.left_drag = {100.0F, 20.0F};
+    apply(input);
+    CHECK(camera.target == before.target);
+    CHECK_FALSE(camera.eye == before.eye);
+    camera = before;
+    input = {};
+    input.right_drag = {60.0F, 0.0F}; // what is under the mouse follows it to the right
+    apply(input);
+    CHECK(glm::dot(camera.target - before.target, right_of(before)) < 0.0F);
+    camera = before;
+    input = {};
+    input.wheel = 1.0F;
+    apply(input);
+    CHECK(glm::distance(camera.eye, camera.target) < glm::distance(before.eye, before.target));
+    input = {};
+    input.dropped = {sample("crankshaw-7-1")};
+    apply(input);
+    REQUIRE(viewed.until_swaps(2));
+    CHECK(viewed.err.str().find("crankshaw-7-1.lsys: ") != std::string::npos);
+}
+
+TEST_CASE("shaders that change are compiled, and those with mistakes leave the picture") {
+    const ScratchFolder folder;
+    const std::string shaders = LSYS_SOURCE_DIR "/viewer/shaders/";
+    for (const auto& entry : std::filesystem::directory_iterator(shaders)) {
+        std::filesystem::copy(entry.path(), folder.path() / entry.path().filename());
+    }
+    ViewOptions options = options_of(sample("teach-param"));
+    options.shaders = folder / "";
+    Viewed viewed(options);
+    REQUIRE(viewed.until_swaps(1));
+    viewed.step();
+    const std::vector<std::uint8_t> before = viewed.picture();
+    std::this_thread::sleep_for(100ms); // the watch has begun
+    const std::string sky = read_text(folder / "sky.frag.glsl");
+    write_text(folder / "sky.frag.glsl", "out vec4 colour;\nvoid main() { colour = x; }\n");
+    REQUIRE(viewed.until([&] { return !viewed.view.shader_message().empty(); }));
+    CHECK(viewed.view.shader_message().find("sky.frag.glsl:2") != std::string::npos);
+    CHECK(viewed.picture() == before);
+    write_text(folder / "sky.frag.glsl",
+               "out vec4 colour;\nvoid main() { colour = vec4(1.0, 0.0, 0.0, 1.0); }\n");
+    REQUIRE(viewed.until([&] { return viewed.view.shader_message().empty(); }));
+    viewed.step();
+    CHECK(viewed.picture() != before);
+    CHECK(viewed.view.stats().swaps == 1);
 }

@@ -145,6 +145,8 @@ TEST_CASE("what cannot be shown ends with a message") {
         {{sample("abop-1-24a"), "--screenshot", "-", "--size", "0x2"}, 2, "each 1 to 16384"},
         {{sample("abop-1-24a"), "--screenshot", "-", "--size", "12"}, 2, "WIDTHxHEIGHT"},
         {{sample("abop-1-24a"), "--screenshot", "-", "--camera", "up"}, 2, "--camera: a camera is"},
+        {{"-"}, 2, "standard input"},
+        {{"none.lsys"}, 2, "cannot read `none.lsys`"},
         {{sample("abop-1-24a"), "--turntable"}, 2, "series of pictures"},
         {{sample("abop-1-24a"), "--screenshot", "-", "--frames", "2"}, 2, "standard output"},
         {{sample("abop-1-24a"), "--screenshot", "-", "--shaders", folder / "none"}, 2, "no shader"},

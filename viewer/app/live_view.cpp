@@ -197,12 +197,14 @@ void LiveView::swap(LoadOutcome outcome) {
 
 void LiveView::show_lines() {
     shown_lines_ = settings.lines;
-    if (document_ != nullptr) {
-        const bool is_bent = motion_ != nullptr && !bent_.skeleton.segments.empty();
-        renderer_->show_lines(
-            make_lines(is_bent ? bent_.skeleton : document_->plant.skeleton, shown_lines_));
-        changed_ = true;
+    const PlantDocument* const plant = document();
+    if (plant == nullptr) {
+        return;
     }
+    const bool is_bent = motion_ != nullptr && !bent_.skeleton.segments.empty();
+    const Skeleton& skeleton = is_bent ? bent_.skeleton : plant->plant.skeleton;
+    renderer_->show_lines(make_lines(skeleton, shown_lines_));
+    changed_ = true;
 }
 
 void LiveView::reload_shaders() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <mutex>
 #include <new>
@@ -78,7 +79,7 @@ struct PlantMotion::State {
                 continue;
             }
             last = now;
-            for (double ahead = 0.5 * step; ahead < passed; ahead += step) {
+            for (auto steps = std::lround(passed / step); steps > 0; --steps) {
                 physics->step();
             }
             physics->pose(next.skeleton);
