@@ -50,6 +50,7 @@ LiveSettings first_settings(const ViewOptions& options) {
     settings.lines = options.lines;
     settings.shadows = options.shadows;
     settings.ground = options.ground;
+    settings.smooth = options.samples > 1;
     settings.bends = options.gravity || options.wind;
     if (settings.bends) {
         settings.bending.forces.gravity = options.gravity.value_or(0.0F);
@@ -292,6 +293,7 @@ bool LiveView::draw(std::uint32_t width, std::uint32_t height) {
     frame.height = height;
     frame.shadows = settings.shadows;
     frame.ground = settings.ground;
+    frame.samples = settings.smooth ? 4 : 1;
     frame.style = settings.style;
     aspect_ = static_cast<float>(width) / static_cast<float>(height);
     if (!changed_ && frame_ == frame) {

@@ -35,6 +35,7 @@ struct LiveSettings {
     LineKind lines = LineKind::None;
     bool shadows = true;
     bool ground = true;
+    bool smooth = true; // edges, by several samples of a pixel
 
     bool bends = false;
     Bending bending;

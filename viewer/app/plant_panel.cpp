@@ -164,6 +164,8 @@ void draw_look(LiveSettings& settings) {
     ImGui::Checkbox("shadows", &settings.shadows);
     ImGui::SameLine();
     ImGui::Checkbox("ground", &settings.ground);
+    ImGui::SameLine();
+    ImGui::Checkbox("smooth", &settings.smooth);
     // The camera's line can be selected, copied and written over.
     static_assert(sizeof(Camera) == 7 * sizeof(float)); // what the line below has room for
     std::array<char, 256> text{};
