@@ -123,6 +123,15 @@ void Diagnostics::sort_by_place() {
     all_.erase(kept, all_.end());
 }
 
+void Diagnostics::drop_repairs(std::string_view language) {
+    for (Diagnostic& diagnostic : all_) {
+        diagnostic.fixes.clear();
+        std::erase_if(diagnostic.help, [language](const std::string& help) {
+            return help.find(language) != std::string::npos;
+        });
+    }
+}
+
 void Diagnostics::promote_warnings() {
     for (Diagnostic& diagnostic : all_) {
         if (diagnostic.severity == Severity::Warning) {

@@ -95,6 +95,8 @@ public:
     /// Sorts by file (in order of ids), place, then severity, keeping discovery order among equals,
     /// and drops exact repetitions.
     void sort_by_place();
+    /// Forgets all repairs, and help that holds `language`: the text is of another language.
+    void drop_repairs(std::string_view language);
     /// Turns every warning into an error (`--deny warnings`).
     void promote_warnings();
 

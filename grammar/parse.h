@@ -7,6 +7,7 @@
 #include "grammar/names.h"
 #include "grammar/result.h"
 #include "grammar/source.h"
+#include "grammar/translation.h"
 
 #include <functional>
 #include <string>
@@ -27,5 +28,8 @@ struct ParseContext {
 /// Parses the .lsys file `root` and, in place, the files it includes. Always yields an Ast; after
 /// errors it holds the statements that parsed.
 [[nodiscard]] Ast parse_lsys(FileId root, const ParseContext& context);
+
+/// Parses the text of a translation as if it stood in the original, where all places are shown.
+[[nodiscard]] Ast parse_translation(const Translation& translation, const ParseContext& context);
 
 } // namespace lsys

@@ -9,15 +9,21 @@ namespace lsys {
 
 namespace {
 
-/// Parses one file to its end; its includes are parsed within.
-void parse_file(FileId file, const ParseContext& context, Ast& ast, IncludeChain& includes) {
-    const PlainText plain = make_plain(file, context, false);
+void parse_text(const PlainText& plain,
+                const ParseContext& context,
+                Ast& ast,
+                IncludeChain& includes) {
     ParseSession session(context, plain.scanned, ast, &includes);
     session.builder.set_letters(plain.letters);
     const lsys_grammar::Scanning scanning(session);
     lsys_grammar::Parser parser(session, scanning.scanner());
     const int failed = parser.parse();
     LSYS_CHECK(failed == 0); // every error is recovered from
+}
+
+/// Parses one file to its end; its includes are parsed within.
+void parse_file(FileId file, const ParseContext& context, Ast& ast, IncludeChain& includes) {
+    parse_text(make_plain(file, context, false), context, ast, includes);
 }
 
 } // namespace
@@ -57,6 +63,14 @@ Ast parse_lsys(FileId root, const ParseContext& context) {
     ast.files.push_back({root, {}});
     IncludeChain includes(context, root);
     parse_file(root, context, ast, includes);
+    return ast;
+}
+
+Ast parse_translation(const Translation& translation, const ParseContext& context) {
+    Ast ast;
+    ast.files.push_back({translation.file(), {}});
+    IncludeChain includes(context, translation.file());
+    parse_text(make_plain(translation, context), context, ast, includes);
     return ast;
 }
 

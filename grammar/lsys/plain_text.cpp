@@ -112,7 +112,7 @@ bool sets_letters(const ScannedText& scanned, const ParseContext& context) {
 PlainText make_plain(FileId file, const ParseContext& context, bool silent) {
     PlainText plain;
     const std::string_view source = context.sources.file(file).text();
-    plain.scanned = {file, source, source, nullptr};
+    plain.scanned = {file, source, source, nullptr, nullptr};
     if (!is_ascii(source)) {
         Diagnostics* const diagnostics = silent ? nullptr : &context.diagnostics;
         const Validity validity = check_utf8(file, source, diagnostics, plain.own);
@@ -131,6 +131,14 @@ PlainText make_plain(FileId file, const ParseContext& context, bool silent) {
             plain.scanned.map = plain.map.get();
         }
     }
+    plain.letters = sets_letters(plain.scanned, context);
+    return plain;
+}
+
+PlainText make_plain(const Translation& translation, const ParseContext& context) {
+    PlainText plain;
+    plain.scanned = {translation.file(), context.sources.file(translation.file()).text(),
+                     translation.text(), nullptr, &translation};
     plain.letters = sets_letters(plain.scanned, context);
     return plain;
 }

@@ -23,6 +23,9 @@ struct PlainText {
 /// Reports to the context's diagnostics unless `silent`. The result holds views of the file's text.
 [[nodiscard]] PlainText make_plain(FileId file, const ParseContext& context, bool silent);
 
+/// Of a translation, which is plain already.
+[[nodiscard]] PlainText make_plain(const Translation& translation, const ParseContext& context);
+
 namespace lsys_grammar {
 
 /// The scanner of the first pass has met a character beyond ASCII. Reports it and writes what is

@@ -224,7 +224,10 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
 }
 
 <OBJECT_NAME,OBJECT_VALUE>{
-  "\""[^"\n\0]*"\""     { return Token(Parser::token::TOK_STRING, session.token()); }
+  "\""[^"\n\0]*"\""     {
+    return Token(Parser::token::TOK_STRING, session.builder.intern(TEXT.substr(1, TEXT.size() - 2)),
+                 session.token());
+  }
 }
 <OBJECT_NAME>{
   {IDENT}|{SYMBOL}      {

@@ -218,22 +218,15 @@ void AstBuilder::module_declaration(ModuleList modules) {
     ast_.module_declarations.push_back({modules});
 }
 
-void AstBuilder::object(SourceSpan keyword, ModuleList name, SourceSpan object, bool is_file) {
-    std::string_view text = source_text(object);
-    if (is_file) { // without the quotes; the closing one may be missing
-        text.remove_prefix(text.find_first_of('"') == 0 ? 1 : 0);
-        text.remove_suffix(text.ends_with('"') ? 1 : 0);
-    }
+void AstBuilder::object(
+    SourceSpan keyword, ModuleList name, NameId object, SourceSpan span, bool is_file) {
     begin_node(StatementKind::Object, ast_.objects.size());
-    ast_.objects.push_back({keyword, name, object, is_file, std::string(text)});
+    ast_.objects.push_back({keyword, name, span, is_file, std::string(names_.text(object))});
 }
 
-void AstBuilder::include(SourceSpan path) {
-    std::string_view text = source_text(path);
-    text.remove_prefix(text.find_first_of('"') == 0 ? 1 : 0);
-    text.remove_suffix(text.ends_with('"') ? 1 : 0);
+void AstBuilder::include(NameId path, SourceSpan span) {
     begin_node(StatementKind::Include, ast_.includes.size());
-    ast_.includes.push_back({path, std::string(text), kNoFile});
+    ast_.includes.push_back({span, std::string(names_.text(path)), kNoFile});
 }
 
 void AstBuilder::set_word(NameId word, SourceSpan span) {

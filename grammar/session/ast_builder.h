@@ -75,8 +75,9 @@ public:
                std::uint32_t bound_count,
                SourceSpan bounds);
     void module_declaration(ModuleList modules);
-    void object(SourceSpan keyword, ModuleList name, SourceSpan object, bool is_file);
-    void include(SourceSpan path);
+    /// `object` names one of the library, or with `is_file` a file.
+    void object(SourceSpan keyword, ModuleList name, NameId object, SourceSpan span, bool is_file);
+    void include(NameId path, SourceSpan span);
     void set_word(NameId word, SourceSpan span);
     void set_number(ExpressionId value, SourceSpan span);
     void set(NameId key, SourceSpan key_span);

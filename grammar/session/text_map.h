@@ -5,6 +5,7 @@
 
 #include "grammar/chunked_vector.h"
 #include "grammar/source.h"
+#include "grammar/translation.h"
 
 #include <cstdint>
 #include <string>
@@ -52,14 +53,25 @@ struct ScannedText {
     std::string_view source;      // the file's text
     std::string_view text;        // what is scanned
     const TextMap* map = nullptr; // null where the text is the file's own
+    // Of a file of another dialect: where the scanned text comes from; then there is no map.
+    const Translation* translation = nullptr;
 
     [[nodiscard]] std::uint32_t source_begin(std::uint32_t offset) const {
+        if (translation != nullptr) {
+            return translation->origin(offset, offset + 1).begin;
+        }
         return map == nullptr ? offset : map->source_begin(offset);
     }
     [[nodiscard]] std::uint32_t source_end(std::uint32_t offset) const {
+        if (translation != nullptr) {
+            return offset == 0 ? 0 : translation->origin(offset - 1, offset).end;
+        }
         return map == nullptr ? offset : map->source_end(offset);
     }
     [[nodiscard]] SourceSpan span(std::uint32_t begin, std::uint32_t end) const {
+        if (translation != nullptr) {
+            return translation->origin(begin, end);
+        }
         if (map == nullptr) {
             return {file, begin, end};
         }
@@ -68,6 +80,9 @@ struct ScannedText {
     }
     /// The empty span just after the character that ends at `offset`.
     [[nodiscard]] SourceSpan after(std::uint32_t offset) const {
+        if (translation != nullptr) {
+            return translation->origin(offset, offset);
+        }
         const std::uint32_t end = source_end(offset);
         return {file, end, end};
     }

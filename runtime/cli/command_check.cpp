@@ -13,12 +13,12 @@ namespace lsys::lsc {
 namespace {
 
 Status check_text(const std::string& path,
-                  std::string bytes,
+                  GrammarText text,
                   const CheckCommand& command,
                   const Console& console) {
     Grammar grammar;
     const Result<Done> compiled =
-        compile_text(path, std::move(bytes), command.grammar, make_loader(console), grammar);
+        compile_text(path, std::move(text), command.grammar, make_loader(console), grammar);
     const Status status = console.show(grammar.diagnostics, grammar.sources);
     if (!compiled) {
         console.error(compiled.error().message);
@@ -56,13 +56,13 @@ Result<Done> write_fixed(const std::string& path,
 }
 
 Status fix_file(const std::string& path,
-                const std::string& bytes,
+                const GrammarText& text,
                 const CheckCommand& command,
                 const Console& console) {
     FixedGrammar fixed;
-    Result<Done> done = fix_text(path, bytes, command.grammar, console, fixed);
+    Result<Done> done = fix_text(path, text, command.grammar, console, fixed);
     if (done && !console.interrupted()) {
-        done = write_fixed(path, bytes, fixed, console);
+        done = write_fixed(path, text.bytes, fixed, console);
     }
     if (!done) {
         console.error(done.error().message);
@@ -82,17 +82,17 @@ Status fix_file(const std::string& path,
 Status run_check(const CheckCommand& command, const Console& console) {
     Status status = Status::Fine;
     for (const std::string& path : command.files) {
-        Result<std::string> bytes = read_grammar(path, command.grammar.dialect, console);
-        if (!bytes) {
-            console.error(bytes.error().message);
+        Result<GrammarText> text = read_grammar(path, command.grammar.dialect, console);
+        if (!text) {
+            console.error(text.error().message);
             status = worse(status, Status::Failure);
-        } else if (is_module_file(bytes.value())) {
+        } else if (is_module_file(text.value().bytes)) {
             console.error(fmt::format("`{}` is compiled; only grammars can be checked", path));
             status = worse(status, Status::Failure);
         } else if (command.fix) {
-            status = worse(status, fix_file(path, bytes.value(), command, console));
+            status = worse(status, fix_file(path, text.value(), command, console));
         } else {
-            status = worse(status, check_text(path, std::move(bytes.value()), command, console));
+            status = worse(status, check_text(path, std::move(text.value()), command, console));
         }
     }
     return status;

@@ -71,19 +71,29 @@ Status write_stage(const DumpCommand& command, const std::string& text, const Co
 
 /// Tokens and the tree need no compiler, and are there for wrong grammars too.
 Status dump_syntax(const DumpCommand& command, const Console& console) {
-    Result<std::string> bytes = read_grammar(command.file, command.grammar.dialect, console);
-    if (!bytes) {
-        return fail(bytes.error(), console);
+    Result<GrammarText> grammar = read_grammar(command.file, command.grammar.dialect, console);
+    if (!grammar) {
+        return fail(grammar.error(), console);
+    }
+    const Dialect dialect = grammar.value().dialect;
+    if (command.stage == Stage::Tokens && dialect != Dialect::Lsys) {
+        return fail(Error{fmt::format("--stage tokens shows those of .lsys, and `{}` is {}",
+                                      shown_path(command.file), row_of(dialect).title)},
+                    console);
     }
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
-    const FileId root = sources.add(shown_path(command.file), std::move(bytes.value()));
+    const FileId root = sources.add(shown_path(command.file), std::move(grammar.value().bytes));
     const FileLoader load = make_loader(console);
     const ParseContext context{sources, names, diagnostics, load};
-    const std::string text = command.stage == Stage::Tokens
-                                 ? dump_tokens(sources.file(root))
-                                 : dump_ast(parse_lsys(root, context), names, sources);
+    const std::string text =
+        command.stage == Stage::Tokens
+            ? dump_tokens(sources.file(root))
+            : dump_ast(parse_dialect(root, dialect,
+                                     {command.grammar.bug_compatible, command.grammar.system},
+                                     context),
+                       names, sources);
     return worse(console.show(diagnostics, sources), write_stage(command, text, console));
 }
 

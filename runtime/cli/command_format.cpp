@@ -13,17 +13,23 @@ namespace lsys::lsc {
 namespace {
 
 Status format_file(const std::string& path, const FormatCommand& command, const Console& console) {
-    Result<std::string> bytes = read_grammar(path, command.dialect, console);
-    if (!bytes) {
-        console.error(bytes.error().message);
+    Result<GrammarText> grammar = read_grammar(path, command.dialect, console);
+    if (!grammar) {
+        console.error(grammar.error().message);
+        return Status::Failure;
+    }
+    if (grammar.value().dialect != Dialect::Lsys) {
+        console.error(fmt::format("`{}` is {}; only .lsys files are laid out", shown_path(path),
+                                  row_of(grammar.value().dialect).title));
+        console.help("`lsc import` makes a .lsys file of it");
         return Status::Failure;
     }
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
     const FileLoader load = make_loader(console);
-    const std::string before = bytes.value();
-    const FileId file = sources.add(shown_path(path), std::move(bytes.value()));
+    const std::string before = grammar.value().bytes;
+    const FileId file = sources.add(shown_path(path), std::move(grammar.value().bytes));
     const std::optional<std::string> text = format_lsys(file, {sources, names, diagnostics, load});
     if (!text) { // nothing is written; the messages say why
         return console.show(diagnostics, sources);

@@ -1,6 +1,7 @@
 #include "runtime/cli/command_line.h"
 
 #include "grammar/diagnostic.h"
+#include "grammar/dialect.h"
 #include "runtime/cli/arguments.h"
 #include "runtime/cli/option_parsers.h"
 #include "runtime/turtle.h"
@@ -42,8 +43,12 @@ void add_deny(CLI::App& app, MessageOptions& options) {
 }
 
 void add_dialect(CLI::App& app, std::string& dialect) {
-    add_choice<std::string>(app, "--dialect", dialect, {{"lsys", "lsys"}},
-                            "The language of the file (default: by its extension)")
+    std::vector<std::pair<std::string, std::string>> names;
+    for (const DialectRow& row : dialects()) {
+        names.emplace_back(row.name, row.name);
+    }
+    add_choice<std::string>(app, "--dialect", dialect, std::move(names),
+                            "The language of the file (default: what it holds and its name tell)")
         ->group("Grammar");
 }
 
@@ -74,6 +79,12 @@ void add_grammar(CLI::App& app, GrammarOptions& options) {
         ->allow_extra_args(false)
         ->group("Grammar");
     add_dialect(app, options.dialect);
+    app.add_flag("--bug-compatible", options.bug_compatible,
+                 "Read another dialect as the program that owns it does, faults included")
+        ->group("Grammar");
+    app.add_option("--system", options.system, "Which system of a file that holds several")
+        ->type_name("NAME")
+        ->group("Grammar");
     add_parsed(app, "--max-modules", options.max_modules,
                whole(1, std::numeric_limits<std::uint64_t>::max()),
                "The most modules a word may have (default 4294967296)")
@@ -176,6 +187,7 @@ namespace {
 
 /// Every command's options while they are parsed.
 struct AllCommands {
+    ImportCommand imported;
     CheckCommand check;
     CompileCommand compile;
     DumpCommand dump;
@@ -322,6 +334,21 @@ void add_export(CLI::App& app, ExportCommand& command) {
         "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 48 --fps 24");
 }
 
+void add_import(CLI::App& app, ImportCommand& command) {
+    app.add_option("FILE", command.file, "A grammar of another dialect; `-` is standard input");
+    app.add_option("--all", command.folder, "Import every grammar of a folder instead")
+        ->type_name("FOLDER");
+    app.add_option("-o,--output", command.output,
+                   "The .lsys file, or the folder for --all; `-` is standard output (default: "
+                   "standard output; with --all beside the originals)")
+        ->type_name("FILE");
+    add_grammar(app, command.grammar);
+    add_messages(app, command.messages);
+    add_deny(app, command.messages);
+    app.footer("What is written derives the same word.\n"
+               "Example: lsc import tree.l -o tree.lsys");
+}
+
 void add_stats(CLI::App& app, StatsCommand& command) {
     app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
         ->required();
@@ -414,6 +441,8 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
         add("export", "Write one plant as a 3D file or a drawing", all.exported, add_export);
     CLI::App& forest = add("forest", "Grow a forest of distinct plants from a few, and write it",
                            all.forest, add_forest);
+    CLI::App& imported = add("import", "Make a .lsys file of a grammar of another dialect",
+                             all.imported, add_import);
     CLI::App& stats = add("stats", "Predict the size of every generation", all.stats, add_stats);
     CLI::App& format = add("fmt", "Lay out grammars in the common style", all.format, add_format);
     add("explain", "Explain a diagnostic, with examples", all.explain, add_explain);
@@ -447,6 +476,9 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
     }
     if (forest.parsed()) {
         return std::move(all.forest);
+    }
+    if (imported.parsed()) {
+        return std::move(all.imported);
     }
     if (stats.parsed()) {
         return std::move(all.stats);

@@ -28,6 +28,7 @@ using CommandLine = std::variant<PrintText,
                                  DumpCommand,
                                  ExportCommand,
                                  ForestCommand,
+                                 ImportCommand,
                                  StatsCommand,
                                  FormatCommand,
                                  ExplainCommand>;

@@ -12,6 +12,7 @@ namespace lsys::lsc {
 [[nodiscard]] Status run_dump(const DumpCommand& command, const Console& console);
 [[nodiscard]] Status run_export(const ExportCommand& command, const Console& console);
 [[nodiscard]] Status run_forest(const ForestCommand& command, const Console& console);
+[[nodiscard]] Status run_import(const ImportCommand& command, const Console& console);
 [[nodiscard]] Status run_stats(const StatsCommand& command, const Console& console);
 [[nodiscard]] Status run_format(const FormatCommand& command, const Console& console);
 [[nodiscard]] Status run_explain(const ExplainCommand& command, const Console& console);

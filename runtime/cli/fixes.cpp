@@ -106,7 +106,7 @@ std::string apply_edits(std::string_view text, const std::vector<const Edit*>& e
 }
 
 Result<Done> fix_text(const std::string& path,
-                      const std::string& bytes,
+                      const GrammarText& original,
                       const GrammarOptions& options,
                       const Console& console,
                       FixedGrammar& fixed) {
@@ -121,8 +121,9 @@ Result<Done> fix_text(const std::string& path,
         fixed.grammar = Grammar();
         Grammar& grammar = fixed.grammar;
         const auto mended = changed.find(root);
-        Result<Done> compiled = compile_text(path, mended != changed.end() ? mended->second : bytes,
-                                             options, load, grammar);
+        const std::string& bytes = mended != changed.end() ? mended->second : original.bytes;
+        Result<Done> compiled =
+            compile_text(path, {bytes, original.dialect}, options, load, grammar);
         if (!compiled) {
             return compiled;
         }

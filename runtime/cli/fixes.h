@@ -25,9 +25,9 @@ struct FixedGrammar {
 };
 inline constexpr std::size_t kMaxFixLines = 50;
 
-/// Mends `bytes`, the text of `path`. A byte order mark and CRLF line ends stay.
+/// Mends `text`, that of `path`. A byte order mark and CRLF line ends stay.
 [[nodiscard]] Result<Done> fix_text(const std::string& path,
-                                    const std::string& bytes,
+                                    const GrammarText& text,
                                     const GrammarOptions& options,
                                     const Console& console,
                                     FixedGrammar& fixed);

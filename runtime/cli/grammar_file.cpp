@@ -14,17 +14,49 @@ namespace lsys::lsc {
 
 namespace {
 
-constexpr std::string_view kGrammarExtension = ".lsys";
 constexpr std::string_view kModuleExtension = ".lsb";
+
+/// `lsys, sys, ...`
+std::string dialect_names() {
+    std::string names;
+    for (const DialectRow& row : dialects()) {
+        names += names.empty() ? "" : ", ";
+        names += row.name;
+    }
+    return names;
+}
 
 Error unknown_dialect(const std::string& path) {
     if (path.ends_with(kModuleExtension)) {
         return Error{fmt::format("`{}` is compiled; this needs the grammar itself", path)};
     }
-    return Error{
-        fmt::format("the name of `{}` does not tell its language; rename it to end in {}, or "
-                    "say --dialect lsys",
-                    path, kGrammarExtension)};
+    return Error{fmt::format("neither the name of `{}` nor what it holds tells its language; say "
+                             "which with --dialect ({})",
+                             path, dialect_names())};
+}
+
+/// The dialect of a file: as asked for, else as it tells.
+Result<Dialect> dialect_of(const std::string& path,
+                           const std::string& dialect,
+                           std::string_view bytes,
+                           const Console& console) {
+    if (!dialect.empty()) {
+        const std::optional<Dialect> asked = find_dialect(dialect);
+        return asked ? Result<Dialect>(*asked)
+                     : Error{fmt::format("there is no dialect `{}`", dialect)};
+    }
+    if (is_module_file(bytes)) {
+        return Dialect::Lsys; // which the caller tells apart
+    }
+    const DetectedDialect detected = detect_dialect(path, bytes);
+    if (!detected.dialect) {
+        return path == "-" ? Result<Dialect>(Dialect::Lsys) : unknown_dialect(path);
+    }
+    if (*detected.dialect != Dialect::Lsys) {
+        console.detail(fmt::format("`{}` is read as {}: {} tells", shown_path(path),
+                                   row_of(*detected.dialect).title, detected.by));
+    }
+    return *detected.dialect;
 }
 
 /// The -D that no constant answers to, with the nearest that does.
@@ -74,34 +106,44 @@ FileLoader make_loader(const Console& console) {
         [console](const std::string& path) { return read_bytes(path, kMaxSourceBytes, console); };
 }
 
-Result<std::string>
+Result<GrammarText>
 read_grammar(const std::string& path, const std::string& dialect, const Console& console) {
-    if (dialect.empty() && path != "-" && !path.ends_with(kGrammarExtension)) {
-        // Whether the file is there at all is the better message.
-        Result<std::string> bytes = read_file(path, kMaxSourceBytes, console);
-        return bytes.ok() ? Result<std::string>(unknown_dialect(path)) : std::move(bytes);
+    Result<std::string> bytes = read_file(path, kMaxSourceBytes, console);
+    if (!bytes) {
+        return bytes.error();
     }
-    return read_file(path, kMaxSourceBytes, console);
+    const Result<Dialect> found = dialect_of(path, dialect, bytes.value(), console);
+    if (!found) {
+        return found.error();
+    }
+    return GrammarText{std::move(bytes.value()), found.value()};
 }
 
 Result<Done> compile_text(const std::string& path,
-                          std::string bytes,
+                          GrammarText text,
                           const GrammarOptions& options,
                           const FileLoader& load,
                           Grammar& grammar) {
-    const FileId root = grammar.sources.add(shown_path(path), std::move(bytes));
+    const FileId root = grammar.sources.add(shown_path(path), std::move(text.bytes));
     const FileLoader load_included = [&load, &grammar](const std::string& wanted) {
         grammar.included.push_back(wanted);
         return load(wanted);
     };
-    Ast ast =
-        parse_lsys(root, {grammar.sources, grammar.names, grammar.diagnostics, load_included});
+    Ast ast = parse_dialect(root, text.dialect, {options.bug_compatible, options.system},
+                            {grammar.sources, grammar.names, grammar.diagnostics, load_included});
+    const bool foreign = text.dialect != Dialect::Lsys;
+    if (foreign && grammar.diagnostics.has_errors()) {
+        return Done{}; // nothing can be said of the rest
+    }
     CompileOptions compile_options;
     compile_options.definitions = options.definitions;
     compile_options.generations = options.generations;
     compile_options.max_modules = options.max_modules;
     CompileOutcome outcome = compile(std::move(ast), grammar.names, grammar.sources,
                                      compile_options, grammar.diagnostics);
+    if (foreign) {
+        grammar.diagnostics.drop_repairs("`#"); // they are written in .lsys
+    }
     grammar.program = std::move(outcome.program);
     grammar.bytecode = std::move(outcome.bytecode);
     if (!outcome.unknown_definitions.empty()) {
@@ -122,12 +164,13 @@ Status load_grammar(const std::string& path,
     if (is_module_file(bytes.value()) || path.ends_with(kModuleExtension)) {
         return load_module(bytes.value(), path, options, console, grammar);
     }
-    if (options.dialect.empty() && path != "-" && !path.ends_with(kGrammarExtension)) {
-        console.error(unknown_dialect(path).message);
+    const Result<Dialect> dialect = dialect_of(path, options.dialect, bytes.value(), console);
+    if (!dialect) {
+        console.error(dialect.error().message);
         return Status::Failure;
     }
-    const Result<Done> compiled =
-        compile_text(path, std::move(bytes.value()), options, make_loader(console), grammar);
+    const Result<Done> compiled = compile_text(path, {std::move(bytes.value()), dialect.value()},
+                                               options, make_loader(console), grammar);
     const Status status = console.show(grammar.diagnostics, grammar.sources);
     if (!compiled) {
         console.error(compiled.error().message);

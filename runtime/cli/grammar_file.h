@@ -5,6 +5,7 @@
 #include "compiler/bytecode.h"
 #include "compiler/program.h"
 #include "grammar/ast.h"
+#include "grammar/dialect.h"
 #include "grammar/diagnostic.h"
 #include "grammar/names.h"
 #include "grammar/parse.h"
@@ -32,14 +33,20 @@ struct Grammar {
 /// Reads files for #include.
 [[nodiscard]] FileLoader make_loader(const Console& console);
 
-/// The bytes of a grammar, once its dialect is clear.
-[[nodiscard]] Result<std::string>
+/// The bytes of a grammar and the dialect that they are in.
+struct GrammarText {
+    std::string bytes;
+    Dialect dialect = Dialect::Lsys;
+};
+/// `dialect`: a name of one, or empty. Error: the file cannot be read, or nothing tells its
+/// dialect.
+[[nodiscard]] Result<GrammarText>
 read_grammar(const std::string& path, const std::string& dialect, const Console& console);
 
-/// Compiles the text `bytes` of `path`; diagnostics are collected, not shown. An Error is a -D of
+/// Compiles the `text` of `path`; diagnostics are collected, not shown. An Error is a -D of
 /// no constant.
 [[nodiscard]] Result<Done> compile_text(const std::string& path,
-                                        std::string bytes,
+                                        GrammarText text,
                                         const GrammarOptions& options,
                                         const FileLoader& load,
                                         Grammar& grammar);

@@ -49,6 +49,9 @@ struct Dispatch {
     Status operator()(const ForestCommand& command) const {
         return run_forest(command, {io, command.messages});
     }
+    Status operator()(const ImportCommand& command) const {
+        return run_import(command, {io, command.messages});
+    }
     Status operator()(const StatsCommand& command) const {
         return run_stats(command, {io, command.messages});
     }

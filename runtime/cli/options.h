@@ -29,7 +29,9 @@ struct MessageOptions {
 
 /// How a grammar is read and compiled.
 struct GrammarOptions {
-    std::string dialect; // empty: by the file's extension
+    std::string dialect;         // empty: by what the file holds, else by its extension
+    bool bug_compatible = false; // as the program that owns the dialect does it
+    std::string system;          // which one of a file that holds several; empty: the only one
     std::vector<Definition> definitions;
     std::optional<std::uint32_t> generations; // -n
     std::uint64_t max_modules = std::uint64_t{1} << 32;
@@ -136,6 +138,14 @@ struct StatsCommand {
     MessageOptions messages;
     GrammarOptions grammar;
     std::string file;
+};
+
+struct ImportCommand {
+    MessageOptions messages;
+    GrammarOptions grammar;
+    std::string file;   // empty: all of `folder`
+    std::string folder; // whose files are all imported
+    std::string output; // a file, or a folder for --all
 };
 
 struct FormatCommand {

@@ -33,7 +33,7 @@ foreach(path ${sources})
   foreach(line IN LISTS lines)
     if(line MATCHES "^[ \t]*#[ \t]*include[ \t]+\"([^\"]+)\"")
       set(included "${CMAKE_MATCH_1}")
-      if(included MATCHES "^lsys/(parser|scanner)\\.h$" AND folder STREQUAL "grammar")
+      if(included MATCHES "^[a-z0-9]+/(parser|scanner)\\.h$" AND folder STREQUAL "grammar")
         continue() # written by Bison and Flex
       endif()
       if(included MATCHES "^runtime/cli/" AND folder STREQUAL "cli")

@@ -1,0 +1,116 @@
+#include "grammar/dialect.h"
+
+#include "grammar/contract.h"
+#include "grammar/sys/frontend.h"
+
+#include <algorithm>
+#include <array>
+
+namespace lsys {
+
+namespace {
+
+using Translate = Translation (*)(FileId root,
+                                  const DialectOptions& options,
+                                  const ParseContext& context);
+/// What in a text tells the dialect; empty: nothing does.
+using Recognise = std::string_view (*)(std::string_view text);
+
+/// Everything that is known of a dialect.
+struct Entry {
+    DialectRow row;
+    Recognise recognise = nullptr;
+    Translate translate = nullptr;
+};
+
+/// In order of Dialect. Content is asked in this order too.
+constexpr std::array<Entry, 2> kEntries{{
+    {{Dialect::Lsys, "lsys", "lsys", ".lsys"}, nullptr, nullptr},
+    {{Dialect::Sys, "sys", "the .sys forest", ".sys"}, recognise_sys, translate_sys},
+}};
+
+constexpr auto kRows = [] {
+    std::array<DialectRow, kEntries.size()> rows{};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i] = kEntries[i].row;
+    }
+    return rows;
+}();
+
+bool has_extension(std::string_view path, std::string_view extensions) {
+    while (!extensions.empty()) {
+        const std::size_t end = std::min(extensions.find(' '), extensions.size());
+        if (path.ends_with(extensions.substr(0, end))) {
+            return true;
+        }
+        extensions.remove_prefix(std::min(end + 1, extensions.size()));
+    }
+    return false;
+}
+
+} // namespace
+
+std::span<const DialectRow> dialects() {
+    return kRows;
+}
+
+const DialectRow& row_of(Dialect dialect) {
+    return kRows[static_cast<std::size_t>(dialect)];
+}
+
+std::optional<Dialect> find_dialect(std::string_view name) {
+    for (const DialectRow& row : kRows) {
+        if (row.name == name) {
+            return row.dialect;
+        }
+    }
+    return std::nullopt;
+}
+
+DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
+    // Nothing but .lsys has this name, and a file of it may hold anything in a comment.
+    if (has_extension(path, row_of(Dialect::Lsys).extensions)) {
+        return {Dialect::Lsys, "its name"};
+    }
+    for (const Entry& entry : kEntries) {
+        if (entry.recognise != nullptr) {
+            if (const std::string_view by = entry.recognise(text); !by.empty()) {
+                return {entry.row.dialect, by};
+            }
+        }
+    }
+    for (const DialectRow& row : kRows) {
+        if (has_extension(path, row.extensions)) {
+            return {row.dialect, "its name"};
+        }
+    }
+    return {};
+}
+
+Translation translate(FileId root,
+                      Dialect dialect,
+                      const DialectOptions& options,
+                      const ParseContext& context) {
+    const Entry& entry = kEntries[static_cast<std::size_t>(dialect)];
+    LSYS_CHECK(entry.translate != nullptr);
+    return entry.translate(root, options, context);
+}
+
+Ast parse_dialect(FileId root,
+                  Dialect dialect,
+                  const DialectOptions& options,
+                  const ParseContext& context) {
+    if (dialect == Dialect::Lsys) {
+        return parse_lsys(root, context);
+    }
+    const Translation translation = translate(root, dialect, options, context);
+    if (context.diagnostics.has_errors()) {
+        Ast ast;
+        ast.files.push_back({root, {}});
+        ast.incomplete = true;
+        return ast;
+    }
+    return parse_translation(translation, context);
+}
+
+} // namespace lsys

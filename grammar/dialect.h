@@ -1,0 +1,56 @@
+// Dialects: the other formats in which grammars are written, how a file's own is told, and their
+// front ends, which make .lsys text of it (grammar/translation.h).
+#pragma once
+
+#include "grammar/parse.h"
+#include "grammar/translation.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lsys {
+
+enum class Dialect : std::uint8_t {
+    Lsys,
+    Sys, // the forest of 2005
+};
+
+struct DialectRow {
+    Dialect dialect{};
+    std::string_view name;       // as an option has it
+    std::string_view title;      // in messages
+    std::string_view extensions; // with dots, separated by blanks
+};
+/// All of them, .lsys first.
+[[nodiscard]] std::span<const DialectRow> dialects();
+[[nodiscard]] const DialectRow& row_of(Dialect dialect);
+/// By DialectRow::name.
+[[nodiscard]] std::optional<Dialect> find_dialect(std::string_view name);
+
+struct DetectedDialect {
+    std::optional<Dialect> dialect; // none: nothing tells
+    std::string_view by;            // what told it: "its first line is `LSYSTEM`"
+};
+/// By what the text holds, else by the extension of `path`.
+[[nodiscard]] DetectedDialect detect_dialect(std::string_view path, std::string_view text);
+
+struct DialectOptions {
+    bool bug_compatible = false; // as the program that owns the format does it, faults included
+    std::string system;          // which one of a file that holds several
+};
+
+/// Makes .lsys text of the file `root`. Mistakes are reported where they stand; after errors the
+/// text is what could be read, and not to be used. Precondition: not Dialect::Lsys.
+[[nodiscard]] Translation
+translate(FileId root, Dialect dialect, const DialectOptions& options, const ParseContext& context);
+
+/// parse_lsys() of a file of any dialect.
+[[nodiscard]] Ast parse_dialect(FileId root,
+                                Dialect dialect,
+                                const DialectOptions& options,
+                                const ParseContext& context);
+
+} // namespace lsys
