@@ -10,9 +10,7 @@ namespace lsys {
 
 namespace {
 
-using Translate = Translation (*)(FileId root,
-                                  const DialectOptions& options,
-                                  const ParseContext& context);
+using Translate = Translation (*)(FileId root, const ParseContext& context);
 /// What in a text tells the dialect; empty: nothing does.
 using Recognise = std::string_view (*)(std::string_view text);
 
@@ -87,23 +85,17 @@ DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
     return {};
 }
 
-Translation translate(FileId root,
-                      Dialect dialect,
-                      const DialectOptions& options,
-                      const ParseContext& context) {
+Translation translate(FileId root, Dialect dialect, const ParseContext& context) {
     const Entry& entry = kEntries[static_cast<std::size_t>(dialect)];
     LSYS_CHECK(entry.translate != nullptr);
-    return entry.translate(root, options, context);
+    return entry.translate(root, context);
 }
 
-Ast parse_dialect(FileId root,
-                  Dialect dialect,
-                  const DialectOptions& options,
-                  const ParseContext& context) {
+Ast parse_dialect(FileId root, Dialect dialect, const ParseContext& context) {
     if (dialect == Dialect::Lsys) {
         return parse_lsys(root, context);
     }
-    const Translation translation = translate(root, dialect, options, context);
+    const Translation translation = translate(root, dialect, context);
     if (context.diagnostics.has_errors()) {
         Ast ast;
         ast.files.push_back({root, {}});

@@ -37,20 +37,11 @@ struct DetectedDialect {
 /// By what the text holds, else by the extension of `path`.
 [[nodiscard]] DetectedDialect detect_dialect(std::string_view path, std::string_view text);
 
-struct DialectOptions {
-    bool bug_compatible = false; // as the program that owns the format does it, faults included
-    std::string system;          // which one of a file that holds several
-};
-
 /// Makes .lsys text of the file `root`. Mistakes are reported where they stand; after errors the
 /// text is what could be read, and not to be used. Precondition: not Dialect::Lsys.
-[[nodiscard]] Translation
-translate(FileId root, Dialect dialect, const DialectOptions& options, const ParseContext& context);
+[[nodiscard]] Translation translate(FileId root, Dialect dialect, const ParseContext& context);
 
 /// parse_lsys() of a file of any dialect.
-[[nodiscard]] Ast parse_dialect(FileId root,
-                                Dialect dialect,
-                                const DialectOptions& options,
-                                const ParseContext& context);
+[[nodiscard]] Ast parse_dialect(FileId root, Dialect dialect, const ParseContext& context);
 
 } // namespace lsys

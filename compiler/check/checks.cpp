@@ -12,14 +12,23 @@ struct ListedCheck {
 
 // The order is that of the messages about one place.
 constexpr ListedCheck kChecks[] = {
-    {check_probability_sums, false}, {check_formal_names, false},
-    {check_ignored_contexts, false}, {check_extra_parameters, false},
-    {check_branches, false},         {check_polygons, false},
-    {check_turtle_arguments, false}, {check_unused_names, true},
-    {check_module_use, true},        {check_reachable_productions, true},
-    {check_conditions, true},        {check_probabilities, true},
-    {check_computed_equality, true}, {check_branch_depth, true},
-    {check_drawing, true},           {check_growth, true},
+    {check_probability_sums, false},
+    {check_formal_names, false},
+    {check_ignored_contexts, false},
+    {check_extra_parameters, false},
+    {check_cuts, false},
+    {check_branches, false},
+    {check_polygons, false},
+    {check_turtle_arguments, false},
+    {check_unused_names, true},
+    {check_module_use, true},
+    {check_reachable_productions, true},
+    {check_conditions, true},
+    {check_probabilities, true},
+    {check_computed_equality, true},
+    {check_branch_depth, true},
+    {check_drawing, true},
+    {check_growth, true},
 };
 
 } // namespace

@@ -8,6 +8,7 @@
 namespace lsys {
 
 // One word or production at a time; these also look at programs with errors.
+void check_cuts(const CheckInput& input, Diagnostics& diagnostics);
 void check_branches(const CheckInput& input, Diagnostics& diagnostics);
 void check_polygons(const CheckInput& input, Diagnostics& diagnostics);
 void check_turtle_arguments(const CheckInput& input, Diagnostics& diagnostics);

@@ -9,7 +9,7 @@ namespace lsys {
 
 namespace {
 
-enum class CharacterClass : std::uint8_t { Blank, Letter, Symbol, Bracket, Slash, Cut, Open };
+enum class CharacterClass : std::uint8_t { Blank, Letter, Symbol, Bracket, Slash, Open };
 
 constexpr std::array<CharacterClass, 128> kClasses = [] {
     std::array<CharacterClass, 128> classes{};
@@ -25,7 +25,6 @@ constexpr std::array<CharacterClass, 128> kClasses = [] {
     classes['['] = CharacterClass::Bracket;
     classes[']'] = CharacterClass::Bracket;
     classes['/'] = CharacterClass::Slash;
-    classes['%'] = CharacterClass::Cut;
     classes['('] = CharacterClass::Open;
     return classes;
 }();
@@ -86,9 +85,6 @@ ModuleList AstBuilder::modules(ModuleList list, TextRange run) {
         case CharacterClass::Bracket:
             count_bracket(c, scanned_.span(at, at + 1));
             break;
-        case CharacterClass::Cut:
-            report_cut(diagnostics_, scanned_.span(at, at + 1));
-            break;
         case CharacterClass::Symbol:
             break;
         }
@@ -139,8 +135,6 @@ ModuleList AstBuilder::quoted_module(ModuleList list, NameId name, SourceSpan sp
     const std::string_view text = names_.text(name);
     if (text == "[" || text == "]") {
         count_bracket(text[0], span);
-    } else if (text == "%") {
-        report_cut(diagnostics_, span);
     }
     ast_.modules.push_back({static_cast<std::uint32_t>(name), span.begin});
     list.span = list.count == 0 ? span : join(list.span, span);

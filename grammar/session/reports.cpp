@@ -101,14 +101,4 @@ void report_stray_comment(Diagnostics& diagnostics, SourceSpan slashes) {
     diagnostic.help.emplace_back("write `/* ... */` here, or put the comment after the `;`");
 }
 
-void report_cut(Diagnostics& diagnostics, SourceSpan span) {
-    if (!diagnostics.admits(DiagnosticCode::CutModule)) {
-        return;
-    }
-    Diagnostic& diagnostic = diagnostics.add(DiagnosticCode::CutModule, span,
-                                             "`%` cuts off a branch, which this version cannot");
-    diagnostic.help.emplace_back(
-        "to end a branch, write a production that erases what should not grow: an empty successor");
-}
-
 } // namespace lsys

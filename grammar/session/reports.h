@@ -25,7 +25,6 @@ void report_literal_range(Diagnostics& diagnostics,
 /// `what` in the plural: "parentheses".
 void report_too_deep(Diagnostics& diagnostics, SourceSpan span, std::string_view what);
 void report_stray_comment(Diagnostics& diagnostics, SourceSpan slashes);
-void report_cut(Diagnostics& diagnostics, SourceSpan span);
 
 /// `text` for a message: shortened if it is long, control characters as `\x07`.
 [[nodiscard]] std::string shown(std::string_view text);

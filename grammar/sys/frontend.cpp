@@ -101,8 +101,7 @@ std::string_view recognise_sys(std::string_view text) {
                                                               : std::string_view();
 }
 
-Translation
-translate_sys(FileId root, const DialectOptions& /*options*/, const ParseContext& context) {
+Translation translate_sys(FileId root, const ParseContext& context) {
     SysSession session(root, context);
     {
         const SysScanning scanning(session, context.sources.file(root).text());

@@ -10,7 +10,6 @@
 namespace lsys {
 
 [[nodiscard]] std::string_view recognise_sys(std::string_view text);
-[[nodiscard]] Translation
-translate_sys(FileId root, const DialectOptions& options, const ParseContext& context);
+[[nodiscard]] Translation translate_sys(FileId root, const ParseContext& context);
 
 } // namespace lsys

@@ -87,13 +87,9 @@ Status dump_syntax(const DumpCommand& command, const Console& console) {
     const FileId root = sources.add(shown_path(command.file), std::move(grammar.value().bytes));
     const FileLoader load = make_loader(console);
     const ParseContext context{sources, names, diagnostics, load};
-    const std::string text =
-        command.stage == Stage::Tokens
-            ? dump_tokens(sources.file(root))
-            : dump_ast(parse_dialect(root, dialect,
-                                     {command.grammar.bug_compatible, command.grammar.system},
-                                     context),
-                       names, sources);
+    const std::string text = command.stage == Stage::Tokens
+                                 ? dump_tokens(sources.file(root))
+                                 : dump_ast(parse_dialect(root, dialect, context), names, sources);
     return worse(console.show(diagnostics, sources), write_stage(command, text, console));
 }
 

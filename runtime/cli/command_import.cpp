@@ -42,9 +42,8 @@ Status import_file(const std::string& path,
     const FileLoader load = make_loader(console);
     Grammar grammar;
     const FileId root = grammar.sources.add(shown_path(path), text.value().bytes);
-    const Translation translation =
-        translate(root, imported.dialect, {command.grammar.bug_compatible, command.grammar.system},
-                  {grammar.sources, grammar.names, grammar.diagnostics, load});
+    const Translation translation = translate(
+        root, imported.dialect, {grammar.sources, grammar.names, grammar.diagnostics, load});
     // Compiled as every other command does it, so that it says the same.
     grammar = Grammar();
     const Result<Done> compiled =

@@ -79,12 +79,6 @@ void add_grammar(CLI::App& app, GrammarOptions& options) {
         ->allow_extra_args(false)
         ->group("Grammar");
     add_dialect(app, options.dialect);
-    app.add_flag("--bug-compatible", options.bug_compatible,
-                 "Read another dialect as the program that owns it does, faults included")
-        ->group("Grammar");
-    app.add_option("--system", options.system, "Which system of a file that holds several")
-        ->type_name("NAME")
-        ->group("Grammar");
     add_parsed(app, "--max-modules", options.max_modules,
                whole(1, std::numeric_limits<std::uint64_t>::max()),
                "The most modules a word may have (default 4294967296)")

@@ -45,6 +45,9 @@ Result<Dialect> dialect_of(const std::string& path,
         return asked ? Result<Dialect>(*asked)
                      : Error{fmt::format("there is no dialect `{}`", dialect)};
     }
+    if (path.ends_with(kModuleExtension)) {
+        return unknown_dialect(path);
+    }
     if (is_module_file(bytes)) {
         return Dialect::Lsys; // which the caller tells apart
     }
@@ -129,7 +132,7 @@ Result<Done> compile_text(const std::string& path,
         grammar.included.push_back(wanted);
         return load(wanted);
     };
-    Ast ast = parse_dialect(root, text.dialect, {options.bug_compatible, options.system},
+    Ast ast = parse_dialect(root, text.dialect,
                             {grammar.sources, grammar.names, grammar.diagnostics, load_included});
     const bool foreign = text.dialect != Dialect::Lsys;
     if (foreign && grammar.diagnostics.has_errors()) {

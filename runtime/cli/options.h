@@ -29,9 +29,7 @@ struct MessageOptions {
 
 /// How a grammar is read and compiled.
 struct GrammarOptions {
-    std::string dialect;         // empty: by what the file holds, else by its extension
-    bool bug_compatible = false; // as the program that owns the dialect does it
-    std::string system;          // which one of a file that holds several; empty: the only one
+    std::string dialect; // empty: by what the file holds, else by its extension
     std::vector<Definition> definitions;
     std::optional<std::uint32_t> generations; // -n
     std::uint64_t max_modules = std::uint64_t{1} << 32;
