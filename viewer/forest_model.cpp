@@ -2,6 +2,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,8 @@ namespace {
 constexpr std::array<float, kTreeLevels> kThinnest = {0.0F, 0.0F, 0.0008F, 0.0016F};
 /// Of how many leaves a level shows one.
 constexpr std::array<std::uint32_t, kTreeLevels> kLeavesOfOne = {1, 1, 2, 4};
+/// Of all forms together, unless there are more forms.
+constexpr std::size_t kAllPortraits = 16;
 /// With fewer, all are shown.
 constexpr std::size_t kFewLeaves = 24;
 
@@ -64,18 +67,18 @@ bool find_portrait(const InstanceCache& cache,
     return false;
 }
 
-void find_portraits(TreeForm& form, std::uint64_t key) {
+void find_portraits(TreeForm& form, std::uint64_t key, std::size_t most) {
     const InstanceCache& cache = *form.cache;
     const InstanceSlot& whole = cache.slots[0];
     form.portrait_of.assign(cache.instances.size(), 0);
     for (std::uint32_t v = 0; v < whole.variant_count; ++v) {
         const std::uint32_t instance = cache.variants[whole.first_variant + v];
         Tree tree;
-        if (form.portraits.size() < kMostPortraits && find_portrait(cache, key, instance, tree)) {
+        if (form.portraits.size() < most && find_portrait(cache, key, instance, tree)) {
             form.portrait_of[instance] = static_cast<std::uint32_t>(form.portraits.size());
             form.portraits.push_back(tree);
         } else {
-            form.portrait_of[instance] = v % kMostPortraits;
+            form.portrait_of[instance] = static_cast<std::uint32_t>(v % most);
         }
     }
     for (std::uint32_t& portrait : form.portrait_of) {
@@ -83,31 +86,38 @@ void find_portraits(TreeForm& form, std::uint64_t key) {
     }
 }
 
-/// The cylinder about the portraits, and what is drawn of them.
-void measure_portraits(TreeForm& form, std::uint64_t key, const std::vector<Bounds>& bounds) {
+/// The cylinder about the portraits, and how many branches they have. `seen`: the surface of what a
+/// tree is drawn of.
+void measure_portraits(TreeForm& form, std::uint64_t key, const InstanceMeshes& seen) {
+    const LargeVector<std::uint32_t> indices = seen.mesh.indices.expanded();
+    const LargeVector<glm::vec3>& positions = seen.mesh.positions;
     TreeExpander expander(*form.cache, key);
     const auto count = static_cast<double>(form.portraits.size());
+    float radius2 = 0.0F;
     for (const Tree& tree : form.portraits) {
         expander.expand(tree, [&](const BranchInstance& branch) {
             form.branches += 1.0 / count;
-            const Bounds& box = bounds[branch.instance];
-            for (unsigned corner = 0; corner < 8 && !box.empty; ++corner) {
-                const glm::vec3 from = {(corner & 1U) != 0 ? box.high.x : box.low.x,
-                                        (corner & 2U) != 0 ? box.high.y : box.low.y,
-                                        (corner & 4U) != 0 ? box.high.z : box.low.z};
-                const glm::vec3 at = branch.position + branch.rotation * (branch.scale * from);
-                form.radius = std::max(form.radius, std::hypot(at.x, at.z));
-                form.low = std::min(form.low, at.y);
-                form.high = std::max(form.high, at.y);
+            const InstancePose pose = pose_of(branch, form.cache->instances[branch.instance]);
+            const glm::mat3 turn = pose.scale * glm::mat3_cast(pose.rotation);
+            for (const MeshPart& part : seen.parts_of(branch.instance)) {
+                for (std::uint64_t i = 0; i < part.index_count; ++i) {
+                    const glm::vec3 at =
+                        turn * positions[indices[part.first_index + i]] + pose.translation;
+                    radius2 = std::max(radius2, at.x * at.x + at.z * at.z);
+                    form.low = std::min(form.low, at.y);
+                    form.high = std::max(form.high, at.y);
+                }
             }
         });
     }
+    form.radius = std::sqrt(radius2);
 }
 
 InstanceMeshStatus make_form(const InstanceCache& cache,
                              std::uint64_t key,
                              const std::vector<UserMesh>& user_meshes,
                              const MeshOptions& options,
+                             std::size_t most_portraits,
                              TreeForm& form) {
     form.cache = &cache;
     MeshOptions level_options = options;
@@ -118,10 +128,10 @@ InstanceMeshStatus make_form(const InstanceCache& cache,
     if (status != InstanceMeshStatus::Ok) {
         return status;
     }
-    find_portraits(form, key);
+    find_portraits(form, key, most_portraits);
     const std::vector<Bounds> bounds = bounds_of(cache, form.levels[0]);
     form.reach = reaches_of(cache, bounds)[0];
-    measure_portraits(form, key, bounds);
+    measure_portraits(form, key, form.levels[0]);
     for (std::uint32_t level = 1; level < kTreeLevels; ++level) {
         level_options.level = options.level + level;
         status = make_instance_meshes(coarsened(cache, level, form.height()), user_meshes,
@@ -269,11 +279,18 @@ InstanceMeshStatus make_forest_model(const Forest& forest,
     model = {};
     model.forest = &forest;
     model.terrain = &terrain;
+    std::size_t forms = 0;
+    for (const ForestSpecies& species : forest.species) {
+        forms += species.stages.size();
+    }
+    const std::size_t most_portraits =
+        std::clamp<std::size_t>(kAllPortraits / std::max<std::size_t>(forms, 1), 1, kMostPortraits);
     for (std::size_t s = 0; s < forest.species.size(); ++s) {
         model.first_form.push_back(static_cast<std::uint32_t>(model.forms.size()));
         for (const ForestStage& stage : forest.species[s].stages) {
-            const InstanceMeshStatus status = make_form(stage.cache, forest.key, user_meshes[s],
-                                                        options, model.forms.emplace_back());
+            const InstanceMeshStatus status =
+                make_form(stage.cache, forest.key, user_meshes[s], options, most_portraits,
+                          model.forms.emplace_back());
             if (status != InstanceMeshStatus::Ok) {
                 return status;
             }

@@ -13,7 +13,7 @@ namespace lsys::view {
 namespace {
 
 constexpr double kTreesOfCell = 16.0;
-constexpr std::uint32_t kFewTrees = 4; // a cell of fewer is never drawn as one
+constexpr std::uint32_t kFewTrees = 8; // a cell of fewer is never drawn as one
 constexpr std::uint32_t kTurnsKept = 32;
 constexpr float kDetailStep = 0.87F;
 constexpr float kNearest = 0.1F; // m: distances below count as this
@@ -123,6 +123,7 @@ void ForestView::sort_into_cells() {
     for (ForestCell& cell : cells_) {
         Bounds box;
         std::fill(of_form.begin(), of_form.end(), 0);
+        glm::dvec4 total(0.0);
         for (std::uint32_t i = 0; i < cell.count; ++i) {
             const ViewTree& tree = trees_[cell.first + i];
             const Ball reach = reach_of(tree);
@@ -133,7 +134,11 @@ void ForestView::sort_into_cells() {
             }
             cell.tallest = std::max(cell.tallest, tree.scale * model_.forms[tree.form].height());
             ++of_form[tree.form];
+            total += glm::dvec4(glm::dvec3(tree.position), static_cast<double>(tree.scale));
         }
+        total /= std::max(static_cast<double>(cell.count), 1.0);
+        cell.middle = glm::vec3(total);
+        cell.scale = static_cast<float>(total.w);
         cell.low = box.low;
         cell.high = box.high;
         cell.form = static_cast<std::uint16_t>(std::max_element(of_form.begin(), of_form.end()) -
@@ -284,7 +289,7 @@ void ForestView::list_branches(const RingOptions& options) {
                 mesh_counts_[mesh] = first; // where its list goes on
                 if (count != 0) {
                     lists_.runs.push_back({f, level, i, first, count});
-                    lists_.triangles += count * form.mesh_triangles[level][i];
+                    lists_.triangles += std::uint64_t{count} * form.mesh_triangles[level][i];
                     first += count;
                 }
             }

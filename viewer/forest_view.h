@@ -46,7 +46,7 @@ struct RingOptions {
     /// Heights of a tree in pixels from which on it is drawn as each level of branches.
     std::array<float, kTreeLevels> level_pixels{860.0F, 430.0F, 260.0F, 150.0F};
     /// Below this, cells are drawn as one.
-    float horizon_pixels = 10.0F;
+    float horizon_pixels = 8.0F; // 0: never
     /// Of branches; with more, all trees count as smaller than they are.
     std::uint64_t most_triangles = 1'500'000;
     /// Trees whose branches are made for one picture; others have to wait, as impostors.
@@ -99,6 +99,8 @@ struct ForestCell {
     std::uint32_t count = 0;
     glm::vec3 low{}; // around its trees, radii included
     glm::vec3 high{};
+    glm::vec3 middle{};     // mean of its trees' places
+    float scale = 1.0F;     // mean of theirs
     float tallest = 0.0F;   // m
     std::uint16_t form = 0; // that most of its trees are of
 };

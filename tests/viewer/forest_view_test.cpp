@@ -1,7 +1,6 @@
 // Which trees are drawn as what, beside the same found one by one.
 #include "tests/support/forest.h"
-#include "viewer/forest_model.h"
-#include "viewer/forest_view.h"
+#include "viewer/portrait_plan.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -21,7 +20,7 @@ using namespace lsys::view;
 
 namespace {
 
-const char* const kBush = R"(#set names letters; #set angle 25; #w : A;
+constexpr const char* kBush = R"(#set names letters; #set angle 25; #w : A;
 #p : A : ~ 0.5 : F[+A][-A]/A; #q : A : ~ 0.3 : F[+A]//A; #r : A : ~ 0.2 : FF[&A]F;)";
 
 /// Trees of one species on a square of level ground.
@@ -291,6 +290,26 @@ TEST_CASE("coarser levels have fewer triangles, and leave the finest as it is") 
         CHECK(same.skeleton.segments[i].base_radius ==
               form.cache->skeleton.segments[i].base_radius);
     }
+}
+
+TEST_CASE("portraits are of every hero, and cells of a form's trees fill their square") {
+    const auto wood = make_wood(3000, 200.0F);
+    const ForestView view(wood->model);
+    const PortraitPlan plan = plan_portraits(view);
+    REQUIRE(plan.has_cells);
+    REQUIRE(plan.forms.size() == 2);
+    const TreeForm& form = wood->model.forms[0];
+    CHECK(form.portraits.size() == kMostPortraits);
+    REQUIRE(plan.layers.size() == kMostPortraits + 1);
+    CHECK(plan.forms[1].first_layer == kMostPortraits);
+    const std::vector<Tree>& cell = plan.layers.back().trees;
+    CHECK(cell.size() == 16);
+    for (const Tree& tree : cell) {
+        CHECK(std::hypot(tree.position.x, tree.position.z) + form.radius <=
+              plan.forms[1].cylinder.radius);
+    }
+    const auto grove = make_wood(100, 40.0F);
+    CHECK_FALSE(plan_portraits(ForestView(grove->model)).has_cells);
 }
 
 TEST_CASE("a forest without trees lists nothing") {

@@ -23,6 +23,11 @@ std::string stored(const std::string& name) {
     return LSYS_SOURCE_DIR "/tests/viewer/pictures/" + name + ".png";
 }
 
+/// The path of a sample's scene.
+std::string scene(const std::string& name) {
+    return LSYS_SOURCE_DIR "/samples/scenes/" + name + "/" + name + ".toml";
+}
+
 /// What lsview draws for `arguments`, as the bytes of a PNG.
 std::string drawn(std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--screenshot", "-"});
@@ -70,6 +75,63 @@ TEST_CASE("plants look as they did") {
          {sample("carey-type-0"), "--camera", "eye 2,1.2,2 target 0,1.5,0 fov 60", "--bark-noise",
           "0.3"}},
     })));
+}
+
+TEST_CASE("forests look as they did") {
+    const std::string ten_thousand = LSYS_SOURCE_DIR "/tests/bench/view-forest.toml";
+    compare(GENERATE_COPY(values<Scene>({
+        {"mixed-forest",
+         {scene("mixed-forest"), "--camera", "eye -10,40,-20 target 110,5,110", "--triangles",
+          "300000"}},
+        {"mixed-forest-inside",
+         {scene("mixed-forest"), "--camera", "eye 120,20,120 target 60,20,60 fov 60"}},
+        {"pine-wood", {scene("pine-wood"), "--camera", "eye 60,0,110 target 60,3,60 fov 60"}},
+        {"pine-wood-above", {scene("pine-wood")}},
+        {"meadow", {scene("meadow"), "--camera", "eye 30,0,30 target 36,-0.4,36 fov 60"}},
+        {"ten-thousand",
+         {ten_thousand, "--camera", "eye 350,0,350 target 290,0,290 fov 60", "--triangles",
+          "300000"}},
+        {"ten-thousand-above", {ten_thousand, "--camera", "eye 350,60,350 target 50,0,50 fov 60"}},
+        {"ground", {ten_thousand, "--count", "1", "--camera", "eye 350,40,350 target 290,20,290"}},
+        {"wind-0",
+         {scene("mixed-forest"), "--camera", "eye 120,20,120 target 110,23,110 fov 60", "--wind",
+          "12,0,0,0.5"}},
+        {"wind-1",
+         {scene("mixed-forest"), "--camera", "eye 120,20,120 target 110,23,110 fov 60", "--wind",
+          "12,0,0,0.5", "--time", "1.4"}},
+    })));
+}
+
+TEST_CASE("the counts of a forest are told, and the same every run") {
+    const std::vector<std::string> arguments = {
+        LSYS_SOURCE_DIR "/tests/bench/view-forest.toml", "--count", "4000",   "--camera",
+        "eye 350,0,350 target 290,0,290 fov 60",         "--size",  "160x90", "--screenshot"};
+    const ScratchFolder folder;
+    std::vector<std::string> first = arguments;
+    first.insert(first.end(), {folder / "a.png", "--frames", "2", "--stats", "-"});
+    const LscRun run = run_lsview(first);
+    CAPTURE(run.err);
+    REQUIRE(run.status == 0);
+    CHECK(read_text(folder / "a.0001.png") == read_text(folder / "a.0002.png"));
+    const nlohmann::json stats = nlohmann::json::parse(run.out);
+    CHECK(stats["trees"] == 4000);
+    CHECK(stats["errors"].empty());
+    CHECK(stats["draws"] <= 10);
+    CHECK(stats["passes"]["shadow"]["draws"] == 1); // of two pictures
+    CHECK(stats["passes"]["impostors"]["triangles"] > 0);
+    CHECK(stats["passes"]["terrain"]["triangles"] > 0);
+    CHECK(stats["trees_drawn"]["impostors"] > 0);
+    CHECK(stats["trees_drawn"]["in_cells"] > 0);
+    // What a run leaves out, it does not draw.
+    std::vector<std::string> second = arguments;
+    second.insert(second.end(), {folder / "b.png", "--triangles", "0", "--no-shadows", "--samples",
+                                 "1", "--stats", "-"});
+    const LscRun bare = run_lsview(second);
+    REQUIRE(bare.status == 0);
+    const nlohmann::json less = nlohmann::json::parse(bare.out);
+    CHECK(less["passes"]["branches"]["triangles"] == 0);
+    CHECK(less["passes"]["shadow"]["draws"] == 0);
+    CHECK(less["trees_expanded"] == 0);
 }
 
 TEST_CASE("the same picture every run, and of any stripes") {
@@ -151,6 +213,14 @@ TEST_CASE("what cannot be shown ends with a message") {
         {{sample("abop-1-24a"), "--screenshot", "-", "--frames", "2"}, 2, "standard output"},
         {{sample("abop-1-24a"), "--screenshot", "-", "--shaders", folder / "none"}, 2, "no shader"},
         {{sample("abop-1-24a"), "--screenshot", folder / "no/such.png"}, 2, "such.png"},
+        {{scene("meadow"), "--screenshot", "-", "--gravity", "9.81"}, 2, "not a forest"},
+        {{scene("meadow"), "--count", "10"}, 2, "shown as pictures"},
+        {{scene("meadow"), sample("abop-1-24a"), "--screenshot", "-"}, 2, "stands alone"},
+        {{folder / "none.toml", "--screenshot", "-"}, 2, "none.toml"},
+        {{sample("sys-figure-1"), "--count", "9", "--method", "boxes", "--screenshot", "-"},
+         2,
+         "--method boxes"},
+        {{scene("meadow"), "--screenshot", "-", "--samples", "2"}, 2, "neither 1 nor 4"},
         {{sample("abop-1-24a"), "--screenshto", "-"}, 2, "did you mean `--screenshot`?"},
     };
     for (const Mistake& mistake : mistakes) {

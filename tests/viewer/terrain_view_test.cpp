@@ -1,4 +1,6 @@
 // Patches and heights of the ground that is drawn, beside the terrain itself.
+#include "viewer/gl/headless.h"
+#include "viewer/gl/terrain_pass.h"
 #include "viewer/terrain_view.h"
 
 #include <catch2/catch.hpp>
@@ -170,4 +172,30 @@ TEST_CASE("the ground is the same wherever the camera was before") {
     // A step of the camera leaves the heights as they are.
     used.select(volume);
     CHECK(used.changed().empty());
+}
+
+TEST_CASE("the device has the heights of the terrain") {
+    const Terrain terrain = hills();
+    const auto context = Headless::make();
+    REQUIRE(context);
+    Device device;
+    TerrainPass pass(device);
+    pass.show(terrain, 3000.0F);
+    pass.prepare(view_volume(cameras()[0], 1280, 720));
+    pass.prepare(view_volume(cameras()[1], 1280, 720));
+    for (std::uint32_t level = 0; level < pass.view()->levels(); ++level) {
+        const HeightGrid& grid = pass.view()->grid(level);
+        if (!grid.there) {
+            continue;
+        }
+        const std::vector<float> heights = pass.read_heights(level);
+        for (std::size_t i = 0; i < heights.size(); i += 101) {
+            const auto column = static_cast<std::int32_t>(i % kHeightTexels);
+            const auto row = static_cast<std::int32_t>(i / kHeightTexels);
+            const float x = static_cast<float>(grid.origin.x + column) * TerrainView::cell(level);
+            const float z = static_cast<float>(grid.origin.y + row) * TerrainView::cell(level);
+            REQUIRE(std::abs(heights[i] - terrain.height(x, z)) < 0.001F);
+        }
+    }
+    CHECK(device.errors().empty());
 }

@@ -100,8 +100,8 @@ Light forest_light(const ForestDocument& document) {
     const Region& region = document.grown.terrain->region();
     const auto across = static_cast<float>(std::hypot(region.width, region.depth));
     Light light;
-    light.extinction = 0.8F / std::max(across, 1200.0F);
-    light.exposure = 0.85F;
+    light.extinction = 0.6F / std::max(across, 1500.0F);
+    light.exposure = 0.68F;
     return light;
 }
 

@@ -76,8 +76,11 @@ std::vector<std::uint16_t> add_looks(const std::vector<Material>& materials,
         Look look;
         look.colour = material.colour;
         look.kind[0] = material.textured ? 1 : 0;
-        look.kind[1] =
-            material.kind == MaterialKind::Leaf || material.kind == MaterialKind::Flower ? 1 : 0;
+        // Leaves, petals, and meshes of files that are seen from both sides: most are leaves.
+        look.kind[1] = material.two_sided || material.kind == MaterialKind::Leaf ||
+                               material.kind == MaterialKind::Flower
+                           ? 1
+                           : 0;
         const auto same = std::find_if(looks.begin(), looks.end(), [&](const Look& other) {
             return other.colour == look.colour && other.kind == look.kind;
         });
@@ -93,7 +96,7 @@ std::vector<std::uint16_t> add_looks(const std::vector<Material>& materials,
 
 ForestBuffers::ForestBuffers(Device& device)
     : array_(make_vertex_array(device)), vertices_(device), indices_(device), looks_(device),
-      forms_(device), trees_(device), branches_(device),
+      forms_(device), trees_(device), cells_(device), branches_(device),
       lists_(device), commands_{Buffer(device), Buffer(device), Buffer(device)} {
     const GLuint array = array_.name();
     for (GLuint i = 0; i <= kBranchAttribute; ++i) {
@@ -109,12 +112,12 @@ ForestBuffers::ForestBuffers(Device& device)
     glVertexArrayBindingDivisor(array, 1, 1);
 }
 
-void ForestBuffers::upload(ForestModel& model) {
+void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
     std::vector<Look> looks;
     std::vector<FormRecord> forms;
     std::uint64_t vertex_count = 0;
     std::uint64_t index_count = 0;
-    std::uint32_t layer = 0;
+    std::vector<float> boxes;
     for (const TreeForm& form : model.forms) {
         float box = 1e-6F;
         for (const InstanceMeshes& level : form.levels) {
@@ -125,9 +128,13 @@ void ForestBuffers::upload(ForestModel& model) {
                 box = std::max({box, size.x, size.y, size.z});
             }
         }
-        forms.push_back({{form.radius, form.low, form.high, box},
-                         {static_cast<float>(layer), 0.0F, 0.0F, 0.0F}});
-        layer += static_cast<std::uint32_t>(form.portraits.size());
+        boxes.push_back(box);
+    }
+    for (std::size_t f = 0; f < plan.forms.size(); ++f) {
+        const PictureForm& form = plan.forms[f];
+        forms.push_back(
+            {{form.cylinder.radius, form.cylinder.low, form.cylinder.high, boxes[f % boxes.size()]},
+             {static_cast<float>(form.first_layer), 0.0F, 0.0F, 0.0F}});
     }
     vertices_.reserve(vertex_count * sizeof(Vertex));
     indices_.reserve(index_count * sizeof(std::uint32_t));
@@ -148,7 +155,7 @@ void ForestBuffers::upload(ForestModel& model) {
             level.base_vertex = static_cast<std::int32_t>(first_vertex);
             packed.assign(mesh.positions.size(), {});
             for (std::size_t v = 0; v < packed.size(); ++v) {
-                const glm::vec3 at = mesh.positions[v] / forms[f].cylinder.w;
+                const glm::vec3 at = mesh.positions[v] / boxes[f];
                 packed[v].position = {snorm16(at.x), snorm16(at.y), snorm16(at.z)};
                 packed[v].normal = folded(mesh.normals[v]);
                 if (!mesh.texture_coordinates.empty()) {
@@ -212,6 +219,19 @@ void ForestBuffers::upload_trees(const ForestView& view) {
         }
         trees_.write(std::span<const TreeRecord>(records), first * sizeof(TreeRecord));
     }
+    const auto forms = static_cast<std::uint32_t>(view.model().forms.size());
+    records.clear();
+    for (const ForestCell& cell : view.cells()) {
+        const auto number = static_cast<std::uint32_t>(records.size());
+        // Turned by quarters, so that squares stay squares.
+        const std::uint32_t yaw = number * 0x9E3779B1U >> 30U << 14U;
+        records.push_back({cell.middle, cell.scale, yaw, forms + cell.form});
+    }
+    cells_.fill(std::span<const TreeRecord>(records));
+}
+
+void ForestBuffers::bind_cells() const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, cells_.name());
 }
 
 void ForestBuffers::set_form_trees(std::uint32_t forms) {

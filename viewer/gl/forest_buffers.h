@@ -4,6 +4,7 @@
 
 #include "viewer/forest_view.h"
 #include "viewer/gl/objects.h"
+#include "viewer/portrait_plan.h"
 
 #include <glm/vec4.hpp>
 
@@ -35,8 +36,9 @@ class ForestBuffers {
 public:
     explicit ForestBuffers(Device& device);
 
-    /// Takes the meshes out of the model. `first_layer`: of each form's portraits.
-    void upload(ForestModel& model);
+    /// Takes the meshes out of the model.
+    void upload(ForestModel& model, const PortraitPlan& plan);
+    /// With the cells as trees of the forms that stand for them.
     void upload_trees(const ForestView& view);
     /// Puts branches that the pool has written where shaders find them.
     void upload_branches(BranchPool& pool);
@@ -50,9 +52,11 @@ public:
     /// With a program of branch.*.glsl bound; returns draws.
     std::uint64_t draw(BranchClass kind) const;
     void bind_storage() const;
+    /// After bind_storage(): numbers of trees are those of cells from now on.
+    void bind_cells() const;
 
     [[nodiscard]] std::uint64_t mesh_bytes() const { return mesh_bytes_; }
-    [[nodiscard]] std::uint64_t tree_bytes() const { return trees_.capacity(); }
+    [[nodiscard]] std::uint64_t tree_bytes() const { return trees_.capacity() + cells_.capacity(); }
     [[nodiscard]] std::uint64_t branch_bytes() const { return branches_.capacity(); }
     [[nodiscard]] GLuint index_list() const { return lists_.name(); }
 
@@ -73,6 +77,7 @@ private:
     Buffer looks_;
     Buffer forms_;
     Buffer trees_;
+    Buffer cells_;
     Buffer branches_;
     Buffer lists_;
     std::array<Buffer, kBranchClasses> commands_;

@@ -50,11 +50,12 @@ Result<Done> ForestPass::reload(const ShaderSource& shaders) {
         const char* fragment;
         const char* defines;
     };
-    constexpr std::array<Wanted, 4> kWanted = {
+    constexpr std::array<Wanted, 5> kWanted = {
         {{&Programs::solid, "branch.vert.glsl", "branch.frag.glsl", "#define ONE_TAP\n"},
          {&Programs::cut_out, "branch.vert.glsl", "branch.frag.glsl",
           "#define ONE_TAP\n#define CUT_OUT\n"},
          {&Programs::impostor, "impostor.vert.glsl", "impostor.frag.glsl", "#define ONE_TAP\n"},
+         {&Programs::impostor_depth, "impostor.vert.glsl", "impostor.frag.glsl", "#define DEPTH\n"},
          {&Programs::impostor_shadow, "impostor.vert.glsl", "impostor.frag.glsl",
           "#define SHADOW\n"}}};
     Programs programs;
@@ -81,13 +82,15 @@ void ForestPass::show(ForestModel model, MaterialTextures& textures) {
     lists_ = nullptr;
     view_.reset();
     model_ = std::move(model);
-    buffers_.upload(model_);
+    view_ = std::make_unique<ForestView>(model_);
+    const PortraitPlan plan = plan_portraits(*view_);
+    has_cells_ = plan.has_cells;
+    buffers_.upload(model_, plan);
     upload_seconds_ = seconds_since(start);
     start = Clock::now();
-    portraits_.make(model_, buffers_, textures);
+    portraits_.make(model_, plan, buffers_, textures);
     bake_seconds_ = seconds_since(start);
     start = Clock::now();
-    view_ = std::make_unique<ForestView>(model_);
     buffers_.upload_trees(*view_);
     const Region& region = model_.terrain->region();
     terrain_.show(*model_.terrain,
@@ -134,25 +137,40 @@ void ForestPass::prepare(const Frame& frame) {
     RingOptions rings;
     rings.most_triangles = frame.most_triangles;
     rings.most_expansions = frame.most_expansions;
+    rings.horizon_pixels = has_cells_ ? rings.horizon_pixels : 0.0F;
     lists_ = &view_->select(volume_, rings);
     cull_seconds_ = seconds_since(start);
     buffers_.upload_branches(view_->pool());
     buffers_.command(*lists_);
+    terrain_.prepare(volume_);
 }
 
-std::uint64_t ForestPass::draw_impostors(const ProgramObject& program,
-                                         std::span<const std::uint32_t> trees) {
+void ForestPass::draw_impostors(std::span<const std::uint32_t> trees, FrameStats& stats) {
     if (trees.empty()) {
-        return 0;
+        return;
     }
     quad_trees_.fill(trees);
+    // Most of a quad is empty, and light is the dear part: it is looked for only where a tree is
+    // seen. A software renderer does not skip what comes after a texel was discarded.
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    draw_quads(programs_.impostor_depth, trees.size());
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthFunc(GL_EQUAL);
+    glDepthMask(GL_FALSE);
+    draw_quads(programs_.impostor, trees.size());
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_GEQUAL);
+    stats.draws += 2;
+    stats.triangles += 4 * trees.size();
+}
+
+void ForestPass::draw_quads(const ProgramObject& program, std::size_t count) {
     glVertexArrayVertexBuffer(quads_.name(), 0, quad_trees_.name(), 0, sizeof(std::uint32_t));
     glUseProgram(program.name());
     glBindTextureUnit(kAlbedos, portraits_.albedos());
     glBindTextureUnit(kNormals, portraits_.normals());
     glBindVertexArray(quads_.name());
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(trees.size()));
-    return 1;
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count));
 }
 
 void ForestPass::draw_shadows(const Bounds& lit, ForestFrameStats& stats) {
@@ -160,8 +178,12 @@ void ForestPass::draw_shadows(const Bounds& lit, ForestFrameStats& stats) {
     view_->find_within(lit, trees);
     buffers_.bind_storage();
     glDisable(GL_CULL_FACE);
-    stats.shadow.draws += draw_impostors(programs_.impostor_shadow, trees);
-    stats.shadow.triangles += 2 * trees.size();
+    if (!trees.empty()) {
+        quad_trees_.fill(std::span<const std::uint32_t>(trees));
+        draw_quads(programs_.impostor_shadow, trees.size());
+        ++stats.shadow.draws;
+        stats.shadow.triangles += 2 * trees.size();
+    }
 }
 
 void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
@@ -175,9 +197,13 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     stats.branches.draws += buffers_.draw(BranchClass::CutOut);
     stats.branches.triangles += lists_->triangles;
     glDisable(GL_CULL_FACE);
-    stats.impostors.draws += draw_impostors(programs_.impostor, lists_->trees);
-    stats.impostors.triangles += 2 * lists_->trees.size();
-    const FrameStats ground = terrain_.draw(volume_);
+    draw_impostors(lists_->trees, stats.impostors);
+    if (!lists_->clumps.empty()) {
+        buffers_.bind_cells();
+        draw_impostors(lists_->clumps, stats.impostors);
+        buffers_.bind_storage();
+    }
+    const FrameStats ground = terrain_.draw();
     stats.terrain.draws += ground.draws;
     stats.terrain.triangles += ground.triangles;
     stats.trees_of_level = lists_->trees_of_level;

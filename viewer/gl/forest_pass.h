@@ -1,5 +1,5 @@
 // ForestPass: draws a forest: branches of trees that are near, pictures of those that are far, the
-// ground, and the shadows of all of them. About six draws for any number of trees.
+// ground, and the shadows of all of them. At most nine draws for any number of trees.
 #pragma once
 
 #include "grammar/result.h"
@@ -44,11 +44,14 @@ private:
         ProgramObject solid;
         ProgramObject cut_out;
         ProgramObject impostor;
+        ProgramObject impostor_depth;
         ProgramObject impostor_shadow;
     };
 
-    std::uint64_t draw_impostors(const ProgramObject& program,
-                                 std::span<const std::uint32_t> trees);
+    /// The pictures of trees, or of cells.
+    void draw_impostors(std::span<const std::uint32_t> trees, FrameStats& stats);
+    /// Quads of what quad_trees_ holds.
+    void draw_quads(const ProgramObject& program, std::size_t count);
 
     Device* device_;
     Programs programs_;
@@ -61,6 +64,7 @@ private:
     Buffer quad_trees_;
     ViewVolume volume_;
     const ForestLists* lists_ = nullptr;
+    bool has_cells_ = false; // as pictures of their own, for the horizon
     double bake_seconds_ = 0.0;
     double upload_seconds_ = 0.0;
     double cull_seconds_ = 0.0;

@@ -23,24 +23,13 @@ constexpr std::uint32_t kHeight = Portraits::kElevations * Portraits::kTile;
 constexpr GLsizei kLevels = 6; // the last tile has 4 texels a side
 constexpr float kMargin = 1.04F;
 constexpr std::array<float, Portraits::kElevations> kElevation = {0.0F, 0.6108652F, 1.3089969F};
-/// The finest level of branches that portraits are drawn of, while it has at most so many
-/// triangles.
-constexpr std::uint32_t kFinestLevel = 1;
-constexpr double kMostTriangles = 14'000.0;
 constexpr GLint kMiddle = 2;
 constexpr GLint kToEye = 3;
 constexpr std::uint8_t kOpaque = 128;
 
-struct Picture {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    std::vector<std::uint8_t> albedos; // RGBA
-    std::vector<std::uint8_t> normals;
-};
-
 /// Half the size. What is there counts by its opacity.
-Picture halved(const Picture& from) {
-    Picture half{from.width / 2, from.height / 2, {}, {}};
+PortraitPicture halved(const PortraitPicture& from) {
+    PortraitPicture half{from.width / 2, from.height / 2, {}, {}};
     half.albedos.resize(std::size_t{4} * half.width * half.height);
     half.normals.resize(half.albedos.size());
     for (std::uint32_t y = 0; y < half.height; ++y) {
@@ -74,7 +63,7 @@ Picture halved(const Picture& from) {
 }
 
 /// Gives texels that are empty the colour of those beside them, so that filters find one there.
-void spread(Picture& picture, std::uint32_t rounds) {
+void spread(PortraitPicture& picture, std::uint32_t rounds) {
     std::vector<std::uint8_t> known(std::size_t{picture.width} * picture.height);
     for (std::size_t i = 0; i < known.size(); ++i) {
         known[i] = picture.albedos[4 * i + 3] != 0 ? 1 : 0;
@@ -111,7 +100,7 @@ void spread(Picture& picture, std::uint32_t rounds) {
 
 /// The opacities of a picture, multiplied so that the part of it that is there is `wanted`, or
 /// trees would thin out with the distance (Castano 2010, "Computing Alpha Mipmaps").
-std::vector<std::uint8_t> with_coverage(const Picture& picture, double wanted) {
+std::vector<std::uint8_t> with_coverage(const PortraitPicture& picture, double wanted) {
     std::array<std::size_t, 256> counts{};
     const std::size_t texels = picture.albedos.size() / 4;
     for (std::size_t i = 0; i < texels; ++i) {
@@ -133,7 +122,7 @@ std::vector<std::uint8_t> with_coverage(const Picture& picture, double wanted) {
     return scaled;
 }
 
-double coverage_of(const Picture& picture) {
+double coverage_of(const PortraitPicture& picture) {
     double sum = 0.0;
     for (std::size_t i = 3; i < picture.albedos.size(); i += 4) {
         sum += static_cast<double>(picture.albedos[i]) / 255.0;
@@ -181,55 +170,49 @@ Result<Done> Portraits::reload(const ShaderSource& shaders) {
     return Done{};
 }
 
-void Portraits::draw_layer(const TreeForm& form,
-                           const ForestBuffers& buffers,
-                           Buffer& frame) const {
-    const float half_height = 0.5F * form.height();
+void Portraits::draw_row(const Cylinder& form,
+                         std::uint32_t e,
+                         const ForestBuffers& buffers,
+                         Buffer& frame) const {
+    const float half_height = 0.5F * (form.high - form.low);
     const glm::vec3 middle(0.0F, 0.5F * (form.low + form.high), 0.0F);
     const float deep = kMargin * std::hypot(form.radius, half_height);
-    for (std::uint32_t e = 0; e < kElevations; ++e) {
-        const float wide = kMargin * form.radius;
-        const float high = kMargin * (half_height * std::cos(kElevation[e]) +
-                                      form.radius * std::sin(kElevation[e]));
-        for (std::uint32_t y = 0; y < kYaws; ++y) {
-            const float yaw = 2.0F * std::numbers::pi_v<float> * static_cast<float>(y) /
-                              static_cast<float>(kYaws);
-            const glm::vec3 to_eye(std::sin(yaw) * std::cos(kElevation[e]), std::sin(kElevation[e]),
-                                   std::cos(yaw) * std::cos(kElevation[e]));
-            const glm::vec3 right(std::cos(yaw), 0.0F, -std::sin(yaw));
-            const glm::vec3 up = glm::cross(to_eye, right);
-            FrameBlock block;
-            glm::mat4& matrix = block.view_projection;
-            for (glm::length_t c = 0; c < 3; ++c) {
-                matrix[c] = {right[c] / wide, up[c] / high, 0.5F * to_eye[c] / deep, 0.0F};
-            }
-            matrix[3] = {-glm::dot(right, middle) / wide, -glm::dot(up, middle) / high,
-                         0.5F - 0.5F * glm::dot(to_eye, middle) / deep, 1.0F};
-            frame.fill(std::span<const FrameBlock>(&block, 1));
-            glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame.name());
-            glViewport(static_cast<GLint>(y * kTile * kFiner),
-                       static_cast<GLint>(e * kTile * kFiner), static_cast<GLsizei>(kTile * kFiner),
-                       static_cast<GLsizei>(kTile * kFiner));
-            for (const ProgramObject* program : {&solid_, &cut_out_}) {
-                glUseProgram(program->name());
-                glUniform4f(kMiddle, middle.x, middle.y, middle.z, deep);
-                glUniform3f(kToEye, to_eye.x, to_eye.y, to_eye.z);
-                if (program == &cut_out_) {
-                    buffers.draw(BranchClass::CutOut);
-                } else {
-                    buffers.draw(BranchClass::OneSided);
-                    buffers.draw(BranchClass::TwoSided);
-                }
+    const float wide = kMargin * form.radius;
+    const float high =
+        kMargin * (half_height * std::cos(kElevation[e]) + form.radius * std::sin(kElevation[e]));
+    for (std::uint32_t y = 0; y < kYaws; ++y) {
+        const float yaw =
+            2.0F * std::numbers::pi_v<float> * static_cast<float>(y) / static_cast<float>(kYaws);
+        const glm::vec3 to_eye(std::sin(yaw) * std::cos(kElevation[e]), std::sin(kElevation[e]),
+                               std::cos(yaw) * std::cos(kElevation[e]));
+        const glm::vec3 right(std::cos(yaw), 0.0F, -std::sin(yaw));
+        const glm::vec3 up = glm::cross(to_eye, right);
+        FrameBlock block;
+        glm::mat4& matrix = block.view_projection;
+        for (glm::length_t c = 0; c < 3; ++c) {
+            matrix[c] = {right[c] / wide, up[c] / high, 0.5F * to_eye[c] / deep, 0.0F};
+        }
+        matrix[3] = {-glm::dot(right, middle) / wide, -glm::dot(up, middle) / high,
+                     0.5F - 0.5F * glm::dot(to_eye, middle) / deep, 1.0F};
+        frame.fill(std::span<const FrameBlock>(&block, 1));
+        glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame.name());
+        glViewport(static_cast<GLint>(y * kTile * kFiner), 0, static_cast<GLsizei>(kTile * kFiner),
+                   static_cast<GLsizei>(kTile * kFiner));
+        for (const ProgramObject* program : {&solid_, &cut_out_}) {
+            glUseProgram(program->name());
+            glUniform4f(kMiddle, middle.x, middle.y, middle.z, deep);
+            glUniform3f(kToEye, to_eye.x, to_eye.y, to_eye.z);
+            if (program == &cut_out_) {
+                buffers.draw(BranchClass::CutOut);
+            } else {
+                buffers.draw(BranchClass::OneSided);
+                buffers.draw(BranchClass::TwoSided);
             }
         }
     }
 }
 
-void Portraits::upload_layer(std::uint32_t layer,
-                             std::vector<std::uint8_t>& albedos,
-                             std::vector<std::uint8_t>& normals) {
-    Picture picture{kWidth * kFiner, kHeight * kFiner, std::move(albedos), std::move(normals)};
-    picture = halved(picture);
+void Portraits::upload_layer(std::uint32_t layer, PortraitPicture picture) {
     const double wanted = coverage_of(picture);
     for (GLint level = 0; level < kLevels; ++level) {
         spread(picture, 2);
@@ -243,16 +226,13 @@ void Portraits::upload_layer(std::uint32_t layer,
         device_->add_upload(scaled.size() + picture.normals.size());
         picture = halved(picture);
     }
-    // What was handed in is used again for the next layer.
-    albedos.resize(std::size_t{4} * kWidth * kFiner * kHeight * kFiner);
-    normals.resize(albedos.size());
 }
 
-void Portraits::make(const ForestModel& model, ForestBuffers& buffers, MaterialTextures& textures) {
-    layers_ = 0;
-    for (const TreeForm& form : model.forms) {
-        layers_ += static_cast<std::uint32_t>(form.portraits.size());
-    }
+void Portraits::make(const ForestModel& model,
+                     const PortraitPlan& plan,
+                     ForestBuffers& buffers,
+                     MaterialTextures& textures) {
+    layers_ = static_cast<std::uint32_t>(plan.layers.size());
     texture_bytes_ = 0;
     for (TextureObject* texture : {&albedos_, &normals_}) {
         *texture = make_texture(*device_, GL_TEXTURE_2D_ARRAY);
@@ -265,7 +245,7 @@ void Portraits::make(const ForestModel& model, ForestBuffers& buffers, MaterialT
         texture_bytes_ += std::uint64_t{4} * kWidth * kHeight * layers_ * 4 / 3;
     }
     const auto width = static_cast<GLsizei>(kWidth * kFiner);
-    const auto height = static_cast<GLsizei>(kHeight * kFiner);
+    const auto height = static_cast<GLsizei>(kTile * kFiner); // one elevation at a time
     Framebuffer target = make_framebuffer(*device_);
     std::array<Renderbuffer, 3> storage;
     constexpr std::array<GLenum, 3> kFormats = {GL_RGBA8, GL_RGBA8, GL_DEPTH_COMPONENT32F};
@@ -288,38 +268,46 @@ void Portraits::make(const ForestModel& model, ForestBuffers& buffers, MaterialT
     glBindTextureUnit(2, textures.base(MaterialKind::Leaf));
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     Buffer frame(*device_);
-    std::vector<std::uint8_t> albedos(std::size_t{4} * kWidth * kFiner * kHeight * kFiner);
-    std::vector<std::uint8_t> normals(albedos.size());
+    PortraitPicture row{kWidth * kFiner, kTile * kFiner, {}, {}};
+    row.albedos.resize(std::size_t{4} * row.width * row.height);
+    row.normals.resize(row.albedos.size());
     std::vector<PoolBranch> branches;
     buffers.set_form_trees(static_cast<std::uint32_t>(model.forms.size()));
-    std::uint32_t layer = 0;
-    for (std::uint32_t f = 0; f < model.forms.size(); ++f) {
-        const TreeForm& form = model.forms[f];
-        std::uint32_t level = kFinestLevel;
-        while (level + 1 < kTreeLevels && form.triangles[level] > kMostTriangles) {
-            ++level;
-        }
-        for (const Tree& tree : form.portraits) {
-            branches.clear();
-            TreeExpander expander(*form.cache, model.forest->key);
+    for (std::uint32_t layer = 0; layer < layers_; ++layer) {
+        const Portrait& portrait = plan.layers[layer];
+        const TreeForm& form = model.forms[portrait.form];
+        branches.clear();
+        TreeExpander expander(*form.cache, model.forest->key);
+        for (const Tree& tree : portrait.trees) {
             expander.expand(tree, [&](const BranchInstance& branch) {
-                branches.push_back(pool_branch(branch, form.cache->instances[branch.instance], f));
+                branches.push_back(
+                    pool_branch(branch, form.cache->instances[branch.instance], portrait.form));
             });
-            buffers.set_branches(branches);
-            buffers.command(lists_of(form, f, level, branches));
-            buffers.bind_storage();
+        }
+        buffers.set_branches(branches);
+        buffers.command(lists_of(form, portrait.form, portrait.level, branches));
+        buffers.bind_storage();
+        // The last one that begins no later: layers of a form follow one another.
+        const auto picture =
+            std::find_if(plan.forms.rbegin(), plan.forms.rend(),
+                         [layer](const PictureForm& each) { return each.first_layer <= layer; });
+        PortraitPicture all{kWidth, kHeight, {}, {}};
+        for (std::uint32_t e = 0; e < kElevations; ++e) {
             constexpr std::array<GLfloat, 4> kNothing{};
             constexpr GLfloat kFar = 0.0F;
             glClearNamedFramebufferfv(target.name(), GL_COLOR, 0, kNothing.data());
             glClearNamedFramebufferfv(target.name(), GL_COLOR, 1, kNothing.data());
             glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &kFar);
-            draw_layer(form, buffers, frame);
+            draw_row(picture->cylinder, e, buffers, frame);
             glReadBuffer(GL_COLOR_ATTACHMENT0);
-            glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, albedos.data());
+            glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, row.albedos.data());
             glReadBuffer(GL_COLOR_ATTACHMENT1);
-            glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, normals.data());
-            upload_layer(layer++, albedos, normals);
+            glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, row.normals.data());
+            const PortraitPicture half = halved(row);
+            all.albedos.insert(all.albedos.end(), half.albedos.begin(), half.albedos.end());
+            all.normals.insert(all.normals.end(), half.normals.begin(), half.normals.end());
         }
+        upload_layer(layer, std::move(all));
     }
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }

@@ -7,11 +7,21 @@
 #include "viewer/forest_model.h"
 #include "viewer/gl/forest_buffers.h"
 #include "viewer/gl/material_textures.h"
+#include "viewer/portrait_plan.h"
 #include "viewer/renderer.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace lsys::view {
+
+/// Texels of tiles side by side, RGBA.
+struct PortraitPicture {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<std::uint8_t> albedos; // square roots of linear RGB; opacity
+    std::vector<std::uint8_t> normals; // octahedral, depth, of light through it
+};
 
 class Portraits {
 public:
@@ -22,8 +32,11 @@ public:
     explicit Portraits(Device& device) : device_(&device) {}
 
     [[nodiscard]] Result<Done> reload(const ShaderSource& shaders);
-    /// Draws the portraits of all forms, with the branches in `buffers`.
-    void make(const ForestModel& model, ForestBuffers& buffers, MaterialTextures& textures);
+    /// Draws the layers of a plan, with the meshes in `buffers`.
+    void make(const ForestModel& model,
+              const PortraitPlan& plan,
+              ForestBuffers& buffers,
+              MaterialTextures& textures);
 
     [[nodiscard]] GLuint albedos() const { return albedos_.name(); }
     [[nodiscard]] GLuint normals() const { return normals_.name(); }
@@ -31,10 +44,12 @@ public:
     [[nodiscard]] std::uint32_t layers() const { return layers_; }
 
 private:
-    void draw_layer(const TreeForm& form, const ForestBuffers& buffers, Buffer& frame) const;
-    void upload_layer(std::uint32_t layer,
-                      std::vector<std::uint8_t>& albedos,
-                      std::vector<std::uint8_t>& normals);
+    /// The tiles of one elevation.
+    void draw_row(const Cylinder& form,
+                  std::uint32_t elevation,
+                  const ForestBuffers& buffers,
+                  Buffer& frame) const;
+    void upload_layer(std::uint32_t layer, PortraitPicture picture);
 
     Device* device_;
     ProgramObject solid_;

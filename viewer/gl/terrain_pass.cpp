@@ -19,7 +19,7 @@ constexpr GLuint kNoise = 2;
 constexpr GLint kOrigins = 0;
 constexpr GLint kRanges = 12;
 constexpr GLint kLevels = 13;
-constexpr std::uint32_t kNoiseTexels = 256;
+constexpr std::uint32_t kNoiseTexels = 128;
 constexpr GLsizei kPatchIndices = 6 * kPatchCells * kPatchCells;
 
 float hashed(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
@@ -34,7 +34,7 @@ float noise_at(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
     float sum = 0.0F;
     float weight = 0.0F;
     float part = 1.0F;
-    for (std::uint32_t cells = 8; cells <= 128; cells *= 2) {
+    for (std::uint32_t cells = 4; cells <= 64; cells *= 2) {
         const std::uint32_t step = kNoiseTexels / cells;
         const std::uint32_t column = x / step;
         const std::uint32_t row = y / step;
@@ -68,7 +68,7 @@ TextureObject make_noise(Device& device) {
     }
     TextureObject texture = make_texture(device, GL_TEXTURE_2D);
     const auto size = static_cast<GLsizei>(kNoiseTexels);
-    glTextureStorage2D(texture.name(), 9, GL_RGBA8, size, size);
+    glTextureStorage2D(texture.name(), 8, GL_RGBA8, size, size);
     glTextureSubImage2D(texture.name(), 0, 0, 0, size, size, GL_RGBA, GL_UNSIGNED_BYTE,
                         texels.data());
     device.add_upload(texels.size());
@@ -85,8 +85,8 @@ TerrainPass::TerrainPass(Device& device)
       patches_(device) {}
 
 Result<Done> TerrainPass::reload(const ShaderSource& shaders) {
-    Result<ProgramObject> made =
-        make_program(*device_, shaders, "terrain.vert.glsl", "terrain.frag.glsl");
+    Result<ProgramObject> made = make_program(*device_, shaders, "terrain.vert.glsl",
+                                              "terrain.frag.glsl", "#define TWO_TAPS\n");
     if (!made) {
         return made.error();
     }
@@ -134,8 +134,7 @@ void TerrainPass::show(const Terrain& terrain, float reach) {
     glTextureParameteri(heights_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-FrameStats TerrainPass::draw(const ViewVolume& volume) {
-    FrameStats stats;
+void TerrainPass::prepare(const ViewVolume& volume) {
     view_->select(volume);
     const auto size = static_cast<GLsizei>(kHeightTexels);
     for (const std::uint32_t level : view_->changed()) {
@@ -144,6 +143,10 @@ FrameStats TerrainPass::draw(const ViewVolume& volume) {
                             GL_RED, GL_FLOAT, heights.data());
         device_->add_upload(heights.size() * sizeof(float));
     }
+}
+
+FrameStats TerrainPass::draw() {
+    FrameStats stats;
     const std::vector<TerrainPatch>& patches = view_->patches();
     if (patches.empty()) {
         return stats;
@@ -154,8 +157,8 @@ FrameStats TerrainPass::draw(const ViewVolume& volume) {
     glUseProgram(program_.name());
     std::array<GLint, std::size_t{2} * kTerrainLevels> origins{};
     for (std::uint32_t level = 0; level < view_->levels(); ++level) {
-        origins[2 * level] = view_->grid(level).origin.x;
-        origins[2 * level + 1] = view_->grid(level).origin.y;
+        origins[std::size_t{2} * level] = view_->grid(level).origin.x;
+        origins[std::size_t{2} * level + 1] = view_->grid(level).origin.y;
     }
     glUniform2iv(kOrigins, static_cast<GLsizei>(kTerrainLevels), origins.data());
     glUniform4f(kRanges, kFinestCell, TerrainView::range(0),

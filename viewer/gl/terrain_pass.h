@@ -20,8 +20,10 @@ public:
     [[nodiscard]] Result<Done> reload(const ShaderSource& shaders);
     /// The ground that is drawn from now on; it outlives the pass or the next call.
     void show(const Terrain& terrain, float reach);
-    /// Selects for a camera, uploads what is new, draws.
-    FrameStats draw(const ViewVolume& volume);
+    /// Selects for a camera and uploads what is new.
+    void prepare(const ViewVolume& volume);
+    /// What was selected.
+    FrameStats draw();
 
     [[nodiscard]] const TerrainView* view() const { return view_.get(); }
     [[nodiscard]] std::uint64_t texture_bytes() const;

@@ -11,6 +11,7 @@ in vec3 place;
 in vec3 across;
 in vec2 uv;
 flat in uint look;
+in vec3 part;
 #ifdef PORTRAIT
 // Seen from outside, for impostors: what light does is not known yet.
 layout(location = 2) uniform vec4 middle; // of the picture, m; its depth
@@ -49,8 +50,11 @@ void main() {
     float depth = dot(place - middle.xyz, to_eye) / middle.w;
     normal_out = vec4(folded(normal), 0.5 + 0.5 * depth, of.kind.y != 0u ? 1.0 : 0.0);
 #else
-    float lit = sunlight(place, normal);
+    if (of.kind.y != 0u) {
+        normal = leaf_normal(normal, part);
+    }
+    float lit = sunlight(place, normal, sun_within(part));
     float through = of.kind.y != 0u ? 0.5 : 0.0;
-    colour = displayed(seen(shade(albedo, normal, place, lit, through), place));
+    colour = displayed(seen(shade_within(albedo, normal, lit, through, openness(part)), place));
 #endif
 }

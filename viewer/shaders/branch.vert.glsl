@@ -8,6 +8,7 @@ out vec3 place;
 out vec3 across;
 out vec2 uv;
 flat out uint look;
+out vec3 part; // from the middle of the crown, as parts of its axes
 void main() {
     Branch at = branches[branch];
     TreeAt tree = tree_at(at.turn.w);
@@ -15,6 +16,7 @@ void main() {
     turn = normalize(turn);
     float size = at.place_scale.w * forms[tree.form].cylinder.w;
     place = at.place_scale.xyz + turned(turn, size * position);
+    part = (place - middle_of(tree)) / crown_of(tree);
 #ifdef CUT_OUT
     place = in_wind(place, tree, 1.0);
 #else

@@ -49,6 +49,16 @@ vec3 octahedral(vec2 e) {
     return normalize(v);
 }
 
+// Half the axes of a tree's crown, m.
+vec3 crown_of(TreeAt tree) {
+    vec4 cylinder = forms[tree.form].cylinder;
+    return tree.scale * vec3(cylinder.x, 0.55 * (cylinder.z - cylinder.y), cylinder.x);
+}
+vec3 middle_of(TreeAt tree) {
+    vec4 cylinder = forms[tree.form].cylinder;
+    return tree.root + vec3(0.0, tree.scale * 0.5 * (cylinder.y + cylinder.z), 0.0);
+}
+
 // Where the wind moves a place of a tree. A function of the place and the tree alone, so that
 // branches that meet stay together. `loose`: 1 for leaves.
 vec3 in_wind(vec3 place, TreeAt tree, float loose) {

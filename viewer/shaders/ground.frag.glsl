@@ -18,7 +18,7 @@ void main() {
     vec3 albedo = vec3(0.33, 0.33, 0.30);
     albedo *= 1.0 - 0.25 * lines(place.xz, unit) - 0.35 * lines(place.xz, 10.0 * unit);
     vec3 up = vec3(0.0, 1.0, 0.0);
-    vec3 radiance = seen(shade(albedo, up, place, sunlight(place, up), 0.0), place);
+    vec3 radiance = seen(shade(albedo, up, place, sunlight(place, up, 1.0), 0.0), place);
     vec3 way = normalize(place - frame.eye_time.xyz);
     vec3 behind = sky_colour(normalize(vec3(way.x, 0.0, way.z)));
     colour = displayed(mix(radiance, behind, smoothstep(0.25, 0.95, far)));

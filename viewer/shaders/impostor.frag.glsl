@@ -5,14 +5,20 @@ in vec3 place;
 in vec3 corner;
 flat in vec4 to_eye;
 flat in float yaw;
-#ifndef SHADOW
+in vec3 within;
+flat in vec3 deeper;
+#if !defined(SHADOW) && !defined(DEPTH)
+layout(early_fragment_tests) in; // where the depth is that of the tree
 out vec4 colour;
 #endif
 void main() {
     vec4 albedo = texture(albedos, corner);
+#if defined(SHADOW) || defined(DEPTH)
     if (albedo.a < 0.5) {
         discard;
     }
+#endif
+#ifndef DEPTH
     vec4 shape = texture(normals, corner);
     vec3 there = place + to_eye.xyz * (to_eye.w * (2.0 * shape.z - 1.0));
 #ifdef SHADOW
@@ -25,7 +31,13 @@ void main() {
     }
     float s = sin(yaw), c = cos(yaw);
     n = normalize(vec3(c * n.x + s * n.z, n.y, c * n.z - s * n.x));
-    float lit = sunlight(there, n);
-    colour = displayed(seen(shade(albedo.rgb * albedo.rgb, n, there, lit, 0.5 * shape.w), there));
+    vec3 part = within + deeper * (2.0 * shape.z - 1.0);
+    if (shape.w > 0.5) {
+        n = leaf_normal(n, part);
+    }
+    float lit = sunlight(there, n, sun_within(part));
+    colour = displayed(seen(
+        shade_within(albedo.rgb * albedo.rgb, n, lit, 0.5 * shape.w, openness(part)), there));
+#endif
 #endif
 }

@@ -1,13 +1,15 @@
 #include "impostor.glsl"
 layout(location = 0) in uint index; // of the tree
+invariant gl_Position; // depths are drawn first, and compared
 out vec3 place;
 out vec3 corner;         // in its layer, which goes along
 flat out vec4 to_eye;    // unit; depth of the picture, m
 flat out float yaw;
+out vec3 within;         // from the middle, as parts of the crown's axes
+flat out vec3 deeper;    // what the depth of the picture adds to it
 void main() {
     TreeAt tree = tree_at(index);
-    vec4 cylinder = forms[tree.form].cylinder;
-    vec3 middle = tree.root + vec3(0.0, tree.scale * 0.5 * (cylinder.y + cylinder.z), 0.0);
+    vec3 middle = middle_of(tree);
 #ifdef SHADOW
     vec3 eye = frame.to_sun.xyz;
 #else
@@ -22,6 +24,9 @@ void main() {
     vec2 at = vec2(gl_VertexID & 1, gl_VertexID >> 1);
     vec3 size = tree.scale * picture_size(tree.form, elevation);
     place = middle + (2.0 * at.x - 1.0) * size.x * right + (2.0 * at.y - 1.0) * size.y * up;
+    vec3 axes = crown_of(tree);
+    within = (place - middle) / axes;
+    deeper = eye * size.z / axes;
     place = in_wind(place, tree, 0.0);
     corner = vec3((vec2(view, elevation) + at) / vec2(kYaws, 3),
                   forms[tree.form].pictures.x + float(tree.portrait));

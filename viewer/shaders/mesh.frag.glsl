@@ -29,7 +29,7 @@ void main() {
         normal = -normal;
         geometric = -geometric;
     }
-    float lit = sunlight(place, geometric);
+    float lit = sunlight(place, geometric, 1.0);
     float through = kind.w != 0 ? 0.5 : 0.0;
     colour = displayed(seen(shade(albedo, normal, place, lit, through), place));
 }

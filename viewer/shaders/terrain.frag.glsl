@@ -6,17 +6,23 @@ out vec4 colour;
 // Grass where it is level, earth where it is steep or bare, in patches.
 void main() {
     vec3 up = normalize(across);
+    // Each pattern is gone before it is seen to repeat.
+    float away = length(place - frame.eye_time.xyz);
     vec4 coarse = texture(noise, place.xz * (1.0 / 173.0));
-    vec4 close = texture(noise, place.xz * (1.0 / 7.7));
+    vec4 between = mix(vec4(0.5), texture(noise, place.zx * (1.0 / 37.0)),
+                       clamp(2.0 - away / 150.0, 0.0, 1.0));
+    vec4 close = mix(vec4(0.5), texture(noise, place.xz * (1.0 / 3.1)),
+                     clamp(2.0 - away / 15.0, 0.0, 1.0));
     float wide = coarse.r;
-    float middle = 0.5 * (coarse.g + close.r);
-    float fine = close.b;
+    float middle = 0.4 * coarse.g + 0.4 * between.r + 0.2 * close.r;
+    float fine = 0.5 * (between.g + close.b);
     float steep = 1.0 - up.y;
-    float bare = smoothstep(0.42, 0.72, 0.55 * wide + 0.35 * middle + 0.25 * fine - 0.1 + 2.0 * steep);
-    vec3 grass = mix(vec3(0.020, 0.042, 0.009), vec3(0.048, 0.064, 0.018), middle);
-    vec3 earth = mix(vec3(0.045, 0.034, 0.022), vec3(0.085, 0.066, 0.044), close.g);
+    float patches = 0.55 * wide + 0.35 * middle + 0.25 * fine - 0.1;
+    float bare = smoothstep(0.42, 0.72, patches + 2.0 * steep);
+    vec3 grass = mix(vec3(0.028, 0.056, 0.012), vec3(0.066, 0.086, 0.026), middle);
+    vec3 earth = mix(vec3(0.060, 0.045, 0.030), vec3(0.110, 0.086, 0.058), close.g);
     vec3 albedo = mix(grass, earth, bare) * (0.7 + 0.6 * fine);
     vec3 normal = normalize(up + 0.4 * vec3(fine - 0.5, 0.0, close.g - 0.5));
-    float lit = sunlight(place, up);
+    float lit = sunlight(place, up, 1.0);
     colour = displayed(seen(shade(albedo, normal, place, lit, 0.0), place));
 }
