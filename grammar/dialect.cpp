@@ -91,7 +91,7 @@ Translation translate(FileId root, Dialect dialect, const ParseContext& context)
     return entry.translate(root, context);
 }
 
-Ast parse_dialect(FileId root, Dialect dialect, const ParseContext& context) {
+Ast parse_dialect(FileId root, Dialect dialect, const ParseContext& context, std::string* text) {
     if (dialect == Dialect::Lsys) {
         return parse_lsys(root, context);
     }
@@ -101,6 +101,9 @@ Ast parse_dialect(FileId root, Dialect dialect, const ParseContext& context) {
         ast.files.push_back({root, {}});
         ast.incomplete = true;
         return ast;
+    }
+    if (text != nullptr) {
+        *text = translation.text();
     }
     return parse_translation(translation, context);
 }

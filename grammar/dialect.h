@@ -41,7 +41,11 @@ struct DetectedDialect {
 /// text is what could be read, and not to be used. Precondition: not Dialect::Lsys.
 [[nodiscard]] Translation translate(FileId root, Dialect dialect, const ParseContext& context);
 
-/// parse_lsys() of a file of any dialect.
-[[nodiscard]] Ast parse_dialect(FileId root, Dialect dialect, const ParseContext& context);
+/// parse_lsys() of a file of any dialect. `text`, if there is one, gets the .lsys text of a file of
+/// another.
+[[nodiscard]] Ast parse_dialect(FileId root,
+                                Dialect dialect,
+                                const ParseContext& context,
+                                std::string* text = nullptr);
 
 } // namespace lsys

@@ -26,28 +26,17 @@ struct Imported {
     std::uint64_t warnings = 0;
 };
 
-/// Fine: the text derives what the file derives.
-Status import_file(const std::string& path,
+/// Compiles as every other command does, so that it says the same. Fine: the text derives what the
+/// file derives.
+Status import_text(const std::string& path,
+                   GrammarText text,
                    const ImportCommand& command,
                    const Console& console,
                    Imported& imported) {
-    Result<GrammarText> text = read_grammar(path, command.grammar.dialect, console);
-    if (!text) {
-        return fail(text.error(), console);
-    }
-    imported.dialect = text.value().dialect;
-    if (imported.dialect == Dialect::Lsys) {
-        return fail(Error{fmt::format("`{}` is a .lsys file already", shown_path(path))}, console);
-    }
-    const FileLoader load = make_loader(console);
+    imported.dialect = text.dialect;
     Grammar grammar;
-    const FileId root = grammar.sources.add(shown_path(path), text.value().bytes);
-    const Translation translation = translate(
-        root, imported.dialect, {grammar.sources, grammar.names, grammar.diagnostics, load});
-    // Compiled as every other command does it, so that it says the same.
-    grammar = Grammar();
     const Result<Done> compiled =
-        compile_text(path, std::move(text.value()), command.grammar, load, grammar);
+        compile_text(path, std::move(text), command.grammar, make_loader(console), grammar);
     if (!compiled) {
         return fail(compiled.error(), console);
     }
@@ -56,7 +45,7 @@ Status import_file(const std::string& path,
     if (status == Status::Fine) {
         imported.text = fmt::format(
             "// Imported from `{}`, {}.\n{}", fs::path(shown_path(path)).filename().string(),
-            row_of(imported.dialect).title, format_text(translation.text()));
+            row_of(imported.dialect).title, format_text(grammar.translation));
     }
     return status;
 }
@@ -105,16 +94,17 @@ Status import_folder(const ImportCommand& command, const Console& console) {
         if (console.interrupted()) {
             return Status::Interrupted;
         }
-        const Result<std::string> bytes = read_file(path.string(), kMaxSourceBytes, console);
-        const std::optional<Dialect> dialect =
-            !bytes                            ? std::nullopt
-            : command.grammar.dialect.empty() ? detect_dialect(path.string(), bytes.value()).dialect
-                                              : find_dialect(command.grammar.dialect);
-        if (!dialect || *dialect == Dialect::Lsys || path.extension() == ".lsb") {
+        if (path.extension() == ".lsb") {
             continue;
         }
+        Result<GrammarText> text = read_grammar(path.string(), command.grammar.dialect, console);
+        if (!text || text.value().dialect == Dialect::Lsys) {
+            continue;
+        }
+        const std::string_view title = row_of(text.value().dialect).title;
         Imported imported;
-        Status one = import_file(path.string(), command, console, imported);
+        Status one =
+            import_text(path.string(), std::move(text.value()), command, console, imported);
         const fs::path to = target / path.filename().concat(".lsys");
         if (one == Status::Fine) {
             one = write_imported(to.string(), imported.text, console);
@@ -122,10 +112,9 @@ Status import_folder(const ImportCommand& command, const Console& console) {
         done += one == Status::Fine ? 1U : 0U;
         lost += one == Status::Fine ? 0U : 1U;
         const std::string line =
-            one == Status::Fine
-                ? fmt::format("{}: {}, {} warnings, written to {}\n", path.string(),
-                              row_of(*dialect).title, imported.warnings, to.string())
-                : fmt::format("{}: {}, not imported\n", path.string(), row_of(*dialect).title);
+            one == Status::Fine ? fmt::format("{}: {}, {} warnings, written to {}\n", path.string(),
+                                              title, imported.warnings, to.string())
+                                : fmt::format("{}: {}, not imported\n", path.string(), title);
         if (const Result<Done> written = console.write(line); !written) {
             return fail(written.error(), console);
         }
@@ -146,8 +135,17 @@ Status run_import(const ImportCommand& command, const Console& console) {
     if (!command.folder.empty()) {
         return import_folder(command, console);
     }
+    Result<GrammarText> text = read_grammar(command.file, command.grammar.dialect, console);
+    if (!text) {
+        return fail(text.error(), console);
+    }
+    if (text.value().dialect == Dialect::Lsys) {
+        return fail(Error{fmt::format("`{}` is a .lsys file already", shown_path(command.file))},
+                    console);
+    }
     Imported imported;
-    const Status status = import_file(command.file, command, console, imported);
+    const Status status =
+        import_text(command.file, std::move(text.value()), command, console, imported);
     if (status != Status::Fine) {
         return status;
     }

@@ -27,6 +27,7 @@ struct Grammar {
     std::optional<Program> program;    // of a source without errors
     std::optional<Bytecode> bytecode;  // without errors
     std::vector<std::string> included; // what #include asked for, whether it could be read or not
+    std::string translation;           // .lsys text of a grammar of another dialect
     bool is_module_file = false;       // read from a .lsb: `sources` is empty
 };
 
