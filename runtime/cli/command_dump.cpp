@@ -9,6 +9,7 @@
 #include "runtime/cli/grammar_file.h"
 #include "runtime/cli/plant.h"
 #include "runtime/cli/tell.h"
+#include "runtime/scene.h"
 
 #include <fmt/format.h>
 
@@ -104,7 +105,7 @@ Status dump_instanced(const DumpCommand& command, const Grammar& grammar, const 
     Diagnostics diagnostics;
     const std::optional<std::string> list =
         list_instanced(*grammar.program, grammar.names, grammar.sources,
-                       command.rho.value_or(kUsualRho), diagnostics);
+                       command.rho.value_or(kSceneRho), diagnostics);
     const Status shown = console.show(diagnostics, grammar.sources);
     return list ? worse(shown, write_stage(command, *list, console)) : shown;
 }

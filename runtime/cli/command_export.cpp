@@ -3,6 +3,7 @@
 #include "runtime/cli/export_stats.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/plant.h"
+#include "runtime/cli/stopwatch.h"
 #include "runtime/cli/tell.h"
 #include "runtime/export.h"
 #include "runtime/mesh.h"
@@ -26,12 +27,6 @@
 namespace lsys::lsc {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Hands bytes to an output until it refuses them.
 class Sink {
@@ -227,14 +222,6 @@ Status write_plant(Export& run,
     }
     run.timing.write_seconds += seconds_since(start);
     return status;
-}
-
-/// tree.glb and 12: tree.0012.glb
-std::string numbered(const std::string& output, std::uint32_t number) {
-    const std::filesystem::path path(output);
-    const std::string extension = path.extension().string();
-    std::filesystem::path name = path;
-    return name.replace_extension(fmt::format(".{:04}{}", number, extension)).string();
 }
 
 /// The formats that can hold a plant in motion as one file.

@@ -348,14 +348,6 @@ Status print_stats(const Run& run) {
     return done ? Status::Fine : fail(done.error(), run.console);
 }
 
-/// `wood.glb` as `wood.0007.glb`.
-std::string numbered(const std::string& path, std::uint32_t number) {
-    const std::filesystem::path whole(path);
-    const std::string name =
-        fmt::format("{}.{:04}{}", whole.stem().string(), number, whole.extension().string());
-    return (whole.parent_path() / name).string();
-}
-
 /// The forest in `frames` of its years, the last one included.
 Status write_years(Run& run, const ForestLimits& limits) {
     PlacementOptions options = run.scene.placement;

@@ -1,5 +1,7 @@
 #include "runtime/cli/files.h"
 
+#include "runtime/cli/descriptor.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <istream>
 #include <memory>
 #include <sys/stat.h>
@@ -22,23 +25,6 @@ constexpr std::size_t kPiece = std::size_t{1} << 20;
 Error size_error(std::uint64_t max_bytes) {
     return Error{fmt::format("it has more than {} bytes, the most that can be read", max_bytes)};
 }
-
-/// Closes what it holds.
-class Descriptor {
-public:
-    explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() {
-        if (descriptor_ >= 0) {
-            ::close(descriptor_);
-        }
-    }
-    [[nodiscard]] int get() const { return descriptor_; }
-
-private:
-    int descriptor_;
-};
 
 Result<std::string> read_standard_input(std::uint64_t max_bytes, const Console& console) {
     std::istream& in = console.io().in;
@@ -69,6 +55,12 @@ std::string reason_text(int reason) {
         text[0] = static_cast<char>(text[0] - 'A' + 'a');
     }
     return text;
+}
+
+std::string numbered(const std::string& path, std::uint32_t number) {
+    std::filesystem::path name(path);
+    const std::string extension = name.extension().string();
+    return name.replace_extension(fmt::format(".{:04}{}", number, extension)).string();
 }
 
 std::string shown_path(const std::string& path) {

@@ -23,6 +23,9 @@ read_bytes(const std::string& path, std::uint64_t max_bytes, const Console& cons
 /// The name of `path` in messages.
 [[nodiscard]] std::string shown_path(const std::string& path);
 
+/// The name of a file of a series: tree.glb and 12 give tree.0012.glb.
+[[nodiscard]] std::string numbered(const std::string& path, std::uint32_t number);
+
 /// Something that is written. A regular file appears under its name, or replaces what was there,
 /// only at commit(); until then, and if it is never called, nothing has changed. Move only.
 class Output {

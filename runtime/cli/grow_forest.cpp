@@ -4,6 +4,7 @@
 #include "runtime/cli/files.h"
 #include "runtime/cli/grammar_file.h"
 #include "runtime/cli/plant.h"
+#include "runtime/cli/stopwatch.h"
 #include "runtime/cli/tell.h"
 
 #include <fmt/format.h>
@@ -17,12 +18,6 @@
 namespace lsys::lsc {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::string path_in(const std::string& folder, const std::string& path) {
     return (std::filesystem::path(folder) / path).string();

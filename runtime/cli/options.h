@@ -52,9 +52,6 @@ struct CompileCommand {
 
 enum class Stage : std::uint8_t { Tokens, Ast, Program, Instanced, Bytecode, Word, Skeleton, Mesh };
 
-/// Of Carey 2019.
-inline constexpr float kUsualRho = 0.6F;
-
 struct DumpCommand {
     MessageOptions messages;
     GrammarOptions grammar;

@@ -3,6 +3,7 @@
 #include "runtime/cli/files.h"
 #include "runtime/cli/foresight.h"
 #include "runtime/cli/progress.h"
+#include "runtime/cli/stopwatch.h"
 #include "runtime/cli/tell.h"
 #include "runtime/derive.h"
 #include "runtime/fold_reached.h"
@@ -21,12 +22,6 @@
 namespace lsys::lsc {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The derivation, then the drawing of its last word.
 Status draw_stored(const DeriveOptions& options,

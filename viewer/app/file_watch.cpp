@@ -1,5 +1,7 @@
 #include "viewer/app/file_watch.h"
 
+#include "runtime/cli/descriptor.h"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -62,22 +64,6 @@ std::vector<fs::path> names_of(const std::string& path) {
     return names;
 }
 
-class Descriptor {
-public:
-    explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() {
-        if (descriptor_ >= 0) {
-            ::close(descriptor_);
-        }
-    }
-    [[nodiscard]] int get() const { return descriptor_; }
-
-private:
-    int descriptor_;
-};
-
 struct Watched {
     std::string path;
     std::vector<fs::path> names;
@@ -91,8 +77,8 @@ struct Watched {
 struct FileWatch::State {
     Options options;
     Changed changed;
-    Descriptor wake{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
-    Descriptor inotify;
+    lsc::Descriptor wake{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+    lsc::Descriptor inotify;
     std::mutex mutex; // of the next two
     std::optional<std::vector<std::string>> asked;
     bool stops = false;

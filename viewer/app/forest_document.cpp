@@ -1,6 +1,7 @@
 #include "viewer/app/forest_document.h"
 
 #include "runtime/cli/forest_scene.h"
+#include "runtime/cli/stopwatch.h"
 #include "runtime/cli/tell.h"
 #include "runtime/turtle_diagnostic.h"
 
@@ -10,20 +11,10 @@
 
 namespace lsys::view {
 
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-} // namespace
-
 lsc::Status make_forest_document(const ViewOptions& options,
                                  const lsc::Console& console,
                                  ForestDocument& document) {
-    Clock::time_point start = Clock::now();
+    lsc::Clock::time_point start = lsc::Clock::now();
     lsc::ForestCommand command = options.forest;
     command.grammar = options.grammar;
     command.seed = options.seed;
@@ -32,7 +23,7 @@ lsc::Status make_forest_document(const ViewOptions& options,
     if (status != lsc::Status::Fine) {
         return status;
     }
-    document.parse_seconds = seconds_since(start);
+    document.parse_seconds = lsc::seconds_since(start);
     const lsc::ForestLimits limits{options.threads, options.grammar.max_modules, options.max_bytes};
     status = lsc::grow_species(loaded.scene, loaded.sources, loaded.folder, limits, console,
                                document.grown);
@@ -42,7 +33,7 @@ lsc::Status make_forest_document(const ViewOptions& options,
     if (status != lsc::Status::Fine) {
         return status;
     }
-    start = Clock::now();
+    start = lsc::Clock::now();
     MeshOptions mesh = options.mesh;
     mesh.threads = options.threads;
     mesh.max_bytes = options.max_bytes;
@@ -64,7 +55,7 @@ lsc::Status make_forest_document(const ViewOptions& options,
         return lsc::Status::Limit;
     }
     }
-    document.mesh_seconds = seconds_since(start);
+    document.mesh_seconds = lsc::seconds_since(start);
     return lsc::Status::Fine;
 }
 

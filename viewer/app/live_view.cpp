@@ -1,6 +1,7 @@
 #include "viewer/app/live_view.h"
 
 #include "runtime/cli/files.h"
+#include "runtime/cli/stopwatch.h"
 #include "runtime/texture.h"
 #include "viewer/app/shader_folder.h"
 
@@ -16,10 +17,6 @@ namespace lsys::view {
 namespace {
 
 constexpr double kMilliseconds = 1e3;
-
-double seconds_since(SteadyClock::time_point start) {
-    return std::chrono::duration<double>(SteadyClock::now() - start).count();
-}
 
 bool operator==(const Definition& a, const Definition& b) {
     return a.name == b.name && a.value == b.value;
@@ -187,9 +184,9 @@ void LiveView::swap(LoadOutcome outcome) {
     if (std::exchange(is_new_file_, false)) {
         settings.bending.forces.damping = document_->grammar.bytecode->settings.damping;
     }
-    stats_.upload_seconds = seconds_since(start);
+    stats_.upload_seconds = lsc::seconds_since(start);
     stats_.make_seconds = outcome.seconds;
-    stats_.swap_seconds = seconds_since(outcome.since);
+    stats_.swap_seconds = lsc::seconds_since(outcome.since);
     ++stats_.swaps;
     shown_outcome_ = std::move(outcome);
     tells_shown_ = true;
@@ -310,7 +307,7 @@ void LiveView::shown(double draw_seconds) {
     if (!std::exchange(tells_shown_, false)) {
         return;
     }
-    stats_.shown_seconds = seconds_since(shown_outcome_.since);
+    stats_.shown_seconds = lsc::seconds_since(shown_outcome_.since);
     console_.detail(
         fmt::format("loaded {}: {} modules, {} segments, {} triangles, {:.0f} ms; seen "
                     "{:.0f} ms after the change",

@@ -61,14 +61,6 @@ std::uint64_t digest_of(const std::vector<std::uint8_t>& texels) {
     return digest;
 }
 
-/// tree.png and 12: tree.0012.png
-std::string numbered(const std::string& path, std::uint32_t number) {
-    const std::filesystem::path name(path);
-    std::filesystem::path result = name;
-    return result.replace_extension(fmt::format(".{:04}{}", number, name.extension().string()))
-        .string();
-}
-
 } // namespace
 
 double median(std::vector<double> values) {
@@ -138,7 +130,7 @@ lsc::Status take_series(const ViewOptions& options,
             return lsc::fail(Error{"there is no memory for the picture"}, console);
         }
         const std::string path =
-            options.frames == 0 ? options.screenshot : numbered(options.screenshot, i + 1);
+            options.frames == 0 ? options.screenshot : lsc::numbered(options.screenshot, i + 1);
         if (const Result<Done> written = lsc::write_file(path, bytes, console); !written) {
             return lsc::fail(written.error(), console);
         }

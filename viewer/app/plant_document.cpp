@@ -1,30 +1,22 @@
 #include "viewer/app/plant_document.h"
 
+#include "runtime/cli/stopwatch.h"
+
 #include <chrono>
 #include <filesystem>
 
 namespace lsys::view {
 
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-} // namespace
-
 lsc::Status make_plant_document(const ViewOptions& options,
                                 const lsc::Console& console,
                                 PlantDocument& document) {
-    Clock::time_point start = Clock::now();
+    lsc::Clock::time_point start = lsc::Clock::now();
     lsc::Status status =
         lsc::load_grammar(options.file, options.grammar, console, document.grammar);
     if (status != lsc::Status::Fine) {
         return status;
     }
-    document.load_seconds = seconds_since(start);
+    document.load_seconds = lsc::seconds_since(start);
     if (console.interrupted()) {
         return lsc::Status::Interrupted;
     }
@@ -42,13 +34,13 @@ lsc::Status make_plant_document(const ViewOptions& options,
     if (console.interrupted()) {
         return lsc::Status::Interrupted;
     }
-    start = Clock::now();
+    start = lsc::Clock::now();
     MeshOptions mesh = options.mesh;
     mesh.threads = options.threads;
     mesh.max_bytes = options.max_bytes;
     status = lsc::mesh_plant(document.plant, document.plant.skeleton, mesh, document.grammar,
                              console, document.mesh);
-    document.mesh_seconds = seconds_since(start);
+    document.mesh_seconds = lsc::seconds_since(start);
     return status;
 }
 

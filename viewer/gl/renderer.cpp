@@ -218,7 +218,7 @@ private:
         const glm::vec3 size = plant.high - plant.low;
         const float radius = 0.5F * std::max(std::max(size.x, size.y), size.z);
         // A power of ten: about ten lines along the plant.
-        const float unit = std::pow(10.0F, std::floor(std::log10(std::max(radius, 1e-6F))) - 0.0F);
+        const float unit = std::pow(10.0F, std::floor(std::log10(std::max(radius, 1e-6F))));
         glUseProgram(programs_.ground.name());
         const float below = std::min(plant.low.y, 0.0F) - 1e-4F * radius;
         glUniform4f(kDisc, 0.5F * (plant.low.x + plant.high.x), below,
