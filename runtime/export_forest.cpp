@@ -16,7 +16,7 @@ ForestExportStatus write(const ForestScene& scene,
                          ForestForm form,
                          const ForestExportInfo& info,
                          const ByteSink& sink) {
-    const ForestPlan plan(scene, info.cell);
+    const ForestPlan plan(scene, info.cell, info.threads);
     if (plan.branches() == 0 && (scene.ground == nullptr || triangle_count(*scene.ground) == 0)) {
         return ForestExportStatus::Nothing;
     }
@@ -51,7 +51,8 @@ ForestExportStatus make_forest_picture_files(const ForestScene& scene,
                                              const ForestExportInfo& info,
                                              std::vector<PictureFile>& files) {
     try {
-        const ForestMaterials materials = find_forest_materials(scene, ForestPlan(scene, 0.0F));
+        const ForestMaterials materials =
+            find_forest_materials(scene, ForestPlan(scene, 0.0F, info.threads));
         ExportInfo pictures;
         pictures.textures = info.textures;
         pictures.picture_prefix = info.picture_prefix;

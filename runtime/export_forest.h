@@ -37,6 +37,8 @@ struct ForestExportInfo {
     bool textures = true;
     std::string picture_prefix; // of USDA, as in ExportInfo
     std::uint32_t threads = 0;  // 0: as many as the machine has
+    /// Most room for transforms. Less makes more walks over the trees, and the same file.
+    std::uint64_t window_bytes = std::uint64_t{512} << 20;
 };
 
 enum class ForestExportStatus : std::uint8_t {
@@ -49,7 +51,8 @@ enum class ForestExportStatus : std::uint8_t {
 };
 
 /// Beside the scene it takes 8 bytes a tree, 24 bytes for each pair of a cell and an instance that
-/// stands there, and at most 80 MiB for transforms. Precondition: trees' species have meshes.
+/// stands there, 16 bytes for each pair of 512 trees of a cell and an instance that stands in them,
+/// and ForestExportInfo::window_bytes. Precondition: trees' species have meshes.
 [[nodiscard]] ForestExportStatus export_forest(const ForestScene& scene,
                                                ForestFormat format,
                                                ForestForm form,

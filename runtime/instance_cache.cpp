@@ -327,11 +327,12 @@ TreeExpander::choose(const InstanceSlot& slot, std::uint32_t tree, std::uint32_t
 
 void TreeExpander::add_exits(const Instance& instance, const BranchInstance& at) {
     const InstanceExit* const exits = cache_.exits.data() + instance.first_exit;
-    for (std::uint32_t i = instance.exit_count; i-- > 0;) {
-        const InstanceExit& exit = exits[i];
-        pending_.push_back({at.rotation * exit.rotation,
-                            at.position + at.scale * (at.rotation * exit.position), exit.slot,
-                            at.order + exit.order});
+    Pending* const pending = pending_.add(instance.exit_count);
+    for (std::uint32_t i = 0; i < instance.exit_count; ++i) {
+        const InstanceExit& exit = exits[instance.exit_count - 1 - i];
+        pending[i] = {at.rotation * exit.rotation,
+                      at.position + at.scale * (at.rotation * exit.position), exit.slot,
+                      at.order + exit.order};
     }
 }
 

@@ -138,6 +138,9 @@ public:
     /// order. A function of cache, key and tree alone. Returns how many.
     template <typename Visit>
     std::uint32_t expand(const Tree& tree, Visit&& visit);
+    /// Calls visit(instance) where expand() calls visit(BranchInstance), in a third of the time.
+    template <typename Visit>
+    std::uint32_t expand_instances(const Tree& tree, Visit&& visit);
     /// The instance that expand() visits first: of the whole plant.
     [[nodiscard]] std::uint32_t root_instance(const Tree& tree) {
         return choose(cache_.slots[0], tree.number, 0);
@@ -150,6 +153,27 @@ private:
         std::uint32_t slot;
         std::uint32_t order;
     };
+    /// What waits to be visited, the next one last. Room is made for many at a time, because most
+    /// instances add but one or two.
+    template <typename T>
+    class Stack {
+    public:
+        [[nodiscard]] bool empty() const { return count_ == 0; }
+        T pop() { return items_[--count_]; }
+        /// Where to put the next `count`.
+        T* add(std::size_t count) {
+            if (count > items_.size() - count_) {
+                items_.resize(2 * (count_ + count));
+            }
+            count_ += count;
+            return items_.data() + count_ - count;
+        }
+        void clear() { count_ = 0; }
+
+    private:
+        std::vector<T> items_;
+        std::size_t count_ = 0;
+    };
 
     [[nodiscard]] std::uint32_t
     choose(const InstanceSlot& slot, std::uint32_t tree, std::uint32_t node);
@@ -157,7 +181,8 @@ private:
 
     const InstanceCache& cache_;
     std::uint64_t key_;
-    std::vector<Pending> pending_;
+    Stack<Pending> pending_;
+    Stack<std::uint32_t> pending_slots_;           // of expand_instances()
     std::array<std::uint32_t, kBlockRun> draws_{}; // of the tree's nodes around the last one
 };
 
@@ -168,11 +193,10 @@ template <typename Visit>
 std::uint32_t TreeExpander::expand(const Tree& tree, Visit&& visit) {
     BranchInstance at = root_of(tree);
     pending_.clear();
-    pending_.push_back({at.rotation, at.position, 0, 0});
+    *pending_.add(1) = {at.rotation, at.position, 0, 0};
     std::uint32_t node = 0;
     while (!pending_.empty()) {
-        const Pending next = pending_.back();
-        pending_.pop_back();
+        const Pending next = pending_.pop();
         const InstanceSlot& slot = cache_.slots[next.slot];
         at.rotation = next.rotation;
         at.position = next.position;
@@ -180,6 +204,25 @@ std::uint32_t TreeExpander::expand(const Tree& tree, Visit&& visit) {
         at.instance = choose(slot, tree.number, node++);
         add_exits(cache_.instances[at.instance], at);
         visit(at);
+    }
+    return node;
+}
+
+template <typename Visit>
+std::uint32_t TreeExpander::expand_instances(const Tree& tree, Visit&& visit) {
+    pending_slots_.clear();
+    *pending_slots_.add(1) = 0;
+    std::uint32_t node = 0;
+    while (!pending_slots_.empty()) {
+        const std::uint32_t number =
+            choose(cache_.slots[pending_slots_.pop()], tree.number, node++);
+        const Instance& instance = cache_.instances[number];
+        const InstanceExit* const exits = cache_.exits.data() + instance.first_exit;
+        std::uint32_t* const slots = pending_slots_.add(instance.exit_count);
+        for (std::uint32_t i = 0; i < instance.exit_count; ++i) {
+            slots[i] = exits[instance.exit_count - 1 - i].slot;
+        }
+        visit(number);
     }
     return node;
 }

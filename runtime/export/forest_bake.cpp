@@ -21,7 +21,7 @@ struct Share {
 class Baker {
 public:
     Baker(const ForestScene& scene, std::uint32_t threads, Mesh& mesh)
-        : scene_(scene), threads_(threads), mesh_(mesh), plan_(scene, 0.0F),
+        : scene_(scene), threads_(threads), mesh_(mesh), plan_(scene, 0.0F, threads),
           materials_(find_forest_materials(scene, plan_)) {
         for (const ForestKind& kind : plan_.kinds()) {
             own_.push_back(number_vertices(kind, plan_));

@@ -30,6 +30,7 @@ inline constexpr std::uint64_t kInstanceBytes = kTranslationBytes + kRotationByt
 
 /// Hands over the transforms of all groups in order; false from `write` stops it.
 void write_transforms(const ForestPlan& plan,
+                      const ForestExportInfo& info,
                       const std::function<bool(std::span<const std::byte>)>& write);
 
 } // namespace lsys

@@ -91,7 +91,7 @@ void ForestDocument::put_data(const std::function<bool(std::span<const std::byte
                         [&write](std::span<const std::byte> bytes) { write(bytes); });
     }
     if (instanced()) {
-        write_transforms(plan_, write);
+        write_transforms(plan_, info_, write);
     }
     for (const std::string& image : images_) {
         write(std::as_bytes(std::span(image)));

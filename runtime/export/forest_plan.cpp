@@ -1,6 +1,7 @@
 #include "runtime/export/forest_plan.h"
 
 #include "grammar/contract.h"
+#include "runtime/derive/workers.h"
 #include "runtime/export/formats.h"
 
 #include <algorithm>
@@ -15,6 +16,8 @@ bool same(const Material& a, const Material& b) {
     return a.name == b.name && a.kind == b.kind && a.colour == b.colour &&
            a.two_sided == b.two_sided && a.cut_out == b.cut_out && a.textured == b.textured;
 }
+
+constexpr std::uint64_t kPieceTrees = 512;
 
 std::uint32_t add_material(Mesh& samples, const Material& material) {
     const auto found =
@@ -31,7 +34,8 @@ std::uint32_t add_material(Mesh& samples, const Material& material) {
 
 } // namespace
 
-ForestPlan::ForestPlan(const ForestScene& scene, float cell) : scene_(scene) {
+ForestPlan::ForestPlan(const ForestScene& scene, float cell, std::uint32_t threads)
+    : scene_(scene) {
     const Forest& forest = scene.forest;
     LSYS_CHECK(scene.meshes.size() == forest.species.size(), scene.meshes.size());
     std::uint32_t instances = 0;
@@ -49,7 +53,9 @@ ForestPlan::ForestPlan(const ForestScene& scene, float cell) : scene_(scene) {
         ++kinds_[first_kind_[tree.species] + forest.stage_of(tree)].trees;
     }
     sort_trees(cell);
-    count_groups();
+    cut_cells();
+    count_pieces(threads);
+    find_groups();
 }
 
 /// Trees by cells, in each as they lie in the forest.
@@ -96,32 +102,67 @@ void ForestPlan::sort_trees(float cell) {
     }
 }
 
-void ForestPlan::count_groups() {
-    std::vector<std::uint64_t> triangles(uses_.size());
+std::vector<TreeExpander> ForestPlan::make_expanders() const {
+    std::vector<TreeExpander> expanders;
+    expanders.reserve(kinds_.size());
     for (const ForestKind& kind : kinds_) {
-        for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
-            triangles[kind.first + i] = kind.meshes->triangles_of(i);
-        }
+        expanders.emplace_back(*kind.cache, scene_.forest.key);
     }
-    std::vector<std::uint64_t> counts(uses_.size(), 0);
-    std::vector<std::uint32_t> met;
+    return expanders;
+}
+
+void ForestPlan::cut_cells() {
     for (ForestCell& cell : cells_) {
-        met.clear();
-        for_each_branch(cell,
-                        [&](const ForestKind&, std::uint32_t instance, const BranchInstance&) {
-                            if (triangles[instance] > 0 && counts[instance]++ == 0) {
-                                met.push_back(instance);
-                            }
-                        });
-        std::sort(met.begin(), met.end());
+        cell.first_piece = pieces_.size();
+        for (std::uint64_t done = 0; done < cell.tree_count; done += kPieceTrees) {
+            pieces_.push_back(
+                {cell.first_tree + done, std::min(kPieceTrees, cell.tree_count - done), {}});
+        }
+        cell.piece_count = pieces_.size() - cell.first_piece;
+    }
+}
+
+/// Leaves in ForestPiece::before how many stand in the piece itself.
+void ForestPlan::count_pieces(std::uint32_t threads) {
+    Workers(threads).for_each(pieces_.size(), [this](std::uint64_t number) {
+        ForestPiece& piece = pieces_[number];
+        std::vector<TreeExpander> expanders = make_expanders();
+        std::vector<std::uint32_t> counts(uses_.size(), 0);
+        for (std::uint64_t i = 0; i < piece.tree_count; ++i) {
+            const Tree& tree = tree_at(piece.first_tree + i);
+            const ForestKind& kind = kind_of(tree);
+            std::uint32_t* const of_kind = counts.data() + kind.first;
+            expanders[static_cast<std::size_t>(&kind - kinds_.data())].expand_instances(
+                tree, [of_kind](std::uint32_t instance) { ++of_kind[instance]; });
+        }
+        for (const ForestKind& kind : kinds_) {
+            for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
+                if (counts[kind.first + i] > 0 && kind.meshes->triangles_of(i) > 0) {
+                    piece.before.emplace_back(kind.first + i, counts[kind.first + i]);
+                }
+            }
+        }
+    });
+}
+
+void ForestPlan::find_groups() {
+    std::map<std::uint32_t, std::uint64_t> counts; // of a cell, by instance
+    for (ForestCell& cell : cells_) {
+        counts.clear();
+        for (ForestPiece& piece : std::span(pieces_).subspan(cell.first_piece, cell.piece_count)) {
+            for (auto& [instance, count] : piece.before) {
+                std::uint64_t& before = counts[instance];
+                before += std::exchange(count, before);
+            }
+        }
         cell.first_group = groups_.size();
-        cell.group_count = met.size();
-        for (const std::uint32_t instance : met) {
-            groups_.push_back({instance, branches_ + cell.branches, counts[instance]});
-            cell.branches += counts[instance];
-            uses_[instance] += counts[instance];
-            triangles_ += triangles[instance] * counts[instance];
-            counts[instance] = 0;
+        cell.group_count = counts.size();
+        for (const auto& [instance, count] : counts) {
+            groups_.push_back({instance, branches_ + cell.branches, count});
+            cell.branches += count;
+            uses_[instance] += count;
+            const ForestKind& kind = kind_of_instance(instance);
+            triangles_ += kind.meshes->triangles_of(instance - kind.first) * count;
         }
         branches_ += cell.branches;
     }

@@ -221,7 +221,7 @@ std::uint64_t count_different_trees(const Forest& forest, std::uint32_t threads)
 
 std::string forest_stats_json(const ForestScene& scene, const ForestStatsOptions& options) {
     const Forest& forest = scene.forest;
-    const ForestPlan plan(scene, 0.0F);
+    const ForestPlan plan(scene, 0.0F, options.threads);
     const ForestCounts counts = count_forest(forest, options.threads);
     std::uint64_t bytes = 0;
     std::string species;

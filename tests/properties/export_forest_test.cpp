@@ -62,15 +62,9 @@ struct Exported {
     std::size_t buffer_at = 0;
 };
 
-Exported exported(const ForestScene& scene,
-                  ForestFormat format,
-                  ForestForm form = ForestForm::Instanced,
-                  float cell = 0.0F,
-                  std::uint32_t threads = 1) {
-    ForestExportInfo info;
+Exported
+exported(const ForestScene& scene, ForestFormat format, ForestForm form, ForestExportInfo info) {
     info.name = "wood";
-    info.cell = cell;
-    info.threads = threads;
     Exported result;
     result.status = export_forest(scene, format, form, info, [&](std::string_view bytes) {
         result.bytes += bytes;
@@ -84,6 +78,17 @@ Exported exported(const ForestScene& scene,
         CHECK(result.buffer().size() == result.document["buffers"][0]["byteLength"]);
     }
     return result;
+}
+
+Exported exported(const ForestScene& scene,
+                  ForestFormat format,
+                  ForestForm form = ForestForm::Instanced,
+                  float cell = 0.0F,
+                  std::uint32_t threads = 1) {
+    ForestExportInfo info;
+    info.cell = cell;
+    info.threads = threads;
+    return exported(scene, format, form, info);
 }
 
 std::uint64_t instances_in(const json& document) {
@@ -153,12 +158,14 @@ TEST_CASE("an instance takes forty bytes of a GLB, whatever the cells") {
 TEST_CASE("a forest has the same bytes for any number of threads") {
     Wood wood;
     wood.add_species(kBush, 5);
-    wood.add_trees(800);
+    wood.add_trees(1800);
     for (const ForestFormat format : {ForestFormat::Glb, ForestFormat::Gltf, ForestFormat::Usda}) {
-        const Exported one = exported(wood.scene(), format, ForestForm::Instanced, 200.0F, 1);
-        const Exported four = exported(wood.scene(), format, ForestForm::Instanced, 200.0F, 4);
-        CHECK(one.status == ForestExportStatus::Ok);
-        CHECK(one.bytes == four.bytes);
+        for (const float cell : {0.0F, 200.0F}) {
+            const Exported one = exported(wood.scene(), format, ForestForm::Instanced, cell, 1);
+            const Exported four = exported(wood.scene(), format, ForestForm::Instanced, cell, 4);
+            CHECK(one.status == ForestExportStatus::Ok);
+            CHECK(one.bytes == four.bytes);
+        }
     }
     Mesh one;
     Mesh four;
@@ -168,10 +175,29 @@ TEST_CASE("a forest has the same bytes for any number of threads") {
     CHECK(one.indices == four.indices);
 }
 
+TEST_CASE("a forest has the same bytes however little room there is for its transforms") {
+    Wood wood;
+    wood.add_species(kBush, 5);
+    wood.add_trees(700);
+    for (const float cell : {0.0F, 200.0F}) {
+        ForestExportInfo info;
+        info.cell = cell;
+        const Exported whole =
+            exported(wood.scene(), ForestFormat::Glb, ForestForm::Instanced, info);
+        const std::uint64_t branches = whole.document["nodes"][0]["extras"]["branches"];
+        REQUIRE(branches > 2000);
+        for (const std::uint64_t room : {std::uint64_t{0}, std::uint64_t{100}, branches / 2}) {
+            info.window_bytes = 40 * room;
+            CHECK(exported(wood.scene(), ForestFormat::Glb, ForestForm::Instanced, info).bytes ==
+                  whole.bytes);
+        }
+    }
+}
+
 TEST_CASE("the instances of a GLB stand where the baked forest has its triangles") {
     Wood wood;
     wood.add_species(kBush, 5);
-    wood.add_trees(60);
+    wood.add_trees(600);
     Mesh baked;
     REQUIRE(bake_forest(wood.scene(), ~std::uint64_t{0}, 0, baked) == MeshStatus::Ok);
     test::check_mesh(baked, {});
