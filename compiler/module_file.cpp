@@ -178,7 +178,7 @@ private:
 
 template <typename Stream, typename Value>
 void settings(Stream& stream, Value& s) {
-    stream.tag(s.turtle, TurtleProfile::Sys);
+    stream.tag(s.turtle, TurtleProfile::Carey);
     stream.tag(s.rewriting, RewritingMode::Cyclic);
     stream.tag(s.choice, ChoiceScope::Generation);
     stream.tag(s.weights, WeightRule::Any);

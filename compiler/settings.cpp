@@ -16,8 +16,8 @@ std::string_view name_in(const std::array<std::string_view, size>& names, Enum v
 constexpr std::array<std::string_view, 3> kRewritingModes{"parallel", "sequential", "cyclic"};
 constexpr std::array<std::string_view, 2> kChoiceScopes{"module", "generation"};
 constexpr std::array<std::string_view, 2> kWeightRules{"one", "any"};
-constexpr std::array<std::string_view, 7> kTurtleProfiles{"lsys", "thesis", "abop", "houdini",
-                                                          "l3d",  "lplus",  "sys"};
+constexpr std::array<std::string_view, 8> kTurtleProfiles{"lsys", "thesis", "abop", "houdini",
+                                                          "l3d",  "lplus",  "sys",  "carey"};
 
 } // namespace
 

@@ -15,7 +15,7 @@ enum class ChoiceScope : std::uint8_t { Module, Generation };
 /// Whether unconditional groups must sum to 1.
 enum class WeightRule : std::uint8_t { One, Any };
 /// Which table of section 7 gives modules their meaning for the turtle.
-enum class TurtleProfile : std::uint8_t { Lsys, Thesis, Abop, Houdini, L3d, Lplus, Sys };
+enum class TurtleProfile : std::uint8_t { Lsys, Thesis, Abop, Houdini, L3d, Lplus, Sys, Carey };
 
 struct Settings {
     TurtleProfile turtle = TurtleProfile::Lsys;

@@ -49,7 +49,7 @@ private:
 
     bool settings() {
         const Settings& s = bytecode_.settings;
-        if (!within(s.turtle, TurtleProfile::Sys) || !within(s.rewriting, RewritingMode::Cyclic) ||
+        if (!within(s.turtle, TurtleProfile::Carey) || !within(s.rewriting, RewritingMode::Cyclic) ||
             !within(s.choice, ChoiceScope::Generation) || !within(s.weights, WeightRule::Any)) {
             return fail("a setting has a value that does not exist");
         }

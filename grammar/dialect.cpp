@@ -1,5 +1,6 @@
 #include "grammar/dialect.h"
 
+#include "grammar/carey/frontend.h"
 #include "grammar/contract.h"
 #include "grammar/sys/frontend.h"
 
@@ -22,9 +23,10 @@ struct Entry {
 };
 
 /// In order of Dialect. Content is asked in this order too.
-constexpr std::array<Entry, 2> kEntries{{
+constexpr std::array<Entry, 3> kEntries{{
     {{Dialect::Lsys, "lsys", "lsys", ".lsys"}, nullptr, nullptr},
     {{Dialect::Sys, "sys", "the .sys forest", ".sys"}, recognise_sys, translate_sys},
+    {{Dialect::Carey, "carey", "Carey's rule list", ".rules"}, recognise_carey, translate_carey},
 }};
 
 constexpr auto kRows = [] {

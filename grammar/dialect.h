@@ -15,7 +15,8 @@ namespace lsys {
 
 enum class Dialect : std::uint8_t {
     Lsys,
-    Sys, // the forest of 2005
+    Sys,   // the forest of 2005
+    Carey, // the forest generator of 2019
 };
 
 struct DialectRow {

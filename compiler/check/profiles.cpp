@@ -186,6 +186,27 @@ constexpr std::array kSys{
     kPolygonEnd,
 };
 
+// What of Houdini's symbols Carey's forest generator has.
+constexpr std::array kCarey{
+    length("F", Forward),
+    length("f", Move),
+    turn("+", YawRight),
+    turn("-", YawLeft),
+    turn("&", PitchUp),
+    turn("^", PitchDown),
+    turn("\\", RollLeft),
+    turn("/", RollRight),
+    TurtleCommand{"!", ScaleWidth, 1, "factor of the width"},
+    kScaleStep,
+    TurtleCommand{";", ScaleAngle, 1, "factor of the angle"},
+    TurtleCommand{"J", Leaf, 1, "size"},
+    kSave,
+    kRestore,
+    kPolygonBegin,
+    kPolygonVertex,
+    kPolygonEnd,
+};
+
 constexpr std::array<TurtleObject, 9> kObjects{{
     {"BRANCH", Branch},
     {"SPHERE", Sphere},
@@ -216,6 +237,8 @@ std::span<const TurtleCommand> turtle_commands(TurtleProfile profile) {
         return kLplus;
     case TurtleProfile::Sys:
         return kSys;
+    case TurtleProfile::Carey:
+        return kCarey;
     }
     LSYS_CHECK(false, static_cast<int>(profile));
     return {};

@@ -39,7 +39,7 @@ constexpr std::array<std::string_view, 8> kOtherKeys{"turtle",  "names", "rewrit
 
 constexpr std::array kTurtles{TurtleProfile::Lsys,    TurtleProfile::Thesis, TurtleProfile::Abop,
                               TurtleProfile::Houdini, TurtleProfile::L3d,    TurtleProfile::Lplus,
-                              TurtleProfile::Sys};
+                              TurtleProfile::Sys,     TurtleProfile::Carey};
 constexpr std::array kModes{RewritingMode::Parallel, RewritingMode::Sequential,
                             RewritingMode::Cyclic};
 constexpr std::array kScopes{ChoiceScope::Module, ChoiceScope::Generation};

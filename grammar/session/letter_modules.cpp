@@ -79,6 +79,17 @@ bool read_letter_modules(SourceSpan text,
     return fine;
 }
 
+void write_letter(const LetterModule& module,
+                  const ParseContext& context,
+                  Translation& translation) {
+    const std::string spelled = spelled_letter(module.character);
+    if (spelled.size() == 1) { // as it stands in the file
+        translation.copy(module.span, context.sources);
+    } else {
+        translation.put(spelled, module.span);
+    }
+}
+
 bool write_plain_arguments(SourceSpan arguments,
                            const ParseContext& context,
                            Translation& translation) {

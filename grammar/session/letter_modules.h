@@ -22,6 +22,11 @@ struct LetterModule {
     SourceSpan arguments; // from `(` to one past `)`; empty: there are none
 };
 
+/// Writes the character; arguments are left to the caller.
+void write_letter(const LetterModule& module,
+                  const ParseContext& context,
+                  Translation& translation);
+
 /// Calls visit(LetterModule) for each module of `text`, blanks left out. A parenthesis right behind
 /// a character belongs to it up to the `)` that closes it; one that is never closed is reported.
 /// False: a mistake was reported.

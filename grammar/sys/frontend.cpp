@@ -17,7 +17,7 @@ namespace {
 /// The modules of a word of the file.
 void write_modules(SourceSpan text, const ParseContext& context, Translation& translation) {
     read_letter_modules(text, context, [&](const LetterModule& module) {
-        translation.put(spelled_letter(module.character), module.span);
+        write_letter(module, context, translation);
         if (module.arguments.begin != module.arguments.end) {
             write_plain_arguments(module.arguments, context, translation);
         }
@@ -59,7 +59,7 @@ void write_rule(const SysRule& rule,
             context.diagnostics.add(DiagnosticCode::ForeignSyntax, module.arguments,
                                     "the symbol that a rule replaces has no parameters");
         }
-        translation.put(spelled_letter(module.character), module.span);
+        write_letter(module, context, translation);
     });
     if (modules > 1) {
         context.diagnostics.add(DiagnosticCode::ForeignSyntax, second,

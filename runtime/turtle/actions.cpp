@@ -13,7 +13,7 @@ constexpr double kHalfDegree = std::numbers::pi / 360.0;
 /// Profiles whose leaves are copied to the place of the turtle, which stays there.
 bool leaves_stay(TurtleProfile profile) {
     return profile == TurtleProfile::Houdini || profile == TurtleProfile::L3d ||
-           profile == TurtleProfile::Lplus;
+           profile == TurtleProfile::Lplus || profile == TurtleProfile::Carey;
 }
 
 /// Rotations against the sense of yaw(), pitch() and roll().

@@ -200,6 +200,13 @@ std::map<std::string, Case> cases() {
     all["format-condition-10mb"] = {
         repeated(head + "#w : F;\n#p : F(x) : x > 1", "&& x > 2 ", 1'100'000, ": F(x);"), format, 1,
         unlike};
+    const std::vector<std::string> carey{"check", "--dialect", "carey", "%"};
+    all["carey-line-10mb"] = {repeated("generations: 1\naxiom: F\nF=", "F+[&F]", 1'700'000, "\n"),
+                              carey, 0, ""};
+    all["carey-zeros-10mb"] = {repeated("axiom: F", std::string(1, '\0'), 10'000'000, ""), carey, 1,
+                               "foreign-syntax"};
+    all["carey-garbage-10mb"] = {repeated("axiom: F\n", "a=(\xFF(:@\n:", 1'000'000, ""), carey, 1,
+                                 "foreign-syntax"};
     all["nested-word"] = {
         repeated("#n = 5000;\n#w : A;\n#p : A : * : [A];\n#q : F < A : * : A;\n", " ", 1, ""),
         {"dump", "--count", "%"},
