@@ -63,6 +63,13 @@ void BranchPool::begin_turn(std::uint32_t kept) {
     forget_before(turn_ > kept ? turn_ - kept : 0);
 }
 
+void BranchPool::forget(std::uint32_t tree) {
+    if (const auto entry = trees_.find(tree); entry != trees_.end()) {
+        release(entry->second.span);
+        trees_.erase(entry);
+    }
+}
+
 void BranchPool::clear() {
     *this = BranchPool(most_);
 }

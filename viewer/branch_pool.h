@@ -43,6 +43,8 @@ public:
     [[nodiscard]] PoolSpan add(std::uint32_t tree, std::span<const PoolBranch> branches);
     /// Begins a turn; forgets what was in use last more than `kept` turns ago.
     void begin_turn(std::uint32_t kept);
+    /// A tree is another one now, or gone.
+    void forget(std::uint32_t tree);
     void clear();
 
     [[nodiscard]] std::span<const PoolBranch> branches() const { return branches_; }

@@ -45,7 +45,7 @@ ViewVolume view_volume(const Camera& camera, std::uint32_t width, std::uint32_t 
     return volume;
 }
 
-ForestView::ForestView(const ForestModel& model) : model_(model) {
+ForestView::ForestView(const ForestModel& model) : model_(model), added_(model.terrain->region()) {
     std::uint32_t meshes = 0;
     for (const TreeForm& form : model_.forms) {
         expanders_.emplace_back(*form.cache, model_.forest->key);
@@ -56,9 +56,8 @@ ForestView::ForestView(const ForestModel& model) : model_(model) {
     sort_into_cells();
 }
 
-Ball ForestView::reach_of(const ViewTree& tree) const {
+Ball ForestView::reach_of(const ViewTree& tree, float yaw) const {
     const TreeForm& form = model_.forms[tree.form];
-    const float yaw = model_.forest->trees[tree.tree].yaw;
     const glm::vec3& c = form.reach.centre;
     const glm::vec3 turned(std::cos(yaw) * c.x + std::sin(yaw) * c.z, c.y,
                            std::cos(yaw) * c.z - std::sin(yaw) * c.x);
@@ -71,8 +70,28 @@ Ball ForestView::portrait_ball(const ViewTree& tree) const {
             tree.scale * std::hypot(form.radius, 0.5F * form.height())};
 }
 
+std::uint64_t ForestView::cell_of(const glm::vec3& place) const {
+    const auto column =
+        static_cast<std::uint64_t>(static_cast<double>(place.x - cells_low_.x) / cell_size_);
+    const auto row =
+        static_cast<std::uint64_t>(static_cast<double>(place.z - cells_low_.y) / cell_size_);
+    return std::min(row, rows_ - 1) * columns_ + std::min(column, columns_ - 1);
+}
+
+ViewTree ForestView::made_of(const Tree& tree, std::uint32_t index) {
+    ViewTree made;
+    made.position = tree.position;
+    made.scale = tree.scale;
+    made.tree = index;
+    made.form = static_cast<std::uint16_t>(model_.form_of(tree));
+    made.portrait = static_cast<std::uint16_t>(
+        model_.forms[made.form].portrait_of[expanders_[made.form].root_instance(tree)]);
+    return made;
+}
+
 void ForestView::sort_into_cells() {
     const LargeVector<Tree>& trees = model_.forest->trees;
+    alive_count_ = trees.size();
     if (trees.empty()) {
         return;
     }
@@ -86,20 +105,12 @@ void ForestView::sort_into_cells() {
     const double area = std::max(static_cast<double>(high.x - low.x), 1.0) *
                         std::max(static_cast<double>(high.y - low.y), 1.0);
     cell_size_ = std::sqrt(area * kTreesOfCell / static_cast<double>(trees.size()));
-    const auto columns =
-        static_cast<std::uint64_t>(static_cast<double>(high.x - low.x) / cell_size_) + 1;
-    const auto rows =
-        static_cast<std::uint64_t>(static_cast<double>(high.y - low.y) / cell_size_) + 1;
-    const auto cell_of = [&](const Tree& tree) {
-        const auto column =
-            static_cast<std::uint64_t>(static_cast<double>(tree.position.x - low.x) / cell_size_);
-        const auto row =
-            static_cast<std::uint64_t>(static_cast<double>(tree.position.z - low.y) / cell_size_);
-        return std::min(row, rows - 1) * columns + std::min(column, columns - 1);
-    };
-    cells_.resize(columns * rows);
+    cells_low_ = low;
+    columns_ = static_cast<std::uint64_t>(static_cast<double>(high.x - low.x) / cell_size_) + 1;
+    rows_ = static_cast<std::uint64_t>(static_cast<double>(high.y - low.y) / cell_size_) + 1;
+    cells_.resize(columns_ * rows_);
     for (const Tree& tree : trees) {
-        ++cells_[cell_of(tree)].count;
+        ++cells_[cell_of(tree.position)].count;
     }
     std::uint32_t sum = 0;
     for (ForestCell& cell : cells_) {
@@ -109,15 +120,8 @@ void ForestView::sort_into_cells() {
     }
     trees_.resize(trees.size());
     for (std::uint32_t i = 0; i < trees.size(); ++i) {
-        const Tree& tree = trees[i];
-        ForestCell& cell = cells_[cell_of(tree)];
-        ViewTree& made = trees_[cell.first + cell.count++];
-        made.position = tree.position;
-        made.scale = tree.scale;
-        made.tree = i;
-        made.form = static_cast<std::uint16_t>(model_.form_of(tree));
-        made.portrait = static_cast<std::uint16_t>(
-            model_.forms[made.form].portrait_of[expanders_[made.form].root_instance(tree)]);
+        ForestCell& cell = cells_[cell_of(trees[i].position)];
+        trees_[cell.first + cell.count++] = made_of(trees[i], i);
     }
     std::vector<std::uint32_t> of_form(model_.forms.size());
     for (ForestCell& cell : cells_) {
@@ -126,7 +130,7 @@ void ForestView::sort_into_cells() {
         glm::dvec4 total(0.0);
         for (std::uint32_t i = 0; i < cell.count; ++i) {
             const ViewTree& tree = trees_[cell.first + i];
-            const Ball reach = reach_of(tree);
+            const Ball reach = reach_of(tree, trees[tree.tree].yaw);
             const Ball portrait = portrait_ball(tree);
             for (const Ball& ball : {reach, portrait}) {
                 box.add(ball.centre - ball.radius);
@@ -178,14 +182,24 @@ const ForestLists& ForestView::select(const ViewVolume& volume, const RingOption
     std::sort(seen_cells_.begin(), seen_cells_.end());
     for (const auto& [distance, c] : seen_cells_) {
         const ForestCell& cell = cells_[c];
-        if (cell.count >= kFewTrees &&
+        if (cell.count >= kFewTrees && cell.gone == 0 &&
             cell.tallest * volume.pixels / std::max(distance, kNearest) < options.horizon_pixels) {
             lists_.clumps.push_back(c);
             lists_.clumped_trees += cell.count;
         } else {
-            visit_trees(cell, volume, options);
+            for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
+                if (!trees_[t].gone()) {
+                    visit_tree(t, volume, options);
+                }
+            }
         }
     }
+    added_.visit(
+        [&](const AddedTrees::Cell& cell) {
+            return volume.meets(
+                {0.5F * (cell.low + cell.high), 0.5F * glm::distance(cell.low, cell.high)});
+        },
+        [&](std::uint32_t slot) { visit_tree(first_added() + slot, volume, options); });
     lists_.detail = fitting_detail(options);
     pool_.begin_turn(kTurnsKept);
     list_branches(options);
@@ -193,21 +207,19 @@ const ForestLists& ForestView::select(const ViewVolume& volume, const RingOption
     return lists_;
 }
 
-void ForestView::visit_trees(const ForestCell& cell,
-                             const ViewVolume& volume,
-                             const RingOptions& options) {
-    for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
-        const ViewTree& tree = trees_[t];
-        const Ball portrait = portrait_ball(tree);
-        const float pixels =
-            pixels_of(volume, portrait.centre, tree.scale * model_.forms[tree.form].height());
-        if (pixels >= options.level_pixels.back()) {
-            if (volume.meets(reach_of(tree))) {
-                candidates_.push_back({t, pixels});
-            }
-        } else if (volume.meets(portrait)) {
-            far_.push_back(t);
+void ForestView::visit_tree(std::uint32_t number,
+                            const ViewVolume& volume,
+                            const RingOptions& options) {
+    const ViewTree& tree = view_tree(number);
+    const Ball portrait = portrait_ball(tree);
+    const float pixels =
+        pixels_of(volume, portrait.centre, tree.scale * model_.forms[tree.form].height());
+    if (pixels >= options.level_pixels.back()) {
+        if (volume.meets(reach_of(tree, tree_of(number).yaw))) {
+            candidates_.push_back({number, pixels});
         }
+    } else if (volume.meets(portrait)) {
+        far_.push_back(number);
     }
 }
 
@@ -227,7 +239,7 @@ float ForestView::fitting_detail(const RingOptions& options) const {
         for (const Candidate& candidate : candidates_) {
             const std::uint32_t level = level_of(candidate.pixels * detail, options);
             if (level < kTreeLevels) {
-                triangles += model_.forms[trees_[candidate.tree].form].triangles[level];
+                triangles += model_.forms[view_tree(candidate.tree).form].triangles[level];
                 any = true;
             }
         }
@@ -247,7 +259,7 @@ void ForestView::list_branches(const RingOptions& options) {
     std::fill(mesh_counts_.begin(), mesh_counts_.end(), 0);
     std::uint32_t total = 0;
     for (const Candidate& candidate : candidates_) {
-        const ViewTree& tree = trees_[candidate.tree];
+        const ViewTree& tree = view_tree(candidate.tree);
         const std::uint32_t level = level_of(candidate.pixels * lists_.detail, options);
         if (level == kTreeLevels) {
             lists_.trees.push_back(candidate.tree);
@@ -258,7 +270,7 @@ void ForestView::list_branches(const RingOptions& options) {
             const InstanceCache& cache = *model_.forms[tree.form].cache;
             made.clear();
             expanders_[tree.form].expand(
-                model_.forest->trees[tree.tree], [&](const BranchInstance& branch) {
+                tree_of(candidate.tree), [&](const BranchInstance& branch) {
                     made.push_back(
                         pool_branch(branch, cache.instances[branch.instance], candidate.tree));
                 });
@@ -309,10 +321,51 @@ void ForestView::find_within(const Bounds& box, std::vector<std::uint32_t>& tree
         if (cell.count != 0 && cell.low.x <= box.high.x && cell.high.x >= box.low.x &&
             cell.low.z <= box.high.z && cell.high.z >= box.low.z) {
             for (std::uint32_t i = 0; i < cell.count; ++i) {
-                trees.push_back(cell.first + i);
+                if (!trees_[cell.first + i].gone()) {
+                    trees.push_back(cell.first + i);
+                }
             }
         }
     }
+    added_.visit(
+        [&](const AddedTrees::Cell& cell) {
+            return cell.low.x <= box.high.x && cell.high.x >= box.low.x &&
+                   cell.low.z <= box.high.z && cell.high.z >= box.low.z;
+        },
+        [&](std::uint32_t slot) { trees.push_back(first_added() + slot); });
+}
+
+std::uint32_t ForestView::change_tree(std::uint32_t index, const Tree& tree, bool alive) {
+    if (index >= trees_.size()) {
+        const std::uint32_t slot = index - first_added();
+        const bool was_alive = added_.is_alive(slot);
+        if (alive && added_.is_another(slot, tree)) {
+            pool_.forget(index);
+            const ViewTree made = made_of(tree, index);
+            Bounds box;
+            for (const Ball& ball : {reach_of(made, tree.yaw), portrait_ball(made)}) {
+                box.add(ball.centre - ball.radius);
+                box.add(ball.centre + ball.radius);
+            }
+            added_.put(slot, tree, made, box);
+            bounds_.add(box.low);
+            bounds_.add(box.high);
+        }
+        added_.set_alive(slot, alive);
+        alive_count_ += static_cast<std::uint64_t>(alive) - static_cast<std::uint64_t>(was_alive);
+        return index;
+    }
+    ForestCell& cell = cells_[cell_of(tree.position)];
+    std::uint32_t number = cell.first;
+    while (trees_[number].tree != index) {
+        ++number;
+    }
+    if (trees_[number].gone() == alive) {
+        trees_[number].portrait ^= ViewTree::kGone;
+        cell.gone += alive ? ~std::uint32_t{0} : 1U;
+        alive_count_ += alive ? 1 : ~std::uint64_t{0};
+    }
+    return number;
 }
 
 std::uint64_t ForestView::byte_count() const {

@@ -8,6 +8,7 @@
 // function of forest and camera alone, whatever was looked at before.
 #pragma once
 
+#include "viewer/added_trees.h"
 #include "viewer/branch_pool.h"
 #include "viewer/camera.h"
 #include "viewer/forest_model.h"
@@ -83,16 +84,6 @@ struct ForestLists {
     }
 };
 
-/// A tree as it is looked for, in order of cells.
-struct ViewTree {
-    glm::vec3 position{};
-    float scale = 1.0F;
-    std::uint32_t tree = 0; // in Forest::trees
-    std::uint16_t form = 0;
-    std::uint16_t portrait = 0; // in TreeForm::portraits
-};
-static_assert(sizeof(ViewTree) == 24);
-
 /// A square of the ground.
 struct ForestCell {
     std::uint32_t first = 0; // in ForestView::trees()
@@ -103,6 +94,7 @@ struct ForestCell {
     float scale = 1.0F;     // mean of theirs
     float tallest = 0.0F;   // m
     std::uint16_t form = 0; // that most of its trees are of
+    std::uint32_t gone = 0; // trees that were taken away; with any, all are drawn by themselves
 };
 
 class ForestView {
@@ -110,10 +102,25 @@ public:
     /// The model outlives the view.
     explicit ForestView(const ForestModel& model);
 
+    /// A tree comes or goes, in time that does not grow with the forest. `index`: in Forest::trees,
+    /// or behind them, of trees that are added one after the other; one that is gone may be
+    /// replaced. Returns its number here.
+    std::uint32_t change_tree(std::uint32_t index, const Tree& tree, bool alive);
+
     [[nodiscard]] const ForestLists& select(const ViewVolume& volume, const RingOptions& options);
 
     [[nodiscard]] const ForestModel& model() const { return model_; }
+    /// Those of the forest. Numbers of trees go on behind them: of trees that were added.
     [[nodiscard]] std::span<const ViewTree> trees() const { return trees_; }
+    [[nodiscard]] const ViewTree& view_tree(std::uint32_t number) const {
+        return number < trees_.size() ? trees_[number] : added_.at(number - first_added());
+    }
+    [[nodiscard]] const Tree& tree_of(std::uint32_t number) const {
+        return number < trees_.size() ? model_.forest->trees[trees_[number].tree]
+                                      : added_.tree(number - first_added());
+    }
+    /// That are not gone.
+    [[nodiscard]] std::uint64_t alive_count() const { return alive_count_; }
     [[nodiscard]] std::span<const ForestCell> cells() const { return cells_; }
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     [[nodiscard]] double cell_size() const { return cell_size_; } // m
@@ -121,7 +128,7 @@ public:
     /// Trees that stand in cells that meet a box seen from above, by cell.
     void find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const;
     /// Around a tree, whatever branches it has.
-    [[nodiscard]] Ball reach_of(const ViewTree& tree) const;
+    [[nodiscard]] Ball reach_of(const ViewTree& tree, float yaw) const;
     /// Around its impostor.
     [[nodiscard]] Ball portrait_ball(const ViewTree& tree) const;
     [[nodiscard]] std::uint64_t byte_count() const;
@@ -134,7 +141,12 @@ private:
     };
 
     void sort_into_cells();
-    void visit_trees(const ForestCell& cell, const ViewVolume& volume, const RingOptions& options);
+    [[nodiscard]] std::uint32_t first_added() const {
+        return static_cast<std::uint32_t>(trees_.size());
+    }
+    [[nodiscard]] std::uint64_t cell_of(const glm::vec3& place) const;
+    [[nodiscard]] ViewTree made_of(const Tree& tree, std::uint32_t index);
+    void visit_tree(std::uint32_t number, const ViewVolume& volume, const RingOptions& options);
     /// kTreeLevels: none, an impostor.
     [[nodiscard]] static std::uint32_t level_of(float pixels, const RingOptions& options);
     [[nodiscard]] float fitting_detail(const RingOptions& options) const;
@@ -145,6 +157,11 @@ private:
     std::vector<ForestCell> cells_;
     Bounds bounds_;
     double cell_size_ = 1.0;
+    glm::vec2 cells_low_{}; // the corner of the first cell, and how many there are
+    std::uint64_t columns_ = 0;
+    std::uint64_t rows_ = 0;
+    AddedTrees added_;
+    std::uint64_t alive_count_ = 0;
     BranchPool pool_;
     std::vector<TreeExpander> expanders_;   // by form
     std::vector<std::uint32_t> first_mesh_; // of each form: instances times levels

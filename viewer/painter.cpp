@@ -26,8 +26,7 @@ Painter::Painter(std::span<const Tree> placed,
                  const Region& region,
                  const Terrain& terrain,
                  std::uint64_t key)
-    : placed_(placed), region_(region), terrain_(terrain), key_(key),
-      erased_before_(painting.erased) {
+    : placed_(placed), region_(region), terrain_(&terrain), key_(key) {
     // About two trees a square.
     const double wanted = std::clamp(static_cast<double>(placed.size()) / 2.0, 1024.0,
                                      static_cast<double>(kMostCells) / 2.0);
@@ -43,22 +42,50 @@ Painter::Painter(std::span<const Tree> placed,
         first_[i + 1] += first_[i];
     }
     items_.resize(placed.size());
-    LargeVector<std::uint32_t> at(first_.begin(), first_.end() - 1);
+    LargeVector<std::uint32_t> ends(first_.begin(), first_.end() - 1);
     for (std::uint32_t i = 0; i < placed.size(); ++i) {
-        items_[at[cell_of(placed[i].position.x, placed[i].position.z)]++] = i;
+        items_[ends[cell_of(placed[i].position.x, placed[i].position.z)]++] = i;
     }
     head_.assign(cells, kNone);
-    alive_.assign(placed.size(), 1);
+    placed_alive_.assign(placed.size(), 1);
     alive_count_ = placed.size();
-    for (const PaintedTree& tree : painting.trees) {
-        paints_.push_back(tree);
-        painted_.push_back(painted_tree(tree, terrain));
-        const std::uint32_t cell = cell_of(tree.x, tree.z);
-        next_.push_back(head_[cell]);
-        head_[cell] = static_cast<std::uint32_t>(painted_.size() - 1);
-        alive_.push_back(1);
-        ++alive_count_;
+    if (!painting.erased.empty()) {
+        std::vector<std::uint8_t> found(painting.erased.size());
+        for (std::uint32_t i = 0; i < placed.size(); ++i) {
+            const auto at =
+                std::lower_bound(painting.erased.begin(), painting.erased.end(), placed[i].number);
+            if (at != painting.erased.end() && *at == placed[i].number) {
+                set_alive(i, false);
+                found[static_cast<std::size_t>(at - painting.erased.begin())] = 1;
+            }
+        }
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (found[i] == 0) {
+                erased_before_.push_back(painting.erased[i]);
+            }
+        }
     }
+    for (const PaintedTree& tree : painting.trees) {
+        add(tree);
+        set_alive(tree_count() - 1, true);
+    }
+}
+
+bool Painter::move_to(std::span<const Tree> placed, const Terrain& terrain) {
+    const bool same =
+        std::equal(placed.begin(), placed.end(), placed_.begin(), placed_.end(),
+                   [](const Tree& a, const Tree& b) {
+                       return a.position == b.position && a.yaw == b.yaw && a.scale == b.scale &&
+                              a.number == b.number && a.species == b.species && a.age == b.age;
+                   }) &&
+        std::all_of(painted_.begin(), painted_.end(), [&](const Tree& tree) {
+            return terrain.height(tree.position.x, tree.position.z) == tree.position.y;
+        });
+    if (same) {
+        placed_ = placed;
+        terrain_ = &terrain;
+    }
+    return same;
 }
 
 std::uint32_t Painter::cell_of(float x, float z) const {
@@ -102,7 +129,8 @@ bool Painter::any_near(float x, float z, float radius, const Visit& visit) const
 }
 
 void Painter::set_alive(std::uint32_t index, bool alive) {
-    alive_[index] = alive ? 1 : 0;
+    (index < placed_.size() ? placed_alive_[index] : painted_alive_[index - placed_.size()]) =
+        alive ? 1 : 0;
     alive_count_ += alive ? 1U : ~std::uint64_t{0};
 }
 
@@ -110,6 +138,16 @@ void Painter::record(std::uint32_t index, bool alive) {
     set_alive(index, alive);
     log_.push_back({index, alive});
     changes_.push_back(log_.back());
+}
+
+/// Not alive yet.
+void Painter::add(const PaintedTree& paint) {
+    const std::uint32_t cell = cell_of(paint.x, paint.z);
+    paints_.push_back(paint);
+    painted_.push_back(painted_tree(paint, *terrain_));
+    next_.push_back(head_[cell]);
+    head_[cell] = static_cast<std::uint32_t>(painted_.size() - 1);
+    painted_alive_.push_back(0);
 }
 
 /// Strokes that were undone cannot be redone any more; trees that only they had are given back.
@@ -133,7 +171,7 @@ void Painter::forget_undone() {
         painted_.pop_back();
         paints_.pop_back();
         next_.pop_back();
-        alive_.pop_back();
+        painted_alive_.pop_back();
     }
     log_.resize(first);
     strokes_.resize(done_);
@@ -174,14 +212,32 @@ std::span<const TreeChange> Painter::paint(float x, float z, const Brush& brush)
             any_near(paint.x, paint.z, spacing, [](std::uint32_t) { return true; })) {
             continue;
         }
-        const std::uint32_t cell = cell_of(paint.x, paint.z);
-        paints_.push_back(paint);
-        painted_.push_back(painted_tree(paint, terrain_));
-        next_.push_back(head_[cell]);
-        head_[cell] = static_cast<std::uint32_t>(painted_.size() - 1);
-        alive_.push_back(0);
+        add(paint);
         record(tree_count() - 1, true);
     }
+    return changes_;
+}
+
+std::span<const TreeChange> Painter::plant(float x, float z, const Brush& brush) {
+    changes_.clear();
+    if (done_ == 0 || done_ != strokes_.size()) {
+        begin_stroke();
+    }
+    constexpr float kSamePlace = 0.05F; // m
+    if (!region_.contains(x, z) || painted_.size() == kMaxPainted ||
+        any_near(x, z, kSamePlace, [](std::uint32_t) { return true; })) {
+        return changes_;
+    }
+    const PhiloxBlock words = draw_block(key_, kPaintGeneration, draws_++, 0);
+    PaintedTree paint;
+    paint.species = brush.species;
+    paint.x = x;
+    paint.z = z;
+    paint.yaw = 2.0F * std::numbers::pi_v<float> * unit_interval(words[2]);
+    paint.scale =
+        brush.least_scale + (brush.greatest_scale - brush.least_scale) * unit_interval(words[3]);
+    add(paint);
+    record(tree_count() - 1, true);
     return changes_;
 }
 
@@ -229,13 +285,13 @@ Painting Painter::painting() const {
     Painting result;
     result.erased = erased_before_;
     for (std::size_t i = 0; i < placed_.size(); ++i) {
-        if (alive_[i] == 0) {
+        if (placed_alive_[i] == 0) {
             result.erased.push_back(placed_[i].number);
         }
     }
     std::sort(result.erased.begin(), result.erased.end());
     for (std::size_t i = 0; i < paints_.size(); ++i) {
-        if (alive_[placed_.size() + i] != 0) {
+        if (painted_alive_[i] != 0) {
             result.trees.push_back(paints_[i]);
         }
     }

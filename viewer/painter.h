@@ -30,13 +30,17 @@ struct TreeChange {
 
 class Painter {
 public:
-    /// `placed` and `terrain` outlive the painter and do not change; `painting` is what was painted
-    /// before, whose erased trees are in `placed`. `key` is the forest's.
+    /// `placed` and `terrain` outlive the painter, or what move_to() was called for, and do not
+    /// change. `painting` is what was painted before: those of its erased trees that are in
+    /// `placed` are not alive. `key` is the forest's.
     Painter(std::span<const Tree> placed,
             const Painting& painting,
             const Region& region,
             const Terrain& terrain,
             std::uint64_t key);
+    /// The same trees on the same ground, which lie elsewhere from now on. False: they are others,
+    /// and nothing has happened.
+    [[nodiscard]] bool move_to(std::span<const Tree> placed, const Terrain& terrain);
 
     /// Placed trees first, then all that were ever painted.
     [[nodiscard]] std::uint32_t tree_count() const {
@@ -45,7 +49,10 @@ public:
     [[nodiscard]] const Tree& tree(std::uint32_t index) const {
         return index < placed_.size() ? placed_[index] : painted_[index - placed_.size()];
     }
-    [[nodiscard]] bool is_alive(std::uint32_t index) const { return alive_[index] != 0; }
+    [[nodiscard]] bool is_alive(std::uint32_t index) const {
+        return (index < placed_.size() ? placed_alive_[index]
+                                       : painted_alive_[index - placed_.size()]) != 0;
+    }
     [[nodiscard]] std::uint64_t alive_count() const { return alive_count_; }
 
     /// What follows is undone at once, until the next stroke.
@@ -53,6 +60,9 @@ public:
     /// Puts trees under the brush, none nearer to another than its density asks for, none beyond
     /// the region. The changes are good until the next call of the painter.
     std::span<const TreeChange> paint(float x, float z, const Brush& brush);
+    /// Puts one tree at a place, of the brush's species and scales, unless one stands there or it
+    /// is beyond the region.
+    std::span<const TreeChange> plant(float x, float z, const Brush& brush);
     /// Takes all trees under the brush away.
     std::span<const TreeChange> erase(float x, float z, float radius);
 
@@ -67,6 +77,8 @@ public:
     /// Whether it is another one than at the last call of saved(), or at the start.
     [[nodiscard]] bool is_changed() const { return done_ != saved_; }
     void saved() { saved_ = done_; }
+    /// What was painted before is in no file.
+    void set_unsaved() { saved_ = kNone; }
 
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
@@ -78,6 +90,7 @@ private:
     [[nodiscard]] std::uint32_t cell_of(float x, float z) const;
     template <typename Visit>
     bool any_near(float x, float z, float radius, const Visit& visit) const;
+    void add(const PaintedTree& paint);
     void set_alive(std::uint32_t index, bool alive);
     void record(std::uint32_t index, bool alive);
     void forget_undone();
@@ -87,11 +100,12 @@ private:
 
     std::span<const Tree> placed_;
     const Region region_;
-    const Terrain& terrain_;
+    const Terrain* terrain_;
     std::uint64_t key_;
     LargeVector<Tree> painted_;
     std::vector<PaintedTree> paints_; // as they were painted, beside painted_
-    LargeVector<std::uint8_t> alive_; // of all trees
+    LargeVector<std::uint8_t> placed_alive_;
+    LargeVector<std::uint8_t> painted_alive_;
     std::uint64_t alive_count_ = 0;
     std::vector<std::uint32_t> erased_before_; // numbers that are not in `placed`
     std::uint64_t draws_ = 0;                  // positions of random numbers that were used
@@ -108,7 +122,7 @@ private:
     std::vector<TreeChange> log_;
     std::vector<Stroke> strokes_;
     std::size_t done_ = 0;  // strokes that are in force
-    std::size_t saved_ = 0; // of them when it was saved; kNone: they are gone
+    std::size_t saved_ = 0; // of them when it was saved; kNone: nothing here is what was saved
     std::vector<TreeChange> changes_;
 };
 

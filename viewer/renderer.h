@@ -117,8 +117,15 @@ public:
     /// The lines that are drawn over everything from now on, instead of those before.
     virtual void show_lines(std::span<const LineVertex> lines) = 0;
     /// The forest that is shown from now on instead. Its forest and terrain outlive what is shown.
-    /// Error: a shader does not compile.
+    /// The pictures that stand for far trees are those of the forest before, where there was one,
+    /// until make_portraits() has made others. Error: a shader does not compile.
     [[nodiscard]] virtual Result<Done> show_forest(ForestModel model) = 0;
+    /// Makes pictures of far trees that are missing, for about so many seconds; some each time.
+    /// Whether all are there.
+    [[nodiscard]] virtual bool make_portraits(double seconds) = 0;
+    /// A tree of the forest that is shown comes or goes, at a cost that does not grow with the
+    /// forest: ForestView::change_tree().
+    virtual void change_tree(std::uint32_t index, const Tree& tree, bool alive) = 0;
     /// Of what is shown.
     [[nodiscard]] virtual const Bounds& bounds() const = 0;
 

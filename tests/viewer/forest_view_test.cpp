@@ -1,5 +1,5 @@
 // Which trees are drawn as what, beside the same found one by one.
-#include "tests/support/forest.h"
+#include "tests/viewer/wood.h"
 #include "viewer/portrait_plan.h"
 
 #include <catch2/catch.hpp>
@@ -9,55 +9,15 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <memory>
-#include <random>
 #include <set>
 #include <tuple>
 #include <vector>
 
 using namespace lsys;
+using namespace lsys::tests;
 using namespace lsys::view;
 
 namespace {
-
-constexpr const char* kBush = R"(#set names letters; #set angle 25; #w : A;
-#p : A : ~ 0.5 : F[+A][-A]/A; #q : A : ~ 0.3 : F[+A]//A; #r : A : ~ 0.2 : FF[&A]F;)";
-
-/// Trees of one species on a square of level ground.
-struct Wood {
-    Forest forest;
-    std::unique_ptr<Terrain> terrain;
-    ForestModel model;
-};
-
-std::unique_ptr<Wood> make_wood(std::uint32_t count, float side) {
-    auto wood = std::make_unique<Wood>();
-    CacheOptions options;
-    options.heroes = 6;
-    ForestStage stage;
-    stage.generations = 5;
-    stage.cache = test::plant(kBush, 5, 0.6F, options).cache;
-    ForestSpecies species;
-    species.name = "bush";
-    species.stages.push_back(std::move(stage));
-    wood->forest.species.push_back(std::move(species));
-    wood->forest.key = 5;
-    std::mt19937 draws(1);
-    std::uniform_real_distribution<float> place(0.0F, side);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        Tree tree;
-        tree.position = {place(draws), 0.0F, place(draws)};
-        tree.yaw = place(draws);
-        tree.scale = 0.5F + place(draws) / side;
-        tree.number = i;
-        wood->forest.trees.push_back(tree);
-    }
-    const auto size = static_cast<double>(side);
-    wood->terrain = std::make_unique<Terrain>(Terrain::flat({0.0, 0.0, size, size}).value());
-    REQUIRE(make_forest_model(wood->forest, *wood->terrain, {{}}, {}, wood->model) ==
-            InstanceMeshStatus::Ok);
-    return wood;
-}
 
 Camera looking(const glm::vec3& eye, const glm::vec3& target, float field = 50.0F) {
     return {eye, target, field};
@@ -70,12 +30,6 @@ std::vector<Camera> cameras() {
             looking({5, 1, 5}, {200, 1, 190}, 100.0F),
             looking({100, 3, 30}, {100, 30, 29}),
             looking({-3000, 50, 100}, {100, 0, 100}, 20.0F)};
-}
-
-RingOptions usual() {
-    RingOptions options;
-    options.level_pixels = {200.0F, 120.0F, 80.0F, 40.0F};
-    return options;
 }
 
 /// What is drawn as branches: tree, instance, level.
@@ -99,7 +53,7 @@ TEST_CASE("every tree in view is in exactly one ring") {
     CHECK(view.trees().size() == 3000);
     for (const Camera& camera : cameras()) {
         const ViewVolume volume = view_volume(camera, 640, 480);
-        const ForestLists& lists = view.select(volume, usual());
+        const ForestLists& lists = view.select(volume, wood_rings());
         std::vector<std::uint32_t> rings(view.trees().size());
         std::set<std::uint32_t> near;
         std::map<std::uint32_t, std::set<std::uint32_t>> levels;
@@ -159,7 +113,7 @@ TEST_CASE("all corners of a tree lie within its ball") {
     const std::vector<Bounds> bounds = bounds_of(*form.cache, form.levels[0]);
     TreeExpander expander(*form.cache, wood->forest.key);
     for (const ViewTree& tree : view.trees()) {
-        const Ball ball = view.reach_of(tree);
+        const Ball ball = view.reach_of(tree, view.model().forest->trees[tree.tree].yaw);
         expander.expand(wood->forest.trees[tree.tree], [&](const BranchInstance& branch) {
             const Bounds& box = bounds[branch.instance];
             if (box.empty) {
@@ -187,14 +141,14 @@ TEST_CASE("what is listed does not know what was looked at before") {
     for (std::size_t last = 0; last < all.size(); ++last) {
         const ViewVolume volume = view_volume(all[last], 800, 450);
         ForestView fresh(wood->model);
-        const ForestLists first = fresh.select(volume, usual());
+        const ForestLists first = fresh.select(volume, wood_rings());
         const auto expected = branches_of(fresh, first);
         ForestView used(wood->model);
         for (std::size_t i = 0; i < 3 * all.size(); ++i) {
             static_cast<void>(
-                used.select(view_volume(all[(i * 5 + last) % all.size()], 800, 450), usual()));
+                used.select(view_volume(all[(i * 5 + last) % all.size()], 800, 450), wood_rings()));
         }
-        const ForestLists& again = used.select(volume, usual());
+        const ForestLists& again = used.select(volume, wood_rings());
         CHECK(branches_of(used, again) == expected);
         CHECK(again.trees == first.trees);
         CHECK(again.clumps == first.clumps);
@@ -205,7 +159,7 @@ TEST_CASE("what is listed does not know what was looked at before") {
 TEST_CASE("places of trees never overlap, and are used again") {
     const auto wood = make_wood(2000, 100.0F);
     ForestView view(wood->model);
-    RingOptions options = usual();
+    RingOptions options = wood_rings();
     options.level_pixels = {400.0F, 200.0F, 100.0F, 30.0F};
     std::uint64_t most = 0;
     for (std::uint32_t step = 0; step < 200; ++step) {
@@ -256,7 +210,7 @@ TEST_CASE("triangles are bounded, and trees wait where too many come near at onc
     const auto wood = make_wood(3000, 200.0F);
     ForestView view(wood->model);
     const ViewVolume volume = view_volume(cameras()[0], 1280, 720);
-    RingOptions options = usual();
+    RingOptions options = wood_rings();
     const std::uint64_t all = view.select(volume, options).triangles;
     REQUIRE(all > 2000);
     options.most_triangles = all / 4;
@@ -267,7 +221,7 @@ TEST_CASE("triangles are bounded, and trees wait where too many come near at onc
     options.most_triangles = 0;
     CHECK(view.select(volume, options).branch_trees() == 0);
     ForestView other(wood->model);
-    options = usual();
+    options = wood_rings();
     options.most_expansions = 3;
     const ForestLists first = other.select(volume, options);
     CHECK(first.branch_trees() == 3);

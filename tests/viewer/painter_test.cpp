@@ -168,6 +168,52 @@ TEST_CASE("a painting goes on where it was saved") {
     }
 }
 
+TEST_CASE("erased trees may still be among those that were placed") {
+    const Terrain terrain = Terrain::flat(kRegion).value();
+    const LargeVector<Tree> placed = forest(1000, terrain);
+    Painting painting;
+    painting.erased = {3, 500, 100'000}; // the last is of another placement
+    Painter painter(placed, painting, kRegion, terrain, 1);
+    CHECK(painter.alive_count() == 998);
+    for (std::uint32_t i = 0; i < placed.size(); ++i) {
+        CHECK(painter.is_alive(i) == (placed[i].number != 3 && placed[i].number != 500));
+    }
+    CHECK(painter.painting() == painting);
+    CHECK_FALSE(painter.is_changed());
+    painter.set_unsaved();
+    CHECK(painter.is_changed());
+}
+
+TEST_CASE("one tree is put where it is asked for, but not into another") {
+    const Terrain terrain = Terrain::flat(kRegion).value();
+    Painter painter({}, {}, kRegion, terrain, 1);
+    REQUIRE(painter.plant(30.0F, 40.0F, Brush{}).size() == 1);
+    CHECK(painter.tree(0).position == glm::vec3(30.0F, 0.0F, 40.0F));
+    CHECK(painter.plant(30.0F, 40.0F, Brush{}).empty());
+    CHECK(painter.plant(-1.0F, 40.0F, Brush{}).empty());
+    CHECK(painter.plant(30.5F, 40.0F, Brush{}).size() == 1);
+    CHECK(painter.undo().size() == 2);
+}
+
+TEST_CASE("a painter goes on with the same trees elsewhere, and not with others") {
+    const Terrain terrain = Terrain::flat(kRegion).value();
+    LargeVector<Tree> placed = forest(1000, terrain);
+    Painter painter(placed, {}, kRegion, terrain, 1);
+    static_cast<void>(painter.erase(50.0F, 50.0F, 40.0F));
+    static_cast<void>(painter.paint(50.0F, 50.0F, Brush{}));
+    const std::vector<std::uint8_t> before = alive(painter);
+    const Terrain again = Terrain::flat(kRegion).value();
+    const LargeVector<Tree> same = placed;
+    CHECK(painter.move_to(same, again));
+    placed.clear();
+    CHECK(alive(painter) == before);
+    CHECK_FALSE(painter.undo().empty());
+    CHECK(painter.alive_count() == 1000);
+    CHECK_FALSE(painter.move_to(forest(999, terrain), terrain));
+    const Terrain higher = Terrain::flat(kRegion, 3.0).value();
+    CHECK_FALSE(painter.move_to(forest(1000, higher), higher));
+}
+
 TEST_CASE("painting looks at as many trees in a small forest as in a large one") {
     // Around the brush both are alike: what differs is how many there are elsewhere.
     const Terrain terrain = Terrain::flat(kRegion).value();

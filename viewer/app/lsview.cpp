@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <memory>
 #include <new>
 #include <ostream>
@@ -71,6 +72,7 @@ run_forest_pictures(const ViewOptions& options, const Camera& camera, const Cons
     if (const Result<Done> shown = made.renderer->show_forest(std::move(document.model)); !shown) {
         return lsc::fail(shown.error(), console);
     }
+    static_cast<void>(made.renderer->make_portraits(std::numeric_limits<double>::infinity()));
     return take_forest_pictures(options, from, document, *made.renderer, console);
 }
 

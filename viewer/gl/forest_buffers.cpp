@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <numbers>
 
 namespace lsys::view {
@@ -46,6 +47,31 @@ struct TreeRecord {
     std::uint32_t form_portrait = 0;
 };
 static_assert(sizeof(TreeRecord) == 24);
+
+/// Records for trees that are added; with more, all are copied within the device.
+constexpr std::size_t kRoomForTrees = std::size_t{1} << 14U;
+constexpr std::uint64_t kDigestStart = 0xCBF29CE484222325U;
+
+TreeRecord record_of(const ViewTree& tree, const Tree& full) {
+    const float turns = full.yaw / (2.0F * std::numbers::pi_v<float>);
+    const auto yaw = static_cast<std::uint32_t>(65536.0F * (turns - std::floor(turns))) & 0xFFFFU;
+    const std::uint32_t phase = full.number * 0x9E3779B1U >> 16U;
+    const auto portrait = static_cast<std::uint32_t>(tree.portrait & ~ViewTree::kGone);
+    return {tree.position, tree.scale, phase << 16U | yaw, portrait << 16U | tree.form};
+}
+
+/// Eight bytes at a time; only tells whether two are alike.
+template <typename T>
+std::uint64_t digest_of(std::span<const T> items, std::uint64_t digest) {
+    const std::span<const std::byte> bytes = std::as_bytes(items);
+    for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
+        digest = (digest ^ word) * 0x9E3779B97F4A7C15U;
+        digest ^= digest >> 29U;
+    }
+    return digest;
+}
 
 std::int16_t snorm16(float value) {
     return static_cast<std::int16_t>(std::lround(std::clamp(value, -1.0F, 1.0F) * 32767.0F));
@@ -94,10 +120,17 @@ std::vector<std::uint16_t> add_looks(const std::vector<Material>& materials,
 
 } // namespace
 
+ForestBuffers::Drawn ForestBuffers::make_drawn(Device& device) {
+    return {Buffer(device),
+            Buffer(device),
+            Buffer(device),
+            {Buffer(device), Buffer(device), Buffer(device)},
+            {}};
+}
+
 ForestBuffers::ForestBuffers(Device& device)
     : array_(make_vertex_array(device)), vertices_(device), indices_(device), looks_(device),
-      forms_(device), trees_(device), cells_(device), branches_(device),
-      lists_(device), commands_{Buffer(device), Buffer(device), Buffer(device)} {
+      forms_(device), cells_(device), forest_(make_drawn(device)), portrait_(make_drawn(device)) {
     const GLuint array = array_.name();
     for (GLuint i = 0; i <= kBranchAttribute; ++i) {
         glEnableVertexArrayAttrib(array, i);
@@ -110,6 +143,10 @@ ForestBuffers::ForestBuffers(Device& device)
                               offsetof(Vertex, texture_coordinate));
     glVertexArrayAttribIFormat(array, kBranchAttribute, 1, GL_UNSIGNED_INT, 0);
     glVertexArrayBindingDivisor(array, 1, 1);
+}
+
+void ForestBuffers::turn_to(Subject subject) {
+    drawn_ = subject == Subject::Forest ? &forest_ : &portrait_;
 }
 
 void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
@@ -140,12 +177,15 @@ void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
     indices_.reserve(index_count * sizeof(std::uint32_t));
     mesh_bytes_ = vertex_count * sizeof(Vertex) + index_count * sizeof(std::uint32_t);
     form_levels_.clear();
+    mesh_digests_.clear();
     std::uint64_t first_vertex = 0;
     std::uint64_t first_index = 0;
     std::vector<Vertex> packed;
     std::vector<std::uint32_t> listed;
     for (std::size_t f = 0; f < model.forms.size(); ++f) {
         auto& levels = form_levels_.emplace_back();
+        std::uint64_t& digest = mesh_digests_.emplace_back(kDigestStart);
+        digest = digest_of(std::span<const float>(&boxes[f], 1), digest);
         for (std::size_t l = 0; l < kTreeLevels; ++l) {
             InstanceMeshes meshes = std::move(model.forms[f].levels[l]);
             const Mesh& mesh = meshes.mesh;
@@ -187,6 +227,11 @@ void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
                         static_cast<std::uint32_t>(listed.size() - before);
                 }
             }
+            for (const std::uint16_t number : numbers) {
+                digest = digest_of(std::span<const Look>(&looks[number], 1), digest);
+            }
+            digest = digest_of(std::span<const Vertex>(packed), digest);
+            digest = digest_of(std::span<const std::uint32_t>(listed), digest);
             vertices_.write(std::span<const Vertex>(packed), first_vertex * sizeof(Vertex));
             indices_.write(std::span<const std::uint32_t>(listed),
                            first_index * sizeof(std::uint32_t));
@@ -202,22 +247,15 @@ void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
 
 void ForestBuffers::upload_trees(const ForestView& view) {
     const std::span<const ViewTree> trees = view.trees();
-    trees_.reserve(trees.size() * sizeof(TreeRecord));
+    drawn_->trees.reserve((trees.size() + kRoomForTrees) * sizeof(TreeRecord));
     constexpr std::size_t kPiece = std::size_t{1} << 16U;
     std::vector<TreeRecord> records;
     for (std::size_t first = 0; first < trees.size(); first += kPiece) {
         records.clear();
         for (std::size_t t = first; t < std::min(first + kPiece, trees.size()); ++t) {
-            const ViewTree& tree = trees[t];
-            const Tree& full = view.model().forest->trees[tree.tree];
-            const float turns = full.yaw / (2.0F * std::numbers::pi_v<float>);
-            const auto yaw =
-                static_cast<std::uint32_t>(65536.0F * (turns - std::floor(turns))) & 0xFFFFU;
-            const std::uint32_t phase = full.number * 0x9E3779B1U >> 16U;
-            records.push_back({tree.position, tree.scale, phase << 16U | yaw,
-                               std::uint32_t{tree.portrait} << 16U | tree.form});
+            records.push_back(record_of(trees[t], view.model().forest->trees[trees[t].tree]));
         }
-        trees_.write(std::span<const TreeRecord>(records), first * sizeof(TreeRecord));
+        drawn_->trees.write(std::span<const TreeRecord>(records), first * sizeof(TreeRecord));
     }
     const auto forms = static_cast<std::uint32_t>(view.model().forms.size());
     records.clear();
@@ -230,6 +268,16 @@ void ForestBuffers::upload_trees(const ForestView& view) {
     cells_.fill(std::span<const TreeRecord>(records));
 }
 
+void ForestBuffers::upload_tree(const ForestView& view, std::uint32_t number) {
+    const std::size_t offset = std::size_t{number} * sizeof(TreeRecord);
+    Buffer& trees = drawn_->trees;
+    if (offset + sizeof(TreeRecord) > trees.capacity()) {
+        trees.grow(offset + kRoomForTrees * sizeof(TreeRecord));
+    }
+    const TreeRecord record = record_of(view.view_tree(number), view.tree_of(number));
+    trees.write(std::span<const TreeRecord>(&record, 1), offset);
+}
+
 void ForestBuffers::bind_cells() const {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, cells_.name());
 }
@@ -239,24 +287,25 @@ void ForestBuffers::set_form_trees(std::uint32_t forms) {
     for (std::uint32_t f = 0; f < forms; ++f) {
         records[f].form_portrait = f;
     }
-    trees_.fill(std::span<const TreeRecord>(records));
+    drawn_->trees.fill(std::span<const TreeRecord>(records));
 }
 
 void ForestBuffers::upload_branches(BranchPool& pool) {
     const std::span<const PoolBranch> all = pool.branches();
-    branches_.grow(std::bit_ceil(std::max<std::size_t>(all.size_bytes(), 1024)));
+    drawn_->branches.grow(std::bit_ceil(std::max<std::size_t>(all.size_bytes(), 1024)));
     for (const PoolSpan& span : pool.take_written()) {
-        branches_.write(all.subspan(span.first, span.count), span.first * sizeof(PoolBranch));
+        drawn_->branches.write(all.subspan(span.first, span.count),
+                               span.first * sizeof(PoolBranch));
     }
 }
 
 void ForestBuffers::set_branches(std::span<const PoolBranch> branches) {
-    branches_.fill(branches);
+    drawn_->branches.fill(branches);
 }
 
 void ForestBuffers::command(const ForestLists& lists) {
-    lists_.fill(std::span<const std::uint32_t>(lists.branches));
-    glVertexArrayVertexBuffer(array_.name(), 1, lists_.name(), 0, sizeof(std::uint32_t));
+    drawn_->lists.fill(std::span<const std::uint32_t>(lists.branches));
+    glVertexArrayVertexBuffer(array_.name(), 1, drawn_->lists.name(), 0, sizeof(std::uint32_t));
     std::array<std::vector<DrawCommand>, kBranchClasses> commands;
     for (const BranchRun& run : lists.runs) {
         const FormLevel& level = form_levels_[run.form][run.level];
@@ -269,28 +318,29 @@ void ForestBuffers::command(const ForestLists& lists) {
         }
     }
     for (std::size_t kind = 0; kind < kBranchClasses; ++kind) {
-        commands_[kind].fill(std::span<const DrawCommand>(commands[kind]));
-        command_counts_[kind] = static_cast<std::uint32_t>(commands[kind].size());
+        drawn_->commands[kind].fill(std::span<const DrawCommand>(commands[kind]));
+        drawn_->command_counts[kind] = static_cast<std::uint32_t>(commands[kind].size());
     }
 }
 
 std::uint64_t ForestBuffers::draw(BranchClass kind) const {
     const auto index = static_cast<std::size_t>(kind);
-    if (command_counts_[index] == 0) {
+    if (drawn_->command_counts[index] == 0) {
         return 0;
     }
     glBindVertexArray(array_.name());
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_[index].name());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, drawn_->commands[index].name());
     (kind == BranchClass::OneSided ? glEnable : glDisable)(GL_CULL_FACE);
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
-                                static_cast<GLsizei>(command_counts_[index]), sizeof(DrawCommand));
+                                static_cast<GLsizei>(drawn_->command_counts[index]),
+                                sizeof(DrawCommand));
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
     return 1;
 }
 
 void ForestBuffers::bind_storage() const {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBranches, branches_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, trees_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBranches, drawn_->branches.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, drawn_->trees.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kForms, forms_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kLooks, looks_.name());
 }

@@ -23,6 +23,9 @@ enum class BranchClass : std::uint8_t {
 };
 inline constexpr std::size_t kBranchClasses = 3;
 
+/// What trees, branches and commands are of: portraits are drawn between pictures of the forest.
+enum class Subject : std::uint8_t { Forest, Portrait };
+
 struct DrawCommand { // as OpenGL has it
     std::uint32_t count = 0;
     std::uint32_t instance_count = 0;
@@ -35,6 +38,11 @@ static_assert(sizeof(DrawCommand) == 20);
 class ForestBuffers {
 public:
     explicit ForestBuffers(Device& device);
+    ForestBuffers(const ForestBuffers&) = delete;
+    ForestBuffers& operator=(const ForestBuffers&) = delete;
+
+    /// What the calls that follow are about.
+    void turn_to(Subject subject);
 
     /// Takes the meshes out of the model.
     void upload(ForestModel& model, const PortraitPlan& plan);
@@ -42,9 +50,11 @@ public:
     void upload_trees(const ForestView& view);
     /// Puts branches that the pool has written where shaders find them.
     void upload_branches(BranchPool& pool);
-    /// For portraits: tree k is of form k, at the origin. upload_trees() has to follow.
+    /// One tree, of those that were added too.
+    void upload_tree(const ForestView& view, std::uint32_t number);
+    /// For portraits: tree k is of form k, at the origin.
     void set_form_trees(std::uint32_t forms);
-    /// Branches from elsewhere instead, for portraits, before any upload_branches().
+    /// Branches from elsewhere than a pool, for portraits.
     void set_branches(std::span<const PoolBranch> branches);
     /// The commands of each class for lists of branches; uploads both.
     void command(const ForestLists& lists);
@@ -56,9 +66,14 @@ public:
     void bind_cells() const;
 
     [[nodiscard]] std::uint64_t mesh_bytes() const { return mesh_bytes_; }
-    [[nodiscard]] std::uint64_t tree_bytes() const { return trees_.capacity() + cells_.capacity(); }
-    [[nodiscard]] std::uint64_t branch_bytes() const { return branches_.capacity(); }
-    [[nodiscard]] GLuint index_list() const { return lists_.name(); }
+    [[nodiscard]] std::uint64_t tree_bytes() const {
+        return forest_.trees.capacity() + cells_.capacity();
+    }
+    [[nodiscard]] std::uint64_t branch_bytes() const { return forest_.branches.capacity(); }
+    /// Changes with any mesh of a form.
+    [[nodiscard]] std::uint64_t mesh_digest(std::uint32_t form) const {
+        return mesh_digests_[form];
+    }
 
 private:
     /// Triangles of an instance at a level.
@@ -71,17 +86,26 @@ private:
         std::vector<Piece> pieces; // by instance
     };
 
+    /// What is drawn of a subject.
+    struct Drawn {
+        Buffer trees;
+        Buffer branches;
+        Buffer lists;
+        std::array<Buffer, kBranchClasses> commands;
+        std::array<std::uint32_t, kBranchClasses> command_counts{};
+    };
+    [[nodiscard]] static Drawn make_drawn(Device& device);
+
     VertexArray array_;
     Buffer vertices_;
     Buffer indices_;
     Buffer looks_;
     Buffer forms_;
-    Buffer trees_;
     Buffer cells_;
-    Buffer branches_;
-    Buffer lists_;
-    std::array<Buffer, kBranchClasses> commands_;
-    std::array<std::uint32_t, kBranchClasses> command_counts_{};
+    Drawn forest_;
+    Drawn portrait_;
+    Drawn* drawn_ = &forest_;
+    std::vector<std::uint64_t> mesh_digests_; // by form
     std::vector<std::array<FormLevel, kTreeLevels>> form_levels_;
     std::uint64_t mesh_bytes_ = 0;
 };

@@ -77,25 +77,41 @@ Result<Done> ForestPass::reload(const ShaderSource& shaders) {
     return Done{};
 }
 
-void ForestPass::show(ForestModel model, MaterialTextures& textures) {
-    Clock::time_point start = Clock::now();
+void ForestPass::show(ForestModel model) {
+    const Clock::time_point start = Clock::now();
     lists_ = nullptr;
     view_.reset();
     model_ = std::move(model);
     view_ = std::make_unique<ForestView>(model_);
-    const PortraitPlan plan = plan_portraits(*view_);
+    PortraitPlan plan = plan_portraits(*view_);
     has_cells_ = plan.has_cells;
     buffers_.upload(model_, plan);
-    upload_seconds_ = seconds_since(start);
-    start = Clock::now();
-    portraits_.make(model_, plan, buffers_, textures);
-    bake_seconds_ = seconds_since(start);
-    start = Clock::now();
+    portraits_.begin(model_, std::move(plan), buffers_);
     buffers_.upload_trees(*view_);
     const Region& region = model_.terrain->region();
     terrain_.show(*model_.terrain,
                   static_cast<float>(std::hypot(region.width, region.depth)) + kGroundBeyond);
-    upload_seconds_ += seconds_since(start);
+    upload_seconds_ = seconds_since(start);
+    bake_seconds_ = 0.0;
+}
+
+bool ForestPass::make_portraits(double seconds, MaterialTextures& textures) {
+    const Clock::time_point start = Clock::now();
+    while (!portraits_.is_done()) {
+        portraits_.step(model_, buffers_, textures);
+        if (seconds_since(start) >= seconds) {
+            break;
+        }
+    }
+    bake_seconds_ += seconds_since(start);
+    return portraits_.is_done();
+}
+
+void ForestPass::change_tree(std::uint32_t index, const Tree& tree, bool alive) {
+    const std::uint32_t number = view_->change_tree(index, tree, alive);
+    if (alive && number >= view_->trees().size()) {
+        buffers_.upload_tree(*view_, number);
+    }
 }
 
 Bounds ForestPass::lit_bounds(const Frame& frame) const {
@@ -219,7 +235,7 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
 
 ForestSizes ForestPass::sizes() const {
     ForestSizes sizes;
-    sizes.trees = view_->trees().size();
+    sizes.trees = view_->alive_count();
     sizes.tree_bytes =
         view_->byte_count() + buffers_.tree_bytes() + model_.forest->trees.size() * sizeof(Tree);
     sizes.branch_bytes = buffers_.branch_bytes();

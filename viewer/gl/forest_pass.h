@@ -23,8 +23,13 @@ public:
 
     /// Error: a shader does not compile; those before stay.
     [[nodiscard]] Result<Done> reload(const ShaderSource& shaders);
-    /// The forest that is drawn from now on. Forest and terrain outlive the pass or the next call.
-    void show(ForestModel model, MaterialTextures& textures);
+    /// The forest that is drawn from now on, with the portraits that were there until others are
+    /// made. Forest and terrain outlive the pass or the next call.
+    void show(ForestModel model);
+    /// Draws portraits that are missing, for about so long. Whether all are there.
+    [[nodiscard]] bool make_portraits(double seconds, MaterialTextures& textures);
+    /// A tree comes or goes, as ForestView::change_tree() has it.
+    void change_tree(std::uint32_t index, const Tree& tree, bool alive);
     [[nodiscard]] bool shows() const { return view_ != nullptr; }
     [[nodiscard]] const Bounds& bounds() const { return view_->bounds(); }
 

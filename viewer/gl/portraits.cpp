@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -130,6 +131,38 @@ double coverage_of(const PortraitPicture& picture) {
     return 4.0 * sum / static_cast<double>(picture.albedos.size());
 }
 
+/// The last one that begins no later: layers of a form follow one another.
+const Cylinder& cylinder_of(const PortraitPlan& plan, std::uint32_t layer) {
+    return std::find_if(plan.forms.rbegin(), plan.forms.rend(),
+                        [layer](const PictureForm& each) { return each.first_layer <= layer; })
+        ->cylinder;
+}
+
+/// Changes with what is seen in a portrait; never 0.
+std::uint64_t key_of(const Portrait& portrait,
+                     const Cylinder& cylinder,
+                     const ForestModel& model,
+                     std::uint64_t meshes) {
+    std::uint64_t key = meshes ^ model.forest->key * 0xD6E8FEB86659FD93U;
+    const auto add = [&key](std::uint64_t word) {
+        key = (key ^ word) * 0x9E3779B97F4A7C15U;
+        key ^= key >> 29U;
+    };
+    const auto add_length = [&add](float length) { add(std::bit_cast<std::uint32_t>(length)); };
+    add(portrait.level);
+    for (const float length : {cylinder.radius, cylinder.low, cylinder.high}) {
+        add_length(length);
+    }
+    for (const Tree& tree : portrait.trees) {
+        add(tree.number);
+        for (const float length :
+             {tree.position.x, tree.position.y, tree.position.z, tree.yaw, tree.scale}) {
+            add_length(length);
+        }
+    }
+    return key | 1U;
+}
+
 /// The branches of a portrait as lists of a level.
 ForestLists lists_of(const TreeForm& form,
                      std::uint32_t form_index,
@@ -167,7 +200,19 @@ Result<Done> Portraits::reload(const ShaderSource& shaders) {
     }
     solid_ = std::move(solid.value());
     cut_out_ = std::move(cut_out.value());
+    keys_.assign(keys_.size(), 0);
+    look_for_missing();
     return Done{};
+}
+
+void Portraits::look_for_missing() {
+    work_.reset();
+    pending_.clear();
+    for (std::uint32_t layer = layers_; layer-- > 0;) {
+        if (keys_[layer] != wanted_[layer]) {
+            pending_.push_back(layer);
+        }
+    }
 }
 
 void Portraits::draw_row(const Cylinder& form,
@@ -228,37 +273,114 @@ void Portraits::upload_layer(std::uint32_t layer, PortraitPicture picture) {
     }
 }
 
-void Portraits::make(const ForestModel& model,
-                     const PortraitPlan& plan,
-                     ForestBuffers& buffers,
-                     MaterialTextures& textures) {
-    layers_ = static_cast<std::uint32_t>(plan.layers.size());
-    texture_bytes_ = 0;
-    for (TextureObject* texture : {&albedos_, &normals_}) {
-        *texture = make_texture(*device_, GL_TEXTURE_2D_ARRAY);
-        glTextureStorage3D(texture->name(), kLevels, GL_RGBA8, static_cast<GLsizei>(kWidth),
-                           static_cast<GLsizei>(kHeight), static_cast<GLsizei>(layers_));
-        glTextureParameteri(texture->name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
-        glTextureParameteri(texture->name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        glTextureParameteri(texture->name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        glTextureParameteri(texture->name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-        texture_bytes_ += std::uint64_t{4} * kWidth * kHeight * layers_ * 4 / 3;
+void Portraits::make_layers(const std::vector<std::uint64_t>& keys) {
+    const auto count = static_cast<std::uint32_t>(keys.size());
+    if (count == layers_ && albedos_) {
+        return;
     }
+    const std::array<TextureObject, 2> before = {std::move(albedos_), std::move(normals_)};
+    const std::vector<std::uint64_t> keys_before = std::exchange(keys_, {});
+    keys_.assign(count, 0);
+    layers_ = count;
+    texture_bytes_ = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        TextureObject& texture = i == 0 ? albedos_ : normals_;
+        texture = make_texture(*device_, GL_TEXTURE_2D_ARRAY);
+        glTextureStorage3D(texture.name(), kLevels, GL_RGBA8, static_cast<GLsizei>(kWidth),
+                           static_cast<GLsizei>(kHeight), static_cast<GLsizei>(layers_));
+        glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+        glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        texture_bytes_ += std::uint64_t{4} * kWidth * kHeight * layers_ * 4 / 3;
+        for (GLint level = 0; level < kLevels; ++level) {
+            glClearTexImage(texture.name(), level, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+        }
+        for (std::uint32_t layer = 0; layer < count; ++layer) {
+            const auto same = std::find(keys_before.begin(), keys_before.end(), keys[layer]);
+            if (same == keys_before.end()) {
+                continue;
+            }
+            keys_[layer] = keys[layer];
+            for (GLint level = 0; level < kLevels; ++level) {
+                glCopyImageSubData(before[i].name(), GL_TEXTURE_2D_ARRAY, level, 0, 0,
+                                   static_cast<GLint>(same - keys_before.begin()), texture.name(),
+                                   GL_TEXTURE_2D_ARRAY, level, 0, 0, static_cast<GLint>(layer),
+                                   static_cast<GLsizei>(kWidth >> level),
+                                   static_cast<GLsizei>(kHeight >> level), 1);
+            }
+        }
+    }
+}
+
+void Portraits::begin(const ForestModel& model, PortraitPlan plan, const ForestBuffers& buffers) {
+    plan_ = std::move(plan);
+    wanted_.clear();
+    for (std::uint32_t layer = 0; layer < plan_.layers.size(); ++layer) {
+        const Portrait& portrait = plan_.layers[layer];
+        wanted_.push_back(
+            key_of(portrait, cylinder_of(plan_, layer), model, buffers.mesh_digest(portrait.form)));
+    }
+    make_layers(wanted_);
+    look_for_missing();
+}
+
+Portraits::Work Portraits::make_work() const {
+    Work work;
     const auto width = static_cast<GLsizei>(kWidth * kFiner);
     const auto height = static_cast<GLsizei>(kTile * kFiner); // one elevation at a time
-    Framebuffer target = make_framebuffer(*device_);
-    std::array<Renderbuffer, 3> storage;
+    work.target = make_framebuffer(*device_);
     constexpr std::array<GLenum, 3> kFormats = {GL_RGBA8, GL_RGBA8, GL_DEPTH_COMPONENT32F};
     constexpr std::array<GLenum, 3> kPoints = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
                                                GL_DEPTH_ATTACHMENT};
-    for (std::size_t i = 0; i < storage.size(); ++i) {
-        storage[i] = make_renderbuffer(*device_);
-        glNamedRenderbufferStorage(storage[i].name(), kFormats[i], width, height);
-        glNamedFramebufferRenderbuffer(target.name(), kPoints[i], GL_RENDERBUFFER,
-                                       storage[i].name());
+    for (std::size_t i = 0; i < work.storage.size(); ++i) {
+        work.storage[i] = make_renderbuffer(*device_);
+        glNamedRenderbufferStorage(work.storage[i].name(), kFormats[i], width, height);
+        glNamedFramebufferRenderbuffer(work.target.name(), kPoints[i], GL_RENDERBUFFER,
+                                       work.storage[i].name());
     }
-    glNamedFramebufferDrawBuffers(target.name(), 2, kPoints.data());
-    glBindFramebuffer(GL_FRAMEBUFFER, target.name());
+    glNamedFramebufferDrawBuffers(work.target.name(), 2, kPoints.data());
+    work.frame = Buffer(*device_);
+    work.row = {kWidth * kFiner, kTile * kFiner, {}, {}};
+    work.row.albedos.resize(std::size_t{4} * work.row.width * work.row.height);
+    work.row.normals.resize(work.row.albedos.size());
+    return work;
+}
+
+void Portraits::begin_layer(std::uint32_t layer,
+                            const ForestModel& model,
+                            ForestBuffers& buffers) const {
+    const Portrait& portrait = plan_.layers[layer];
+    const TreeForm& form = model.forms[portrait.form];
+    std::vector<PoolBranch> branches;
+    TreeExpander expander(*form.cache, model.forest->key);
+    for (const Tree& tree : portrait.trees) {
+        expander.expand(tree, [&](const BranchInstance& branch) {
+            branches.push_back(
+                pool_branch(branch, form.cache->instances[branch.instance], portrait.form));
+        });
+    }
+    buffers.set_form_trees(static_cast<std::uint32_t>(model.forms.size()));
+    buffers.set_branches(branches);
+    buffers.command(lists_of(form, portrait.form, portrait.level, branches));
+}
+
+void Portraits::step(const ForestModel& model, ForestBuffers& buffers, MaterialTextures& textures) {
+    if (pending_.empty()) {
+        return;
+    }
+    const std::uint32_t layer = pending_.back();
+    if (!work_) {
+        work_ = make_work();
+    }
+    Work& work = *work_;
+    buffers.turn_to(Subject::Portrait);
+    if (work.elevation == 0) {
+        work.all = {kWidth, kHeight, {}, {}};
+    }
+    begin_layer(layer, model, buffers);
+    buffers.bind_storage();
+    glBindFramebuffer(GL_FRAMEBUFFER, work.target.name());
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
@@ -267,49 +389,33 @@ void Portraits::make(const ForestModel& model,
     glBindTextureUnit(1, textures.base(MaterialKind::Bark));
     glBindTextureUnit(2, textures.base(MaterialKind::Leaf));
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    Buffer frame(*device_);
-    PortraitPicture row{kWidth * kFiner, kTile * kFiner, {}, {}};
-    row.albedos.resize(std::size_t{4} * row.width * row.height);
-    row.normals.resize(row.albedos.size());
-    std::vector<PoolBranch> branches;
-    buffers.set_form_trees(static_cast<std::uint32_t>(model.forms.size()));
-    for (std::uint32_t layer = 0; layer < layers_; ++layer) {
-        const Portrait& portrait = plan.layers[layer];
-        const TreeForm& form = model.forms[portrait.form];
-        branches.clear();
-        TreeExpander expander(*form.cache, model.forest->key);
-        for (const Tree& tree : portrait.trees) {
-            expander.expand(tree, [&](const BranchInstance& branch) {
-                branches.push_back(
-                    pool_branch(branch, form.cache->instances[branch.instance], portrait.form));
-            });
-        }
-        buffers.set_branches(branches);
-        buffers.command(lists_of(form, portrait.form, portrait.level, branches));
-        buffers.bind_storage();
-        // The last one that begins no later: layers of a form follow one another.
-        const auto picture =
-            std::find_if(plan.forms.rbegin(), plan.forms.rend(),
-                         [layer](const PictureForm& each) { return each.first_layer <= layer; });
-        PortraitPicture all{kWidth, kHeight, {}, {}};
-        for (std::uint32_t e = 0; e < kElevations; ++e) {
-            constexpr std::array<GLfloat, 4> kNothing{};
-            constexpr GLfloat kFar = 0.0F;
-            glClearNamedFramebufferfv(target.name(), GL_COLOR, 0, kNothing.data());
-            glClearNamedFramebufferfv(target.name(), GL_COLOR, 1, kNothing.data());
-            glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &kFar);
-            draw_row(picture->cylinder, e, buffers, frame);
-            glReadBuffer(GL_COLOR_ATTACHMENT0);
-            glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, row.albedos.data());
-            glReadBuffer(GL_COLOR_ATTACHMENT1);
-            glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, row.normals.data());
-            const PortraitPicture half = halved(row);
-            all.albedos.insert(all.albedos.end(), half.albedos.begin(), half.albedos.end());
-            all.normals.insert(all.normals.end(), half.normals.begin(), half.normals.end());
-        }
-        upload_layer(layer, std::move(all));
-    }
+    constexpr std::array<GLfloat, 4> kNothing{};
+    constexpr GLfloat kFar = 0.0F;
+    glClearNamedFramebufferfv(work.target.name(), GL_COLOR, 0, kNothing.data());
+    glClearNamedFramebufferfv(work.target.name(), GL_COLOR, 1, kNothing.data());
+    glClearNamedFramebufferfv(work.target.name(), GL_DEPTH, 0, &kFar);
+    draw_row(cylinder_of(plan_, layer), work.elevation, buffers, work.frame);
+    const auto width = static_cast<GLsizei>(work.row.width);
+    const auto height = static_cast<GLsizei>(work.row.height);
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, work.row.albedos.data());
+    glReadBuffer(GL_COLOR_ATTACHMENT1);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, work.row.normals.data());
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    buffers.turn_to(Subject::Forest);
+    const PortraitPicture half = halved(work.row);
+    work.all.albedos.insert(work.all.albedos.end(), half.albedos.begin(), half.albedos.end());
+    work.all.normals.insert(work.all.normals.end(), half.normals.begin(), half.normals.end());
+    if (++work.elevation < kElevations) {
+        return;
+    }
+    work.elevation = 0;
+    upload_layer(layer, std::move(work.all));
+    keys_[layer] = wanted_[layer];
+    pending_.pop_back();
+    if (pending_.empty()) {
+        work_.reset();
+    }
 }
 
 } // namespace lsys::view

@@ -10,7 +10,9 @@
 #include "viewer/portrait_plan.h"
 #include "viewer/renderer.h"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace lsys::view {
@@ -31,12 +33,15 @@ public:
 
     explicit Portraits(Device& device) : device_(&device) {}
 
+    /// Portraits that are there stay until they are drawn anew.
     [[nodiscard]] Result<Done> reload(const ShaderSource& shaders);
-    /// Draws the layers of a plan, with the meshes in `buffers`.
-    void make(const ForestModel& model,
-              const PortraitPlan& plan,
-              ForestBuffers& buffers,
-              MaterialTextures& textures);
+    /// From now on the layers are those of a plan. What is in them stays until it is drawn anew;
+    /// layers that were not there are empty. Those that are as before are not drawn.
+    void begin(const ForestModel& model, PortraitPlan plan, const ForestBuffers& buffers);
+    [[nodiscard]] bool is_done() const { return pending_.empty(); }
+    /// Draws a part of what is missing: one elevation of a layer. Other shaders, programs and
+    /// targets are bound afterwards.
+    void step(const ForestModel& model, ForestBuffers& buffers, MaterialTextures& textures);
 
     [[nodiscard]] GLuint albedos() const { return albedos_.name(); }
     [[nodiscard]] GLuint normals() const { return normals_.name(); }
@@ -44,6 +49,21 @@ public:
     [[nodiscard]] std::uint32_t layers() const { return layers_; }
 
 private:
+    /// What is needed while layers are missing.
+    struct Work {
+        Framebuffer target;
+        std::array<Renderbuffer, 3> storage; // albedos, normals, depths
+        Buffer frame;
+        PortraitPicture row; // of an elevation, finer
+        PortraitPicture all; // of the layer, as far as it is made
+        std::uint32_t elevation = 0;
+    };
+
+    void look_for_missing();
+    void make_layers(const std::vector<std::uint64_t>& keys);
+    [[nodiscard]] Work make_work() const;
+    /// The meshes and commands of a layer.
+    void begin_layer(std::uint32_t layer, const ForestModel& model, ForestBuffers& buffers) const;
     /// The tiles of one elevation.
     void draw_row(const Cylinder& form,
                   std::uint32_t elevation,
@@ -56,6 +76,11 @@ private:
     ProgramObject cut_out_;
     TextureObject albedos_;
     TextureObject normals_;
+    PortraitPlan plan_;
+    std::vector<std::uint64_t> keys_;    // of what is in each layer; 0: nothing
+    std::vector<std::uint64_t> wanted_;  // of what is to be in it
+    std::vector<std::uint32_t> pending_; // layers, the next one last
+    std::optional<Work> work_;
     std::uint32_t layers_ = 0;
     std::uint64_t texture_bytes_ = 0;
 };

@@ -86,10 +86,22 @@ public:
             }
             has_forest_shaders_ = true;
         }
-        forest_.show(std::move(model), textures_);
+        forest_.show(std::move(model));
         shadow_.invalidate();
         is_forest_ = true;
         return Done{};
+    }
+    bool make_portraits(double seconds) override {
+        if (!is_forest_) {
+            return true;
+        }
+        const bool all = forest_.make_portraits(seconds, textures_);
+        shadow_.invalidate();
+        return all;
+    }
+    void change_tree(std::uint32_t index, const Tree& tree, bool alive) override {
+        forest_.change_tree(index, tree, alive);
+        shadow_.invalidate();
     }
     const Bounds& bounds() const override {
         return is_forest_              ? forest_.bounds()

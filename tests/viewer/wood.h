@@ -1,0 +1,23 @@
+// Wood: a small forest, for tests of what is drawn of one.
+#pragma once
+
+#include "viewer/forest_view.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace lsys::tests {
+
+/// Trees of one species on a square of level ground.
+struct Wood {
+    Forest forest;
+    std::unique_ptr<Terrain> terrain;
+    view::ForestModel model;
+};
+
+/// `side` in metres.
+[[nodiscard]] std::unique_ptr<Wood> make_wood(std::uint32_t count, float side);
+/// With rings that are met in pictures of 640 by 480 pixels.
+[[nodiscard]] view::RingOptions wood_rings();
+
+} // namespace lsys::tests
