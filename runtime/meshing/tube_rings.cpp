@@ -57,15 +57,13 @@ void TubeWriter::put_ring(const Ring& ring) {
     if (noise_ != nullptr) {
         put_noise(ring, first);
     } else {
-        const glm::vec3 binormal = glm::cross(at_.tangent, at_.normal);
         const glm::vec3 wide = ring.stretch * ring.mitre;
         const float part = 1.0F / std::sqrt(1.0F + ring.slope * ring.slope);
-        const Ellipse position{
-            lanes(ring.centre),
-            lanes(ring.radius * (at_.normal + glm::dot(at_.normal, ring.mitre) * wide)),
-            lanes(ring.radius * (binormal + glm::dot(binormal, ring.mitre) * wide))};
+        const Ellipse position{lanes(ring.centre),
+                               lanes(ring.radius * (at_.normal + ring.normal_part * wide)),
+                               lanes(ring.radius * (ring.binormal + ring.binormal_part * wide))};
         const Ellipse normal{lanes((-ring.slope * part) * at_.tangent), lanes(part * at_.normal),
-                             lanes(part * binormal)};
+                             lanes(part * ring.binormal)};
         put_ellipses(block_.positions.data() + first, position, block_.normals.data() + first,
                      normal, directions(ring.sides), columns);
     }
@@ -93,7 +91,7 @@ void TubeWriter::put_textured(const Ring& ring, std::uint64_t first) {
     }
     glm::vec4* to = block_.tangents.data() + first;
     const Direction* at = directions(ring.sides);
-    const glm::vec3 binormal = glm::cross(at_.tangent, at_.normal);
+    const glm::vec3& binormal = ring.binormal;
     if (noise_ == nullptr) {
         const Lanes a = lanes(at_.normal);
         const Lanes b = lanes(binormal);
@@ -112,7 +110,7 @@ void TubeWriter::put_textured(const Ring& ring, std::uint64_t first) {
 
 void TubeWriter::put_noise(const Ring& ring, std::uint64_t first) {
     const Direction* at = directions(ring.sides);
-    const glm::vec3 binormal = glm::cross(at_.tangent, at_.normal);
+    const glm::vec3& binormal = ring.binormal;
     const float amount = std::min(options_.bark_noise, 0.9F);
     for (std::uint32_t i = 0; i < ring.sides; ++i) {
         const glm::vec3 out = at[i].cosine * at_.normal + at[i].sine * binormal;

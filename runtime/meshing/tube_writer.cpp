@@ -117,6 +117,7 @@ void TubeWriter::go(const Run& run, std::size_t end) {
         if (run.begin == TubeEnd::Flat) {
             put_tip(ring.centre, -at_.tangent, ring.arc, ring);
         }
+        set_frame(ring);
         put_ring(ring);
         at_.joint = 1;
     }
@@ -140,6 +141,7 @@ void TubeWriter::go(const Run& run, std::size_t end) {
             carry(before.heading, sum * (1.0F / twice));
             ring.mitre = joint.heading - before.heading;
             ring.stretch = 0.25F / (half_cosine * (1.0F + half_cosine));
+            set_frame(ring);
             put_ring(ring);
             change_colour(ring, joint.colour);
         }
@@ -167,6 +169,12 @@ void TubeWriter::carry(const glm::vec3& edge, const glm::vec3& tangent) {
     }
 }
 
+void TubeWriter::set_frame(Ring& ring) const {
+    ring.binormal = glm::cross(at_.tangent, at_.normal);
+    ring.normal_part = glm::dot(at_.normal, ring.mitre);
+    ring.binormal_part = glm::dot(ring.binormal, ring.mitre);
+}
+
 /// Two or three rings around a joint, each bending by at most 60 degrees. They lie a little apart,
 /// so that no corners coincide where the axis of the bend meets them.
 void TubeWriter::bend(const Joint& before, const Joint& joint, Ring ring) {
@@ -175,37 +183,54 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring ring) {
     const glm::vec3 turn = glm::cross(in, joint.heading);
     const float sine = std::sqrt(glm::dot(turn, turn));
     const glm::vec3 axis =
-        sine > 1e-3F ? turn / sine
+        sine > 1e-3F ? turn * (1.0F / sine)
                      : across(glm::cross(in, at_.normal), in); // which way, if it turns back
     const glm::vec3 across_in = glm::cross(axis, in);
-    const glm::vec3 middle = std::sqrt(std::max(0.5F + 0.5F * cosine, 0.0F)) * in +
-                             std::sqrt(std::max(0.5F - 0.5F * cosine, 0.0F)) * across_in;
+    const float half_cosine = std::sqrt(std::max(0.5F + 0.5F * cosine, 0.0F));
+    const float half_sine = std::sqrt(std::max(0.5F - 0.5F * cosine, 0.0F));
+    // By how much the first tangent is turned from the edge before, and the last one from the edge
+    // behind: a quarter of the bend, or with three rings about a sixth.
     const float share = joint.rings == 2 ? 1.0F : kThird;
-    const glm::vec3 first = glm::normalize(in + share * middle);
-    const glm::vec3 last = glm::normalize(joint.heading + share * middle);
-    const float stretch = 1.0F / glm::dot(in, first) - 1.0F;
+    const float whole = 1.0F / std::sqrt(1.0F + share * (2.0F * half_cosine + share));
+    const float part_cosine = (1.0F + share * half_cosine) * whole;
+    const float part_sine = share * half_sine * whole;
     const float back = std::min(kSpread * joint.radius, 0.25F * before.length);
     const float on = 0.75F * std::min(kSpread * joint.radius, 0.25F * joint.length);
     const glm::vec3 centre = ring.centre;
     const double arc = ring.arc;
-    ring.stretch = stretch;
-
-    carry(in, first);
+    ring.stretch = 1.0F / part_cosine - 1.0F;
+    // All tangents lie in the plane of the bend, so what a frame has along the axis and across it
+    // stays as it is. `mitre` is the axis times the tangent.
+    carry(in, part_cosine * in + part_sine * across_in);
+    ring.mitre = part_cosine * across_in - part_sine * in;
+    const float along_axis = glm::dot(at_.normal, axis);
+    const float along_mitre = glm::dot(at_.normal, ring.mitre);
+    ring.normal_part = along_mitre;
+    ring.binormal_part = -along_axis;
+    ring.binormal = along_mitre * axis - along_axis * ring.mitre;
     ring.centre = centre - back * in;
     ring.arc = arc - static_cast<double>(back);
-    ring.mitre = glm::cross(axis, first);
     put_ring(ring);
+    const auto turn_to = [&](const glm::vec3& tangent, const glm::vec3& mitre) {
+        at_.tangent = tangent;
+        at_.normal = along_axis * axis + along_mitre * mitre;
+        ring.mitre = mitre;
+        ring.binormal = along_mitre * axis - along_axis * mitre;
+    };
+    const glm::vec3 middle = half_cosine * in + half_sine * across_in;
+    const glm::vec3 middle_mitre = half_cosine * across_in - half_sine * in;
     if (joint.rings > 2) {
-        carry(at_.tangent, middle);
+        turn_to(middle, middle_mitre);
         ring.centre = centre;
         ring.arc = arc;
-        ring.mitre = glm::cross(axis, middle);
         put_ring(ring);
     }
-    carry(at_.tangent, last);
+    const float rest_cosine = half_cosine * part_cosine + half_sine * part_sine;
+    const float rest_sine = half_sine * part_cosine - half_cosine * part_sine;
+    turn_to(rest_cosine * middle + rest_sine * middle_mitre,
+            rest_cosine * middle_mitre - rest_sine * middle);
     ring.centre = centre + on * joint.heading;
     ring.arc = arc + static_cast<double>(on);
-    ring.mitre = glm::cross(axis, last);
     put_ring(ring);
     change_colour(ring, joint.colour);
 }

@@ -44,19 +44,24 @@ public:
     [[nodiscard]] std::uint64_t vertex() const { return at_.vertex; }
 
 private:
-    /// Where a ring lies and how; the axes of its ellipse are stretched along `mitre`.
+    /// Where a ring lies and how; the axes of its ellipse are stretched along `mitre`. It lies
+    /// across the tangent of the place, and its corners begin at the normal there.
     struct Ring {
         glm::vec3 centre{};
         float radius = 0.0F;
         float slope = 0.0F;   // of the radius by arc length
         glm::vec3 mitre{};    // perpendicular to the tangent
         float stretch = 0.0F; // added per square of the length of `mitre`
+        glm::vec3 binormal{};
+        float normal_part = 0.0F; // of `mitre`, along the normal
+        float binormal_part = 0.0F;
         double arc = 0.0;
         std::uint32_t sides = 0;
         std::uint16_t colour = 0;
     };
 
     void go(const Run& run, std::size_t end);
+    void set_frame(Ring& ring) const;
     void carry(const glm::vec3& edge, const glm::vec3& tangent);
     void bend(const Joint& before, const Joint& joint, Ring ring);
     void change_colour(Ring& ring, std::uint16_t colour);
