@@ -21,6 +21,7 @@ struct Region {
         const auto pz = static_cast<double>(at_z);
         return px >= x && px < x + width && pz >= z && pz < z + depth;
     }
+    friend bool operator==(const Region&, const Region&) = default;
 };
 
 /// Why nothing can be made on `region`: a side that is not a positive number, or a corner farther

@@ -28,6 +28,8 @@ struct NoiseOptions {
     double feature = 250.0;    // m, between hills of the first octave
     double height = 50.0; // m; heights lie in [base, base + height], most within its middle half
     double base = 0.0;    // m
+
+    friend bool operator==(const NoiseOptions&, const NoiseOptions&) = default;
 };
 
 enum class HeightFilter : std::uint8_t {

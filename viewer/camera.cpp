@@ -183,6 +183,14 @@ Camera first_view(const Camera& camera, const Bounds& bounds, float aspect) {
     return framing(from, bounds, aspect);
 }
 
+glm::vec3 direction_at(const Camera& camera, float right, float up) {
+    const float tangent = std::tan(0.5F * glm::radians(camera.field_of_view));
+    const glm::mat4 view = view_matrix(camera);
+    const glm::vec3 across(view[0][0], view[1][0], view[2][0]);
+    const glm::vec3 upwards(view[0][1], view[1][1], view[2][1]);
+    return forward_of(camera) + tangent * (right * across + up * upwards);
+}
+
 glm::mat4 view_matrix(const Camera& camera) {
     const glm::vec3 along = forward_of(camera);
     return glm::lookAtRH(camera.eye, camera.target,

@@ -46,6 +46,10 @@ struct Camera {
 [[nodiscard]] glm::vec3 forward_of(const Camera& camera);
 [[nodiscard]] glm::vec3 right_of(const Camera& camera);
 
+/// To what is seen at a place of the picture: from its middle, 1 is half its height, to the right
+/// and up. Of length 1 along the view.
+[[nodiscard]] glm::vec3 direction_at(const Camera& camera, float right, float up);
+
 [[nodiscard]] glm::mat4 view_matrix(const Camera& camera);
 /// To clip coordinates whose depth is 1 at `near` (m) and 0 infinitely far.
 [[nodiscard]] glm::mat4 projection_matrix(const Camera& camera, float aspect, float near);

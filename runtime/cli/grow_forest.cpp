@@ -78,7 +78,8 @@ Status grow_stage(const SceneSpecies& species,
                   const ForestLimits& limits,
                   const Console& console,
                   ForestStage& stage,
-                  std::vector<UserMesh>& user_meshes) {
+                  std::vector<UserMesh>& user_meshes,
+                  std::vector<std::string>& files) {
     GrammarOptions options;
     options.generations = generations;
     options.max_modules = limits.max_modules;
@@ -87,6 +88,7 @@ Status grow_stage(const SceneSpecies& species,
     }
     Grammar grammar;
     const Status loaded = load_grammar(path, options, console, grammar);
+    files.insert(files.end(), grammar.included.begin(), grammar.included.end());
     if (loaded != Status::Fine) {
         return loaded;
     }
@@ -112,6 +114,12 @@ Status grow_stage(const SceneSpecies& species,
     cache.max_bytes = limits.max_bytes;
     cache.cancelled = console.io().interrupted;
     user_meshes.clear();
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    for (const BytecodeSymbol& symbol : grammar.bytecode->symbols) {
+        if (symbol.turtle == TurtleOperation::MeshFile) {
+            files.push_back(path_in(folder, symbol.mesh_file));
+        }
+    }
     if (const Result<Done> read =
             read_user_meshes(path, *grammar.bytecode, console, user_meshes, cache.mesh_lengths);
         !read) {
@@ -133,6 +141,31 @@ Status grow_stage(const SceneSpecies& species,
                                  species.name));
     }
     return drawn;
+}
+
+/// They are grown into the same heroes, from the same files.
+bool is_grown_alike(const SceneSpecies& a, const SceneSpecies& b) {
+    const auto same_definition = [](const SceneDefinition& one, const SceneDefinition& other) {
+        return one.name == other.name && one.value == other.value;
+    };
+    return a.grammar.path == b.grammar.path && a.stages == b.stages && a.rho == b.rho &&
+           a.cache.heroes == b.cache.heroes && a.cache.seed == b.cache.seed &&
+           a.cache.cap == b.cache.cap && a.cache.tolerance == b.cache.tolerance &&
+           std::equal(a.definitions.begin(), a.definitions.end(), b.definitions.begin(),
+                      b.definitions.end(), same_definition);
+}
+
+/// Where `known` has what `species` asks for; none: nowhere.
+std::optional<std::size_t> find_known(const SceneSpecies& species, const KnownForest& known) {
+    if (known.scene == nullptr) {
+        return std::nullopt;
+    }
+    for (std::size_t i = 0; i < known.scene->species.size(); ++i) {
+        if (is_grown_alike(species, known.scene->species[i])) {
+            return i;
+        }
+    }
+    return std::nullopt;
 }
 
 } // namespace
@@ -159,7 +192,21 @@ Status grow_species(const Scene& scene,
                     const std::string& folder,
                     const ForestLimits& limits,
                     const Console& console,
-                    GrownForest& grown) {
+                    GrownForest& grown,
+                    const KnownForest& known) {
+    // All that may have to be looked at again, whether or not it can be read now.
+    for (const SceneFile* const map : {&scene.terrain.map, &scene.density_map}) {
+        if (!map->path.empty()) {
+            grown.files.push_back(path_in(folder, map->path));
+        }
+    }
+    for (const SceneSpecies& species : scene.species) {
+        grown.files.push_back(path_in(folder, species.grammar.path));
+    }
+    if (known.grown != nullptr) {
+        // Of what is not read again.
+        grown.files.insert(grown.files.end(), known.grown->files.begin(), known.grown->files.end());
+    }
     Result<Terrain> terrain = make_terrain(scene.terrain, folder, console);
     if (!terrain) {
         return fail_at(scene.terrain.map,
@@ -188,18 +235,25 @@ Status grow_species(const Scene& scene,
         made.name = species.name;
         made.years_of_stage = species.years_of_stage;
         std::vector<UserMesh>& meshes = grown.user_meshes.emplace_back();
+        if (const std::optional<std::size_t> at = find_known(species, known)) {
+            made.stages = known.grown->forest.species[*at].stages;
+            meshes = known.grown->user_meshes[*at];
+            continue;
+        }
         const std::size_t stages = std::max<std::size_t>(species.stages.size(), 1);
         for (std::size_t i = 0; i < stages; ++i) {
             const std::optional<std::uint32_t> generations =
                 species.stages.empty() ? std::nullopt : std::optional(species.stages[i]);
             const Status status =
                 grow_stage(species, path_in(folder, species.grammar.path), generations, limits,
-                           console, made.stages.emplace_back(), meshes);
+                           console, made.stages.emplace_back(), meshes, grown.files);
             if (status != Status::Fine) {
                 return status;
             }
         }
     }
+    std::sort(grown.files.begin(), grown.files.end());
+    grown.files.erase(std::unique(grown.files.begin(), grown.files.end()), grown.files.end());
     grown.cache_seconds = seconds_since(start);
     return Status::Fine;
 }

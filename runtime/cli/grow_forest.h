@@ -31,8 +31,16 @@ struct GrownForest {
     std::optional<Terrain> terrain;
     std::optional<GreyMap> density_map;
     PlacementReport placed;
-    double cache_seconds = 0.0; // to derive and draw the heroes
+    std::vector<std::string> files; // that it was made of, or would have been
+    double cache_seconds = 0.0;     // to derive and draw the heroes
     double place_seconds = 0.0;
+};
+
+/// A forest that was grown before: what is asked for in the same way is taken from there, although
+/// its files may have changed since.
+struct KnownForest {
+    const Scene* scene = nullptr;
+    const GrownForest* grown = nullptr;
 };
 
 /// Reads `path`: a scene, or what grammars make without one. Fine: it is there.
@@ -46,7 +54,8 @@ load_scene(const std::string& path, const Console& console, SourceMap& sources, 
                                   const std::string& folder,
                                   const ForestLimits& limits,
                                   const Console& console,
-                                  GrownForest& grown);
+                                  GrownForest& grown,
+                                  const KnownForest& known = {});
 
 /// The trees.
 [[nodiscard]] Status place_forest(const Scene& scene,

@@ -214,7 +214,6 @@ TEST_CASE("what cannot be shown ends with a message") {
         {{sample("abop-1-24a"), "--screenshot", "-", "--shaders", folder / "none"}, 2, "no shader"},
         {{sample("abop-1-24a"), "--screenshot", folder / "no/such.png"}, 2, "such.png"},
         {{scene("meadow"), "--screenshot", "-", "--gravity", "9.81"}, 2, "not a forest"},
-        {{scene("meadow"), "--count", "10"}, 2, "shown as pictures"},
         {{scene("meadow"), sample("abop-1-24a"), "--screenshot", "-"}, 2, "stands alone"},
         {{folder / "none.toml", "--screenshot", "-"}, 2, "none.toml"},
         {{sample("sys-figure-1"), "--count", "9", "--method", "boxes", "--screenshot", "-"},

@@ -19,6 +19,32 @@ float held_way(const WindowInput& input, Key forwards, Key backwards) {
     return (is_held(input, forwards) ? 1.0F : 0.0F) - (is_held(input, backwards) ? 1.0F : 0.0F);
 }
 
+/// Half a turn along the picture's height.
+void orbit(Camera& camera, const glm::vec2& drag, float height) {
+    const float turn = std::numbers::pi_v<float> / std::max(height, 1.0F);
+    if (drag != glm::vec2(0.0F)) {
+        camera = orbited(camera, turn * drag.x, turn * drag.y);
+    }
+}
+
+/// What lies at the target stays under the mouse.
+void pan(Camera& camera, const glm::vec2& drag, float height) {
+    if (drag != glm::vec2(0.0F)) {
+        const float metres =
+            2.0F * glm::distance(camera.eye, camera.target) *
+            std::tan(0.5F * std::numbers::pi_v<float> / 180.0F * camera.field_of_view) /
+            std::max(height, 1.0F);
+        camera = moved(camera, -metres * drag.x, metres * drag.y, 0.0F);
+    }
+}
+
+void zoom(Camera& camera, float wheel) {
+    if (wheel != 0.0F) {
+        constexpr float kNotch = 0.85F;
+        camera = zoomed(camera, std::pow(kNotch, wheel));
+    }
+}
+
 } // namespace
 
 void next_seed(LiveView& view) {
@@ -34,13 +60,40 @@ void step_generations(LiveView& view, int step) {
     }
 }
 
+void next_key(LiveForest& view) {
+    const std::uint64_t shown =
+        view.document() == nullptr ? 0 : view.document()->scene.placement.key;
+    view.settings.edits.key = shown + 1;
+}
+
+void Controls::apply(const WindowInput& input,
+                     double seconds,
+                     const PixelArea& area,
+                     LiveViews& views,
+                     PanelState& panels) {
+    for (const std::string& file : input.dropped) {
+        views.open(file);
+    }
+    if (LiveForest* const forest = views.forest()) {
+        apply(input, seconds, area, *forest, panels);
+    } else if (LiveView* const plant = views.plant()) {
+        apply(input, seconds, static_cast<float>(area.height), *plant, panels);
+    }
+    if (input.closes || panels.quits) {
+        panels.quits = !views.shown().is_unsaved() || panels.asked_to_quit;
+        if (!panels.quits) {
+            panels.asked_to_quit = true;
+            views.shown().say("what was painted is not saved: Ctrl+S saves it, Ctrl+Q leaves it");
+        }
+    } else if (!input.presses.empty()) {
+        panels.asked_to_quit = false;
+    }
+}
+
 void Controls::apply(
     const WindowInput& input, double seconds, float height, LiveView& view, PanelState& panels) {
     for (const KeyPress& one : input.presses) {
         press(one, view, panels);
-    }
-    for (const std::string& file : input.dropped) {
-        view.open(file);
     }
     Camera& camera = view.settings.camera;
     is_moving_ = panels.flies;
@@ -48,22 +101,54 @@ void Controls::apply(
         fly(input, static_cast<float>(seconds), height, camera);
         return;
     }
-    // Half a turn along the picture's height.
-    const float turn = std::numbers::pi_v<float> / std::max(height, 1.0F);
-    if (input.left_drag != glm::vec2(0.0F)) {
-        camera = orbited(camera, turn * input.left_drag.x, turn * input.left_drag.y);
+    orbit(camera, input.left_drag, height);
+    pan(camera, input.right_drag + input.middle_drag, height);
+    zoom(camera, input.wheel);
+}
+
+void Controls::apply(const WindowInput& input,
+                     double seconds,
+                     const PixelArea& area,
+                     LiveForest& view,
+                     PanelState& panels) {
+    for (const KeyPress& one : input.presses) {
+        press(one, view, panels);
     }
-    if (input.right_drag != glm::vec2(0.0F)) {
-        // What lies at the target stays under the mouse.
-        const float metres =
-            2.0F * glm::distance(camera.eye, camera.target) *
-            std::tan(0.5F * std::numbers::pi_v<float> / 180.0F * camera.field_of_view) /
-            std::max(height, 1.0F);
-        camera = moved(camera, -metres * input.right_drag.x, metres * input.right_drag.y, 0.0F);
+    Camera& camera = view.settings.camera;
+    const auto height = static_cast<float>(area.height);
+    is_moving_ = panels.flies;
+    if (panels.flies) {
+        fly(input, static_cast<float>(seconds), height, camera);
+        return;
     }
-    if (input.wheel != 0.0F) {
-        constexpr float kNotch = 0.85F;
-        camera = zoomed(camera, std::pow(kNotch, input.wheel));
+    zoom(camera, input.wheel);
+    if (view.settings.tool == PaintTool::None) {
+        orbit(camera, input.left_drag, height);
+        pan(camera, input.right_drag + input.middle_drag, height);
+        return;
+    }
+    orbit(camera, input.right_drag, height);
+    pan(camera, input.middle_drag, height);
+    use_tool(input, area, view);
+}
+
+void Controls::use_tool(const WindowInput& input, const PixelArea& area, LiveForest& view) {
+    // Pictures begin at the window's upper edge.
+    const auto place = [&area](const glm::vec2& pixels) {
+        const float half = 0.5F * static_cast<float>(area.height);
+        return glm::vec2(
+            (pixels.x - static_cast<float>(area.x) - 0.5F * static_cast<float>(area.width)) / half,
+            (half - pixels.y) / half);
+    };
+    for (const Touch& touch : input.touches) {
+        if (touch.kind == Touch::Kind::Release) {
+            view.end_stroke();
+        } else {
+            view.work_at(place(touch.place), touch.kind == Touch::Kind::Press, touch.shift);
+        }
+    }
+    if (input.over_picture && (input.any || !input.touches.empty())) {
+        view.point_at(place(input.mouse));
     }
 }
 
@@ -81,23 +166,134 @@ void Controls::fly(const WindowInput& input, float seconds, float height, Camera
               metres * held_way(input, Key::E, Key::Q), metres * held_way(input, Key::W, Key::S));
 }
 
-void Controls::press(const KeyPress& press, LiveView& view, PanelState& panels) {
-    LiveSettings& settings = view.settings;
+bool Controls::press_common(const KeyPress& press, LiveScreen& view, PanelState& panels) {
     if (press.control) {
         panels.quits = panels.quits || press.key == Key::Q;
-        return;
+        return press.key == Key::Q;
     }
     switch (press.key) {
     case Key::Tab:
         panels.flies = !panels.flies;
-        return;
+        return true;
     case Key::Escape:
         panels.help = false;
         panels.flies = false;
-        return;
+        return false; // views may have more to end
     case Key::F1:
         panels.help = !panels.help;
+        return true;
+    default:
+        break;
+    }
+    if (panels.flies) {
+        return false; // letters move
+    }
+    switch (press.key) {
+    case Key::F:
+        view.frame_all();
+        return true;
+    case Key::C:
+        ImGui::SetClipboardText(to_text(view.camera()).c_str());
+        return true;
+    case Key::R:
+        view.reload();
+        return true;
+    case Key::P:
+        view.write_screenshot();
+        return true;
+    case Key::H:
+        panels.panels = !panels.panels;
+        return true;
+    case Key::A:
+        panels.statistics = !panels.statistics;
+        return true;
+    default:
+        return false;
+    }
+}
+
+void Controls::press(const KeyPress& press, LiveForest& view, PanelState& panels) {
+    if (press_common(press, view, panels)) {
         return;
+    }
+    ForestSettings& settings = view.settings;
+    if (press.control) {
+        switch (press.key) {
+        case Key::Z:
+            press.shift ? view.redo() : view.undo();
+            return;
+        case Key::Y:
+            view.redo();
+            return;
+        case Key::S:
+            view.save();
+            return;
+        default:
+            return;
+        }
+    }
+    const auto take = [&settings](PaintTool tool) {
+        settings.tool = settings.tool == tool ? PaintTool::None : tool;
+    };
+    constexpr float kBrushStep = 1.25F;
+    const auto step = [&](bool more) {
+        if (settings.tool != PaintTool::None) {
+            settings.brush.radius =
+                std::clamp(settings.brush.radius * (more ? kBrushStep : 1.0F / kBrushStep), 0.1F,
+                           kGreatestBrush);
+        } else if (view.usual_years() != 0 && (more || view.years() > 0)) {
+            view.set_years(more ? view.years() + 1 : view.years() - 1);
+        }
+    };
+    switch (press.key) {
+    case Key::Escape:
+        settings.tool = PaintTool::None;
+        return;
+    case Key::Space:
+        view.play_or_pause();
+        return;
+    case Key::PageUp:
+        step(true);
+        return;
+    case Key::PageDown:
+        step(false);
+        return;
+    default:
+        break;
+    }
+    if (panels.flies) {
+        return;
+    }
+    switch (press.key) {
+    case Key::B:
+        take(PaintTool::Brush);
+        break;
+    case Key::O:
+        take(PaintTool::OneTree);
+        break;
+    case Key::X:
+        take(PaintTool::Eraser);
+        break;
+    case Key::W:
+        settings.wireframe = !settings.wireframe;
+        break;
+    case Key::S:
+        settings.shadows = !settings.shadows;
+        break;
+    case Key::N:
+        next_key(view);
+        break;
+    default:
+        break;
+    }
+}
+
+void Controls::press(const KeyPress& press, LiveView& view, PanelState& panels) {
+    if (press_common(press, view, panels) || press.control) {
+        return;
+    }
+    LiveSettings& settings = view.settings;
+    switch (press.key) {
     case Key::Space:
         view.play_or_pause();
         return;
@@ -111,15 +307,9 @@ void Controls::press(const KeyPress& press, LiveView& view, PanelState& panels) 
         break;
     }
     if (panels.flies) {
-        return; // letters move
+        return;
     }
     switch (press.key) {
-    case Key::F:
-        view.frame_all();
-        break;
-    case Key::C:
-        ImGui::SetClipboardText(to_text(settings.camera).c_str());
-        break;
     case Key::W:
         settings.style =
             settings.style == PlantStyle::Wireframe ? PlantStyle::Surface : PlantStyle::Wireframe;
@@ -144,18 +334,6 @@ void Controls::press(const KeyPress& press, LiveView& view, PanelState& panels) 
         break;
     case Key::N:
         next_seed(view);
-        break;
-    case Key::R:
-        view.reload();
-        break;
-    case Key::P:
-        view.write_screenshot();
-        break;
-    case Key::H:
-        panels.panels = !panels.panels;
-        break;
-    case Key::A:
-        panels.statistics = !panels.statistics;
         break;
     default:
         break;

@@ -1,7 +1,7 @@
 // Controls: what mouse and keyboard do to a view.
 #pragma once
 
-#include "viewer/app/live_view.h"
+#include "viewer/app/live_views.h"
 #include "viewer/gl/window.h"
 
 #include <array>
@@ -15,6 +15,7 @@ struct PanelState {
     bool help = false;
     bool flies = false; // the mouse looks about and WASD move
     bool quits = false;
+    bool asked_to_quit = false; // while something was unsaved
 };
 
 /// A key and what it does, for the help.
@@ -22,7 +23,7 @@ struct KeyHelp {
     const char* keys;
     const char* what;
 };
-inline constexpr std::array<KeyHelp, 24> kKeyHelp = {{
+inline constexpr std::array<KeyHelp, 24> kPlantKeys = {{
     {"left drag", "orbit"},
     {"right drag", "pan"},
     {"wheel", "zoom; speed while flying"},
@@ -49,16 +50,63 @@ inline constexpr std::array<KeyHelp, 24> kKeyHelp = {{
     {"drop a file", "show it"},
 }};
 
+inline constexpr std::array<KeyHelp, 26> kForestKeys = {{
+    {"left drag", "orbit; with a tool: paint, Shift erases"},
+    {"right drag", "pan; with a tool: orbit"},
+    {"middle drag", "pan"},
+    {"wheel", "zoom; speed while flying"},
+    {"F", "all in view"},
+    {"Tab", "fly: mouse looks, W A S D Q E move, Shift is faster"},
+    {"C", "copy the camera's line"},
+    {"B", "brush: trees under the mouse"},
+    {"O", "one tree where the mouse is pressed"},
+    {"X", "eraser"},
+    {"PageUp", "a larger brush; a year more without a tool"},
+    {"PageDown", "a smaller brush; a year less without a tool"},
+    {"Ctrl+Z", "undo a stroke"},
+    {"Ctrl+Y", "redo it"},
+    {"Ctrl+S", "save what was painted into the scene file"},
+    {"Space", "play or pause the years"},
+    {"W", "wireframe"},
+    {"S", "shadows"},
+    {"N", "next key: another forest"},
+    {"R", "read the files again"},
+    {"P", "picture: writes a PNG here"},
+    {"H, A", "panels, statistics"},
+    {"F1", "these keys"},
+    {"Esc", "put the tool away, close this, end flying"},
+    {"Ctrl+Q", "quit"},
+    {"drop a file", "show it: a scene or a grammar"},
+}};
+
 class Controls {
 public:
-    /// `seconds` since the last time; `height` of the picture in pixels.
+    /// `seconds` since the last time; `area` of the picture in the window, from its lower left
+    /// corner, pixels.
+    void apply(const WindowInput& input,
+               double seconds,
+               const PixelArea& area,
+               LiveViews& views,
+               PanelState& panels);
+    /// The same of one view of a plant; `height` of the picture.
     void apply(
         const WindowInput& input, double seconds, float height, LiveView& view, PanelState& panels);
+    /// And of a forest.
+    void apply(const WindowInput& input,
+               double seconds,
+               const PixelArea& area,
+               LiveForest& view,
+               PanelState& panels);
     /// Keys are held that move the camera.
     [[nodiscard]] bool is_moving() const { return is_moving_; }
 
 private:
     void press(const KeyPress& press, LiveView& view, PanelState& panels);
+    void press(const KeyPress& press, LiveForest& view, PanelState& panels);
+    /// Keys that every view has. Whether this was one.
+    [[nodiscard]] static bool
+    press_common(const KeyPress& press, LiveScreen& view, PanelState& panels);
+    void use_tool(const WindowInput& input, const PixelArea& area, LiveForest& view);
     void fly(const WindowInput& input, float seconds, float height, Camera& camera);
 
     float speed_ = 1.0F; // factor of flying
@@ -69,5 +117,7 @@ private:
 void next_seed(LiveView& view);
 /// Generations by `step` more or fewer.
 void step_generations(LiveView& view, int step);
+/// Another forest than the one that is shown.
+void next_key(LiveForest& view);
 
 } // namespace lsys::view

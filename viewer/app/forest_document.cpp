@@ -11,29 +11,15 @@
 
 namespace lsys::view {
 
-lsc::Status make_forest_document(const ViewOptions& options,
-                                 const lsc::Console& console,
-                                 ForestDocument& document) {
-    lsc::Clock::time_point start = lsc::Clock::now();
-    lsc::ForestCommand command = options.forest;
-    command.grammar = options.grammar;
-    command.seed = options.seed;
-    lsc::CommandScene loaded;
-    lsc::Status status = lsc::load_command_scene(command, console, loaded);
-    if (status != lsc::Status::Fine) {
-        return status;
-    }
-    document.parse_seconds = lsc::seconds_since(start);
-    const lsc::ForestLimits limits{options.threads, options.grammar.max_modules, options.max_bytes};
-    status = lsc::grow_species(loaded.scene, loaded.sources, loaded.folder, limits, console,
-                               document.grown);
-    if (status == lsc::Status::Fine) {
-        status = lsc::place_forest(loaded.scene, limits, console, document.grown);
-    }
-    if (status != lsc::Status::Fine) {
-        return status;
-    }
-    start = lsc::Clock::now();
+namespace {
+
+struct Wish {
+    const ForestEdits* edits = nullptr; // of a window
+    const ForestDocument* known = nullptr;
+};
+
+lsc::Status
+make_model(const ViewOptions& options, const lsc::Console& console, ForestDocument& document) {
     MeshOptions mesh = options.mesh;
     mesh.threads = options.threads;
     mesh.max_bytes = options.max_bytes;
@@ -55,8 +41,79 @@ lsc::Status make_forest_document(const ViewOptions& options,
         return lsc::Status::Limit;
     }
     }
-    document.mesh_seconds = lsc::seconds_since(start);
     return lsc::Status::Fine;
+}
+
+lsc::Status make(const ViewOptions& options,
+                 const Wish& wish,
+                 const lsc::Console& console,
+                 ForestDocument& document) {
+    lsc::Clock::time_point start = lsc::Clock::now();
+    lsc::ForestCommand command = options.forest;
+    command.grammar = options.grammar;
+    command.seed = options.seed;
+    lsc::CommandScene loaded;
+    lsc::Status status = lsc::load_command_scene(command, console, loaded);
+    if (status != lsc::Status::Fine) {
+        return status;
+    }
+    if (wish.edits != nullptr) {
+        apply(*wish.edits, loaded.scene);
+    }
+    document.scene = loaded.scene;
+    document.parse_seconds = lsc::seconds_since(start);
+    const lsc::ForestLimits limits{options.threads, options.grammar.max_modules, options.max_bytes};
+    lsc::KnownForest known;
+    if (wish.known != nullptr) {
+        known = {&wish.known->scene, &wish.known->grown};
+    }
+    status = lsc::grow_species(loaded.scene, loaded.sources, loaded.folder, limits, console,
+                               document.grown, known);
+    if (wish.edits != nullptr) {
+        loaded.scene.painting = {};
+    }
+    if (status == lsc::Status::Fine) {
+        status = lsc::place_forest(loaded.scene, limits, console, document.grown);
+    }
+    if (status != lsc::Status::Fine) {
+        return status;
+    }
+    if (console.interrupted()) {
+        return lsc::Status::Interrupted;
+    }
+    start = lsc::Clock::now();
+    status = make_model(options, console, document);
+    document.mesh_seconds = lsc::seconds_since(start);
+    return status;
+}
+
+} // namespace
+
+lsc::Status make_forest_document(const ViewOptions& options,
+                                 const lsc::Console& console,
+                                 ForestDocument& document) {
+    return make(options, {}, console, document);
+}
+
+lsc::Status make_live_forest(const ViewOptions& options,
+                             const ForestEdits& edits,
+                             const ForestDocument* known,
+                             const lsc::Console& console,
+                             ForestDocument& document) {
+    return make(options, {&edits, known}, console, document);
+}
+
+std::vector<std::string> files_of(const ViewOptions& options, const ForestDocument& document) {
+    std::vector<std::string> files = options.forest.files;
+    if (!options.forest.density_map.empty()) {
+        files.push_back(options.forest.density_map);
+    }
+    for (const std::string& file : document.grown.files) {
+        if (std::find(files.begin(), files.end(), file) == files.end()) {
+            files.push_back(file);
+        }
+    }
+    return files;
 }
 
 Camera overview(const ForestDocument& document, float aspect) {

@@ -4,12 +4,14 @@
 
 #include "runtime/cli/console.h"
 #include "runtime/cli/grow_forest.h"
+#include "viewer/app/forest_edits.h"
 #include "viewer/app/options.h"
 #include "viewer/forest_model.h"
 
 namespace lsys::view {
 
 struct ForestDocument {
+    Scene scene; // as it was asked for
     lsc::GrownForest grown;
     ForestModel model; // of `grown`, which must not move
     double parse_seconds = 0.0;
@@ -20,6 +22,19 @@ struct ForestDocument {
 [[nodiscard]] lsc::Status make_forest_document(const ViewOptions& options,
                                                const lsc::Console& console,
                                                ForestDocument& document);
+
+/// The same for a window: with what was set there, and with all trees that were placed. Those that
+/// `scene.painting` says were erased or painted come and go later. What `known`, which may be none,
+/// has of the heroes is taken from there.
+[[nodiscard]] lsc::Status make_live_forest(const ViewOptions& options,
+                                           const ForestEdits& edits,
+                                           const ForestDocument* known,
+                                           const lsc::Console& console,
+                                           ForestDocument& document);
+
+/// Files that the document is made of, or would have been.
+[[nodiscard]] std::vector<std::string> files_of(const ViewOptions& options,
+                                                const ForestDocument& document);
 
 /// Where a forest is seen from if nobody says: from beside and above, all of it in view.
 [[nodiscard]] Camera overview(const ForestDocument& document, float aspect);

@@ -1,15 +1,10 @@
 #include "viewer/app/live_view.h"
 
-#include "runtime/cli/files.h"
 #include "runtime/cli/stopwatch.h"
-#include "runtime/texture.h"
-#include "viewer/app/shader_folder.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <ostream>
 #include <utility>
 
 namespace lsys::view {
@@ -63,19 +58,18 @@ LiveView::LiveView(const ViewOptions& options,
                    const lsc::Console& console,
                    Renderer& renderer,
                    std::function<void()> wake)
-    : settings(first_settings(options)), options_(options), console_(console), renderer_(&renderer),
+    : LiveScreen(options, console, renderer), settings(first_settings(options)),
       wake_(std::move(wake)), frames_next_(options.camera.empty()), loader_(wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
-                 const auto is_shader = [this](const std::string& file) {
-                     return !options_.shaders.empty() &&
-                            std::filesystem::path(file).extension() == ".glsl";
-                 };
-                 if (std::any_of(files.begin(), files.end(), is_shader)) {
-                     shaders_changed_ = true;
+                 const auto shaders =
+                     std::count_if(files.begin(), files.end(),
+                                   [this](const std::string& each) { return is_shader(each); });
+                 if (shaders != 0) {
+                     ask_for_shaders();
                      wake_();
                  }
-                 if (!std::all_of(files.begin(), files.end(), is_shader)) {
+                 if (static_cast<std::size_t>(shaders) != files.size()) {
                      loader_.repeat(since);
                  }
              }) {
@@ -105,8 +99,8 @@ std::uint32_t LiveView::generations() const {
 
 bool LiveView::update() {
     bool has_news = false;
-    if (shaders_changed_.exchange(false)) {
-        reload_shaders();
+    if (reload_shaders()) {
+        watch_files();
         has_news = true;
     }
     if (std::optional<LoadOutcome> outcome = loader_.take()) {
@@ -133,11 +127,7 @@ void LiveView::take_outcome(LoadOutcome outcome) {
     if (!fine && drop_unknown_definitions(*outcome.document)) {
         return;
     }
-    if (outcome.messages != messages_) {
-        messages_ = outcome.messages;
-        console_.io().err << messages_ << std::flush;
-    }
-    failed_ = !fine;
+    take_messages(outcome.messages, fine);
     if (fine) {
         files_ = outcome.files;
         swap(std::move(outcome));
@@ -205,23 +195,8 @@ void LiveView::show_lines() {
     changed_ = true;
 }
 
-void LiveView::reload_shaders() {
-    const Result<Done> loaded = renderer_->reload(shaders_of(options_.shaders, console_));
-    shader_message_ = loaded ? std::string() : loaded.error().message;
-    if (loaded) {
-        console_.detail("loaded the shaders");
-    } else {
-        console_.error(shader_message_);
-    }
-    changed_ = true;
-    watch_files();
-}
-
 void LiveView::watch_files() {
-    std::vector<std::string> files = files_;
-    const std::vector<std::string> shaders = shader_files(options_.shaders);
-    files.insert(files.end(), shaders.begin(), shaders.end());
-    watch_.watch(files);
+    watch_.watch(watched(files_));
 }
 
 void LiveView::grow() {
@@ -237,7 +212,7 @@ void LiveView::grow() {
     }
     last_growth_ = now;
     const std::uint32_t end = usual_generations();
-    const std::uint32_t next = failed_ ? end : generations() + 1;
+    const std::uint32_t next = failed() ? end : generations() + 1;
     settings.grows = next < end;
     settings.generations = std::min(next, end);
 }
@@ -292,13 +267,10 @@ bool LiveView::draw(std::uint32_t width, std::uint32_t height) {
     frame.ground = settings.ground;
     frame.samples = settings.smooth ? 4 : 1;
     frame.style = settings.style;
-    aspect_ = static_cast<float>(width) / static_cast<float>(height);
-    if (!changed_ && frame_ == frame) {
+    if (!draw_frame(frame)) {
         return false;
     }
-    stats_.drawn = renderer_->draw(frame, {0, 0, width, height});
-    frame_ = frame;
-    changed_ = false;
+    stats_.drawn = drawn_;
     return true;
 }
 
@@ -332,35 +304,12 @@ void LiveView::open(const std::string& file) {
 void LiveView::reload() {
     loader_.repeat(SteadyClock::now());
     if (!options_.shaders.empty()) {
-        shaders_changed_ = true;
+        ask_for_shaders();
     }
 }
 
 void LiveView::frame_all() {
     settings.camera = framing(settings.camera, renderer_->bounds(), aspect_);
-}
-
-void LiveView::write_screenshot() {
-    if (!frame_) {
-        return;
-    }
-    const std::string stem = std::filesystem::path(settings.file).stem().string();
-    std::string name;
-    std::error_code error;
-    for (std::uint32_t number = 1; name.empty() || std::filesystem::exists(name, error); ++number) {
-        name = fmt::format("{}-{}.png", stem, number);
-    }
-    Texture picture;
-    picture.width = frame_->width;
-    picture.height = frame_->height;
-    renderer_->read(picture.texels);
-    const Result<Done> written = lsc::write_file(name, encode_png(picture), console_);
-    say(written ? fmt::format("wrote {}", name) : written.error().message);
-}
-
-void LiveView::say(const std::string& note) {
-    note_ = note;
-    console_.info(note);
 }
 
 bool LiveView::is_busy() const {

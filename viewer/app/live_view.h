@@ -3,14 +3,12 @@
 // be current whenever it is called.
 #pragma once
 
-#include "runtime/cli/console.h"
 #include "viewer/app/file_watch.h"
-#include "viewer/app/options.h"
+#include "viewer/app/live_screen.h"
 #include "viewer/app/plant_loader.h"
 #include "viewer/app/plant_motion.h"
 #include "viewer/renderer.h"
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -57,7 +55,7 @@ struct LiveStats {
     std::uint64_t swaps = 0;
 };
 
-class LiveView {
+class LiveView final : public LiveScreen {
 public:
     /// `wake` is called on any thread when update() has something to do.
     LiveView(const ViewOptions& options,
@@ -67,40 +65,23 @@ public:
 
     LiveSettings settings;
 
-    /// Between two pictures: takes what was made, asks for what the settings want. Returns whether
-    /// there is something else to say.
-    bool update();
-    /// Draws, unless the last picture would be the same. Returns whether it did.
-    bool draw(std::uint32_t width, std::uint32_t height);
-    /// Copies the last picture to this part of the window whose context is current.
-    void present(const PixelArea& area) { renderer_->present(area); }
-    /// The last picture is seen; it took so long to draw.
-    void shown(double draw_seconds);
+    bool update() override;
+    bool draw(std::uint32_t width, std::uint32_t height) override;
+    void shown(double draw_seconds) override;
+    [[nodiscard]] bool is_busy() const override;
+    void reload() override;
+    void frame_all() override;
+    [[nodiscard]] const std::string& file() const override { return settings.file; }
+    [[nodiscard]] Camera& camera() override { return settings.camera; }
 
     /// Shows another file, all in view.
     void open(const std::string& file);
-    /// Reads all files again.
-    void reload();
-    /// All is in view.
-    void frame_all();
     /// Begins at the axiom if all is grown.
     void play_or_pause();
-    /// Writes the last picture under a name that is free; says so.
-    void write_screenshot();
 
-    /// Something is being made, grows or moves: update() is to be called soon.
-    [[nodiscard]] bool is_busy() const;
     /// The last plant without errors; none: there was none yet.
     [[nodiscard]] const PlantDocument* document() const { return document_.get(); }
     [[nodiscard]] const LiveStats& stats() const { return stats_; }
-    /// What `lsc` says of what was asked for last.
-    [[nodiscard]] const std::string& messages() const { return messages_; }
-    /// It could not be shown.
-    [[nodiscard]] bool failed() const { return failed_; }
-    [[nodiscard]] const std::string& shader_message() const { return shader_message_; }
-    /// What was done last, as "wrote plant-1.png".
-    [[nodiscard]] const std::string& note() const { return note_; }
-    [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
     /// How far the plant grows if nothing else is asked for.
     [[nodiscard]] std::uint32_t usual_generations() const;
     [[nodiscard]] std::uint32_t generations() const;
@@ -109,26 +90,17 @@ private:
     void take_outcome(LoadOutcome outcome);
     void swap(LoadOutcome outcome);
     void show_lines();
-    void reload_shaders();
     void watch_files();
     void grow();
     void bend();
     bool drop_unknown_definitions(const PlantDocument& document);
     [[nodiscard]] ViewOptions wanted() const;
-    void say(const std::string& note);
 
-    ViewOptions options_;
-    lsc::Console console_;
-    Renderer* renderer_;
     std::function<void()> wake_;
 
     std::shared_ptr<const PlantDocument> document_;
     LoadOutcome shown_outcome_;
     std::vector<std::string> files_;
-    std::string messages_;
-    std::string shader_message_;
-    std::string note_;
-    bool failed_ = false;
     bool frames_next_ = false; // the next plant's view
     bool is_new_file_ = true;  // whose own damping counts
     bool tells_shown_ = false;
@@ -139,13 +111,6 @@ private:
     SteadyClock::time_point last_growth_;
     BentPlant bent_;
     std::optional<Bending> bending_; // of motion_
-    float aspect_ = 1.0F;
-
-    // The last picture.
-    std::optional<Frame> frame_;
-    bool changed_ = true;
-
-    std::atomic<bool> shaders_changed_{false};
     std::unique_ptr<PlantMotion> motion_;
     PlantLoader loader_;
     FileWatch watch_; // goes first: it calls the loader

@@ -177,10 +177,11 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     app.set_version_flag("--version", "lsview " LSC_VERSION, "Print the version and exit");
     app.footer(
         "Without --screenshot a window opens; F1 shows its keys. Files that change are shown at "
-        "once.\n"
+        "once.\nIn the window of a scene trees can be painted and saved into it.\n"
         "Exit status: 0 fine, 1 errors in a grammar, 2 a file, the display or the command "
         "line, 3 a limit.\n"
         "Examples: lsview tree.lsys --screenshot tree.png --size 1920x1080\n"
+        "          lsview wood.toml\n"
         "          lsview wood.toml --screenshot wood.png\n"
         "          lsview oak.lsys birch.lsys --count 10000 --forest-size 700 --screenshot "
         "wood.png");
@@ -198,9 +199,6 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
                         asks_for_forest(options.forest);
     if (options.is_forest && options.gravity) {
         return lsc::UsageError{"--gravity bends a plant, not a forest", "leave it out"};
-    }
-    if (options.is_forest && options.screenshot.empty()) {
-        return lsc::UsageError{"a forest is shown as pictures", "add `--screenshot FILE`"};
     }
     if ((options.frames != 0 || !options.stats.empty()) && options.screenshot.empty()) {
         return lsc::UsageError{"--frames and --stats belong to pictures",

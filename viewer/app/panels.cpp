@@ -1,11 +1,14 @@
 #include "viewer/app/panels.h"
 
+#include "viewer/app/forest_panel.h"
 #include "viewer/app/plant_panel.h"
+#include "viewer/app/widgets.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <imgui.h>
+#include <span>
 #include <string>
 
 namespace lsys::view {
@@ -16,10 +19,6 @@ constexpr float kPanelWidth = 340.0F;
 constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                       ImGuiWindowFlags_NoSavedSettings |
                                       ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
-
-void line(const std::string& text) {
-    ImGui::TextUnformatted(text.data(), text.data() + text.size());
-}
 
 /// The part of the window beside the panel.
 struct Area {
@@ -33,37 +32,70 @@ Area picture_area(const PanelState& panels, float scale) {
     return {{left, 0.0F}, size};
 }
 
-void draw_statistics(const LiveView& view, const Area& area) {
+void row(const char* name, double seconds) {
+    constexpr double kMilliseconds = 1e3;
+    line(fmt::format("{:<9}{:>8.1f} ms", name, kMilliseconds * seconds));
+}
+
+void draw_plant_times(const LiveView& view) {
     const LiveStats& stats = view.stats();
+    if (const PlantDocument* const document = view.document()) {
+        row("compile", document->load_seconds);
+        row("derive", document->plant.derive_seconds);
+        row("turtle", document->plant.draw_seconds);
+        row("mesh", document->mesh_seconds);
+        row("upload", stats.upload_seconds);
+        row("swapped", stats.swap_seconds);
+        row("seen", stats.shown_seconds);
+        if (view.settings.bends) {
+            row("bend", stats.bend_seconds);
+        }
+        row("picture", stats.draw_seconds);
+    }
+    line(fmt::format("{} draws, {} triangles", stats.drawn.draws, stats.drawn.triangles));
+}
+
+void draw_forest_times(const LiveForest& view) {
+    const ForestStats& stats = view.stats();
+    if (const ForestDocument* const document = view.document()) {
+        row("heroes", document->grown.cache_seconds);
+        row("place", document->grown.place_seconds);
+        row("mesh", document->mesh_seconds);
+        row("upload", stats.upload_seconds);
+        row("swapped", stats.swap_seconds);
+        row("seen", stats.shown_seconds);
+        row("picture", stats.draw_seconds);
+        const ForestFrameStats& frame = view.renderer().forest_stats();
+        std::uint64_t near = 0;
+        for (const std::uint32_t trees : frame.trees_of_level) {
+            near += trees;
+        }
+        line(fmt::format("{} trees as branches", near));
+        line(fmt::format("{} trees as pictures", frame.far_trees));
+        line(fmt::format("{} trees in {} cells", frame.horizon_trees, frame.horizon_cells));
+        line(view.has_portraits() ? "pictures of trees are made" : "pictures of trees: at work");
+    }
+    line(fmt::format("{} draws, {} triangles", stats.drawn.draws, stats.drawn.triangles));
+}
+
+void draw_statistics(LiveViews& views, const Area& area) {
     ImGui::SetNextWindowPos({area.high.x - 8.0F, 8.0F}, ImGuiCond_Always, {1.0F, 0.0F});
     ImGui::SetNextWindowBgAlpha(0.55F);
-    constexpr double kMilliseconds = 1e3;
     if (ImGui::Begin("Statistics", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
-        if (const PlantDocument* const document = view.document()) {
-            const auto row = [](const char* name, double seconds) {
-                line(fmt::format("{:<9}{:>8.1f} ms", name, kMilliseconds * seconds));
-            };
-            row("compile", document->load_seconds);
-            row("derive", document->plant.derive_seconds);
-            row("turtle", document->plant.draw_seconds);
-            row("mesh", document->mesh_seconds);
-            row("upload", stats.upload_seconds);
-            row("swapped", stats.swap_seconds);
-            row("seen", stats.shown_seconds);
-            if (view.settings.bends) {
-                row("bend", stats.bend_seconds);
-            }
-            row("picture", stats.draw_seconds);
+        if (const LiveForest* const forest = views.forest()) {
+            draw_forest_times(*forest);
+        } else if (const LiveView* const plant = views.plant()) {
+            draw_plant_times(*plant);
         }
-        line(fmt::format("{} draws, {} triangles", stats.drawn.draws, stats.drawn.triangles));
-        line(fmt::format("{} objects, {} errors of OpenGL", view.renderer().live_objects(),
-                         view.renderer().errors().size()));
+        const Renderer& renderer = views.shown().renderer();
+        line(fmt::format("{} objects, {} errors of OpenGL", renderer.live_objects(),
+                         renderer.errors().size()));
     }
     ImGui::End();
 }
 
 /// What `lsc` says, as it is printed.
-void draw_messages(const LiveView& view, const Area& area) {
+void draw_messages(const LiveScreen& view, const Area& area) {
     std::string text = view.messages();
     if (!view.shader_message().empty()) {
         text += "lsview: error: " + view.shader_message() + '\n';
@@ -93,20 +125,20 @@ void draw_messages(const LiveView& view, const Area& area) {
     ImGui::PopStyleColor();
 }
 
-void draw_help(PanelState& panels, const Area& area) {
+void draw_help(std::span<const KeyHelp> keys, PanelState& panels, const Area& area) {
     ImGui::SetNextWindowPos({0.5F * (area.low.x + area.high.x), 0.5F * area.high.y},
                             ImGuiCond_Always, {0.5F, 0.5F});
     if (ImGui::Begin("Keys", &panels.help,
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
                          ImGuiWindowFlags_NoSavedSettings)) {
-        for (const KeyHelp& help : kKeyHelp) {
+        for (const KeyHelp& help : keys) {
             line(fmt::format("{:<12} {}", help.keys, help.what));
         }
     }
     ImGui::End();
 }
 
-void draw_hint(const LiveView& view, const PanelState& panels, const Area& area) {
+void draw_hint(const LiveScreen& view, const PanelState& panels, const Area& area) {
     std::string text = view.note();
     if (panels.flies) {
         text = "flying: Esc or Tab ends it";
@@ -131,26 +163,50 @@ float panel_width(float scale) {
     return kPanelWidth * scale;
 }
 
-void draw_panels(LiveView& view, PanelState& panels, float scale) {
+void draw_panels(LiveViews& views, PanelState& panels, float scale) {
     const Area area = picture_area(panels, scale);
+    std::string wanted;
     if (panels.panels) {
         ImGui::SetNextWindowPos({0.0F, 0.0F});
         ImGui::SetNextWindowSize({area.low.x, area.high.y});
-        if (ImGui::Begin("Plant", nullptr,
+        if (ImGui::Begin("Panel", nullptr,
                          ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                              ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                              ImGuiWindowFlags_NoTitleBar)) {
-            draw_plant_panel(view, panels);
+            if (LiveForest* const forest = views.forest()) {
+                wanted = draw_forest_panel(*forest);
+            } else if (LiveView* const plant = views.plant()) {
+                draw_plant_panel(*plant);
+            }
+            ImGui::Separator();
+            ImGui::Checkbox("statistics", &panels.statistics);
+            ImGui::SameLine();
+            if (ImGui::Button("keys (F1)")) {
+                panels.help = !panels.help;
+            }
+            ImGui::SameLine();
+            if (ImGui::Button("all in view")) {
+                views.shown().frame_all();
+            }
+            if (views.plant() != nullptr && !views.last_scene().empty() &&
+                ImGui::Button("back to the forest")) {
+                wanted = views.last_scene();
+            }
         }
         ImGui::End();
     }
     if (panels.statistics) {
-        draw_statistics(view, area);
+        draw_statistics(views, area);
     }
-    draw_messages(view, area);
-    draw_hint(view, panels, area);
+    draw_messages(views.shown(), area);
+    draw_hint(views.shown(), panels, area);
     if (panels.help) {
-        draw_help(panels, area);
+        draw_help(views.forest() != nullptr ? std::span<const KeyHelp>(kForestKeys)
+                                            : std::span<const KeyHelp>(kPlantKeys),
+                  panels, area);
+    }
+    if (!wanted.empty()) {
+        views.open(wanted);
     }
 }
 

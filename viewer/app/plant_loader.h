@@ -1,7 +1,7 @@
-// PlantLoader: makes plants on a thread of its own. The newest request wins: one that waits is
-// replaced by it, and one that is being made and takes long is given up.
+// PlantLoader: makes plants on a thread of its own, by the rules of NewestMaker.
 #pragma once
 
+#include "viewer/app/newest_maker.h"
 #include "viewer/app/options.h"
 #include "viewer/app/plant_document.h"
 
@@ -14,8 +14,6 @@
 
 namespace lsys::view {
 
-using SteadyClock = std::chrono::steady_clock;
-
 struct LoadOutcome {
     lsc::Status status = lsc::Status::Failure;
     /// What there is of it; all, if Fine.
@@ -27,28 +25,26 @@ struct LoadOutcome {
     double seconds = 0.0;          // of the making
 };
 
+struct LoadRequest {
+    ViewOptions options;
+    SteadyClock::time_point since;
+    bool again = false;
+};
+
 class PlantLoader {
 public:
     /// `done` is called on the loader's thread whenever there is something to take().
     explicit PlantLoader(std::function<void()> done);
-    PlantLoader(const PlantLoader&) = delete;
-    PlantLoader& operator=(const PlantLoader&) = delete;
-    /// Gives up what is being made.
-    ~PlantLoader();
 
-    void request(const ViewOptions& options, SteadyClock::time_point since);
-    /// The last request once more, from any thread: a file has changed, so what is being made is
-    /// given up. Nothing if there was none.
-    void repeat(SteadyClock::time_point since);
-    /// What was made last and not yet taken. Gives up what is being made if something newer waits
-    /// and it has taken long: a slider that is dragged shows plants on the way.
-    [[nodiscard]] std::optional<LoadOutcome> take();
-    /// Something waits, is being made or was not taken yet.
-    [[nodiscard]] bool is_busy() const;
+    void request(const ViewOptions& options, SteadyClock::time_point since) {
+        maker_.request({options, since, false});
+    }
+    void repeat(SteadyClock::time_point since) { maker_.repeat(since); }
+    [[nodiscard]] std::optional<LoadOutcome> take() { return maker_.take(); }
+    [[nodiscard]] bool is_busy() const { return maker_.is_busy(); }
 
 private:
-    struct State;
-    std::unique_ptr<State> state_;
+    NewestMaker<LoadRequest, LoadOutcome> maker_;
 };
 
 } // namespace lsys::view

@@ -1,36 +1,19 @@
 #include "viewer/app/plant_panel.h"
 
+#include "viewer/app/widgets.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <imgui.h>
-#include <numbers>
 #include <string>
 #include <utility>
 
 namespace lsys::view {
 
 namespace {
-
-constexpr float kLabelWidth = 110.0F;
-
-void line(const std::string& text) {
-    ImGui::TextUnformatted(text.data(), text.data() + text.size());
-}
-
-/// 1234567: 1,234,567
-std::string grouped(std::uint64_t number) {
-    std::string digits = fmt::format("{}", number);
-    for (std::size_t at = digits.size(); at > 3;) {
-        at -= 3;
-        digits.insert(at, 1, ',');
-    }
-    return digits;
-}
 
 void draw_numbers(const LiveView& view) {
     line(std::filesystem::path(view.settings.file).filename().string());
@@ -166,20 +149,7 @@ void draw_look(LiveSettings& settings) {
     ImGui::Checkbox("ground", &settings.ground);
     ImGui::SameLine();
     ImGui::Checkbox("smooth", &settings.smooth);
-    // The camera's line can be selected, copied and written over.
-    static_assert(sizeof(Camera) == 7 * sizeof(float)); // what the line below has room for
-    std::array<char, 256> text{};
-    std::snprintf(text.data(), text.size(), "%s", to_text(settings.camera).c_str());
-    if (ImGui::InputText("##camera", text.data(), text.size(),
-                         ImGuiInputTextFlags_EnterReturnsTrue)) {
-        if (const Result<Camera> camera = parse_camera(text.data(), settings.camera)) {
-            settings.camera = camera.value();
-        }
-    }
-    ImGui::SameLine();
-    if (ImGui::Button("copy camera")) {
-        ImGui::SetClipboardText(to_text(settings.camera).c_str());
-    }
+    draw_camera(settings.camera);
 }
 
 void draw_mesh(LiveSettings& settings) {
@@ -208,23 +178,6 @@ void draw_mesh(LiveSettings& settings) {
     ImGui::SliderFloat("droop", &mesh.droop, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
 }
 
-/// A wind by the direction it blows to, in degrees from +X to +Z, and its speed.
-void draw_wind(Wind& wind) {
-    constexpr float kDegrees = 180.0F / std::numbers::pi_v<float>;
-    float speed = std::hypot(wind.velocity.x, wind.velocity.z);
-    float direction = speed > 0.0F ? std::atan2(wind.velocity.z, wind.velocity.x) * kDegrees : 0.0F;
-    // No wind has no direction: that of the slider is kept by a wind that is next to none.
-    constexpr float kLeast = 1e-4F;
-    bool changed = ImGui::SliderFloat("wind", &speed, 0.0F, 40.0F, "%.1f m/s");
-    changed |= ImGui::SliderFloat("to", &direction, -180.0F, 180.0F, "%.0f deg from +X");
-    if (changed) {
-        speed = std::max(speed, kLeast);
-        wind.velocity = {speed * std::cos(direction / kDegrees), wind.velocity.y,
-                         speed * std::sin(direction / kDegrees)};
-    }
-    ImGui::SliderFloat("gusts", &wind.gust, 0.0F, 2.0F, "%.2f");
-}
-
 void draw_bending(LiveSettings& settings) {
     if (!ImGui::CollapsingHeader("Bending", ImGuiTreeNodeFlags_DefaultOpen)) {
         return;
@@ -241,7 +194,7 @@ void draw_bending(LiveSettings& settings) {
 
 } // namespace
 
-void draw_plant_panel(LiveView& view, PanelState& panels) {
+void draw_plant_panel(LiveView& view) {
     draw_numbers(view);
     ImGui::PushItemWidth(-kLabelWidth);
     draw_growth(view);
@@ -250,16 +203,6 @@ void draw_plant_panel(LiveView& view, PanelState& panels) {
     draw_mesh(view.settings);
     draw_bending(view.settings);
     ImGui::PopItemWidth();
-    ImGui::Separator();
-    ImGui::Checkbox("statistics", &panels.statistics);
-    ImGui::SameLine();
-    if (ImGui::Button("keys (F1)")) {
-        panels.help = !panels.help;
-    }
-    ImGui::SameLine();
-    if (ImGui::Button("all in view")) {
-        view.frame_all();
-    }
 }
 
 } // namespace lsys::view

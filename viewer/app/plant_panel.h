@@ -6,6 +6,6 @@
 
 namespace lsys::view {
 
-void draw_plant_panel(LiveView& view, PanelState& panels);
+void draw_plant_panel(LiveView& view);
 
 } // namespace lsys::view

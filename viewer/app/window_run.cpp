@@ -3,7 +3,7 @@
 #include "runtime/cli/files.h"
 #include "runtime/cli/tell.h"
 #include "viewer/app/controls.h"
-#include "viewer/app/live_view.h"
+#include "viewer/app/live_views.h"
 #include "viewer/app/panels.h"
 #include "viewer/app/shader_folder.h"
 #include "viewer/gl/window.h"
@@ -35,68 +35,77 @@ std::string title_of(const std::string& file) {
 
 class WindowRun {
 public:
-    WindowRun(Window& window, LiveView& view) : window_(window), view_(view) {}
+    WindowRun(Window& window, LiveViews& views) : window_(window), views_(views) {}
 
     /// False: the user quits.
     bool step() {
         const double wait = pictures_left_ > 0 || controls_.is_moving() ? 0.0
-                            : view_.is_busy()                           ? kBusy
+                            : views_.shown().is_busy()                  ? kBusy
                                                                         : kIdle;
         const WindowInput input = window_.wait(wait);
         const Clock::time_point now = Clock::now();
         const double passed =
             std::min(std::chrono::duration<double>(now - last_).count(), kLongestLeap);
         last_ = now;
-        const float picture_height = static_cast<float>(window_.height());
         const bool flew = panels_.flies;
-        const std::string file = view_.settings.file;
-        controls_.apply(input, passed, picture_height, view_, panels_);
+        const std::string file = views_.shown().file();
+        controls_.apply(input, passed, picture_area(), views_, panels_);
         if (panels_.flies != flew) {
             window_.capture_mouse(panels_.flies);
         }
-        if (view_.settings.file != file) {
-            window_.set_title(title_of(view_.settings.file));
-        }
-        if (panels_.quits || input.closes) {
+        if (panels_.quits) {
             return false;
         }
-        const bool has_news = view_.update();
+        if (input.closes) {
+            window_.stay_open();
+        }
+        const bool has_news = views_.shown().update();
         if (input.any || has_news) {
             pictures_left_ = kPicturesAfterInput;
         }
         draw();
+        if (views_.shown().file() != file) { // panels open files too
+            window_.set_title(title_of(views_.shown().file()));
+            pictures_left_ = kPicturesAfterInput;
+        }
         return true;
     }
 
 private:
+    /// Beside the panels.
+    [[nodiscard]] PixelArea picture_area() const {
+        PixelArea area{0, 0, window_.width(), window_.height()};
+        if (panels_.panels && area.width != 0) {
+            area.x =
+                std::min(static_cast<std::uint32_t>(panel_width(window_.scale())), area.width - 1);
+            area.width -= area.x;
+        }
+        return area;
+    }
+
     void draw() {
-        const std::uint32_t width = window_.width();
-        const std::uint32_t height = window_.height();
-        if (width == 0 || height == 0) {
+        const PixelArea area = picture_area();
+        if (area.width == 0 || area.height == 0) {
             return;
         }
-        PixelArea area{0, 0, width, height};
-        if (panels_.panels) {
-            area.x = std::min(static_cast<std::uint32_t>(panel_width(window_.scale())), width - 1);
-            area.width = width - area.x;
-        }
         const Clock::time_point start = Clock::now();
-        const bool drew = view_.draw(area.width, area.height);
+        const bool drew = views_.shown().draw(area.width, area.height);
         if (!drew && pictures_left_ == 0) {
             return;
         }
         pictures_left_ = drew ? std::max(pictures_left_, 1) : pictures_left_ - 1;
-        view_.present(area);
+        views_.shown().present(area);
         window_.begin_panels();
-        draw_panels(view_, panels_, window_.scale());
+        LiveScreen* const drawn = &views_.shown();
+        draw_panels(views_, panels_, window_.scale());
         window_.show();
-        if (drew) {
-            view_.shown(std::chrono::duration<double>(Clock::now() - start).count());
+        if (drew && drawn == &views_.shown()) {
+            drawn->shown(std::chrono::duration<double>(Clock::now() - start).count());
         }
     }
 
     Window& window_;
-    LiveView& view_;
+    LiveViews& views_;
     Controls controls_;
     PanelState panels_;
     Clock::time_point last_ = Clock::now();
@@ -128,16 +137,16 @@ lsc::Status run_window(const ViewOptions& options, const lsc::Console& console) 
         return lsc::fail(renderer.error(), console);
     }
     console.detail(fmt::format("drawing by a window: {}", renderer.value()->device_name()));
-    LiveView view(options, console, *renderer.value(),
-                  [made = window.value().get()] { made->wake(); });
-    view.settings.camera = camera.value();
-    WindowRun run(*window.value(), view);
+    LiveViews views(options, console, *renderer.value(),
+                    [made = window.value().get()] { made->wake(); });
+    views.shown().camera() = camera.value();
+    WindowRun run(*window.value(), views);
     while (run.step()) {
         if (console.interrupted()) {
             return lsc::Status::Interrupted;
         }
     }
-    console.detail(fmt::format("--camera \"{}\"", to_text(view.settings.camera)));
+    console.detail(fmt::format("--camera \"{}\"", to_text(views.shown().camera())));
     if (!renderer.value()->errors().empty()) {
         return lsc::fail(Error{fmt::format("OpenGL: {}", renderer.value()->errors().front())},
                          console);

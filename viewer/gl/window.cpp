@@ -59,6 +59,7 @@ struct Window::State {
     WindowInput input;
     glm::vec2 mouse{0.0F};
     bool has_mouse = false;
+    bool shift = false;         // with the left button
     std::array<bool, 3> held{}; // buttons, pressed outside of the panels
     std::vector<std::pair<int, Key>> keys;
 
@@ -66,12 +67,40 @@ struct Window::State {
         return *static_cast<State*>(glfwGetWindowUserPointer(window));
     }
 
-    void press_button(int button, int action) {
+    void press_button(int button, int action, int modifiers) {
         input.any = true;
-        if (button >= 0 && static_cast<std::size_t>(button) < held.size()) {
-            held[static_cast<std::size_t>(button)] =
-                action == GLFW_PRESS && (captured || !ImGui::GetIO().WantCaptureMouse);
+        if (button < 0 || static_cast<std::size_t>(button) >= held.size()) {
+            return;
         }
+        bool& is_held = held[static_cast<std::size_t>(button)];
+        const bool was_held = is_held;
+        is_held = action == GLFW_PRESS && (captured || !ImGui::GetIO().WantCaptureMouse);
+        if (button == GLFW_MOUSE_BUTTON_LEFT && is_held != was_held) {
+            shift = (modifiers & GLFW_MOD_SHIFT) != 0;
+            touch(is_held ? Touch::Kind::Press : Touch::Kind::Release);
+        }
+    }
+
+    /// Where the mouse is now: a press may come before any move.
+    void touch(Touch::Kind kind) {
+        double x = 0.0;
+        double y = 0.0;
+        glfwGetCursorPos(window, &x, &y);
+        input.touches.push_back(
+            {pixels({static_cast<float>(x), static_cast<float>(y)}), kind, shift});
+    }
+
+    /// Of the framebuffer, whose size may be another than the window's.
+    glm::vec2 pixels(const glm::vec2& place) const {
+        int width = 0;
+        int height = 0;
+        int across = 0;
+        int down = 0;
+        glfwGetWindowSize(window, &width, &height);
+        glfwGetFramebufferSize(window, &across, &down);
+        return place *
+               glm::vec2(static_cast<float>(across) / static_cast<float>(std::max(width, 1)),
+                         static_cast<float>(down) / static_cast<float>(std::max(height, 1)));
     }
 
     void move_mouse(const glm::vec2& to) {
@@ -83,8 +112,11 @@ struct Window::State {
             input.motion += way;
         } else if (held[GLFW_MOUSE_BUTTON_LEFT]) {
             input.left_drag += way;
-        } else if (held[GLFW_MOUSE_BUTTON_RIGHT] || held[GLFW_MOUSE_BUTTON_MIDDLE]) {
+            input.touches.push_back({pixels(to), Touch::Kind::Move, shift});
+        } else if (held[GLFW_MOUSE_BUTTON_RIGHT]) {
             input.right_drag += way;
+        } else if (held[GLFW_MOUSE_BUTTON_MIDDLE]) {
+            input.middle_drag += way;
         }
     }
 
@@ -94,7 +126,8 @@ struct Window::State {
         if (action == GLFW_RELEASE) {
             std::erase_if(keys, [code](const auto& held_key) { return held_key.first == code; });
         } else if (key != Key::None && !ImGui::GetIO().WantTextInput) {
-            input.presses.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0});
+            input.presses.push_back(
+                {key, (modifiers & GLFW_MOD_CONTROL) != 0, (modifiers & GLFW_MOD_SHIFT) != 0});
             if (action == GLFW_PRESS) {
                 keys.emplace_back(code, key);
             }
@@ -105,8 +138,8 @@ struct Window::State {
     void listen() {
         glfwSetWindowUserPointer(window, this);
         glfwSetMouseButtonCallback(window,
-                                   [](GLFWwindow* from, int button, int action, int /*modifiers*/) {
-                                       of(from).press_button(button, action);
+                                   [](GLFWwindow* from, int button, int action, int modifiers) {
+                                       of(from).press_button(button, action, modifiers);
                                    });
         glfwSetCursorPosCallback(window, [](GLFWwindow* from, double x, double y) {
             of(from).move_mouse({static_cast<float>(x), static_cast<float>(y)});
@@ -195,11 +228,17 @@ WindowInput Window::wait(double seconds) {
         glfwPollEvents();
     }
     WindowInput input = std::exchange(state_->input, {});
+    input.mouse = state_->pixels(state_->mouse);
+    input.over_picture = state_->has_mouse && !state_->captured && !ImGui::GetIO().WantCaptureMouse;
     for (const auto& [code, key] : state_->keys) {
         input.held.push_back(key);
     }
     input.closes = glfwWindowShouldClose(state_->window) == GLFW_TRUE;
     return input;
+}
+
+void Window::stay_open() {
+    glfwSetWindowShouldClose(state_->window, GLFW_FALSE);
 }
 
 void Window::wake() const {

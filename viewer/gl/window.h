@@ -35,24 +35,41 @@ enum class Key : std::uint8_t {
     I = 'I',
     L = 'L',
     N = 'N',
+    O = 'O',
     P = 'P',
     Q = 'Q',
     R = 'R',
     S = 'S',
     W = 'W',
+    X = 'X',
+    Y = 'Y',
+    Z = 'Z',
 };
 
 struct KeyPress {
     Key key = Key::None;
     bool control = false;
+    bool shift = false;
+};
+
+/// The left button over the picture.
+struct Touch {
+    enum class Kind : std::uint8_t { Press, Move, Release };
+    glm::vec2 place{0.0F}; // pixels of the window, from its upper left corner
+    Kind kind = Kind::Move;
+    bool shift = false;
 };
 
 /// What was done with the window since it was asked before; not with the panels.
 struct WindowInput {
     std::vector<KeyPress> presses;
     std::vector<Key> held;
-    glm::vec2 left_drag{0.0F};  // pixels, to the right and down
-    glm::vec2 right_drag{0.0F}; // with the middle button too
+    glm::vec2 left_drag{0.0F}; // pixels, to the right and down
+    glm::vec2 right_drag{0.0F};
+    glm::vec2 middle_drag{0.0F};
+    std::vector<Touch> touches; // with each move while it is held
+    glm::vec2 mouse{0.0F};      // pixels, from the upper left corner
+    bool over_picture = false;  // the mouse, and not over a panel
     glm::vec2 motion{0.0F};     // of a captured mouse
     float wheel = 0.0F;         // away from the user
     std::vector<std::string> dropped;
@@ -69,6 +86,8 @@ public:
     Window& operator=(const Window&) = delete;
     ~Window();
 
+    /// Takes back that the user closed the window.
+    void stay_open();
     /// What has happened, at once or within `seconds`.
     [[nodiscard]] WindowInput wait(double seconds);
     /// Ends a wait(), from any thread.

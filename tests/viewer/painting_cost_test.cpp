@@ -1,0 +1,135 @@
+// What a painted tree costs, in a small forest and in a large one: bytes for the device, and
+// memory. Every allocation by `new` in this program is counted.
+#include "runtime/placement.h"
+#include "tests/support/forest.h"
+#include "viewer/forest_view.h"
+#include "viewer/gl/headless.h"
+#include "viewer/painter.h"
+#include "viewer/renderer.h"
+
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+namespace {
+
+std::atomic<std::uint64_t> allocations{0};
+std::atomic<std::uint64_t> allocated_bytes{0};
+
+} // namespace
+
+void* operator new(std::size_t size) {
+    ++allocations;
+    allocated_bytes += size;
+    if (void* const memory = std::malloc(size == 0 ? 1 : size)) {
+        return memory;
+    }
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t /*size*/) noexcept {
+    std::free(memory);
+}
+
+using namespace lsys;
+using namespace lsys::view;
+
+namespace {
+
+struct PaintingCost {
+    std::uint64_t trees = 0; // that were there before
+    std::uint64_t uploaded = 0;
+    std::uint64_t allocations = 0;
+    std::uint64_t allocated = 0;
+    double seconds = 0.0;
+};
+
+constexpr std::uint32_t kPainted = 1000;
+
+/// Trees are put one by one on a strip that a forest leaves free, and taken away.
+PaintingCost cost_in(std::uint64_t count, bool undoes) {
+    const Region region{0.0, 0.0, 2000.0, 2000.0};
+    const Terrain terrain = Terrain::flat(region).value();
+    Forest forest;
+    CacheOptions cache;
+    cache.heroes = 3;
+    ForestStage stage;
+    stage.generations = 3;
+    stage.cache = test::plant("#set names letters; #set angle 25; #w : A; #p : A : ~ 0.5 : F[+A]A; "
+                              "#q : A : ~ 0.5 : F[-A];",
+                              3, 0.6F, cache)
+                      .cache;
+    ForestSpecies species;
+    species.stages.push_back(std::move(stage));
+    forest.species.push_back(std::move(species));
+    PlacementOptions options;
+    options.region = {0.0, 0.0, 1900.0, 2000.0};
+    options.species.resize(1);
+    options.count = count;
+    forest.trees = place_trees(options, terrain).value().trees;
+    const std::unique_ptr<Headless> context = std::move(Headless::make().value());
+    const std::unique_ptr<Renderer> renderer = std::move(Renderer::make(built_in_shader).value());
+    ForestModel model;
+    REQUIRE(make_forest_model(forest, terrain, {{}}, {}, model) == InstanceMeshStatus::Ok);
+    REQUIRE(renderer->show_forest(std::move(model)));
+    Painter painter(forest.trees, {}, region, terrain, 1);
+    const auto place = [&](std::uint32_t i) {
+        painter.begin_stroke();
+        for (const TreeChange& change :
+             painter.plant(1910.0F + 2.0F * static_cast<float>(i % 40),
+                           20.0F + 2.0F * static_cast<float>(i / 40), Brush{})) {
+            renderer->change_tree(change.index, painter.tree(change.index), change.alive);
+        }
+    };
+    place(kPainted); // what is made with the first tree
+    PaintingCost cost;
+    cost.trees = forest.trees.size();
+    const std::uint64_t uploaded = renderer->uploaded_bytes();
+    const std::uint64_t news = allocations;
+    const std::uint64_t bytes = allocated_bytes;
+    const auto start = std::chrono::steady_clock::now();
+    for (std::uint32_t i = 0; i < kPainted; ++i) {
+        place(i);
+    }
+    for (std::uint32_t i = 0; i < kPainted && undoes; ++i) {
+        for (const TreeChange& change : painter.undo()) {
+            renderer->change_tree(change.index, painter.tree(change.index), change.alive);
+        }
+    }
+    cost.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    cost.uploaded = renderer->uploaded_bytes() - uploaded;
+    cost.allocations = allocations - news;
+    cost.allocated = allocated_bytes - bytes;
+    CHECK(painter.alive_count() == cost.trees + 1 + (undoes ? 0 : kPainted));
+    CHECK(renderer->errors().empty());
+    return cost;
+}
+
+} // namespace
+
+TEST_CASE("a painted tree costs the same in a forest of 1,000 and of 1,000,000") {
+    const bool undoes = GENERATE(false, true);
+    const PaintingCost small = cost_in(1000, undoes);
+    const PaintingCost large = cost_in(1'000'000, undoes);
+    REQUIRE(small.trees == 1000);
+    REQUIRE(large.trees == 1'000'000);
+    CHECK(small.uploaded == std::uint64_t{24} * kPainted);
+    CHECK(large.uploaded == small.uploaded);
+    CHECK(large.allocations == small.allocations);
+    CHECK(large.allocated == small.allocated);
+    CHECK(small.allocations < kPainted); // they are not one by one
+    const auto microseconds = [](const PaintingCost& cost) {
+        return 1e6 * cost.seconds / kPainted;
+    };
+    WARN("microseconds a tree: " << microseconds(small) << " of 1,000, " << microseconds(large)
+                                 << " of 1,000,000; " << small.allocations << " allocations of "
+                                 << small.allocated << " bytes for " << kPainted << " trees");
+    // Host noise is not what this is about: a tenth of a millisecond is the goal.
+    CHECK(microseconds(large) < 1000.0);
+}

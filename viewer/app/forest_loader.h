@@ -1,0 +1,37 @@
+// ForestLoader: makes forests on a thread of its own, by the rules of NewestMaker.
+#pragma once
+
+#include "viewer/app/forest_document.h"
+#include "viewer/app/newest_maker.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lsys::view {
+
+struct ForestRequest {
+    ViewOptions options;
+    ForestEdits edits;
+    /// What is shown, whose heroes may be used again; none: all files are to be read.
+    std::shared_ptr<const ForestDocument> known;
+    SteadyClock::time_point since;
+    bool again = false;
+};
+
+struct ForestOutcome {
+    lsc::Status status = lsc::Status::Failure;
+    std::shared_ptr<ForestDocument> document; // what there is of it; all, if Fine
+    std::string messages;                     // as `lsc` prints them, without colour
+    std::vector<std::string> files;
+    ForestRequest request;
+    double seconds = 0.0; // of the making
+};
+
+[[nodiscard]] ForestOutcome make_forest(const ForestRequest& request,
+                                        const std::atomic<bool>& given_up);
+
+using ForestLoader = NewestMaker<ForestRequest, ForestOutcome>;
+
+} // namespace lsys::view

@@ -1,0 +1,305 @@
+#include "viewer/app/forest_panel.h"
+
+#include "viewer/app/widgets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <imgui.h>
+
+namespace lsys::view {
+
+namespace {
+
+/// Shows what is in force; sets `edit` where it is changed, and lets it go by the button behind it.
+template <typename Value, typename Draw>
+void draw_edit(const char* name, Value shown, std::optional<Value>& edit, const Draw& draw) {
+    ImGui::PushID(name);
+    Value value = edit.value_or(shown);
+    if (draw(value)) {
+        edit = value;
+    }
+    if (edit) {
+        ImGui::SameLine();
+        if (ImGui::SmallButton("x")) {
+            edit.reset();
+        }
+    }
+    ImGui::SameLine();
+    line(name);
+    ImGui::PopID();
+}
+
+void edit_whole(const char* name,
+                std::uint64_t shown,
+                std::optional<std::uint64_t>& edit,
+                std::uint64_t least,
+                std::uint64_t most) {
+    draw_edit(name, shown, edit, [&](std::uint64_t& value) {
+        const float speed = std::max(0.01F * static_cast<float>(value), 0.2F);
+        return ImGui::DragScalar("##value", ImGuiDataType_U64, &value, speed, &least, &most,
+                                 nullptr, ImGuiSliderFlags_AlwaysClamp);
+    });
+}
+
+void edit_whole(const char* name,
+                std::uint32_t shown,
+                std::optional<std::uint32_t>& edit,
+                std::uint32_t least,
+                std::uint32_t most,
+                const char* format = "%u") {
+    draw_edit(name, shown, edit, [&](std::uint32_t& value) {
+        return ImGui::SliderScalar("##value", ImGuiDataType_U32, &value, &least, &most, format,
+                                   ImGuiSliderFlags_AlwaysClamp);
+    });
+}
+
+void edit_length(const char* name,
+                 double shown,
+                 std::optional<double>& edit,
+                 double least,
+                 double most,
+                 const char* format) {
+    draw_edit(name, shown, edit, [&](double& value) {
+        const float speed = std::max(0.01F * static_cast<float>(value), 1e-4F);
+        return ImGui::DragScalar("##value", ImGuiDataType_Double, &value, speed, &least, &most,
+                                 format, ImGuiSliderFlags_AlwaysClamp);
+    });
+}
+
+void draw_numbers(const LiveForest& view) {
+    line(std::filesystem::path(view.file()).filename().string());
+    const ForestDocument* const document = view.document();
+    if (document == nullptr) {
+        line("no forest yet");
+        return;
+    }
+    const Region& region = document->scene.terrain.region;
+    line(fmt::format("{} trees on {:.0f} by {:.0f} m", grouped(view.painting().tree_count()),
+                     region.width, region.depth));
+    const PlacementReport& placed = document->grown.placed;
+    if (placed.refused != 0) {
+        line(fmt::format("{} places where none can live", grouped(placed.refused)));
+    }
+}
+
+void draw_years(LiveForest& view) {
+    const std::uint32_t usual = view.usual_years();
+    if (usual == 0) {
+        return;
+    }
+    ForestSettings& settings = view.settings;
+    auto years = static_cast<int>(view.years());
+    if (ImGui::SliderInt("years", &years, 0,
+                         static_cast<int>(std::max({usual, view.years(), 1U})))) {
+        view.set_years(static_cast<std::uint32_t>(std::max(years, 0)));
+    }
+    if (ImGui::Button(settings.grows ? "pause" : "play")) {
+        view.play_or_pause();
+    }
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-kLabelWidth);
+    ImGui::SliderFloat("a second", &settings.years_per_second, 0.5F, 100.0F, "%.1f",
+                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+}
+
+void draw_painting(LiveForest& view) {
+    if (!ImGui::CollapsingHeader("Painting", ImGuiTreeNodeFlags_DefaultOpen)) {
+        return;
+    }
+    ForestSettings& settings = view.settings;
+    Brush& brush = settings.brush;
+    constexpr std::array<std::pair<const char*, PaintTool>, 4> kTools = {
+        {{"none", PaintTool::None},
+         {"brush", PaintTool::Brush},
+         {"one tree", PaintTool::OneTree},
+         {"eraser", PaintTool::Eraser}}};
+    for (std::size_t i = 0; i < kTools.size(); ++i) {
+        if (i != 0) {
+            ImGui::SameLine();
+        }
+        if (ImGui::RadioButton(kTools[i].first, settings.tool == kTools[i].second)) {
+            settings.tool = kTools[i].second;
+        }
+    }
+    constexpr ImGuiSliderFlags kLogarithmic =
+        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp;
+    ImGui::SliderFloat("radius", &brush.radius, 0.1F, kGreatestBrush, "%.1f m", kLogarithmic);
+    ImGui::SliderFloat("density", &brush.density, 0.0001F, 10.0F, "%.4g /m^2", kLogarithmic);
+    if (const ForestDocument* const document = view.document()) {
+        const std::vector<SceneSpecies>& species = document->scene.species;
+        const std::string& name = species[brush.species].name;
+        if (ImGui::BeginCombo("species", name.c_str())) {
+            for (std::size_t i = 0; i < species.size(); ++i) {
+                if (ImGui::Selectable(species[i].name.c_str(), i == brush.species)) {
+                    brush.species = static_cast<std::uint16_t>(i);
+                    brush.least_scale = document->scene.placement.species[i].least_scale;
+                    brush.greatest_scale = document->scene.placement.species[i].greatest_scale;
+                }
+            }
+            ImGui::EndCombo();
+        }
+    }
+    ImGui::DragFloatRange2("scale", &brush.least_scale, &brush.greatest_scale, 0.005F, 0.01F,
+                           100.0F, "%.2f", nullptr, ImGuiSliderFlags_AlwaysClamp);
+    if (ImGui::Button("undo")) {
+        view.undo();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("redo")) {
+        view.redo();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button(view.is_unsaved() ? "save (changed)" : "save")) {
+        view.save();
+    }
+    ImGui::SameLine();
+    line(fmt::format("{} painted", grouped(view.painting().painted_count())));
+}
+
+/// The grammar of a species that is to be shown alone; empty: none.
+std::string draw_species(LiveForest& view) {
+    std::string wanted;
+    const ForestDocument* const document = view.document();
+    if (document == nullptr ||
+        !ImGui::CollapsingHeader("Species", ImGuiTreeNodeFlags_DefaultOpen)) {
+        return wanted;
+    }
+    const std::filesystem::path folder = std::filesystem::path(view.file()).parent_path();
+    for (std::size_t i = 0; i < document->scene.species.size(); ++i) {
+        const SceneSpecies& species = document->scene.species[i];
+        const PlacementSpecies& placed = document->scene.placement.species[i];
+        if (!ImGui::TreeNodeEx(species.name.c_str(),
+                               i < 2 ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None)) {
+            continue;
+        }
+        SpeciesEdit& edit = view.settings.edits.of(species.name);
+        edit_length("share", placed.share, edit.share, 0.0, 1000.0, "%.3g");
+        const auto scale = [](float& value) {
+            return ImGui::DragFloat("##value", &value, 0.005F, 0.01F, 100.0F, "%.3g",
+                                    ImGuiSliderFlags_AlwaysClamp);
+        };
+        draw_edit("least scale", placed.least_scale, edit.least_scale, scale);
+        draw_edit("most scale", placed.greatest_scale, edit.greatest_scale, scale);
+        edit_whole("heroes", species.cache.heroes, edit.heroes, 1U, 50U);
+        draw_edit("rho", species.rho, edit.rho, [](float& value) {
+            return ImGui::SliderFloat("##value", &value, 0.0F, 1.0F, "%.2f",
+                                      ImGuiSliderFlags_AlwaysClamp);
+        });
+        if (ImGui::SmallButton("show its plant")) {
+            const std::filesystem::path grammar(species.grammar.path);
+            wanted = (view.file() == species.grammar.path ? grammar : folder / grammar).string();
+        }
+        ImGui::TreePop();
+    }
+    return wanted;
+}
+
+void draw_placement(LiveForest& view) {
+    const ForestDocument* const document = view.document();
+    if (document == nullptr || !ImGui::CollapsingHeader("Placement")) {
+        return;
+    }
+    ForestEdits& edits = view.settings.edits;
+    const PlacementOptions& placement = document->scene.placement;
+    auto method = static_cast<int>(edits.method.value_or(placement.method));
+    if (ImGui::Combo("method", &method,
+                     "uniform\0poisson-disk\0density-map\0domination\0jittered\0uniform-cells\0"
+                     "poisson-cells\0density-cells\0")) {
+        choose_method(edits, static_cast<PlacementMethod>(method), document->scene);
+    }
+    constexpr std::uint64_t kMostKeys = ~std::uint64_t{0};
+    constexpr double kMostDistance = 10'000.0;
+    if (reads_count(placement.method)) {
+        edit_whole("trees", placement.count, edits.count, 0, kMaxTrees);
+    }
+    if (reads_spacing(placement.method)) {
+        edit_length("spacing", placement.spacing, edits.spacing, 0.05, kMostDistance, "%.3g m");
+    }
+    if (reads_density(placement.method)) {
+        edit_length("trees a m^2", placement.density, edits.density, 1e-6, 100.0, "%.3g");
+    }
+    edit_whole("key", placement.key, edits.key, 0, kMostKeys);
+}
+
+void draw_ground(LiveForest& view) {
+    const ForestDocument* const document = view.document();
+    if (document == nullptr || !ImGui::CollapsingHeader("Ground")) {
+        return;
+    }
+    const SceneTerrain& terrain = document->scene.terrain;
+    if (terrain.kind == TerrainKind::HeightMap) {
+        line("a height map: " + terrain.map.path);
+        return;
+    }
+    ForestEdits& edits = view.settings.edits;
+    int kind = static_cast<int>(edits.ground.value_or(terrain.kind));
+    if (ImGui::Combo("kind", &kind, "flat\0hills\0")) {
+        edits.ground = static_cast<TerrainKind>(kind);
+    }
+    if (terrain.kind == TerrainKind::Noise) {
+        constexpr std::uint64_t kMostSeeds = ~std::uint64_t{0};
+        edit_length("height", terrain.noise.height, edits.hill_height, 0.0, 5000.0, "%.3g m");
+        edit_length("hill to hill", terrain.noise.feature, edits.hill_feature, 1.0, 50'000.0,
+                    "%.3g m");
+        edit_whole("seed", terrain.noise.seed, edits.hill_seed, 0, kMostSeeds);
+    }
+}
+
+void draw_cache(LiveForest& view) {
+    const ForestDocument* const document = view.document();
+    if (document == nullptr || !ImGui::CollapsingHeader("Branches shared")) {
+        return;
+    }
+    constexpr std::uint32_t kMostKept = 64;
+    edit_whole("most of a key", document->scene.species.front().cache.cap, view.settings.edits.cap,
+               0U, kMostKept, document->scene.species.front().cache.cap == 0 ? "any" : "%u");
+    for (const CacheNumbers& each : view.stats().caches) {
+        line(fmt::format("{}, {} generations:", each.species, each.generations));
+        line(fmt::format("  {} heroes, {} branches", each.heroes, grouped(each.branches)));
+        line(fmt::format("  {} keys, {} kB", grouped(each.keys), grouped(each.bytes / 1000)));
+        line(fmt::format("  {} hits, {} misses", grouped(each.hits), grouped(each.misses)));
+        if (each.dropped != 0) {
+            line(fmt::format("  {} not kept", grouped(each.dropped)));
+        }
+    }
+}
+
+void draw_look(LiveForest& view) {
+    if (!ImGui::CollapsingHeader("Look")) {
+        return;
+    }
+    ForestSettings& settings = view.settings;
+    ImGui::Checkbox("shadows", &settings.shadows);
+    ImGui::SameLine();
+    ImGui::Checkbox("smooth", &settings.smooth);
+    ImGui::SameLine();
+    ImGui::Checkbox("wireframe", &settings.wireframe);
+    ImGui::Checkbox("wind blows", &settings.windy);
+    draw_wind(settings.wind);
+    constexpr std::uint64_t kLeast = 0;
+    constexpr std::uint64_t kMost = 20'000'000;
+    ImGui::SliderScalar("triangles", ImGuiDataType_U64, &settings.most_triangles, &kLeast, &kMost,
+                        nullptr, ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    draw_camera(settings.camera);
+}
+
+} // namespace
+
+std::string draw_forest_panel(LiveForest& view) {
+    draw_numbers(view);
+    ImGui::PushItemWidth(-kLabelWidth);
+    draw_years(view);
+    draw_painting(view);
+    const std::string wanted = draw_species(view);
+    draw_placement(view);
+    draw_ground(view);
+    draw_cache(view);
+    draw_look(view);
+    ImGui::PopItemWidth();
+    return wanted;
+}
+
+} // namespace lsys::view

@@ -1,0 +1,86 @@
+#include "viewer/app/live_screen.h"
+
+#include "runtime/cli/files.h"
+#include "runtime/texture.h"
+#include "viewer/app/shader_folder.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <ostream>
+#include <system_error>
+#include <utility>
+
+namespace lsys::view {
+
+LiveScreen::LiveScreen(const ViewOptions& options, const lsc::Console& console, Renderer& renderer)
+    : options_(options), console_(console), renderer_(&renderer) {}
+
+void LiveScreen::take_messages(const std::string& messages, bool fine) {
+    if (messages != messages_) {
+        messages_ = messages;
+        console_.io().err << messages_ << std::flush;
+    }
+    failed_ = !fine;
+}
+
+bool LiveScreen::reload_shaders() {
+    if (!shaders_changed_.exchange(false)) {
+        return false;
+    }
+    const Result<Done> loaded = renderer_->reload(shaders_of(options_.shaders, console_));
+    shader_message_ = loaded ? std::string() : loaded.error().message;
+    if (loaded) {
+        console_.detail("loaded the shaders");
+    } else {
+        console_.error(shader_message_);
+    }
+    changed_ = true;
+    return true;
+}
+
+bool LiveScreen::is_shader(const std::string& file) const {
+    return !options_.shaders.empty() && std::filesystem::path(file).extension() == ".glsl";
+}
+
+std::vector<std::string> LiveScreen::watched(std::vector<std::string> files) const {
+    const std::vector<std::string> shaders = shader_files(options_.shaders);
+    files.insert(files.end(), shaders.begin(), shaders.end());
+    return files;
+}
+
+bool LiveScreen::draw_frame(const Frame& frame) {
+    aspect_ = static_cast<float>(frame.width) / static_cast<float>(frame.height);
+    if (!changed_ && frame_ == frame) {
+        return false;
+    }
+    changed_ = false;
+    drawn_ = renderer_->draw(frame, {0, 0, frame.width, frame.height});
+    frame_ = frame;
+    return true;
+}
+
+void LiveScreen::write_screenshot() {
+    if (!frame_) {
+        return;
+    }
+    const std::string stem = std::filesystem::path(file()).stem().string();
+    std::string name;
+    std::error_code error;
+    for (std::uint32_t number = 1; name.empty() || std::filesystem::exists(name, error); ++number) {
+        name = fmt::format("{}-{}.png", stem, number);
+    }
+    Texture picture;
+    picture.width = frame_->width;
+    picture.height = frame_->height;
+    renderer_->read(picture.texels);
+    const Result<Done> written = lsc::write_file(name, encode_png(picture), console_);
+    say(written ? fmt::format("wrote {}", name) : written.error().message);
+}
+
+void LiveScreen::say(const std::string& note) {
+    note_ = note;
+    console_.info(note);
+}
+
+} // namespace lsys::view

@@ -1,0 +1,65 @@
+#include "viewer/app/live_views.h"
+
+#include "runtime/cli/forest_scene.h"
+
+#include <utility>
+
+namespace lsys::view {
+
+LiveViews::LiveViews(const ViewOptions& options,
+                     const lsc::Console& console,
+                     Renderer& renderer,
+                     std::function<void()> wake)
+    : options_(options), console_(console), renderer_(&renderer), wake_(std::move(wake)) {
+    make(options_);
+}
+
+void LiveViews::make(const ViewOptions& options) {
+    plant_ = nullptr;
+    forest_ = nullptr;
+    shown_.reset(); // before the other one watches files and draws
+    if (options.is_forest) {
+        auto forest = std::make_unique<LiveForest>(options, console_, *renderer_, wake_);
+        forest_ = forest.get();
+        shown_ = std::move(forest);
+    } else {
+        auto plant = std::make_unique<LiveView>(options, console_, *renderer_, wake_);
+        plant_ = plant.get();
+        shown_ = std::move(plant);
+    }
+}
+
+void LiveViews::open(const std::string& file) {
+    if (shown_->is_unsaved() && refused_ != file) {
+        refused_ = file;
+        shown_->say("what was painted is not saved: Ctrl+S saves it; ask again to leave it");
+        return;
+    }
+    refused_.clear();
+    const bool is_forest = lsc::is_scene(file);
+    if (forest_ != nullptr && lsc::is_scene(forest_->file())) {
+        last_scene_ = forest_->file();
+    }
+    if (is_forest && forest_ != nullptr) {
+        forest_->open(file);
+        return;
+    }
+    if (!is_forest && plant_ != nullptr) {
+        plant_->open(file);
+        return;
+    }
+    // What the command line says of one file is not meant for another.
+    ViewOptions options = options_;
+    options.file = file;
+    options.is_forest = is_forest;
+    options.forest = {};
+    options.forest.files = {file};
+    options.grammar.definitions.clear();
+    options.grammar.generations.reset();
+    options.grammar.dialect.clear();
+    options.seed.reset();
+    options.camera.clear();
+    make(options);
+}
+
+} // namespace lsys::view

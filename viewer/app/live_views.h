@@ -1,0 +1,45 @@
+// LiveViews: the view that a window shows: of a plant or of a forest, by the file.
+#pragma once
+
+#include "viewer/app/live_forest.h"
+#include "viewer/app/live_view.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace lsys::view {
+
+class LiveViews {
+public:
+    LiveViews(const ViewOptions& options,
+              const lsc::Console& console,
+              Renderer& renderer,
+              std::function<void()> wake);
+
+    [[nodiscard]] LiveScreen& shown() { return *shown_; }
+    /// Null if the other is shown.
+    [[nodiscard]] LiveView* plant() { return plant_; }
+    [[nodiscard]] LiveForest* forest() { return forest_; }
+
+    /// Shows another file, all in view: a scene as a forest, a grammar as a plant. Not while
+    /// something is unsaved: that is said, and asking once more shows it.
+    void open(const std::string& file);
+    /// The scene that was shown before its grammar; empty: none.
+    [[nodiscard]] const std::string& last_scene() const { return last_scene_; }
+
+private:
+    void make(const ViewOptions& options);
+
+    ViewOptions options_;
+    lsc::Console console_;
+    Renderer* renderer_;
+    std::function<void()> wake_;
+    std::string last_scene_;
+    std::string refused_; // because something is unsaved
+    LiveView* plant_ = nullptr;
+    LiveForest* forest_ = nullptr;
+    std::unique_ptr<LiveScreen> shown_;
+};
+
+} // namespace lsys::view

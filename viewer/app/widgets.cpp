@@ -1,0 +1,60 @@
+#include "viewer/app/widgets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <imgui.h>
+#include <numbers>
+
+namespace lsys::view {
+
+void line(const std::string& text) {
+    ImGui::TextUnformatted(text.data(), text.data() + text.size());
+}
+
+std::string grouped(std::uint64_t number) {
+    std::string digits = fmt::format("{}", number);
+    for (std::size_t at = digits.size(); at > 3;) {
+        at -= 3;
+        digits.insert(at, 1, ',');
+    }
+    return digits;
+}
+
+/// A wind by the direction it blows to, in degrees from +X to +Z, and its speed.
+void draw_wind(Wind& wind) {
+    constexpr float kDegrees = 180.0F / std::numbers::pi_v<float>;
+    float speed = std::hypot(wind.velocity.x, wind.velocity.z);
+    float direction = speed > 0.0F ? std::atan2(wind.velocity.z, wind.velocity.x) * kDegrees : 0.0F;
+    // No wind has no direction: that of the slider is kept by a wind that is next to none.
+    constexpr float kLeast = 1e-4F;
+    bool changed = ImGui::SliderFloat("wind", &speed, 0.0F, 40.0F, "%.1f m/s");
+    changed |= ImGui::SliderFloat("to", &direction, -180.0F, 180.0F, "%.0f deg from +X");
+    if (changed) {
+        speed = std::max(speed, kLeast);
+        wind.velocity = {speed * std::cos(direction / kDegrees), wind.velocity.y,
+                         speed * std::sin(direction / kDegrees)};
+    }
+    ImGui::SliderFloat("gusts", &wind.gust, 0.0F, 2.0F, "%.2f");
+}
+
+void draw_camera(Camera& camera) {
+    static_assert(sizeof(Camera) == 7 * sizeof(float)); // what the line below has room for
+    std::array<char, 256> text{};
+    std::snprintf(text.data(), text.size(), "%s", to_text(camera).c_str());
+    if (ImGui::InputText("##camera", text.data(), text.size(),
+                         ImGuiInputTextFlags_EnterReturnsTrue)) {
+        if (const Result<Camera> parsed = parse_camera(text.data(), camera)) {
+            camera = parsed.value();
+        }
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("copy camera")) {
+        ImGui::SetClipboardText(to_text(camera).c_str());
+    }
+}
+
+} // namespace lsys::view
