@@ -53,12 +53,14 @@ public:
 
     LiveForest& forest() { return *views.forest(); }
 
-    /// One picture, as a window makes it.
-    void step() {
+    /// One picture, as a window makes it. `seconds` that it is said to have taken.
+    bool step(double seconds = 0.0) {
         views.shown().update();
-        if (views.shown().draw(kWidth, kHeight)) {
-            views.shown().shown(0.0);
+        const bool drew = views.shown().draw(kWidth, kHeight);
+        if (drew) {
+            views.shown().shown(seconds);
         }
+        return drew;
     }
     /// Steps until `done`, but not for ever.
     template <typename Condition>
@@ -80,7 +82,7 @@ public:
             [&] { return forest().painting().tree_count() == count && forest().has_portraits(); });
     }
     std::vector<std::uint8_t> picture() {
-        step();
+        REQUIRE(until([&] { return !forest().is_coarse(); }));
         std::vector<std::uint8_t> pixels;
         renderer->read(pixels);
         return pixels;
@@ -201,6 +203,25 @@ TEST_CASE("a scene that is deleted while it is shown is told, and comes back") {
     write_text(files.scene, wood(60));
     REQUIRE(viewed.until_trees(61)); // what was painted stays
     CHECK_FALSE(viewed.forest().failed());
+}
+
+TEST_CASE("what a scene names and is missing is told at its place, and waited for") {
+    const WoodFolder files(wood(20));
+    std::filesystem::remove(files.folder / "bush.lsys");
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
+    CHECK(viewed.forest().document() == nullptr);
+    CHECK(viewed.forest().messages().find("wood.toml:15:") != std::string::npos);
+    wait_for_watch();
+    write_text(files.folder / "bush.lsys", kBush);
+    REQUIRE(viewed.until_trees(20));
+    CHECK_FALSE(viewed.forest().failed());
+    wait_for_watch();
+    write_text(files.scene, wood(20) + "\n[[species]]\ngrammar = \"none.lsys\"\n");
+    REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
+    wait_for_watch();
+    write_text(files.folder / "none.lsys", kBush);
+    REQUIRE(viewed.until([&] { return viewed.forest().document()->scene.species.size() == 2; }));
 }
 
 TEST_CASE("what is set in the window takes the place of what the scene says") {
@@ -352,6 +373,24 @@ TEST_CASE("what is painted outlives a grammar that changes, and can still be und
     CHECK(forest.painting().tree_count() == 71);
     forest.save();
     CHECK(read_text(files.scene).find("\"bush\", 1, 1, 0, 1") == std::string::npos);
+}
+
+TEST_CASE("slow pictures are coarser while something moves, and whole when all rests") {
+    const WoodFolder files(wood(50));
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    LiveForest& forest = viewed.forest();
+    viewed.look_at(30.0F, 30.0F);
+    const std::vector<std::uint8_t> whole = viewed.picture();
+    forest.settings.camera = moved(forest.settings.camera, 1.0F, 0.0F, 0.0F);
+    REQUIRE(viewed.step(1.0));
+    CHECK_FALSE(forest.is_coarse()); // nobody knew
+    viewed.look_at(30.0F, 30.0F);
+    REQUIRE(viewed.step(1.0));
+    CHECK(forest.is_coarse());
+    CHECK(forest.is_busy());
+    CHECK(viewed.picture() == whole);
+    CHECK_FALSE(forest.is_coarse());
 }
 
 TEST_CASE("dropped files show plants and forests in turn") {

@@ -18,6 +18,11 @@ constexpr double kMilliseconds = 1e3;
 constexpr double kPortraitTime = 0.02;
 // Trees whose branches are made for one picture, so that a camera that flies does not halt.
 constexpr std::uint32_t kMostExpansions = 1000;
+// A picture that takes longer is drawn coarser while something moves, and again when all has been
+// at rest for a while, s.
+constexpr double kSlowPicture = 0.12;
+constexpr double kRest = 0.25;
+constexpr std::uint64_t kFewestTriangles = 20'000;
 
 ForestSettings first_settings(const ViewOptions& options) {
     ForestSettings settings;
@@ -221,6 +226,16 @@ bool LiveForest::draw(std::uint32_t width, std::uint32_t height) {
     if (document_ != nullptr) {
         frame.light = forest_light(*document_);
     }
+    if (settings.windy || settings.grows || has_worked_ ||
+        (frame_ && !(frame_->camera == frame.camera))) {
+        last_motion_ = SteadyClock::now();
+    }
+    has_worked_ = false;
+    is_coarse_ = is_slow_ && lsc::seconds_since(last_motion_) < kRest;
+    if (is_coarse_) {
+        frame.samples = 1;
+        frame.most_triangles = std::min(frame.most_triangles, coarse_triangles_);
+    }
     if (!draw_frame(frame)) {
         return false;
     }
@@ -231,6 +246,13 @@ bool LiveForest::draw(std::uint32_t width, std::uint32_t height) {
 
 void LiveForest::shown(double draw_seconds) {
     stats_.draw_seconds = draw_seconds;
+    if (!is_coarse_) {
+        is_slow_ = draw_seconds > kSlowPicture;
+    } else if (draw_seconds > kSlowPicture) {
+        coarse_triangles_ = std::max(coarse_triangles_ / 2, kFewestTriangles);
+    } else if (draw_seconds < 0.25 * kSlowPicture) {
+        coarse_triangles_ = std::min(coarse_triangles_ * 2, settings.most_triangles);
+    }
     if (!std::exchange(tells_shown_, false)) {
         return;
     }
@@ -334,6 +356,7 @@ void LiveForest::work_at(const glm::vec2& place, bool begins, bool erases) {
         painting_.go_over(*ground, std::exchange(begins_stroke_, false),
                           erases ? PaintTool::Eraser : settings.tool, settings.brush);
         has_stroke_ = true;
+        has_worked_ = true;
         changed_ = true;
     }
 }
@@ -385,7 +408,7 @@ void LiveForest::save() {
 }
 
 bool LiveForest::is_busy() const {
-    return loader_.is_busy() || settings.grows || settings.windy || !has_portraits_;
+    return loader_.is_busy() || settings.grows || settings.windy || !has_portraits_ || is_coarse_;
 }
 
 } // namespace lsys::view

@@ -112,6 +112,8 @@ public:
     [[nodiscard]] const ForestDocument* document() const { return document_.get(); }
     [[nodiscard]] const ForestStats& stats() const { return stats_; }
     [[nodiscard]] const ForestPainting& painting() const { return painting_; }
+    /// The last picture is of fewer triangles and samples than asked for, because something moves.
+    [[nodiscard]] bool is_coarse() const { return is_coarse_; }
     /// Whether pictures of far trees are still being made.
     [[nodiscard]] bool has_portraits() const { return has_portraits_; }
 
@@ -141,6 +143,11 @@ private:
     bool has_outline_ = false;
     bool begins_stroke_ = false; // where the mouse meets the ground next
     bool has_stroke_ = false;
+    bool has_worked_ = false; // a tool, since the last picture
+    bool is_slow_ = false;    // the last picture of all that was asked for
+    bool is_coarse_ = false;
+    std::uint64_t coarse_triangles_ = 200'000;
+    SteadyClock::time_point last_motion_;
     ForestStats stats_;
 
     std::mutex saved_mutex_;
