@@ -101,6 +101,26 @@ bool draws(TurtleOperation operation) {
     return kTurtleOperations[index].draws;
 }
 
+TableRange Bytecode::of(Stage stage) const {
+    const auto before = [](const BytecodeProduction& p, Stage value) { return p.stage < value; };
+    const auto after = [](Stage value, const BytecodeProduction& p) { return value < p.stage; };
+    const auto first = std::lower_bound(productions.begin(), productions.end(), stage, before);
+    const auto last = std::upper_bound(first, productions.end(), stage, after);
+    return {static_cast<std::uint32_t>(first - productions.begin()),
+            static_cast<std::uint32_t>(last - first)};
+}
+
+std::uint32_t Bytecode::rewriting_rules() const {
+    const TableRange range = of(Stage::Rewrite);
+    return range.count == productions.size() ? rule_count : productions[range.count].rule;
+}
+
+bool Bytecode::cuts() const {
+    return std::any_of(symbols.begin(), symbols.end(), [](const BytecodeSymbol& symbol) {
+        return symbol.turtle == TurtleOperation::Cut;
+    });
+}
+
 std::uint32_t site_of(const Bytecode& bytecode, std::uint32_t instruction) {
     const auto after = std::upper_bound(
         bytecode.site_marks.begin(), bytecode.site_marks.end(), instruction,
@@ -149,12 +169,15 @@ std::uint64_t digest(const Bytecode& bytecode) {
     Mixer mixer;
     mixer.tag(bytecode.settings.rewriting);
     mixer.tag(bytecode.settings.choice);
+    mixer.tag(bytecode.settings.at_depth);
+    mixer.word(bytecode.settings.decompose_depth);
     mixer.word(bytecode.symbols.size());
     for (const BytecodeSymbol& symbol : bytecode.symbols) {
         mixer.text(symbol.name);
         mixer.word(symbol.parameter_count);
         mixer.tag(symbol.kind);
         mixer.tag(symbol.ignored);
+        mixer.tag(symbol.turtle == TurtleOperation::Cut);
     }
     mixer.word(bytecode.folded.size());
     for (const FoldedModule& module : bytecode.folded) {
@@ -191,6 +214,7 @@ std::uint64_t digest(const Bytecode& bytecode) {
     for (const BytecodeProduction& production : bytecode.productions) {
         mixer.word(production.rule);
         mixer.word(production.group);
+        mixer.tag(production.stage);
         mixer.tag(production.stochastic);
         mixer.real(production.weight);
         add(mixer, production.left);

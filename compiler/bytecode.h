@@ -20,6 +20,7 @@
 
 #include "compiler/settings.h"
 #include "grammar/source.h"
+#include "grammar/stage.h"
 
 #include <cstdint>
 #include <optional>
@@ -153,6 +154,7 @@ struct BytecodeProduction {
     std::uint32_t name_site = kNone;
     std::uint32_t rule = 0;  // productions whose predecessors are equal, by first appearance
     std::uint32_t group = 0; // ... and whose contexts are equal
+    Stage stage = Stage::Rewrite;
     bool has_left = false;
     bool has_right = false;
     TableRange left;        // in patterns; modules only, in text order
@@ -192,13 +194,21 @@ struct Bytecode {
     std::vector<Site> sites;
     std::vector<SiteMark> site_marks;            // ascending
     std::vector<PlaceRun> template_places;       // ascending
-    std::vector<BytecodeProduction> productions; // in file order
+    std::vector<BytecodeProduction> productions; // by stage, then in file order
     std::uint32_t rule_count = 0;
     std::uint32_t group_count = 0;
     WordTemplate axiom;
     std::uint32_t axiom_site = kNone;
     std::uint32_t axiom_draw_position = 0; // number of the axiom's first range
     bool uses_steps = false; // steps() occurs: the word depends on the number asked for
+
+    /// The productions of a stage.
+    [[nodiscard]] TableRange of(Stage stage) const;
+    [[nodiscard]] bool has(Stage stage) const { return of(stage).count != 0; }
+    /// Rules of Stage::Rewrite: those up to this number.
+    [[nodiscard]] std::uint32_t rewriting_rules() const;
+    /// Whether some module cuts its branch off.
+    [[nodiscard]] bool cuts() const;
 
     [[nodiscard]] Code code_count() const {
         return static_cast<Code>(symbols.size() + folded.size());

@@ -115,8 +115,9 @@ private:
             head += " > " + pattern(p.right);
         }
         line("\nproduction {} {}: {}{}", index, p.name, head, at_site(p.name_site));
-        line("  rule {}, group {}{}", p.rule, p.group,
-             p.stochastic ? ", probability " + real(p.weight) : "");
+        line("  {}rule {}, group {}{}",
+             p.stage == Stage::Rewrite ? "" : std::string(keyword_of(p.stage)) + ", ", p.rule,
+             p.group, p.stochastic ? ", probability " + real(p.weight) : "");
         if (p.condition != kNone) {
             line("  condition");
             code(p.condition);

@@ -87,7 +87,14 @@ constexpr Count kNoLimit{0, true, 1e300};
 
 } // namespace
 
+bool is_growth_known(const Bytecode& bytecode) {
+    return !bytecode.has(Stage::Decompose) && !bytecode.cuts();
+}
+
 GrowthPrediction predict_growth(const Bytecode& bytecode, std::uint32_t generations) {
+    if (!is_growth_known(bytecode)) {
+        return {};
+    }
     ModuleClasses classes(bytecode, generations);
     GrowthWalk walk(classes);
     const std::uint32_t listed = std::min(generations, kMaxListedGenerations);
@@ -127,6 +134,9 @@ GrowthPrediction predict_growth(const Bytecode& bytecode, std::uint32_t generati
 
 std::optional<GrowthLimit>
 find_growth_limit(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t max_modules) {
+    if (!is_growth_known(bytecode)) {
+        return std::nullopt;
+    }
     ModuleClasses classes(bytecode, generations);
     GrowthWalk walk(classes);
     const std::uint32_t listed = std::min(generations, kMaxListedGenerations);

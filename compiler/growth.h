@@ -66,6 +66,10 @@ struct GrowthPrediction {
     std::optional<std::uint32_t> unchanged_from;
 };
 
+/// Whether anything is known of how words grow: not with `#decompose`, whose passes are as many as
+/// are needed, nor with cuts, which depend on the whole branch. Then nothing is listed below.
+[[nodiscard]] bool is_growth_known(const Bytecode& bytecode);
+
 /// Predicts generations 0 ... generations. Time grows with the listed generations times the size of
 /// the program, and is bounded by some seconds.
 [[nodiscard]] GrowthPrediction predict_growth(const Bytecode& bytecode, std::uint32_t generations);

@@ -199,6 +199,9 @@ void settings(Stream& stream, Value& s) {
     stream.real(s.spring);
     stream.real(s.density);
     stream.real(s.damping);
+    stream.tag(s.at_depth, AtDepth::Stop);
+    stream.number(s.decompose_depth);
+    stream.number(s.interpret_depth);
 }
 
 template <typename Stream, typename Value>
@@ -243,6 +246,7 @@ void production_row(Stream& stream, Value& p) {
     stream.number(p.name_site);
     stream.number(p.rule);
     stream.number(p.group);
+    stream.tag(p.stage, Stage::Interpret);
     stream.truth(p.has_left);
     stream.truth(p.has_right);
     table_range(stream, p.left);
@@ -307,7 +311,7 @@ void contents(Stream& stream, Value& bytecode) {
         s.number(run.line);
         s.number(run.column);
     });
-    stream.table(bytecode.productions, 75, [](Stream& s, auto& row) { production_row(s, row); });
+    stream.table(bytecode.productions, 76, [](Stream& s, auto& row) { production_row(s, row); });
     stream.number(bytecode.rule_count);
     stream.number(bytecode.group_count);
     word_template(stream, bytecode.axiom);

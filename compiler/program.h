@@ -98,6 +98,7 @@ struct Production {
     std::vector<SourceSpan> formal_spans;
     ValueId condition = kNoValue;
     SourceSpan condition_span;
+    Stage stage = Stage::Rewrite;
     bool stochastic = false;
     float weight = 0.0F; // not a number if the probability is in error
     SourceSpan weight_span;
@@ -144,7 +145,7 @@ struct ObjectBinding {
     std::string mesh_file;
 };
 
-/// A name of an `#ignore`.
+/// A name of an `#ignore` or of a `#consider`.
 struct IgnoredName {
     NameId name = kNoName;
     SourceSpan span;
@@ -165,9 +166,10 @@ struct Program {
     std::vector<ModuleDeclaration> declarations;
     std::vector<ObjectBinding> objects;
     std::vector<IgnoredName> ignored;
+    std::vector<IgnoredName> considered; // where there are any, all others are ignored
     std::vector<Constant> constants;
     std::vector<Global> globals;
-    std::vector<Production> productions;
+    std::vector<Production> productions; // those of Stage::Rewrite first, of Interpret last
     std::uint32_t rule_count = 0;
     std::uint32_t group_count = 0;
     ProgramWord axiom;

@@ -50,6 +50,10 @@ private:
                             s.step_scale, s.width_scale);
         out_ +=
             fmt::format("  spring {}, density {}, damping {}\n", s.spring, s.density, s.damping);
+        if (!program_.productions.empty() && program_.productions.back().stage != Stage::Rewrite) {
+            out_ += fmt::format("  decompose_depth {}, interpret_depth {}, at_depth {}\n",
+                                s.decompose_depth, s.interpret_depth, name_of(s.at_depth));
+        }
         if (s.has_tropism) {
             out_ += fmt::format("  tropism {} {} {} {}\n", s.tropism[0], s.tropism[1], s.tropism[2],
                                 s.tropism[3]);
@@ -119,6 +123,10 @@ private:
 
     void production(const Production& production) {
         out_ += "  ";
+        if (production.stage != Stage::Rewrite) {
+            out_ += keyword_of(production.stage);
+            out_ += ' ';
+        }
         out_ += names_.text(production.name);
         out_ += fmt::format(" (rule {}, group {})\n    ", production.rule, production.group);
         if (production.has_left) {

@@ -16,6 +16,7 @@ std::string_view name_in(const std::array<std::string_view, size>& names, Enum v
 constexpr std::array<std::string_view, 3> kRewritingModes{"parallel", "sequential", "cyclic"};
 constexpr std::array<std::string_view, 2> kChoiceScopes{"module", "generation"};
 constexpr std::array<std::string_view, 2> kWeightRules{"one", "any"};
+constexpr std::array<std::string_view, 2> kAtDepths{"error", "stop"};
 constexpr std::array<std::string_view, 8> kTurtleProfiles{"lsys", "thesis", "abop", "houdini",
                                                           "l3d",  "lplus",  "sys",  "carey"};
 
@@ -29,6 +30,9 @@ std::string_view name_of(ChoiceScope scope) {
 }
 std::string_view name_of(WeightRule rule) {
     return name_in(kWeightRules, rule);
+}
+std::string_view name_of(AtDepth at) {
+    return name_in(kAtDepths, at);
 }
 std::string_view name_of(TurtleProfile profile) {
     return name_in(kTurtleProfiles, profile);

@@ -14,6 +14,9 @@ enum class RewritingMode : std::uint8_t { Parallel, Sequential, Cyclic };
 enum class ChoiceScope : std::uint8_t { Module, Generation };
 /// Whether unconditional groups must sum to 1.
 enum class WeightRule : std::uint8_t { One, Any };
+/// What becomes of a module that `#decompose` or `#interpret` still matches at the greatest depth:
+/// it ends the run, or it stays what it is.
+enum class AtDepth : std::uint8_t { Error, Stop };
 /// Which table of section 7 gives modules their meaning for the turtle.
 enum class TurtleProfile : std::uint8_t { Lsys, Thesis, Abop, Houdini, L3d, Lplus, Sys, Carey };
 
@@ -35,14 +38,21 @@ struct Settings {
     std::array<float, 4> tropism{}; // x y z e
     bool has_seed = false;
     std::uint64_t seed = 0;
-    float spring = 30.0F;   // N m / rad
-    float density = 500.0F; // kg / m^3
-    float damping = 1.0F;   // N m s / rad
+    AtDepth at_depth = AtDepth::Error;
+    std::uint32_t decompose_depth = 100; // passes after a generation
+    std::uint32_t interpret_depth = 100; // passes before a word is drawn
+    float spring = 30.0F;                // N m / rad
+    float density = 500.0F;              // kg / m^3
+    float damping = 1.0F;                // N m s / rad
 };
 
 [[nodiscard]] std::string_view name_of(RewritingMode mode);
 [[nodiscard]] std::string_view name_of(ChoiceScope scope);
+/// The largest of both depths.
+inline constexpr std::uint32_t kMaxDepth = 100'000;
+
 [[nodiscard]] std::string_view name_of(WeightRule rule);
+[[nodiscard]] std::string_view name_of(AtDepth at);
 [[nodiscard]] std::string_view name_of(TurtleProfile profile);
 
 } // namespace lsys

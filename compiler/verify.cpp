@@ -50,7 +50,8 @@ private:
     bool settings() {
         const Settings& s = bytecode_.settings;
         if (!within(s.turtle, TurtleProfile::Carey) || !within(s.rewriting, RewritingMode::Cyclic) ||
-            !within(s.choice, ChoiceScope::Generation) || !within(s.weights, WeightRule::Any)) {
+            !within(s.choice, ChoiceScope::Generation) || !within(s.weights, WeightRule::Any) ||
+            !within(s.at_depth, AtDepth::Stop)) {
             return fail("a setting has a value that does not exist");
         }
         for (const float value :
@@ -62,6 +63,10 @@ private:
         }
         if (s.sides < 3 || s.sides > 64) {
             return fail("a branch of {} sides", s.sides);
+        }
+        if (s.decompose_depth == 0 || s.decompose_depth > kMaxDepth || s.interpret_depth == 0 ||
+            s.interpret_depth > kMaxDepth) {
+            return fail("a depth that cannot be");
         }
         if (bytecode_.generations && *bytecode_.generations == kNone) {
             return fail("more generations than there can be");
@@ -230,6 +235,14 @@ private:
             if (p.name.empty() || !printable(p.name) || !site(p.name_site)) {
                 return fail("production {} has no name or no place", i);
             }
+            if (!within(p.stage, Stage::Interpret) ||
+                (i > 0 && p.stage < bytecode_.productions[i - 1].stage)) {
+                return fail("production {} is out of its stage", i);
+            }
+            if (p.stage != Stage::Rewrite &&
+                (p.has_left || p.has_right || p.predecessor.count != 1)) {
+                return fail("production {} has more than one module", i);
+            }
             const bool weight_fits =
                 p.stochastic
                     ? std::isfinite(p.weight) && p.weight > 0.0F &&
@@ -276,9 +289,10 @@ private:
         }
         const BytecodeProduction& example = bytecode_.productions[examples[index]];
         const BytecodeProduction& p = bytecode_.productions[production];
-        const bool same = same_pattern(example.predecessor, p.predecessor) &&
-                          (!with_contexts || (same_pattern(example.left, p.left) &&
-                                              same_pattern(example.right, p.right)));
+        const bool same =
+            example.stage == p.stage && same_pattern(example.predecessor, p.predecessor) &&
+            (!with_contexts ||
+             (same_pattern(example.left, p.left) && same_pattern(example.right, p.right)));
         return same || fail("production {} does not fit {} {}", production, kind, index);
     }
 

@@ -8,6 +8,7 @@
 #include "grammar/chunked_vector.h"
 #include "grammar/names.h"
 #include "grammar/source.h"
+#include "grammar/stage.h"
 
 #include <cstdint>
 #include <string>
@@ -130,9 +131,9 @@ enum class StatementKind : std::uint8_t {
     Object,      // #object NAME OBJECT;
     Include,     // #include "file"; its statements follow
     Set,         // #set KEY values;
-    Ignore,      // #ignore : names;
+    Ignore,      // #ignore : names; #consider : names;
     Axiom,       // #w : modules;
-    Production,  // #NAME : ... ;
+    Production,  // #NAME : ... ; #decompose NAME : ... ; #interpret NAME : ... ;
 };
 
 /// `index` is the place in the vector of that kind.
@@ -196,6 +197,8 @@ struct SetNode {
 
 struct IgnoreNode {
     ModuleList modules;
+    bool considers = false; // `#consider`: all others are ignored
+    SourceSpan keyword_span;
 };
 
 struct AxiomNode {
@@ -211,6 +214,7 @@ struct ConditionNode {
 };
 
 struct ProductionNode {
+    Stage stage = Stage::Rewrite;
     NameId name = kNoName;
     SourceSpan name_span;   // without the `#`
     bool has_left = false;  // `<` was written

@@ -78,7 +78,7 @@ private:
             set(ast_.sets[statement.index]);
             return;
         case StatementKind::Ignore:
-            out_ += "ignore ";
+            out_ += ast_.ignores[statement.index].considers ? "consider " : "ignore ";
             modules(ast_.ignores[statement.index].modules);
             return;
         case StatementKind::Axiom:
@@ -106,7 +106,9 @@ private:
     }
 
     void production(const ProductionNode& node) {
-        out_ += "production ";
+        out_ += node.stage == Stage::Decompose   ? "decompose "
+                : node.stage == Stage::Interpret ? "interpret "
+                                                 : "production ";
         name(node.name);
         if (node.has_left) {
             out_ += "\n      left ";

@@ -2,9 +2,12 @@
 
 #include "grammar/contract.h"
 #include "runtime/derive/brackets.h"
+#include "runtime/derive/chains.h"
 #include "runtime/derive/origins.h"
 #include "runtime/derive/pass.h"
 #include "runtime/derive/plan.h"
+#include "runtime/derive/prune.h"
+#include "runtime/derive/remains.h"
 #include "runtime/derive/start.h"
 
 #include <algorithm>
@@ -16,16 +19,22 @@ namespace lsys {
 struct Derivation::State {
     State(const Bytecode& program, DeriveOptions chosen)
         : bytecode(program), options(std::move(chosen)), word(code_width(program.code_count())),
-          next(word.code_width()), spare(word.code_width()) {}
+          next(word.code_width()), spare(word.code_width()), pruner(program),
+          depth(depth_of(program, Stage::Decompose)), rules(program.rewriting_rules()) {}
 
     const Bytecode& bytecode;
     DeriveOptions options;
     std::vector<float> globals;
     std::optional<Plan> plan;
     std::optional<Passes> passes;
+    std::optional<Plan> decompose_plan; // where there are such productions
+    std::optional<Passes> decompose_passes;
     Word word;
     Word next;  // written by the pass at work
     Word spare; // a generation of several passes needs a third
+    Pruner pruner;
+    StageDepth depth; // of decomposition
+    std::uint32_t rules = 0;
     std::uint32_t age = 0;
     RuntimeError error;
     LimitReport limit;
@@ -46,6 +55,11 @@ struct Derivation::State {
                                 static_cast<float>(options.generations)};
         plan.emplace(bytecode, inputs, true);
         passes.emplace(*plan, options);
+        if (depth.passes != 0) {
+            decompose_passes.reset();
+            decompose_plan.emplace(bytecode, inputs, true, Stage::Decompose);
+            decompose_passes.emplace(*decompose_plan, options);
+        }
         return DeriveStatus::Ok;
     }
 
@@ -128,56 +142,143 @@ struct Derivation::State {
         return DeriveStatus::Ok;
     }
 
-    /// One pass from `in` to `out`; `other` is a word that is held beside them.
-    [[nodiscard]] DeriveStatus
-    pass(const Word& in, Word& out, std::uint64_t first_draw, const Word& other) {
-        const PassKeys keys{options.seed, age, first_draw};
-        const std::uint64_t others = plan->held_bytes() + other.held_bytes();
-        const DeriveStatus status = passes->run(in, out, keys, others);
+    /// Where the next pass writes; then `current` is told.
+    [[nodiscard]] Word& room_beside(const Word* current) { return current == &next ? spare : next; }
+    void take(const Word& written, const Word*& current) {
+        if (&written == &spare) {
+            std::swap(next, spare);
+        }
+        current = &next;
+    }
+
+    /// One pass over `current`, which becomes what is written; `word` stays what it is.
+    [[nodiscard]] DeriveStatus pass(Passes& by, const PassKeys& keys, const Word*& current) {
+        Word& out = room_beside(current);
+        const Word& other = current == &word ? spare : word;
+        const std::uint64_t plans =
+            plan->held_bytes() + (decompose_plan ? decompose_plan->held_bytes() : 0);
+        const DeriveStatus status = by.run(*current, out, keys, plans + other.held_bytes());
         if (status == DeriveStatus::Error) {
-            error = passes->error();
+            error = by.error();
         } else if (status == DeriveStatus::Limit || status == DeriveStatus::OutOfMemory) {
-            limit = passes->limit();
+            limit = by.limit();
             limit.modules = word.module_count();
         }
-        return status;
-    }
-
-    [[nodiscard]] DeriveStatus step_parallel() {
-        const DeriveStatus status = pass(word, next, 0, spare);
         if (status == DeriveStatus::Ok) {
-            std::swap(word, next);
+            take(out, current);
         }
         return status;
     }
 
-    [[nodiscard]] DeriveStatus step_cyclic() {
-        plan->select_rule(age % bytecode.rule_count);
-        return passes->concerns(word) ? step_parallel() : DeriveStatus::Ok;
+    [[nodiscard]] DeriveStatus rewrite(std::uint64_t first_draw, const Word*& current) {
+        return pass(*passes, {options.seed, age, first_draw}, current);
     }
 
-    /// A pass of each rule in turn. `word` stays what it is until all are done.
-    [[nodiscard]] DeriveStatus step_sequential() {
-        const Word* current = &word;
-        for (std::uint32_t rule = 0; rule < bytecode.rule_count; ++rule) {
+    /// A pass of each rule in turn.
+    [[nodiscard]] DeriveStatus rewrite_sequentially(const Word*& current) {
+        DeriveStatus status = DeriveStatus::Ok;
+        for (std::uint32_t rule = 0; rule < rules && status == DeriveStatus::Ok; ++rule) {
             plan->select_rule(rule);
-            if (!passes->concerns(*current)) {
-                continue;
+            if (passes->concerns(*current)) {
+                status = rewrite(kDrawsOfPass * rule, current);
             }
-            constexpr std::uint64_t kDrawsOfRule = std::uint64_t{kMaxSequentialDraws} + 1;
-            Word& out = current == &next ? spare : next;
-            const Word& other = current == &word ? spare : word;
-            const DeriveStatus status = pass(*current, out, kDrawsOfRule * rule, other);
+        }
+        return status;
+    }
+
+    [[nodiscard]] DeriveStatus rewrite_by_mode(const Word*& current) {
+        if (rules == 0) {
+            return DeriveStatus::Ok;
+        }
+        plan->prepare(age);
+        switch (bytecode.settings.rewriting) {
+        case RewritingMode::Parallel:
+            return rewrite(0, current);
+        case RewritingMode::Sequential:
+            return rewrite_sequentially(current);
+        case RewritingMode::Cyclic:
+            plan->select_rule(age % rules);
+            return passes->concerns(*current) ? rewrite(0, current) : DeriveStatus::Ok;
+        }
+        return DeriveStatus::Ok;
+    }
+
+    /// What `%` cuts off goes before anything is rewritten.
+    [[nodiscard]] DeriveStatus prune(const Word*& current) {
+        if (!pruner.any()) {
+            return DeriveStatus::Ok;
+        }
+        const PrunedSize size = pruned_size(pruner, *current);
+        if (size.modules == current->module_count()) {
+            return DeriveStatus::Ok;
+        }
+        Word& out = room_beside(current);
+        limit = {};
+        limit.kind = LimitKind::Memory;
+        limit.generation = age;
+        limit.modules = word.module_count();
+        limit.predicted_modules = size.modules;
+        limit.predicted_bytes = plan->held_bytes() + word.held_bytes() + spare.held_bytes() +
+                                out.held_bytes_after(size.modules, size.parameters);
+        limit.exact = false;
+        if (limit.predicted_bytes > options.limits.max_bytes) {
+            return DeriveStatus::Limit;
+        }
+        if (!out.resize(size.modules, size.parameters)) {
+            return DeriveStatus::OutOfMemory;
+        }
+        write_pruned(pruner, *current, out);
+        take(out, current);
+        passes->forget();
+        return DeriveStatus::Ok;
+    }
+
+    template <typename C>
+    [[nodiscard]] std::optional<RuntimeError> undecomposed_typed(const Word& in,
+                                                                 const PassKeys& keys) {
+        const WordView<C> view{in.codes<C>().data(), in.parameters().data(), in.module_count(), 0,
+                               nullptr};
+        Chooser<C> chooser(*decompose_plan, keys, view, nullptr);
+        const std::optional<ModulePlace> place = find_match(*decompose_plan, chooser, view);
+        return place ? std::optional(too_deep(*decompose_plan, chooser, keys, view, *place))
+                     : std::nullopt;
+    }
+    /// That a module can still be decomposed, as an error.
+    [[nodiscard]] std::optional<RuntimeError> undecomposed(const Word& in, const PassKeys& keys) {
+        switch (in.code_width()) {
+        case 1:
+            return undecomposed_typed<std::uint8_t>(in, keys);
+        case 2:
+            return undecomposed_typed<std::uint16_t>(in, keys);
+        default:
+            return undecomposed_typed<std::uint32_t>(in, keys);
+        }
+    }
+
+    /// Passes of #decompose over a word of age `of`, until nothing matches.
+    [[nodiscard]] DeriveStatus decompose(std::uint32_t of, const Word*& current) {
+        if (!decompose_plan) {
+            return DeriveStatus::Ok;
+        }
+        decompose_plan->prepare(of);
+        decompose_passes->forget();
+        PassKeys keys{options.seed, of, kFirstDecomposeDraw, true};
+        for (std::uint32_t done = 0; decompose_passes->concerns(*current); ++done) {
+            std::optional<RuntimeError> left = undecomposed(*current, keys);
+            if (!left) {
+                break;
+            }
+            if (done == depth.passes) {
+                return depth.checked ? fail(std::move(*left)) : DeriveStatus::Ok;
+            }
+            const DeriveStatus status = pass(*decompose_passes, keys, current);
             if (status != DeriveStatus::Ok) {
+                limit.generation = age;
+                limit.modules = of == 0 ? 0 : limit.modules; // the axiom is not there yet
                 return status;
             }
-            if (&out == &spare) {
-                std::swap(next, spare);
-            }
-            current = &next;
-        }
-        if (current == &next) {
-            std::swap(word, next);
+            keys.first_draw += kDrawsOfPass;
+            passes->forget();
         }
         return DeriveStatus::Ok;
     }
@@ -186,30 +287,35 @@ struct Derivation::State {
         if (options.cancelled != nullptr && options.cancelled->load(std::memory_order_relaxed)) {
             return DeriveStatus::Cancelled;
         }
-        DeriveStatus status = DeriveStatus::Ok;
-        if (!bytecode.productions.empty()) {
-            plan->prepare(age);
-            switch (bytecode.settings.rewriting) {
-            case RewritingMode::Parallel:
-                status = step_parallel();
-                break;
-            case RewritingMode::Sequential:
-                status = step_sequential();
-                break;
-            case RewritingMode::Cyclic:
-                status = step_cyclic();
-                break;
-            }
+        const Word* current = &word;
+        DeriveStatus status = prune(current);
+        if (status == DeriveStatus::Ok) {
+            status = rewrite_by_mode(current);
+        }
+        if (status == DeriveStatus::Ok) {
+            status = decompose(age + 1, current);
         }
         if (status != DeriveStatus::Ok) {
             passes->forget();
             return status;
+        }
+        if (current == &next) {
+            std::swap(word, next);
         }
         ++age;
         if (options.progress) {
             options.progress(age, word.module_count());
         }
         return DeriveStatus::Ok;
+    }
+
+    [[nodiscard]] DeriveStatus decompose_axiom() {
+        const Word* current = &word;
+        const DeriveStatus status = decompose(0, current);
+        if (status == DeriveStatus::Ok && current == &next) {
+            std::swap(word, next);
+        }
+        return status;
     }
 
     template <typename C>
@@ -232,7 +338,8 @@ DeriveStatus Derivation::start() {
         return status;
     }
     state_->age = 0;
-    return state_->make_axiom();
+    const DeriveStatus made = state_->make_axiom();
+    return made == DeriveStatus::Ok ? state_->decompose_axiom() : made;
 }
 
 DeriveStatus Derivation::resume(Word word, std::uint32_t age) {

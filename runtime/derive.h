@@ -22,6 +22,7 @@ enum class RuntimeErrorKind : std::uint8_t {
     RangeTooWide,  // a bound or the width is not finite
     OutOfBounds,   // a #param outside its bounds
     Unbalanced,    // a `]` without its `[` in the last word, which is of age `generation`
+    TooDeep,       // a later stage's production still matches after as many passes as there may be
 };
 
 /// What went wrong at run time, as facts; runtime_diagnostic() words it.

@@ -28,10 +28,15 @@ public:
         const std::uint32_t width = code_width(bytecode.code_count());
         most_codes_ = std::min(width == 1 ? 256U : 65'536U, kMostCodes);
         by_symbol_.resize(bytecode.symbols.size());
+        parts_.resize(bytecode.symbols.size());
         for (std::uint32_t i = 0; i < bytecode.productions.size(); ++i) {
             const BytecodeProduction& production = bytecode.productions[i];
             const SymbolId symbol = bytecode.patterns[production.predecessor.first].symbol;
-            by_symbol_[static_cast<std::size_t>(symbol)].push_back(i);
+            if (production.stage != Stage::Interpret) { // whose words are never kept
+                (production.stage == Stage::Rewrite ? by_symbol_
+                                                    : parts_)[static_cast<std::size_t>(symbol)]
+                    .push_back(i);
+            }
         }
     }
 
@@ -43,19 +48,30 @@ public:
             return std::nullopt;
         }
         put(axiom, axiom_parameters.data());
+        decompose();
         for (std::uint32_t age = 0; age < generations_ && !next_.empty() && fine_; ++age) {
             const std::vector<Code> now = std::exchange(next_, {});
             for (const Code code : now) {
-                rewrite(code);
+                apply(by_symbol_, code);
             }
+            decompose();
         }
         const bool any = program_.code_count() > before || bare_axiom_;
         return fine_ && any ? std::optional(std::move(program_)) : std::nullopt;
     }
 
 private:
+    using Table = std::vector<std::vector<std::uint32_t>>; // productions by symbol
+
+    /// What the new modules are taken apart into, to the end.
+    void decompose() {
+        for (std::size_t i = 0; i < next_.size() && fine_; ++i) {
+            apply(parts_, next_[i]);
+        }
+    }
+
     /// The modules that the productions can make of a module.
-    void rewrite(Code code) {
+    void apply(const Table& table, Code code) {
         const auto symbol = static_cast<std::size_t>(program_.symbol_of(code));
         std::vector<float> own;
         if (code >= program_.symbols.size()) {
@@ -65,7 +81,7 @@ private:
             own.assign(first, first + program_.symbols[symbol].parameter_count);
         }
         const bool own_known = own.size() == program_.symbols[symbol].parameter_count;
-        for (const std::uint32_t index : by_symbol_[symbol]) {
+        for (const std::uint32_t index : table[symbol]) {
             fine_ = fine_ && ++trials_ <= kMostTrials;
             if (!fine_) {
                 return;
@@ -173,7 +189,8 @@ private:
     FoldedIndex index_;
     std::vector<bool> seen_; // by code
     std::vector<Code> next_; // of the next age
-    std::vector<std::vector<std::uint32_t>> by_symbol_;
+    Table by_symbol_;
+    Table parts_; // of #decompose
     std::uint32_t most_codes_ = 0;
     std::uint64_t trials_ = 0;
     bool bare_axiom_ = false; // it stored parameters

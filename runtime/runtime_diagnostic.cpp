@@ -67,6 +67,21 @@ void place(Diagnostic& diagnostic,
         "at {}:{}:{}", bytecode.files[static_cast<std::size_t>(at.span.file)], at.line, at.column));
 }
 
+/// What was done with the module.
+const char* doing(const RuntimeError& error, const Bytecode& bytecode) {
+    switch (error.production == kNoProduction
+                ? Stage::Rewrite
+                : bytecode.productions[static_cast<std::size_t>(error.production)].stage) {
+    case Stage::Rewrite:
+        break;
+    case Stage::Decompose:
+        return "decomposing";
+    case Stage::Interpret:
+        return "interpreting";
+    }
+    return "rewriting";
+}
+
 void note_module(Diagnostic& diagnostic, const RuntimeError& error, const Bytecode& bytecode) {
     if (error.global != kNone) {
         diagnostic.notes.emplace_back("drawn when the derivation starts");
@@ -75,7 +90,7 @@ void note_module(Diagnostic& diagnostic, const RuntimeError& error, const Byteco
             fmt::format("module {} of the axiom (counted from 0)", grouped_digits(error.position)));
     } else {
         diagnostic.notes.push_back(fmt::format(
-            "while rewriting `{}`, module {} of generation {} (counted from 0)",
+            "while {} `{}`, module {} of generation {} (counted from 0)", doing(error, bytecode),
             module_text(error, bytecode), grouped_digits(error.position), error.generation));
     }
 }
@@ -143,6 +158,25 @@ Diagnostic unbalanced(const RuntimeError& error, const Bytecode& bytecode) {
     return diagnostic;
 }
 
+Diagnostic too_deep(const RuntimeError& error, const Bytecode& bytecode) {
+    const BytecodeProduction& production =
+        bytecode.productions[static_cast<std::size_t>(error.production)];
+    const bool draws = production.stage == Stage::Interpret;
+    const std::uint32_t depth =
+        draws ? bytecode.settings.interpret_depth : bytecode.settings.decompose_depth;
+    Diagnostic diagnostic = make_diagnostic(
+        draws ? DiagnosticCode::InterpretDepth : DiagnosticCode::DecomposeDepth, {},
+        fmt::format("production `{}` still matches after {} passes of `{}`", production.name,
+                    grouped_digits(depth), keyword_of(production.stage)));
+    note_module(diagnostic, error, bytecode);
+    const std::string key = draws ? "interpret_depth" : "decompose_depth";
+    diagnostic.help.push_back(
+        fmt::format("let its productions end, raise the number of passes with `#set {} {};`, or "
+                    "leave what remains as it is with `#set at_depth stop;`",
+                    key, std::min(depth * 10, kMaxDepth)));
+    return diagnostic;
+}
+
 } // namespace
 
 std::string grouped_digits(std::uint64_t value) {
@@ -181,6 +215,9 @@ runtime_diagnostic(const RuntimeError& error, const Bytecode& bytecode, bool sou
         break;
     case RuntimeErrorKind::Unbalanced:
         diagnostic = unbalanced(error, bytecode);
+        break;
+    case RuntimeErrorKind::TooDeep:
+        diagnostic = too_deep(error, bytecode);
         break;
     }
     place(diagnostic, error.site, bytecode, sources_loaded);

@@ -147,12 +147,66 @@ TurtleStatus Turtle::State::run(std::span<const C> codes,
     return status;
 }
 
+/// Draws what the modules are interpreted as.
+template <typename C>
+TurtleStatus Turtle::State::interpret(std::span<const C> codes,
+                                      std::span<const float> parameters,
+                                      std::span<const Origin> origins) {
+    if (status != TurtleStatus::Ok) {
+        return status;
+    }
+    if (!interpretation) {
+        interpretation = Interpretation::make(
+            bytecode, {options.seed, options.generations, options.max_bytes, options.cancelled},
+            !origins.empty(),
+            [this](std::span<const Code> some, std::span<const float> values,
+                   std::span<const Origin> from) {
+                return run(some, values, from) == TurtleStatus::Ok;
+            });
+    }
+    while (!codes.empty() && status == TurtleStatus::Ok) {
+        const std::size_t count = std::min(codes.size(), kModulesBetweenLooks);
+        piece.assign(codes.begin(), codes.begin() + static_cast<std::ptrdiff_t>(count));
+        std::size_t stored = 0;
+        for (const Code each : piece) {
+            stored += bytecode.stored_parameters(each);
+        }
+        const DeriveStatus done = interpretation->feed(
+            piece, parameters.first(stored), origins.empty() ? origins : origins.first(count));
+        if (status == TurtleStatus::Ok) { // else the turtle has ended it
+            switch (done) {
+            case DeriveStatus::Ok:
+                break;
+            case DeriveStatus::Error:
+                status = TurtleStatus::NotInterpreted;
+                break;
+            case DeriveStatus::Limit:
+                status = TurtleStatus::Limit;
+                break;
+            case DeriveStatus::OutOfMemory:
+                status = TurtleStatus::OutOfMemory;
+                break;
+            case DeriveStatus::Cancelled:
+                status = TurtleStatus::Cancelled;
+                break;
+            }
+        }
+        codes = codes.subspan(count);
+        parameters = parameters.subspan(stored);
+        origins = origins.empty() ? origins : origins.subspan(count);
+    }
+    return status;
+}
+
 Turtle::Turtle(const Bytecode& bytecode, TurtleOptions options)
     : state_(std::make_unique<State>(bytecode, std::move(options))) {}
 Turtle::~Turtle() = default;
 
 TurtleStatus Turtle::reserve(const Word& word) {
     State& state = *state_;
+    if (state.interprets) {
+        return TurtleStatus::Ok; // nobody knows how much will be drawn
+    }
     std::uint64_t segments = 0;
     std::uint64_t objects = 0;
     const auto count = [&](auto codes) {
@@ -210,22 +264,22 @@ TurtleStatus Turtle::reserve(const Word& word) {
 TurtleStatus Turtle::feed(const Word& word) {
     switch (word.code_width()) {
     case 1:
-        return state_->run(word.codes<std::uint8_t>(), word.parameters(), word.origins());
+        return state_->take(word.codes<std::uint8_t>(), word.parameters(), word.origins());
     case 2:
-        return state_->run(word.codes<std::uint16_t>(), word.parameters(), word.origins());
+        return state_->take(word.codes<std::uint16_t>(), word.parameters(), word.origins());
     default:
-        return state_->run(word.codes<std::uint32_t>(), word.parameters(), word.origins());
+        return state_->take(word.codes<std::uint32_t>(), word.parameters(), word.origins());
     }
 }
 
 TurtleStatus Turtle::feed(std::span<const Code> codes, std::span<const float> parameters) {
-    return state_->run(codes, parameters, {});
+    return state_->take(codes, parameters, {});
 }
 
 TurtleStatus Turtle::feed(std::span<const Code> codes,
                           std::span<const float> parameters,
                           std::span<const Origin> origins) {
-    return state_->run(codes, parameters, origins);
+    return state_->take(codes, parameters, origins);
 }
 
 TurtleStatus Turtle::finish() {
@@ -250,6 +304,7 @@ void Turtle::begin_again() {
     state.polygons = {};
     state.position = 0;
     state.cut = 0;
+    state.interpretation.reset();
 }
 TurtlePlace Turtle::place() const {
     return state_->place_now();
@@ -262,6 +317,10 @@ const Skeleton& Turtle::skeleton() const {
 }
 Skeleton Turtle::take_skeleton() {
     return std::move(state_->skeleton);
+}
+const RuntimeError& Turtle::error() const {
+    LSYS_CHECK(state_->interpretation != nullptr);
+    return state_->interpretation->error();
 }
 const std::array<TurtleFault, kTurtleFaultKinds>& Turtle::faults() const {
     return state_->faults;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "compiler/bytecode.h"
+#include "runtime/derive.h"
 #include "runtime/skeleton.h"
 #include "runtime/word.h"
 
@@ -45,7 +46,8 @@ struct TurtleFault {
     Code code = 0;              // of that module
 };
 
-enum class TurtleStatus : std::uint8_t { Ok, Fault, Limit, OutOfMemory, Cancelled };
+/// NotInterpreted: a production of `#interpret` cannot be applied, error() tells.
+enum class TurtleStatus : std::uint8_t { Ok, Fault, Limit, OutOfMemory, Cancelled, NotInterpreted };
 
 /// Where the turtle is and how it would draw.
 struct TurtlePlace {
@@ -99,10 +101,14 @@ struct TurtleOptions {
     std::vector<float> mesh_lengths;
     std::uint64_t max_bytes = ~std::uint64_t{0}; // of the skeleton
     const std::atomic<bool>* cancelled = nullptr;
+    /// Of the derivation whose last word is drawn: what the productions of `#interpret` read.
+    std::uint64_t seed = 0;
+    std::uint32_t generations = 0;
     BranchWatcher* branches = nullptr; // outlives the turtle; none: every branch is drawn
 };
 
-/// Draws a word that comes in pieces.
+/// Draws a word that comes in pieces: each module as what the productions of `#interpret` make of
+/// it. Positions of faults are those of the modules that are drawn.
 class Turtle {
 public:
     /// `bytecode` outlives the turtle.
@@ -131,6 +137,8 @@ public:
     [[nodiscard]] const Skeleton& skeleton() const;
     [[nodiscard]] Skeleton take_skeleton();
     [[nodiscard]] const std::array<TurtleFault, kTurtleFaultKinds>& faults() const;
+    /// After NotInterpreted.
+    [[nodiscard]] const RuntimeError& error() const;
 
 private:
     struct State;

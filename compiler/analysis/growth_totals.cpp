@@ -64,9 +64,10 @@ public:
             }
         }
         if (bytecode.settings.rewriting == RewritingMode::Sequential) {
-            by_rule_.resize(bytecode.rule_count);
+            by_rule_.resize(bytecode.rewriting_rules());
             std::vector<std::uint32_t> rule_of(bytecode.symbols.size(), kNone);
-            for (const BytecodeProduction& production : bytecode.productions) {
+            for (std::uint32_t p = 0; p < bytecode.of(Stage::Rewrite).count; ++p) {
+                const BytecodeProduction& production = bytecode.productions[p];
                 rule_of[static_cast<std::size_t>(
                     bytecode.patterns[production.predecessor.first].symbol)] = production.rule;
             }

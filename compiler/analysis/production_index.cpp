@@ -18,6 +18,9 @@ void ProductionIndex::list_productions() {
     first_.assign(bytecode.symbols.size() + 1, 0);
     group_first_.assign(std::size_t{bytecode.group_count} + 1, 0);
     for (const BytecodeProduction& production : bytecode.productions) {
+        if (production.stage != Stage::Rewrite) {
+            break;
+        }
         if (production.predecessor.count == 1) {
             ++first_[symbol_of(production) + 1];
         }
@@ -37,6 +40,9 @@ void ProductionIndex::list_productions() {
     std::vector<std::uint32_t> next_in_group = group_first_;
     for (std::uint32_t p = 0; p < bytecode.productions.size(); ++p) {
         const BytecodeProduction& production = bytecode.productions[p];
+        if (production.stage != Stage::Rewrite) {
+            break;
+        }
         if (production.predecessor.count == 1) {
             list_[next[symbol_of(production)]++] = p;
         }

@@ -1,5 +1,6 @@
-// The module that cuts off a branch, which cannot be derived yet. Where a turtle profile gives `%`
-// another meaning it is a module like any other.
+// The module that cuts off a branch. Cuts are made before anything is matched, so productions and
+// contexts never see it. Where a turtle profile gives `%` another meaning it is a module like any
+// other.
 #include "compiler/check/lints.h"
 #include "compiler/check/places.h"
 
@@ -7,48 +8,38 @@ namespace lsys {
 
 namespace {
 
-void report_cut(SourceSpan span, Diagnostics& diagnostics) {
-    if (!diagnostics.admits(DiagnosticCode::CutModule)) {
-        return;
+bool cuts(const Program& program, const ProgramPatternItem& item) {
+    return item.kind == PatternKind::Module &&
+           program.symbol(item.symbol).turtle == TurtleOperation::Cut;
+}
+
+void check_pattern(const CheckInput& input,
+                   const Production& production,
+                   const ProgramPattern& pattern,
+                   const char* message,
+                   Diagnostics& diagnostics) {
+    for (const ProgramPatternItem& item : pattern.items) {
+        if (cuts(input.program, item)) {
+            diagnostics.add(DiagnosticCode::CutModule, item_span(production, item), message)
+                .notes.emplace_back("a generation begins with the cuts: they take every `%` and "
+                                    "the rest of its branch out of the word");
+        }
     }
-    Diagnostic& diagnostic = diagnostics.add(DiagnosticCode::CutModule, span,
-                                             "`%` cuts off a branch, which this version cannot");
-    diagnostic.help.emplace_back(
-        "to end a branch, write a production that erases what should not grow: an empty successor");
 }
 
 } // namespace
 
 void check_cuts(const CheckInput& input, Diagnostics& diagnostics) {
-    const Program& program = input.program;
-    std::vector<bool> cuts;
-    bool any = false;
-    for (const Symbol& symbol : program.symbols) {
-        cuts.push_back(symbol.turtle == TurtleOperation::Cut);
-        any = any || cuts.back();
-    }
-    if (!any) {
-        return;
-    }
-    const auto check_word = [&](const ProgramWord& word) {
-        for_each_symbol(program, word, [&](std::size_t index, SymbolId symbol) {
-            if (cuts[static_cast<std::size_t>(symbol)]) {
-                report_cut(module_name_span(input, word, index), diagnostics);
-            }
-        });
-    };
-    check_word(program.axiom);
-    for (const Production& production : program.productions) {
-        for (const ProgramPattern* pattern :
-             {&production.left, &production.predecessor, &production.right}) {
-            for (const ProgramPatternItem& item : pattern->items) {
-                if (item.kind == PatternKind::Module &&
-                    cuts[static_cast<std::size_t>(item.symbol)]) {
-                    report_cut({pattern->span.file, item.begin, item.end}, diagnostics);
-                }
-            }
+    for (const Production& production : input.program.productions) {
+        if (production.stage != Stage::Rewrite) {
+            continue; // these come after the cuts, and may meet it
         }
-        check_word(production.successor);
+        check_pattern(input, production, production.predecessor,
+                      "`%` is never rewritten, so this production is never used", diagnostics);
+        for (const ProgramPattern* const context : {&production.left, &production.right}) {
+            check_pattern(input, production, *context,
+                          "`%` is never seen, so this context never matches", diagnostics);
+        }
     }
 }
 

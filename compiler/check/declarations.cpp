@@ -116,25 +116,49 @@ void DeclarationResolver::ignore(const IgnoreNode& node, NameSplitter& splitter)
     SplitReport splits(resolution_);
     ModuleCursor cursor(resolution_.ast, resolution_.names, resolution_.sources, node.modules);
     for (; !cursor.done(); cursor.next()) {
-        ignore_module(cursor.view(), splitter, splits);
+        ignore_module(cursor.view(), node.considers, splitter, splits);
     }
     splits.finish();
+    SourceSpan& first = node.considers ? first_consider_ : first_ignore_;
+    first = first.file == kNoFile ? node.keyword_span : first;
+    if (first_ignore_.file != kNoFile && first_consider_.file != kNoFile) {
+        Diagnostic& error =
+            resolution_.diagnostics.add(DiagnosticCode::BadDeclaration, node.keyword_span,
+                                        "`#ignore` and `#consider` cannot stand in one grammar");
+        error.labels.push_back(
+            {node.considers ? first_ignore_ : first_consider_,
+             node.considers ? "modules are ignored here" : "all but these are ignored already"});
+    }
+}
+
+void DeclarationResolver::finish_ignores() {
+    if (first_consider_.file != kNoFile) {
+        symbols_.ignore_all_but_considered();
+    }
 }
 
 void DeclarationResolver::ignore_module(const ModuleView& module,
+                                        bool considers,
                                         NameSplitter& splitter,
                                         SplitReport& splits) {
-    if (!check_bare(module, "#ignore")) {
+    if (!check_bare(module, considers ? "#consider" : "#ignore")) {
         return;
     }
     const SymbolKind kind = kind_of(resolution_.text(module.name));
     if (kind == SymbolKind::BranchOpen || kind == SymbolKind::BranchClose) {
-        bad(module.name_span, "brackets cannot be ignored: contexts follow the branches");
+        bad(module.name_span, considers
+                                  ? "brackets count in any case: contexts follow the branches"
+                                  : "brackets cannot be ignored: contexts follow the branches");
         return;
     }
     const auto add = [&](NameId name, SourceSpan span) {
-        symbols_.ignore(name);
-        resolution_.program.ignored.push_back({name, span});
+        if (considers) {
+            symbols_.consider(name);
+            resolution_.program.considered.push_back({name, span});
+        } else {
+            symbols_.ignore(name);
+            resolution_.program.ignored.push_back({name, span});
+        }
     };
     const std::span<const NamePart> parts = module.quoted
                                                 ? std::span<const NamePart>{}

@@ -41,6 +41,9 @@ bool HeadResolver::check_shape(const ProductionNode& node) {
                                     "this production names no module to rewrite");
         return false;
     }
+    if (node.stage != Stage::Rewrite && !check_stage(node)) {
+        return false;
+    }
     if (node.predecessor.count > 1 &&
         resolution_.program.settings.rewriting == RewritingMode::Parallel) {
         Diagnostic& error = resolution_.diagnostics.add(
@@ -52,6 +55,26 @@ bool HeadResolver::check_shape(const ProductionNode& node) {
         return false;
     }
     return fine;
+}
+
+/// What is decomposed or drawn is one module, wherever it stands.
+bool HeadResolver::check_stage(const ProductionNode& node) {
+    const bool several = node.predecessor.count > 1;
+    if (!several && !node.has_left && !node.has_right) {
+        return true;
+    }
+    const SourceSpan place = several         ? node.predecessor.span
+                             : node.has_left ? node.less_span
+                                             : node.greater_span;
+    Diagnostic& error = resolution_.diagnostics.add(
+        DiagnosticCode::ContextOfModule, place,
+        several ? fmt::format("`{}` takes one module, not {}", keyword_of(node.stage),
+                              node.predecessor.count)
+                : fmt::format("`{}` has no contexts", keyword_of(node.stage)));
+    error.notes.emplace_back(node.stage == Stage::Interpret
+                                 ? "a module is drawn by what it is, not by where it stands"
+                                 : "a module is decomposed by what it is, not by where it stands");
+    return false;
 }
 
 bool HeadResolver::pattern(ModuleList list, Part part, ProgramPattern& out) {

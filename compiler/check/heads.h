@@ -26,6 +26,7 @@ private:
     void report_argument(const Expression& argument);
     [[nodiscard]] std::optional<Edit> condition_edit(const std::string& test) const;
     [[nodiscard]] bool check_shape(const ProductionNode& node);
+    [[nodiscard]] bool check_stage(const ProductionNode& node);
 
     ModuleReading& reading_;
     Resolution& resolution_;

@@ -17,9 +17,17 @@ void check_context(const CheckInput& input,
             continue;
         }
         const NameId name = input.program.symbol(item.symbol).name;
-        Diagnostic& warning = diagnostics.add(
-            DiagnosticCode::IgnoredContext, item_span(production, item),
-            fmt::format("{} is ignored, so this context never matches", quoted(input.name(name))));
+        Diagnostic& warning =
+            diagnostics.add(DiagnosticCode::IgnoredContext, item_span(production, item),
+                            input.program.considered.empty()
+                                ? fmt::format("{} is ignored, so this context never matches",
+                                              quoted(input.name(name)))
+                                : fmt::format("{} is not considered, so this context never matches",
+                                              quoted(input.name(name))));
+        if (!input.program.considered.empty()) {
+            warning.labels.push_back(
+                {input.program.considered.front().span, "only what is named here counts"});
+        }
         for (const IgnoredName& ignored : input.program.ignored) {
             if (ignored.name == name) {
                 warning.labels.push_back({ignored.span, "it is ignored here"});
@@ -32,7 +40,7 @@ void check_context(const CheckInput& input,
 } // namespace
 
 void check_ignored_contexts(const CheckInput& input, Diagnostics& diagnostics) {
-    if (input.program.ignored.empty()) {
+    if (input.program.ignored.empty() && input.program.considered.empty()) {
         return;
     }
     for (const Production& production : input.program.productions) {

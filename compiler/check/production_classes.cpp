@@ -21,7 +21,7 @@ std::uint64_t hash_of(const ProgramPattern& pattern, std::uint64_t state) {
 }
 
 std::uint64_t rule_hash(const Production& production) {
-    return hash_of(production.predecessor, 0);
+    return hash_of(production.predecessor, static_cast<std::uint64_t>(production.stage));
 }
 
 std::uint64_t group_hash(const Production& production) {
@@ -42,7 +42,7 @@ bool equal_patterns(const ProgramPattern& a, const ProgramPattern& b) {
 }
 
 bool same_rule(const Production& a, const Production& b) {
-    return equal_patterns(a.predecessor, b.predecessor);
+    return a.stage == b.stage && equal_patterns(a.predecessor, b.predecessor);
 }
 
 bool same_group(const Production& a, const Production& b) {

@@ -31,6 +31,7 @@ void ProductionResolver::resolve(const ProductionNode& node, SourceSpan statemen
     bool fine = is_first_of_name(node);
     Production production;
     production.name = node.name;
+    production.stage = node.stage;
     production.name_span = node.name_span;
     production.span = statement;
     reading_.expressions.begin_statement();
@@ -46,8 +47,21 @@ void ProductionResolver::resolve(const ProductionNode& node, SourceSpan statemen
         resolution_.program.has_all_statements = false;
         return;
     }
+    if (production.stage != Stage::Rewrite) {
+        later_[production.stage == Stage::Interpret ? 1 : 0].push_back(std::move(production));
+        return;
+    }
     resolution_.program.productions.push_back(std::move(production));
     classes_.classify_last();
+}
+
+void ProductionResolver::finish() {
+    for (std::vector<Production>& of_stage : later_) {
+        for (Production& production : of_stage) {
+            resolution_.program.productions.push_back(std::move(production));
+            classes_.classify_last();
+        }
+    }
 }
 
 void ProductionResolver::resolve_condition(const ConditionNode& node, Production& production) {

@@ -6,6 +6,7 @@
 #include "compiler/check/production_classes.h"
 #include "compiler/check/words.h"
 
+#include <array>
 #include <vector>
 
 namespace lsys {
@@ -15,6 +16,8 @@ public:
     ProductionResolver(ModuleReading& reading, ConstantTable& constants);
 
     void resolve(const ProductionNode& node, SourceSpan statement);
+    /// After the last: productions of later stages take their place behind the others.
+    void finish();
 
 private:
     [[nodiscard]] bool is_first_of_name(const ProductionNode& node);
@@ -26,7 +29,8 @@ private:
     Resolution& resolution_;
     HeadResolver heads_;
     ProductionClasses classes_;
-    std::vector<SourceSpan> first_of_name_; // by name; of kNoFile if there is none
+    std::array<std::vector<Production>, 2> later_; // of Decompose, of Interpret
+    std::vector<SourceSpan> first_of_name_;        // by name; of kNoFile if there is none
 };
 
 } // namespace lsys

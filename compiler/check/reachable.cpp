@@ -57,7 +57,10 @@ Reachable find_reachable(const Program& program) {
         }
     }
 
-    const bool ordered = program.settings.rewriting != RewritingMode::Sequential;
+    // The order of the queue is that of generations only where each step is one.
+    const bool ordered =
+        program.settings.rewriting != RewritingMode::Sequential &&
+        (program.productions.empty() || program.productions.back().stage == Stage::Rewrite);
     std::vector<SymbolId> queue; // in order of generations
     const auto reach = [&](const ProgramWord& word, std::uint32_t generation) {
         for_each_symbol(program, word, [&](std::size_t, SymbolId symbol) {

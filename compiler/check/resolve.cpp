@@ -74,6 +74,7 @@ public:
         for (const IgnoreNode& ignore : ast.ignores) {
             declarations_.ignore(ignore, splitter);
         }
+        declarations_.finish_ignores();
         ModuleReading reading{resolution_,
                               symbols_,
                               splitter,
@@ -112,6 +113,7 @@ public:
                 break; // read before, or by the front end
             }
         }
+        productions.finish();
         check_missing();
     }
 

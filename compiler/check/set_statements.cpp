@@ -34,8 +34,25 @@ constexpr std::array kNumberKeys{
     NumberKey{"damping", &Settings::damping, 0.0F, "a damping from 0 on"},
 };
 
-constexpr std::array<std::string_view, 8> kOtherKeys{"turtle",  "names", "rewriting", "choice",
-                                                     "weights", "sides", "tropism",   "seed"};
+/// A key whose value is one whole number.
+struct CountKey {
+    std::string_view key;
+    std::uint32_t Settings::*field;
+    float minimum;
+    float maximum;
+    const char* wanted;
+};
+
+constexpr std::array kCountKeys{
+    CountKey{"sides", &Settings::sides, 3.0F, 64.0F, "a whole number from 3 to 64"},
+    CountKey{"decompose_depth", &Settings::decompose_depth, 1.0F, static_cast<float>(kMaxDepth),
+             "a whole number from 1 to 100,000"},
+    CountKey{"interpret_depth", &Settings::interpret_depth, 1.0F, static_cast<float>(kMaxDepth),
+             "a whole number from 1 to 100,000"},
+};
+
+constexpr std::array<std::string_view, 8> kOtherKeys{"turtle",  "names",   "rewriting", "choice",
+                                                     "weights", "tropism", "seed",      "at_depth"};
 
 constexpr std::array kTurtles{TurtleProfile::Lsys,    TurtleProfile::Thesis, TurtleProfile::Abop,
                               TurtleProfile::Houdini, TurtleProfile::L3d,    TurtleProfile::Lplus,
@@ -43,6 +60,7 @@ constexpr std::array kTurtles{TurtleProfile::Lsys,    TurtleProfile::Thesis, Tur
 constexpr std::array kModes{RewritingMode::Parallel, RewritingMode::Sequential,
                             RewritingMode::Cyclic};
 constexpr std::array kScopes{ChoiceScope::Module, ChoiceScope::Generation};
+constexpr std::array kAtDepths{AtDepth::Error, AtDepth::Stop};
 constexpr std::array kWeights{WeightRule::One, WeightRule::Any};
 
 /// `names words` and `names letters`, which are read by the front end.
@@ -92,6 +110,8 @@ void SetResolver::read_mode(const SetNode& node, std::string_view key) {
         choose(node, kScopes, settings.choice);
     } else if (key == "weights") {
         choose(node, kWeights, settings.weights);
+    } else if (key == "at_depth") {
+        choose(node, kAtDepths, settings.at_depth);
     } else if (key == "names") {
         auto reading = NameReading::Words;
         choose(node, kReadings, reading);
@@ -112,6 +132,11 @@ void SetResolver::read_mode(const SetNode& node, std::string_view key) {
                 return;
             }
         }
+        for (const CountKey& row : kCountKeys) {
+            if (key == row.key) {
+                return;
+            }
+        }
         report_unknown_key(node);
     }
 }
@@ -120,6 +145,9 @@ void SetResolver::report_unknown_key(const SetNode& node) {
     const std::string_view key = resolution_.text(node.key);
     std::vector<std::string_view> keys(kOtherKeys.begin(), kOtherKeys.end());
     for (const NumberKey& row : kNumberKeys) {
+        keys.push_back(row.key);
+    }
+    for (const CountKey& row : kCountKeys) {
         keys.push_back(row.key);
     }
     Diagnostic& error = resolution_.diagnostics.add(DiagnosticCode::UnknownKey, node.key_span,
@@ -228,10 +256,14 @@ void SetResolver::read_number(const SetNode& node, ExpressionResolver& expressio
     for (const NumberKey& each : kNumberKeys) {
         row = each.key == key ? &each : row;
     }
-    if (row == nullptr && key != "sides") {
+    const CountKey* count = nullptr;
+    for (const CountKey& each : kCountKeys) {
+        count = each.key == key ? &each : count;
+    }
+    if (row == nullptr && count == nullptr) {
         return; // a mode, or an unknown key
     }
-    const char* wanted = row == nullptr ? "a whole number from 3 to 64" : row->wanted;
+    const char* wanted = row == nullptr ? count->wanted : row->wanted;
     if (node.values.count != 1) {
         bad_value(node, node.key_span, fmt::format("takes {}", wanted));
         return;
@@ -242,11 +274,12 @@ void SetResolver::read_number(const SetNode& node, ExpressionResolver& expressio
         return;
     }
     if (row == nullptr) {
-        if (!(*number >= 3.0F && *number <= 64.0F) || *number != std::floor(*number)) {
+        if (!(*number >= count->minimum && *number <= count->maximum) ||
+            *number != std::floor(*number)) {
             bad_value(node, span, fmt::format("is {}, not {}", wanted, *number));
             return;
         }
-        settings.sides = static_cast<std::uint32_t>(*number);
+        settings.*(count->field) = static_cast<std::uint32_t>(*number);
         return;
     }
     if (!std::isfinite(*number) || *number < row->minimum) {

@@ -8,7 +8,7 @@ namespace lsys {
 
 SymbolTable::SymbolTable(Resolution& resolution)
     : resolution_(resolution), latest_(resolution.names.count()),
-      ignored_(resolution.names.count()) {}
+      ignored_(resolution.names.count()), considered_(resolution.names.count()) {}
 
 void SymbolTable::bind(NameId name, TurtleOperation object, std::string mesh_file) {
     bindings_[static_cast<std::uint32_t>(name)] = {object, std::move(mesh_file)};
@@ -18,8 +18,12 @@ void SymbolTable::ignore(NameId name) {
     ignored_[index_of(name)] = true;
 }
 
+void SymbolTable::consider(NameId name) {
+    considered_[index_of(name)] = true;
+}
+
 bool SymbolTable::is_ignored(NameId name) const {
-    return ignored_[index_of(name)];
+    return others_ignored_ ? !considered_[index_of(name)] : ignored_[index_of(name)];
 }
 
 SymbolId SymbolTable::get(NameId name, std::uint32_t parameter_count) {
@@ -44,7 +48,8 @@ SymbolId SymbolTable::make(NameId name, std::uint32_t parameter_count) {
     symbol.name = name;
     symbol.parameter_count = parameter_count;
     symbol.kind = parameter_count == 0 ? kind_of(text) : SymbolKind::Plain;
-    symbol.ignored = ignored_[index_of(name)];
+    symbol.ignored = is_ignored(name) && symbol.kind != SymbolKind::BranchOpen &&
+                     symbol.kind != SymbolKind::BranchClose;
     const auto binding = bindings_.find(static_cast<std::uint32_t>(name));
     if (binding != bindings_.end()) {
         symbol.turtle = binding->second.object;

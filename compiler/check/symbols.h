@@ -19,6 +19,9 @@ public:
     void bind(NameId name, TurtleOperation object, std::string mesh_file);
     /// Modules of this name, of any count, are skipped in contexts from now on.
     void ignore(NameId name);
+    void consider(NameId name);
+    /// From now on only brackets and what consider() named count in contexts.
+    void ignore_all_but_considered() { others_ignored_ = true; }
     [[nodiscard]] bool is_ignored(NameId name) const;
 
     /// Precondition: all bind() and ignore() have been called.
@@ -40,6 +43,8 @@ private:
     std::unordered_map<std::uint64_t, SymbolId> symbols_;
     std::unordered_map<std::uint32_t, Binding> bindings_;
     std::vector<bool> ignored_; // by name
+    std::vector<bool> considered_;
+    bool others_ignored_ = false;
 };
 
 } // namespace lsys

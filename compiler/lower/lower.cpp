@@ -114,6 +114,7 @@ private:
         made.name_site = emitter_.add_site(production.name_span);
         made.rule = production.rule;
         made.group = production.group;
+        made.stage = production.stage;
         made.has_left = production.has_left;
         made.has_right = production.has_right;
         made.left = pattern(production.left);

@@ -93,6 +93,23 @@ private:
                                     "branches that are put together from others would not");
         }
         for (const Production& production : program_.productions) {
+            if (production.stage != Stage::Rewrite) {
+                refuse(production.name_span, fmt::format("a system with `{}` cannot be instanced",
+                                                         keyword_of(production.stage)))
+                    .notes.emplace_back("what stands in a branch is known only when the word of a "
+                                        "generation is complete, or drawn");
+                break;
+            }
+        }
+        for (const Symbol& symbol : program_.symbols) {
+            if (symbol.turtle == TurtleOperation::Cut) {
+                refuse(program_.axiom.span, "a system that cuts branches off with `%` cannot be "
+                                            "instanced")
+                    .notes.emplace_back("a branch would be recorded with what is cut off later");
+                break;
+            }
+        }
+        for (const Production& production : program_.productions) {
             const std::string_view name = names_.text(production.name);
             if (production.has_left || production.has_right) {
                 refuse(production.has_left ? production.left.span : production.right.span,

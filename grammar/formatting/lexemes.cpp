@@ -88,10 +88,10 @@ void LexemeReader::keyword() {
     part_ = 0;
     after_value_ = false;
     const char next = next_character();
-    if (name == "w" || name == "ignore") {
+    if (name == "w" || name == "ignore" || name == "consider") {
         shape_ = List;
         area_ = Area::Modules;
-    } else if (next == ':') {
+    } else if (next == ':' || name == "decompose" || name == "interpret") {
         shape_ = Production;
         area_ = Area::Modules;
         part_ = 1;

@@ -42,7 +42,7 @@ struct Lexeme {
 /// What a statement is made of, as far as its layout goes.
 enum class StatementShape : std::uint8_t {
     Production,  // three colons, then modules
-    List,        // `#w` and `#ignore`: a colon, then modules
+    List,        // `#w`, `#ignore`, `#consider`: a colon, then modules
     Definition,  // `#define` and `#param`: a name, a value, bounds
     Setting,     // `#set`: a name, values
     Declaration, // `#object`, `#module`, and `#include` of a name

@@ -10,15 +10,16 @@ namespace lsys {
 
 namespace {
 
-constexpr std::array<std::string_view, 10> kSpellings{
-    "", "n", "define", "param", "module", "object", "include", "set", "ignore", "w"};
+constexpr std::array<std::string_view, 13> kSpellings{
+    "",    "n",      "define",   "param",     "module",    "object", "include",
+    "set", "ignore", "consider", "decompose", "interpret", "w"};
 
 /// What other programs, or hasty fingers, write for a keyword.
 struct Synonym {
     std::string_view word;
     Keyword keyword;
 };
-constexpr std::array<Synonym, 12> kSynonyms{{
+constexpr std::array<Synonym, 14> kSynonyms{{
     {"axiom", Keyword::Axiom},
     {"omega", Keyword::Axiom},
     {"start", Keyword::Axiom},
@@ -30,7 +31,9 @@ constexpr std::array<Synonym, 12> kSynonyms{{
     {"const", Keyword::Define},
     {"let", Keyword::Define},
     {"import", Keyword::Include},
-    {"consider", Keyword::Ignore},
+    {"interpretation", Keyword::Interpret},
+    {"homomorphism", Keyword::Interpret},
+    {"decomposition", Keyword::Decompose},
 }};
 
 bool is_blank(char c) {

@@ -24,6 +24,10 @@ namespace lsys {
 [[nodiscard]] std::uint32_t count_colons(std::string_view text, std::uint32_t at);
 
 [[nodiscard]] std::string_view spelling(Keyword keyword); // without `#`; empty for a label
+/// `#decompose` and `#interpret`, which the name of a production follows.
+[[nodiscard]] constexpr bool names_production(Keyword keyword) {
+    return keyword == Keyword::Decompose || keyword == Keyword::Interpret;
+}
 [[nodiscard]] Keyword find_keyword(std::string_view word);
 /// Whether `word` is what other programs call a keyword.
 [[nodiscard]] bool is_synonym(std::string_view word, Keyword keyword);

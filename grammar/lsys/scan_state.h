@@ -23,6 +23,9 @@ enum class Keyword : std::uint8_t {
     Include,
     Set,
     Ignore,
+    Consider,
+    Decompose,
+    Interpret,
     Axiom,
 };
 

@@ -211,7 +211,11 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               return *missing;
                           }
                           const SourceSpan span = session.token();
-                          scan.enter(scan.keyword == Keyword::Set ? Part::Setting : Part::Value);
+                          if (names_production(scan.keyword)) {
+                              scan.name_before = true; // the `:` is next
+                          } else {
+                              scan.enter(scan.keyword == Keyword::Set ? Part::Setting : Part::Value);
+                          }
                           return Token(Parser::token::TOK_IDENTIFIER, session.builder.intern(TEXT), span);
                         }
   [^:;=#A-Za-z_ \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF] {

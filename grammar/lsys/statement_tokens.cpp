@@ -38,6 +38,12 @@ Token keyword_token(ParseSession& session, std::string_view word, SourceSpan spa
         return Token(Parser::token::TOK_SET, span);
     case Keyword::Ignore:
         return Token(Parser::token::TOK_IGNORE, span);
+    case Keyword::Consider:
+        return Token(Parser::token::TOK_CONSIDER, span);
+    case Keyword::Decompose:
+        return Token(Parser::token::TOK_DECOMPOSE, span);
+    case Keyword::Interpret:
+        return Token(Parser::token::TOK_INTERPRET, span);
     case Keyword::Axiom:
         return Token(Parser::token::TOK_W, span);
     }
@@ -94,7 +100,8 @@ Token unknown_statement(ParseSession& session, std::string_view word, char next)
             add_fix(diagnostic, "did you mean `" + name + "`?", span, name);
         } else {
             diagnostic.help.emplace_back("statements are `#n`, `#define`, `#param`, `#module`, "
-                                         "`#object`, `#include`, `#set`, `#ignore :`, `#w :` and "
+                                         "`#object`, `#include`, `#set`, `#ignore :`, "
+                                         "`#consider :`, `#w :`, `#decompose`, `#interpret` and "
                                          "productions, `#name : ...`");
         }
     }
@@ -157,7 +164,8 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
     const char next = word.empty() ? '\0' : next_character(text, scan.end);
     const bool takes_words = keyword == Keyword::Define || keyword == Keyword::Param ||
                              keyword == Keyword::Set || keyword == Keyword::Object ||
-                             keyword == Keyword::Include || keyword == Keyword::Module;
+                             keyword == Keyword::Include || keyword == Keyword::Module ||
+                             keyword == Keyword::Decompose || keyword == Keyword::Interpret;
     const bool is_statement = !word.empty() && (next == ':' || takes_words ||
                                                 (keyword == Keyword::Generations && next == '='));
     const bool after_modules = // of a statement that a `;` has ended on this line
@@ -192,10 +200,22 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
 
 void after_opening_colon(ParseSession& session) {
     ScanState& scan = session.scan;
-    scan.enter(scan.keyword == Keyword::Axiom    ? Part::Axiom
-               : scan.keyword == Keyword::Ignore ? Part::Ignored
-                                                 : Part::Head);
+    scan.enter(scan.keyword == Keyword::Axiom ? Part::Axiom
+               : scan.keyword == Keyword::Ignore || scan.keyword == Keyword::Consider
+                   ? Part::Ignored
+                   : Part::Head);
 }
+
+namespace {
+
+/// Whether a `:` is due next.
+bool opens_with_colon(const ScanState& scan) {
+    return scan.keyword == Keyword::Axiom || scan.keyword == Keyword::Ignore ||
+           scan.keyword == Keyword::Consider || scan.keyword == Keyword::Label ||
+           (names_production(scan.keyword) && scan.name_before);
+}
+
+} // namespace
 
 Token opening_equals(ParseSession& session) {
     ScanState& scan = session.scan;
@@ -204,8 +224,7 @@ Token opening_equals(ParseSession& session) {
         scan.enter(Part::Value);
         return Token(Parser::token::TOK_ASSIGN, span);
     }
-    if (scan.keyword == Keyword::Axiom || scan.keyword == Keyword::Ignore ||
-        scan.keyword == Keyword::Label) {
+    if (opens_with_colon(scan)) {
         if (session.wants(DiagnosticCode::MissingColon)) {
             const SourceSpan span = session.scanned.span(scan.begin, scan.end);
             Diagnostic& diagnostic = session.context.diagnostics.add(
@@ -222,8 +241,7 @@ Token opening_equals(ParseSession& session) {
 std::optional<Token> missing_opening(ParseSession& session) {
     ScanState& scan = session.scan;
     const bool wants_equals = scan.keyword == Keyword::Generations;
-    if (!wants_equals && scan.keyword != Keyword::Axiom && scan.keyword != Keyword::Ignore &&
-        scan.keyword != Keyword::Label) {
+    if (!wants_equals && !opens_with_colon(scan)) {
         return std::nullopt;
     }
     const SourceSpan place = session.supplied();

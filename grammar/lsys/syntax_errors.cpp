@@ -35,6 +35,9 @@ std::string name_expected(const ScanState& scan) {
     case Keyword::Object:
     case Keyword::Include:
         return "an object, for example `SPHERE`";
+    case Keyword::Decompose:
+    case Keyword::Interpret:
+        return "the name of the production";
     default:
         return "the name of the constant";
     }

@@ -244,9 +244,9 @@ void AstBuilder::set(NameId key, SourceSpan key_span) {
     ast_.sets.push_back({key, key_span, {first, count}});
 }
 
-void AstBuilder::ignore(ModuleList modules) {
+void AstBuilder::ignore(SourceSpan keyword, ModuleList modules, bool considers) {
     begin_node(StatementKind::Ignore, ast_.ignores.size());
-    ast_.ignores.push_back({modules});
+    ast_.ignores.push_back({modules, considers, keyword});
 }
 
 void AstBuilder::axiom(ModuleList modules) {
@@ -279,7 +279,11 @@ void AstBuilder::probability(SourceSpan tilde, ExpressionId probability) {
     production_.condition.tilde_span = tilde;
 }
 
-void AstBuilder::production_front(NameId name, SourceSpan label, SourceSpan condition) {
+void AstBuilder::production_front(NameId name,
+                                  SourceSpan label,
+                                  SourceSpan condition,
+                                  Stage stage) {
+    production_.stage = stage;
     production_.name = name;
     production_.name_span = name_without_hash(label);
     production_.condition.span = condition;

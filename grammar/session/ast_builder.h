@@ -81,7 +81,7 @@ public:
     void set_word(NameId word, SourceSpan span);
     void set_number(ExpressionId value, SourceSpan span);
     void set(NameId key, SourceSpan key_span);
-    void ignore(ModuleList modules);
+    void ignore(SourceSpan keyword, ModuleList modules, bool considers);
     void axiom(ModuleList modules);
     void left_context(ModuleList left, SourceSpan less);
     void predecessor(ModuleList modules);
@@ -89,7 +89,10 @@ public:
     void condition(ExpressionId condition);
     void probability(SourceSpan tilde, ExpressionId probability);
     /// `label` may begin with the `#`.
-    void production_front(NameId name, SourceSpan label, SourceSpan condition);
+    void production_front(NameId name,
+                          SourceSpan label,
+                          SourceSpan condition,
+                          Stage stage = Stage::Rewrite);
     void production(ModuleList successor);
 
     /// The statement at hand will not be kept.

@@ -2,6 +2,7 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/grammar_file.h"
+#include "runtime/cli/tell.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -141,6 +142,14 @@ Status run_stats(const StatsCommand& command, const Console& console) {
     const Status status = load_grammar(command.file, command.grammar, console, grammar);
     if (status != Status::Fine) {
         return status;
+    }
+    if (!is_growth_known(*grammar.bytecode)) {
+        return fail(
+            Error{fmt::format("how the words of this grammar grow is not known before: it {}; "
+                              "`lsc dump --count --all` counts what is derived",
+                              grammar.bytecode->cuts() ? "cuts branches off with `%`"
+                                                       : "has `#decompose`")},
+            console);
     }
     const std::uint32_t wanted =
         command.grammar.generations.value_or(grammar.bytecode->generations.value_or(0));

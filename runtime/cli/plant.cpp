@@ -100,6 +100,8 @@ Status tell_drawn(TurtleStatus status,
         return Status::Limit;
     case TurtleStatus::Cancelled:
         return Status::Interrupted;
+    case TurtleStatus::NotInterpreted:
+        return Status::AuthorErrors;
     }
     return Status::Failure;
 }
@@ -175,6 +177,8 @@ grow_plant(const PlantRequest& request, Grammar& grammar, const Console& console
     }
     turtle_options.max_bytes = request.max_bytes;
     turtle_options.cancelled = console.io().interrupted;
+    turtle_options.seed = options.seed;
+    turtle_options.generations = options.generations;
     Turtle turtle(bytecode, turtle_options);
     TurtleStatus drawn = TurtleStatus::Ok;
     const Status status = request.stream
@@ -186,6 +190,9 @@ grow_plant(const PlantRequest& request, Grammar& grammar, const Console& console
     }
     if (drawn == TurtleStatus::Ok) {
         drawn = turtle.finish();
+    }
+    if (drawn == TurtleStatus::NotInterpreted) {
+        return tell(DeriveStatus::Error, turtle.error(), {}, options.limits, grammar, console);
     }
     const Status told = tell_drawn(drawn, turtle.faults(), request.max_bytes, grammar, console);
     plant.skeleton = turtle.take_skeleton();

@@ -17,6 +17,7 @@ struct PassKeys {
     std::uint64_t seed = 0;
     std::uint32_t generation = 0;
     std::uint64_t first_draw = 0; // 4096 k in the pass of rule k of a sequential generation
+    bool same_age = false;        // what is written is of that generation too, not of the next
 };
 
 /// Reads what it is given when it is asked, so that word and keys may be changed between calls.

@@ -45,13 +45,15 @@ std::uint64_t bytes_of(const std::vector<T>& values) {
 
 } // namespace
 
-Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generation)
-    : bytecode_(bytecode), inputs_(inputs), each_generation_(each_generation) {
+Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generation, Stage stage)
+    : bytecode_(bytecode), inputs_(inputs), each_generation_(each_generation),
+      productions_(bytecode.of(stage)),
+      parallel_(stage != Stage::Rewrite || bytecode.settings.rewriting == RewritingMode::Parallel) {
     make_codes();
     make_families();
     make_guards();
     make_entries();
-    if (bytecode_.settings.rewriting == RewritingMode::Parallel) {
+    if (parallel_) {
         if (has_parameters_ && bytecode_.code_count() <= kMostFoldedCodes) {
             folded_index_.emplace(bytecode_);
         }
@@ -120,14 +122,14 @@ SymbolId Plan::first_symbol(std::uint32_t rule) const {
 }
 
 void Plan::make_families() {
-    const bool parallel = bytecode_.settings.rewriting == RewritingMode::Parallel;
     const bool one_choice = bytecode_.settings.choice == ChoiceScope::Generation;
     std::vector<std::uint32_t> family_of_production;
-    family_of_production.reserve(bytecode_.productions.size());
-    std::vector<std::uint32_t> family_of_symbol(parallel ? bytecode_.symbols.size() : 0, kNone);
-    for (const BytecodeProduction& production : bytecode_.productions) {
+    family_of_production.reserve(productions_.count);
+    std::vector<std::uint32_t> family_of_symbol(parallel_ ? bytecode_.symbols.size() : 0, kNone);
+    for (std::uint32_t p = productions_.first; p < productions_.first + productions_.count; ++p) {
+        const BytecodeProduction& production = bytecode_.productions[p];
         std::uint32_t index = production.rule;
-        if (parallel) {
+        if (parallel_) {
             const SymbolId symbol = bytecode_.patterns[production.predecessor.first].symbol;
             std::uint32_t& known = family_of_symbol[static_cast<std::size_t>(symbol)];
             if (known == kNone) {
@@ -150,11 +152,11 @@ void Plan::make_families() {
     }
     record_width_ = largest <= 0xFF ? 1 : 4;
 
-    candidates_.resize(bytecode_.productions.size());
+    candidates_.resize(productions_.count);
     std::vector<std::uint32_t> filled(families_.size(), 0);
-    for (std::uint32_t p = 0; p < bytecode_.productions.size(); ++p) {
+    for (std::uint32_t p = productions_.first; p < productions_.first + productions_.count; ++p) {
         const BytecodeProduction& production = bytecode_.productions[p];
-        const std::uint32_t index = family_of_production[p];
+        const std::uint32_t index = family_of_production[p - productions_.first];
         Family& family = families_[index];
         Candidate& candidate = candidates_[family.first + filled[index]++];
         const PatternItem& item = bytecode_.patterns[production.predecessor.first];
@@ -322,7 +324,7 @@ void Plan::prepare(std::uint32_t generation) {
     generation_ = generation;
     for (const std::uint32_t index : varying_families_) {
         families_[index].current = false;
-        if (bytecode_.settings.rewriting == RewritingMode::Parallel) {
+        if (parallel_) {
             put_in_force(index);
         }
     }

@@ -126,7 +126,11 @@ struct PlanInputs {
 class Plan {
 public:
     /// `each_generation`: prepare() will be called for each; otherwise one plan serves all.
-    Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generation);
+    /// Of the productions of one stage.
+    Plan(const Bytecode& bytecode,
+         const PlanInputs& inputs,
+         bool each_generation,
+         Stage stage = Stage::Rewrite);
 
     /// Brings rows and entries up to date for rewriting words of age `generation`. In parallel
     /// mode all families are in force.
@@ -228,6 +232,8 @@ private:
     const Bytecode& bytecode_;
     PlanInputs inputs_;
     bool each_generation_;
+    TableRange productions_;
+    bool parallel_; // a family holds all productions of its symbol
     std::uint32_t generation_ = 0;
     std::vector<Row> rows_;
     std::vector<Entry> entries_;

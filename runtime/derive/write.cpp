@@ -354,7 +354,8 @@ bool write_modules(const Plan& plan,
         return false;
     }
     if (request.origins != nullptr) {
-        const OriginRequest traced{begin, request.begin.index, keys.generation + 1, request.marks};
+        const OriginRequest traced{begin, request.begin.index,
+                                   keys.generation + (keys.same_age ? 0 : 1), request.marks};
         request.origins = trace_origins(plan, word, traced, records, request.origins);
     }
     return true;

@@ -4,6 +4,7 @@
 
 #include "runtime/turtle.h"
 #include "runtime/turtle/actions.h"
+#include "runtime/turtle/interpretation.h"
 #include "runtime/turtle/polygons.h"
 #include "runtime/turtle/pose.h"
 
@@ -49,6 +50,7 @@ struct Turtle::State {
         : bytecode(program), options(std::move(wanted)), table(make_actions(program, options)) {
         const Settings& settings = bytecode.settings;
         skeleton.mesh_files = table.mesh_files;
+        interprets = program.has(Stage::Interpret);
         relative = is_relative(settings.turtle);
         has_tropism = settings.has_tropism;
         begin();
@@ -70,6 +72,16 @@ struct Turtle::State {
     TurtleStatus run(std::span<const C> codes,
                      std::span<const float> parameters,
                      std::span<const Origin> origins);
+    template <typename C>
+    TurtleStatus interpret(std::span<const C> codes,
+                           std::span<const float> parameters,
+                           std::span<const Origin> origins);
+    template <typename C>
+    TurtleStatus take(std::span<const C> codes,
+                      std::span<const float> parameters,
+                      std::span<const Origin> origins) {
+        return interprets ? interpret(codes, parameters, origins) : run(codes, parameters, origins);
+    }
     template <bool kOrigins, typename C>
     TurtleStatus
     run_some(std::span<const C> codes, const float*& parameters, const Origin* origins);
@@ -133,7 +145,10 @@ struct Turtle::State {
     Origin polygon_origin;      // of the `{` of the polygon closed last
     std::uint64_t cut = 0;      // open brackets within a part that is cut off, and 1
     TurtleStatus status = TurtleStatus::Ok;
-    bool relative = false; // widths are factors of the length
+    bool interprets = false;
+    std::unique_ptr<Interpretation> interpretation; // made with the first piece
+    std::vector<Code> piece;                        // of a word of narrow codes
+    bool relative = false;                          // widths are factors of the length
     bool has_tropism = false;
     // The last segment whose mass was worked out.
     double massed_length = -1.0;

@@ -220,7 +220,9 @@ private:
     // "What is printed parses again as the axiom of the same file."
     bool reads_its_word() {
         const Word& word = derivation_.words[derivation_.words.size() / 2];
-        if (!can_be_an_axiom(word)) {
+        // An axiom is decomposed, and what has stopped at the greatest depth would go on.
+        const bool settled = !setting(made_.grammar, "decompose_depth");
+        if (!settled || !can_be_an_axiom(word)) {
             return true;
         }
         Case again = made_;

@@ -13,7 +13,8 @@ namespace lsys::reference {
 namespace {
 
 constexpr std::uint32_t kBeforeTheDerivation = 0xFFFFFFFF;
-constexpr std::uint32_t kDrawsOfARule = 4096;
+constexpr std::uint64_t kDrawsOfARule = 4096;
+constexpr std::uint64_t kFirstDecomposeDraw = std::uint64_t{1} << 32;
 
 // A production with what section 5 sorts it by.
 struct Entry {
@@ -24,9 +25,15 @@ struct Entry {
 
 struct System {
     std::map<std::string, float> constants;
-    std::vector<Entry> productions; // in file order
-    std::vector<std::string> rules; // rule k is rules[k]; by first appearance
+    std::vector<Entry> productions;    // in file order
+    std::vector<Entry> decompositions; // those of #decompose
+    std::vector<std::string> rules;    // rule k is rules[k]; by first appearance
     std::set<std::string> ignored;
+    std::set<std::string> considered;
+    std::set<std::string> mentioned; // modules of all words and patterns
+    std::size_t rewriting_rules = 0; // the first of rules
+    std::uint32_t decompose_depth = 100;
+    bool cuts = false; // `%` cuts, as the turtle has it
     bool one_choice_a_generation = false;
     std::uint64_t seed = 0;
     std::uint32_t steps = 0;
@@ -45,8 +52,9 @@ struct Reading {
     const System& system;
     const Word& word;
     std::uint32_t age = 0;
-    std::uint32_t first_draw = 0;         // sequential rewriting: 4096 times the rule
+    std::uint64_t first_draw = 0;         // sequential rewriting: 4096 times the rule
     std::optional<std::size_t> only_rule; // the other modes read one rule at a time
+    bool decomposes = false;
 };
 
 Environment environment_of(const Reading& reading, const Bindings& bindings) {
@@ -111,7 +119,7 @@ Choice choose(const Reading& reading, std::size_t position) {
     const System& system = reading.system;
     std::vector<Choice> candidates;
     Entry first;
-    for (const Entry& entry : system.productions) {
+    for (const Entry& entry : reading.decomposes ? system.decompositions : system.productions) {
         const Production& production = *entry.production;
         if (reading.only_rule && entry.rule != *reading.only_rule) {
             continue;
@@ -156,12 +164,13 @@ void rewrite(const Reading& reading, const Choice& choice, std::size_t position,
     const System& system = reading.system;
     const Production& production = *choice.production;
     const bool choice_took_a_draw = production.probability && !system.one_choice_a_generation;
-    std::uint32_t draw = reading.first_draw + (choice_took_a_draw ? 1 : 0);
+    std::uint64_t draw = reading.first_draw + (choice_took_a_draw ? 1 : 0);
 
     Environment environment = environment_of(reading, choice.bindings);
     environment.draw = [&] { return uniform(system.seed, position, reading.age, draw++); };
     for (const ModuleUse& use : production.successor) {
-        Module module{use.name, {}, {&use, production.label, reading.age + 1}};
+        Module module{
+            use.name, {}, {&use, production.label, reading.age + (reading.decomposes ? 0 : 1)}};
         for (const Expr& argument : use.arguments) {
             float value = 0;
             try {
@@ -200,6 +209,43 @@ Word read_once(const Reading& reading, Derivation& derivation) {
     return out;
 }
 
+// "A generation begins with the cuts": what stands behind a `%` in its branch goes, and the `%`.
+Word without_cuts(const System& system, const Word& word) {
+    Word out;
+    std::size_t open = 0; // brackets open within what is cut off
+    bool cut = false;
+    for (const Module& module : word) {
+        const bool bare = module.values.empty();
+        if (cut && bare && module.name == "[") {
+            ++open;
+        } else if (cut && bare && module.name == "]") {
+            cut = open > 0;
+            open -= open > 0 ? 1 : 0;
+        } else if (system.cuts && bare && module.name == "%") {
+            cut = true;
+        }
+        if (!cut) {
+            out.push_back(module);
+        }
+    }
+    return out;
+}
+
+// Passes of #decompose over the word of an age; as many as there may be, or until nothing is
+// applied.
+Word decomposed(const System& system, Word word, std::uint32_t age, Derivation& derivation) {
+    for (std::uint32_t pass = 0; pass < system.decompose_depth; ++pass) {
+        Reading reading{system, word, age, kFirstDecomposeDraw + kDrawsOfARule * pass, {}, true};
+        const std::map<std::string, std::uint64_t> before = derivation.applications;
+        Word next = read_once(reading, derivation);
+        if (before == derivation.applications) {
+            return word;
+        }
+        word = next;
+    }
+    return word;
+}
+
 Word next_word(const System& system,
                const std::string& mode,
                const Word& word,
@@ -207,17 +253,17 @@ Word next_word(const System& system,
                Derivation& derivation) {
     if (mode == "sequential") {
         Word current = word;
-        for (std::uint32_t k = 0; k < system.rules.size(); ++k) {
+        for (std::uint32_t k = 0; k < system.rewriting_rules; ++k) {
             const Reading reading{system, current, age, kDrawsOfARule * k, k};
             current = read_once(reading, derivation);
         }
         return current;
     }
     if (mode == "cyclic") {
-        if (system.rules.empty()) {
+        if (system.rewriting_rules == 0) {
             return word;
         }
-        const std::size_t rule = age % system.rules.size();
+        const std::size_t rule = age % system.rewriting_rules;
         return read_once(Reading{system, word, age, 0, rule}, derivation);
     }
     return read_once(Reading{system, word, age, 0, std::nullopt}, derivation);
@@ -235,6 +281,18 @@ public:
         for (const Statement* statement : statements_in_order(grammar)) {
             read(*statement);
         }
+        system_.rewriting_rules = system_.rules.size();
+        for (const Production* production : decompositions_) {
+            system_.decompositions.push_back(
+                {production, group_of(*production), number_of(rule_of(*production))});
+        }
+        if (considers_) {
+            for (const std::string& name : system_.mentioned) {
+                if (system_.considered.count(name) == 0 && name != "[" && name != "]") {
+                    system_.ignored.insert(name);
+                }
+            }
+        }
     }
 
     [[nodiscard]] const Word& axiom() const { return axiom_; }
@@ -249,8 +307,12 @@ private:
             system_.constants[statement.name] = value_of(statement);
         } else if (statement.kind == StatementKind::Ignore) {
             system_.ignored.insert(statement.names.begin(), statement.names.end());
+        } else if (statement.kind == StatementKind::Consider) {
+            system_.considered.insert(statement.names.begin(), statement.names.end());
+            considers_ = true;
         } else if (statement.kind == StatementKind::Axiom) {
             for (const ModuleUse& use : statement.modules) {
+                system_.mentioned.insert(use.name);
                 Module module{use.name, {}, {&use, "", 0}};
                 for (const Expr& argument : use.arguments) {
                     module.values.push_back(finite(evaluate(argument, environment_)));
@@ -259,8 +321,18 @@ private:
             }
         } else if (statement.kind == StatementKind::Production) {
             const Production& production = statement.production;
-            system_.productions.push_back(
-                {&production, group_of(production), number_of(rule_of(production))});
+            for (const ModuleUse& use : production.successor) {
+                system_.mentioned.insert(use.name);
+            }
+            for (const ModulePattern& module : production.predecessor) {
+                system_.mentioned.insert(module.name);
+            }
+            if (production.stage == Stage::Decompose) {
+                decompositions_.push_back(&production);
+            } else if (production.stage == Stage::Rewrite) {
+                system_.productions.push_back(
+                    {&production, group_of(production), number_of(rule_of(production))});
+            }
         }
     }
 
@@ -307,6 +379,8 @@ private:
     Environment environment_;
     std::uint64_t range_number_ = 0;
     std::uint32_t generations_ = 0;
+    std::vector<const Production*> decompositions_;
+    bool considers_ = false;
     Word axiom_;
 };
 
@@ -344,15 +418,22 @@ Derivation derive(const Grammar& grammar, const Request& request) {
     system.one_choice_a_generation = setting(grammar, "choice").value_or("module") == "generation";
     const std::string mode = setting(grammar, "rewriting").value_or("parallel");
     derivation.seed = system.seed;
+    if (const auto depth = setting(grammar, "decompose_depth")) {
+        system.decompose_depth =
+            static_cast<std::uint32_t>(std::strtoul(depth->c_str(), nullptr, 10));
+    }
+    const std::string turtle = setting(grammar, "turtle").value_or("lsys");
+    system.cuts = turtle != "lplus" && turtle != "sys";
     try {
         const Start start(grammar, request, system);
         system.steps = request.generations.value_or(start.generations());
         derivation.generations = system.steps;
         derivation.constants = system.constants;
-        derivation.words.push_back(start.axiom());
+        derivation.words.push_back(decomposed(system, start.axiom(), 0, derivation));
         for (std::uint32_t age = 0; age < system.steps; ++age) {
-            derivation.words.push_back(
-                next_word(system, mode, derivation.words.back(), age, derivation));
+            const Word read = without_cuts(system, derivation.words.back());
+            derivation.words.push_back(decomposed(
+                system, next_word(system, mode, read, age, derivation), age + 1, derivation));
         }
     } catch (const TooLarge&) {
         derivation.too_large = true;

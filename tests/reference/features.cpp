@@ -85,6 +85,8 @@ private:
             }
         } else if (statement.kind == StatementKind::Production) {
             production(statement.production);
+        } else if (statement.kind == StatementKind::Consider) {
+            found_.insert("consider");
         }
     }
 
@@ -93,6 +95,14 @@ private:
             return;
         }
         const std::string mode = setting(made_.grammar, "rewriting").value_or("parallel");
+        if (production.stage == Stage::Decompose) {
+            found_.insert("decompose, " + mode);
+        }
+        for (const ModuleUse& use : production.successor) {
+            if (use.name == "%") {
+                found_.insert("cut, " + mode);
+            }
+        }
         if (production.left) {
             found_.insert("left context");
             found_.insert("context, " + mode);
@@ -297,7 +307,14 @@ const std::vector<std::string>& feature_names() {
                                                     "function max",
                                                     "function mod",
                                                     "function step",
-                                                    "function steps"};
+                                                    "function steps",
+                                                    "consider",
+                                                    "decompose, parallel",
+                                                    "decompose, sequential",
+                                                    "decompose, cyclic",
+                                                    "cut, parallel",
+                                                    "cut, sequential",
+                                                    "cut, cyclic"};
     return kNames;
 }
 

@@ -296,12 +296,80 @@ private:
     void finish() {
         expand_bundles();
         repair_probabilities();
+        decompose_some();
+        cut_some();
         add_ignored();
         add_settings();
         declare_ambiguous_names();
     }
 
+    // Groups that could stand in `#decompose` do so now and then.
+    void decompose_some() {
+        std::set<std::string> chosen;
+        for (File& file : case_.grammar.files) {
+            for (Statement& statement : file.statements) {
+                Production& production = statement.production;
+                if (statement.kind != StatementKind::Production || production.left ||
+                    production.right || production.predecessor.size() != 1) {
+                    continue;
+                }
+                const std::string group = group_of(production);
+                if (chosen.count(group) != 0 ||
+                    (decided_.insert(group).second && random_.percent(12))) {
+                    chosen.insert(group);
+                    production.stage = Stage::Decompose;
+                }
+            }
+        }
+        if (!chosen.empty()) {
+            add_setting("decompose_depth", to_text(random_.below(3) + 1), any_file());
+            add_setting("at_depth", "stop", any_file());
+        }
+    }
+
+    // A `%` here and there.
+    void cut_some() {
+        if (!random_.percent(15)) {
+            return;
+        }
+        for (File& file : case_.grammar.files) {
+            for (Statement& statement : file.statements) {
+                std::vector<ModuleUse>& modules = statement.kind == StatementKind::Axiom
+                                                      ? statement.modules
+                                                      : statement.production.successor;
+                if (random_.percent(40) && !modules.empty()) {
+                    const std::size_t at = random_.below(modules.size() + 1);
+                    modules.insert(modules.begin() + static_cast<std::ptrdiff_t>(at), {"%", {}});
+                }
+            }
+        }
+    }
+
+    // The same said by `#consider`: all other names.
+    bool add_considered() {
+        std::set<std::string> names;
+        for (const Species& species : plan_.species) {
+            names.insert(species.name);
+        }
+        for (const std::string& name : plan_.ignored) {
+            names.erase(name);
+        }
+        Statement statement;
+        statement.kind = StatementKind::Consider;
+        for (const std::string& name : names) {
+            if (name == "[" || name == "]") {
+                continue;
+            }
+            statement.names = {name};
+            add_statement(statement, file_for(statement.names));
+        }
+        return !statement.names.empty();
+    }
+
     void add_ignored() {
+        if (random_.percent(20) && add_considered()) {
+            return;
+        }
         Statement statement;
         statement.kind = StatementKind::Ignore;
         for (const std::string& name : plan_.ignored) {
@@ -479,6 +547,7 @@ private:
     std::vector<std::size_t> parent_;
     std::set<std::string> labels_;
     std::map<const Statement*, std::vector<Production>> bundles_;
+    std::set<std::string> decided_; // groups, whether they are decomposed
     bool has_generations_ = false;
 };
 

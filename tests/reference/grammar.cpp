@@ -40,8 +40,15 @@ std::optional<std::string> setting(const Grammar& grammar, const std::string& ke
     return std::nullopt;
 }
 
+// Rules and groups never go beyond their stage.
+static std::string stage_of(const Production& production) {
+    return production.stage == Stage::Rewrite     ? ""
+           : production.stage == Stage::Decompose ? "`decompose`"
+                                                  : "`interpret`";
+}
+
 std::string group_of(const Production& production) {
-    std::string group;
+    std::string group = stage_of(production);
     if (production.left) {
         group += shape_of(*production.left) + "`left`";
     }
@@ -53,7 +60,7 @@ std::string group_of(const Production& production) {
 }
 
 std::string rule_of(const Production& production) {
-    return shape_of(production.predecessor);
+    return stage_of(production) + shape_of(production.predecessor);
 }
 
 } // namespace lsys::reference

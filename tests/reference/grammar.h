@@ -39,7 +39,10 @@ struct ModulePattern {
 
 using Pattern = std::vector<ModulePattern>;
 
+enum class Stage { Rewrite, Decompose, Interpret };
+
 struct Production {
+    Stage stage = Stage::Rewrite;
     std::string label;
     Pattern predecessor;
     std::optional<Pattern> left;
@@ -58,6 +61,7 @@ enum class StatementKind {
     IncludeFile,
     Set,
     Ignore,
+    Consider,
     Axiom,
     Production,
 };
@@ -71,7 +75,7 @@ struct Statement {
     Expr low;                       // Param: the bounds
     Expr high;                      //
     Pattern patterns;               // Module: the one declared
-    std::vector<std::string> names; // Ignore
+    std::vector<std::string> names; // Ignore, Consider
     std::vector<ModuleUse> modules; // Axiom
     Production production;          // Production
 };

@@ -26,12 +26,12 @@ PhiloxCounter philox4x32_10(PhiloxCounter counter, PhiloxKey key) {
 float uniform(std::uint64_t seed,
               std::uint64_t position,
               std::uint32_t generation,
-              std::uint32_t draw) {
+              std::uint64_t draw) {
     const PhiloxKey key = {static_cast<std::uint32_t>(seed),
                            static_cast<std::uint32_t>(seed >> 32U)};
     const PhiloxCounter counter = {static_cast<std::uint32_t>(position),
                                    static_cast<std::uint32_t>(position >> 32U), generation,
-                                   draw / 4};
+                                   static_cast<std::uint32_t>(draw / 4)};
     const std::uint32_t word = philox4x32_10(counter, key)[draw % 4];
     return static_cast<float>(word >> 8U) * 0x1p-24F;
 }

@@ -21,6 +21,6 @@ PhiloxCounter philox4x32_10(PhiloxCounter counter, PhiloxKey key);
 float uniform(std::uint64_t seed,
               std::uint64_t position,
               std::uint32_t generation,
-              std::uint32_t draw);
+              std::uint64_t draw);
 
 } // namespace lsys::reference

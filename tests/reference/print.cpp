@@ -171,7 +171,8 @@ private:
             add(statement.text);
             return;
         case StatementKind::Ignore:
-            add("#ignore");
+        case StatementKind::Consider:
+            add(statement.kind == StatementKind::Ignore ? "#ignore" : "#consider");
             add(":");
             for (std::size_t i = 0; i < statement.names.size(); ++i) {
                 start_module(&statement.names, statement.names[i], i);
@@ -189,7 +190,12 @@ private:
     }
 
     void spell(const Production& production) {
-        add("#" + production.label);
+        if (production.stage == Stage::Rewrite) {
+            add("#" + production.label);
+        } else {
+            add(production.stage == Stage::Decompose ? "#decompose" : "#interpret");
+            add(production.label);
+        }
         add(":");
         if (production.left) {
             add_pattern(*production.left);
@@ -370,7 +376,8 @@ std::string print_word(const Word& word, bool letters) {
     std::string text;
     bool after_bare_identifier = false;
     for (const Module& module : word) {
-        const bool identifier = is_identifier(module.name) && (!letters || module.name.size() == 1);
+        const bool letter = module.name.size() == 1 && module.name != "_";
+        const bool identifier = is_identifier(module.name) && (!letters || letter);
         if (identifier && after_bare_identifier && !letters) {
             text += " ";
         }

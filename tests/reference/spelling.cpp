@@ -218,7 +218,7 @@ std::vector<JoinedNames::List> JoinedNames::lists_of(const File& file) {
         lists.push_back(list);
     };
     for (const Statement& statement : file.statements) {
-        if (statement.kind == StatementKind::Ignore) {
+        if (statement.kind == StatementKind::Ignore || statement.kind == StatementKind::Consider) {
             List list{&statement.names, {}, true};
             for (const std::string& name : statement.names) {
                 list.words.push_back({name, 0, false});
