@@ -95,7 +95,7 @@ TEST_CASE("forests look as they did") {
         {"ground", {ten_thousand, "--count", "1", "--camera", "eye 350,40,350 target 290,20,290"}},
         {"painted",
          {LSYS_SOURCE_DIR "/tests/viewer/painted.toml", "--camera",
-          "eye 40,9,78 target 40,2,40 fov 50"}},
+          "eye 40,30,72 target 40,2,40 fov 50"}},
         {"horizon", {ten_thousand, "--camera", "eye 350,140,-500 target 350,0,350 fov 40"}},
         {"wind-0",
          {scene("mixed-forest"), "--camera", "eye 120,20,120 target 110,23,110 fov 60", "--wind",
