@@ -361,12 +361,19 @@ void LiveForest::work_at(const glm::vec2& place, bool begins, bool erases) {
     }
 }
 
+std::string LiveForest::painted_text(const char* what) const {
+    const auto trees = [](std::uint64_t count) {
+        return fmt::format("{} {}", count, count == 1 ? "tree" : "trees");
+    };
+    const PaintCount& count = painting_.count();
+    return fmt::format("{}{} came, {} went; {}", what, trees(count.came), count.went,
+                       trees(painting_.tree_count()));
+}
+
 void LiveForest::end_stroke() {
     begins_stroke_ = false;
     if (std::exchange(has_stroke_, false)) {
-        const PaintCount& count = painting_.count();
-        say(fmt::format("{} trees came, {} went; {} trees", count.came, count.went,
-                        painting_.tree_count()));
+        say(painted_text(""));
     }
 }
 
@@ -377,8 +384,7 @@ void LiveForest::undo() {
     }
     painting_.undo();
     changed_ = true;
-    say(fmt::format("undone: {} trees came, {} went; {} trees", painting_.count().came,
-                    painting_.count().went, painting_.tree_count()));
+    say(painted_text("undone: "));
 }
 
 void LiveForest::redo() {
@@ -388,8 +394,7 @@ void LiveForest::redo() {
     }
     painting_.redo();
     changed_ = true;
-    say(fmt::format("done again: {} trees came, {} went; {} trees", painting_.count().came,
-                    painting_.count().went, painting_.tree_count()));
+    say(painted_text("done again: "));
 }
 
 void LiveForest::save() {

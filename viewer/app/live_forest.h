@@ -121,6 +121,7 @@ private:
     void take_outcome(ForestOutcome outcome);
     void swap(ForestOutcome outcome);
     void show_outline();
+    [[nodiscard]] std::string painted_text(const char* what) const;
     void watch_files();
     void grow();
     void ask();
