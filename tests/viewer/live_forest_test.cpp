@@ -313,6 +313,24 @@ TEST_CASE("trees are painted, undone, saved, and read again") {
     CHECK(again.picture() == painted);
 }
 
+TEST_CASE("trees erased from another placement than the file's are told when they are saved") {
+    const WoodFolder files(wood(200));
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    LiveForest& forest = viewed.forest();
+    viewed.look_at(30.0F, 30.0F);
+    forest.settings.tool = PaintTool::Eraser;
+    forest.settings.brush.radius = 10.0F;
+    viewed.press();
+    REQUIRE(forest.painting().tree_count() < 200);
+    forest.save();
+    CHECK(forest.note() == "saved " + files.scene);
+    forest.settings.edits.key = 4;
+    REQUIRE(viewed.until_swaps(2));
+    forest.save();
+    CHECK(forest.note().find("erased from another placement") != std::string::npos);
+}
+
 TEST_CASE("a brush and an eraser work along the way of the mouse") {
     const WoodFolder files(wood(1));
     Viewed viewed(options_of(files.scene));

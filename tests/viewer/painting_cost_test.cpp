@@ -127,7 +127,7 @@ TEST_CASE("a painted tree costs the same in a forest of 1,000 and of 1,000,000")
     const auto microseconds = [](const PaintingCost& cost) {
         return 1e6 * cost.seconds / kPainted;
     };
-    WARN("microseconds a tree: " << microseconds(small) << " of 1,000, " << microseconds(large)
+    INFO("microseconds a tree: " << microseconds(small) << " of 1,000, " << microseconds(large)
                                  << " of 1,000,000; " << small.allocations << " allocations of "
                                  << small.allocated << " bytes for " << kPainted << " trees");
     // Host noise is not what this is about: a tenth of a millisecond is the goal.

@@ -43,6 +43,13 @@ bool ForestEdits::is_same(const ForestEdits& other) const {
            covers(*this, other) && covers(other, *this);
 }
 
+bool ForestEdits::changes_placement() const {
+    return key || method || count || spacing || density || years || ground || hill_height ||
+           hill_feature || hill_seed ||
+           std::any_of(species.begin(), species.end(),
+                       [](const SpeciesEdit& edit) { return edit.share.has_value(); });
+}
+
 void apply(const ForestEdits& edits, Scene& scene) {
     for (const SpeciesEdit& edit : edits.species) {
         for (std::size_t i = 0; i < scene.species.size(); ++i) {

@@ -37,6 +37,8 @@ struct ForestEdits {
 
     /// That of a species, which is made if there is none.
     [[nodiscard]] SpeciesEdit& of(const std::string& name);
+    /// Other trees may stand elsewhere than the scene says.
+    [[nodiscard]] bool changes_placement() const;
     /// Those that set nothing are as if they were not there.
     [[nodiscard]] bool is_same(const ForestEdits& other) const;
 };

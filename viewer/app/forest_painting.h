@@ -49,6 +49,8 @@ public:
     [[nodiscard]] bool is_unsaved() const { return painter_ && painter_->is_changed(); }
     /// Into the scene file, all or nothing.
     [[nodiscard]] Result<Done> save(const std::string& file, const lsc::Console& console);
+    /// What was saved last takes placed trees away.
+    [[nodiscard]] bool has_erased() const { return in_file_ && !in_file_->erased.empty(); }
     /// The text that was saved last.
     [[nodiscard]] const std::string& saved_text() const { return saved_text_; }
     /// Trees that are there, painted ones too.

@@ -409,7 +409,17 @@ void LiveForest::save() {
         return;
     }
     saved_text_ = painting_.saved_text();
-    say(fmt::format("saved {}", file()));
+    const lsc::ForestCommand& given = options_.forest;
+    const bool is_other_placement = settings.edits.changes_placement() || given.key ||
+                                    given.method || given.count || given.size || given.spacing ||
+                                    given.density || given.years || given.tile ||
+                                    !given.density_map.empty();
+    // Their numbers are all that the file has of them.
+    const bool is_doubtful = is_other_placement && painting_.has_erased();
+    say(fmt::format("saved {}{}", file(),
+                    is_doubtful ? "; but trees were erased from another placement than the file's, "
+                                  "where other trees may have their numbers"
+                                : ""));
 }
 
 bool LiveForest::is_busy() const {

@@ -73,9 +73,10 @@ public:
 
 private:
     void put(Request request) {
-        // Files that have changed have to be read, whatever else is asked for meanwhile.
-        request.again =
-            request.again || (waiting_ && waiting_->again) || (is_making_ && making_again_);
+        // Files that have changed have to be read, whatever else is asked for before that was
+        // taken.
+        request.again = request.again || (waiting_ && waiting_->again) ||
+                        (making_again_ && (is_making_ || made_));
         last_ = request;
         waiting_ = std::move(request);
         changed_.notify_one();
