@@ -12,7 +12,8 @@
 //                   template codes, instructions, sites, site marks, template places, productions,
 //                   counts, axiom
 //
-// Version 2 added the template places.
+// Version 2 added the template places, version 3 stages of productions, version 4 the source of
+// random numbers and words as one text.
 //
 // A table is its number of rows (u64) and the rows; a text is its number of bytes (u32) and the
 // bytes; a truth is one byte, 0 or 1; an enumerator is one byte. A template code takes
@@ -178,11 +179,13 @@ private:
 
 template <typename Stream, typename Value>
 void settings(Stream& stream, Value& s) {
-    stream.tag(s.turtle, TurtleProfile::Carey);
+    stream.tag(s.turtle, TurtleProfile::LplusProgram);
     stream.tag(s.rewriting, RewritingMode::Cyclic);
     stream.tag(s.choice, ChoiceScope::Generation);
     stream.tag(s.weights, WeightRule::Any);
+    stream.tag(s.random, RandomSource::Glibc);
     stream.truth(s.print_letters);
+    stream.truth(s.print_characters);
     stream.real(s.angle);
     stream.real(s.step);
     stream.real(s.width);

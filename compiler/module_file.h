@@ -10,7 +10,7 @@
 
 namespace lsys {
 
-inline constexpr std::uint32_t kModuleFileVersion = 3;
+inline constexpr std::uint32_t kModuleFileVersion = 4;
 
 [[nodiscard]] std::string write_module_file(const Bytecode& bytecode);
 /// Refuses, each with its own message: a foreign file, a newer or older version, a truncated one, a

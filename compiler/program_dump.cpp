@@ -44,6 +44,9 @@ private:
         out_ += fmt::format("settings\n  turtle {}, rewriting {}, choice {}, weights {}\n",
                             name_of(s.turtle), name_of(s.rewriting), name_of(s.choice),
                             name_of(s.weights));
+        if (s.random != RandomSource::Philox) {
+            out_ += fmt::format("  random {}\n", name_of(s.random));
+        }
         out_ += fmt::format("  angle {}, step {}, width {}, sides {}\n", s.angle, s.step, s.width,
                             s.sides);
         out_ += fmt::format("  angle_scale {}, step_scale {}, width_scale {}\n", s.angle_scale,

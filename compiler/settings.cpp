@@ -17,8 +17,10 @@ constexpr std::array<std::string_view, 3> kRewritingModes{"parallel", "sequentia
 constexpr std::array<std::string_view, 2> kChoiceScopes{"module", "generation"};
 constexpr std::array<std::string_view, 2> kWeightRules{"one", "any"};
 constexpr std::array<std::string_view, 2> kAtDepths{"error", "stop"};
-constexpr std::array<std::string_view, 8> kTurtleProfiles{"lsys", "thesis", "abop", "houdini",
-                                                          "l3d",  "lplus",  "sys",  "carey"};
+constexpr std::array<std::string_view, 2> kRandomSources{"philox", "glibc"};
+constexpr std::array<std::string_view, 10> kTurtleProfiles{
+    "lsys",  "thesis", "abop",  "houdini",     "l3d",
+    "lplus", "sys",    "carey", "l3d_program", "lplus_program"};
 
 } // namespace
 
@@ -27,6 +29,9 @@ std::string_view name_of(RewritingMode mode) {
 }
 std::string_view name_of(ChoiceScope scope) {
     return name_in(kChoiceScopes, scope);
+}
+std::string_view name_of(RandomSource source) {
+    return name_in(kRandomSources, source);
 }
 std::string_view name_of(WeightRule rule) {
     return name_in(kWeightRules, rule);

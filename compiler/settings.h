@@ -12,21 +12,41 @@ namespace lsys {
 enum class RewritingMode : std::uint8_t { Parallel, Sequential, Cyclic };
 /// Whether each module draws its production, or all modules of a rule share one draw a generation.
 enum class ChoiceScope : std::uint8_t { Module, Generation };
+/// Where the draws of `choice generation` come from: section 6, or the rand() of glibc.
+enum class RandomSource : std::uint8_t { Philox, Glibc };
 /// Whether unconditional groups must sum to 1.
 enum class WeightRule : std::uint8_t { One, Any };
 /// What becomes of a module that `#decompose` or `#interpret` still matches at the greatest depth:
 /// it ends the run, or it stays what it is.
 enum class AtDepth : std::uint8_t { Error, Stop };
 /// Which table of section 7 gives modules their meaning for the turtle.
-enum class TurtleProfile : std::uint8_t { Lsys, Thesis, Abop, Houdini, L3d, Lplus, Sys, Carey };
+/// The last two are L3d and Lplus as the program L3D has them.
+enum class TurtleProfile : std::uint8_t {
+    Lsys,
+    Thesis,
+    Abop,
+    Houdini,
+    L3d,
+    Lplus,
+    Sys,
+    Carey,
+    L3dProgram,
+    LplusProgram
+};
+
+[[nodiscard]] constexpr bool is_of_program(TurtleProfile profile) {
+    return profile == TurtleProfile::L3dProgram || profile == TurtleProfile::LplusProgram;
+}
 
 struct Settings {
     TurtleProfile turtle = TurtleProfile::Lsys;
     RewritingMode rewriting = RewritingMode::Parallel;
     ChoiceScope choice = ChoiceScope::Module;
     WeightRule weights = WeightRule::One;
-    /// `names letters` in the root file: how a word is printed.
+    RandomSource random = RandomSource::Philox;
+    /// `names letters` or `names characters` in the root file: how a word is printed.
     bool print_letters = false;
+    bool print_characters = false;
     float angle = 90.0F;      // degrees
     float step = 1.0F;        // metres
     float width = 0.1F;       // metres, diameter
@@ -48,6 +68,7 @@ struct Settings {
 
 [[nodiscard]] std::string_view name_of(RewritingMode mode);
 [[nodiscard]] std::string_view name_of(ChoiceScope scope);
+[[nodiscard]] std::string_view name_of(RandomSource source);
 /// The largest of both depths.
 inline constexpr std::uint32_t kMaxDepth = 100'000;
 

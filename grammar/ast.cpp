@@ -70,7 +70,7 @@ ModuleView ModuleCursor::view() const {
     const std::string_view source = sources_->file(file_).text();
     ModuleView view;
     view.name = name();
-    view.quoted = source[node.begin] == '`';
+    view.quoted = source[node.begin] == '`' && names_->text(view.name) != "`";
     view.has_parentheses = (node.name_and_call & kCallBit) != 0;
     view.name_span = {file_, node.begin, name_end(source, node.begin, names_->text(view.name))};
     view.span = view.name_span;

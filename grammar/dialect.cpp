@@ -2,6 +2,7 @@
 
 #include "grammar/carey/frontend.h"
 #include "grammar/contract.h"
+#include "grammar/l3d/frontend.h"
 #include "grammar/sys/frontend.h"
 
 #include <algorithm>
@@ -23,10 +24,12 @@ struct Entry {
 };
 
 /// In order of Dialect. Content is asked in this order too.
-constexpr std::array<Entry, 3> kEntries{{
+constexpr std::array<Entry, 5> kEntries{{
     {{Dialect::Lsys, "lsys", "lsys", ".lsys"}, nullptr, nullptr},
     {{Dialect::Sys, "sys", "the .sys forest", ".sys"}, recognise_sys, translate_sys},
     {{Dialect::Carey, "carey", "Carey's rule list", ".rules"}, recognise_carey, translate_carey},
+    {{Dialect::L3d, "l3d", "L3D", ".l3d .l"}, recognise_l3d, translate_l3d},
+    {{Dialect::Lplus, "lplus", "L+System", ".l++"}, recognise_l3d, translate_lplus},
 }};
 
 constexpr auto kRows = [] {
@@ -72,12 +75,19 @@ DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
     if (has_extension(path, row_of(Dialect::Lsys).extensions)) {
         return {Dialect::Lsys, "its name"};
     }
+    // Of dialects that are the same by content, the extension tells.
+    DetectedDialect found;
     for (const Entry& entry : kEntries) {
-        if (entry.recognise != nullptr) {
-            if (const std::string_view by = entry.recognise(text); !by.empty()) {
-                return {entry.row.dialect, by};
-            }
+        if (entry.recognise == nullptr ||
+            (found.dialect && !has_extension(path, entry.row.extensions))) {
+            continue;
         }
+        if (const std::string_view by = entry.recognise(text); !by.empty()) {
+            found = {entry.row.dialect, by};
+        }
+    }
+    if (found.dialect) {
+        return found;
     }
     for (const DialectRow& row : kRows) {
         if (has_extension(path, row.extensions)) {

@@ -17,6 +17,8 @@ enum class Dialect : std::uint8_t {
     Lsys,
     Sys,   // the forest of 2005
     Carey, // the forest generator of 2019
+    L3d,
+    Lplus, // L+System, an extension of L3D
 };
 
 struct DialectRow {

@@ -23,6 +23,8 @@ struct ParseContext {
     Names& names;
     Diagnostics& diagnostics;
     const FileLoader& load;
+    /// Of dialects whose program has bugs: they are kept.
+    bool bug_compatible = false;
 };
 
 /// Parses the .lsys file `root` and, in place, the files it includes. Always yields an Ast; after

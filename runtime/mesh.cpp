@@ -5,6 +5,7 @@
 #include "runtime/meshing/mesh_builder.h"
 #include "runtime/meshing/objects.h"
 #include "runtime/meshing/polygons.h"
+#include "runtime/meshing/program_shapes.h"
 #include "runtime/meshing/ring_segments.h"
 #include "runtime/meshing/tubes.h"
 
@@ -20,6 +21,11 @@ MeshStatus build(const Skeleton& skeleton,
                  const MeshOptions& options,
                  Mesh& mesh) {
     MeshBuilder builder(options, mesh);
+    if (skeleton.of_program && options.method == MeshMethod::Tubes) {
+        append_program_shapes(skeleton, builder);
+        append_objects(skeleton, user_meshes, options, builder); // the others
+        return builder.finish();
+    }
     switch (options.method) {
     case MeshMethod::Tubes:
         append_tubes(skeleton, options, builder);

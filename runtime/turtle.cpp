@@ -119,6 +119,29 @@ Turtle::State::run_some(std::span<const C> codes, const float*& parameters, cons
     return TurtleStatus::Ok;
 }
 
+/// Words that are texts. What a command draws is noticed one or more modules later.
+template <typename C>
+TurtleStatus
+Turtle::State::run_text(std::span<const C> codes, const float*& parameters, const Origin* origins) {
+    const std::uint64_t first = position;
+    keeps_origins = origins != nullptr;
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+        const Action& action = table.by_code[codes[i]];
+        const float* const arguments = action.stored != 0 ? parameters : action.arguments.data();
+        parameters += action.stored;
+        position = first + i;
+        const Origin here = origins != nullptr ? origins[i] : Origin{};
+        const Origin before = pending.origin;
+        origin = here;
+        if (!take_character(action, codes[i], arguments) ||
+            (origins != nullptr && !take_origin(before))) {
+            return status;
+        }
+    }
+    position = first + codes.size();
+    return TurtleStatus::Ok;
+}
+
 template <typename C>
 TurtleStatus Turtle::State::run(std::span<const C> codes,
                                 std::span<const float> parameters,
@@ -133,7 +156,10 @@ TurtleStatus Turtle::State::run(std::span<const C> codes,
             return status = TurtleStatus::Cancelled;
         }
         const std::size_t count = std::min(codes.size(), kModulesBetweenLooks);
-        if (origins.empty()) {
+        if (table.reads_text) {
+            run_text(codes.first(count), next, origins.empty() ? nullptr : origins.data());
+            origins = origins.empty() ? origins : origins.subspan(count);
+        } else if (origins.empty()) {
             run_some<false>(codes.first(count), next, nullptr);
         } else {
             run_some<true>(codes.first(count), next, origins.data());
@@ -284,6 +310,11 @@ TurtleStatus Turtle::feed(std::span<const Code> codes,
 
 TurtleStatus Turtle::finish() {
     State& state = *state_;
+    if (state.status == TurtleStatus::Ok && state.pending.there && !state.pending.in_parameter) {
+        if (state.obey_pending() && state.keeps_origins) {
+            static_cast<void>(state.take_origin(state.pending.origin));
+        }
+    }
     if (state.status == TurtleStatus::Ok) {
         if (!state.stack.empty()) {
             state.note(TurtleFaultKind::UnclosedBranch);
@@ -302,6 +333,7 @@ void Turtle::begin_again() {
     state.stack.clear();
     state.watched.clear();
     state.polygons = {};
+    state.pending = {};
     state.position = 0;
     state.cut = 0;
     state.interpretation.reset();

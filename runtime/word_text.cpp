@@ -18,6 +18,13 @@ constexpr std::size_t kPairedFrom = 4096;
 /// The longest binary32 in text, and a comma or parenthesis.
 constexpr std::size_t kNumberBytes = 24;
 
+bool is_one_character(std::string_view name) {
+    // Names are valid UTF-8: all bytes but the first of a character begin with the bits 10.
+    return !name.empty() && std::all_of(name.begin() + 1, name.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xC0U) == 0x80;
+    });
+}
+
 char* put_number(char* at, float value) {
     return std::to_chars(at, at + kNumberBytes, value).ptr;
 }
@@ -40,11 +47,23 @@ void append_number(float value, std::string& out) {
 
 WordPrinter::WordPrinter(const Bytecode& bytecode) {
     const bool letters = bytecode.settings.print_letters;
+    const bool characters = bytecode.settings.print_characters;
+    one_text_ = characters && std::all_of(bytecode.symbols.begin(), bytecode.symbols.end(),
+                                          [](const BytecodeSymbol& symbol) {
+                                              return symbol.parameter_count == 0 &&
+                                                     is_one_character(symbol.name);
+                                          });
     spellings_.resize(bytecode.code_count());
     for (Code code = 0; code < bytecode.code_count(); ++code) {
         const BytecodeSymbol& symbol = bytecode.symbol(bytecode.symbol_of(code));
         Spelling& spelling = spellings_[code];
-        std::string text = spelled_name(symbol.name, letters);
+        std::string text = one_text_ ? symbol.name : spelled_name(symbol.name, letters);
+        if (characters && symbol.name == "`") {
+            text = one_text_ ? "``" : "````";
+        }
+        if (characters && !one_text_ && text.front() == '`') {
+            text.insert(0, 1, ' '); // side by side two texts would be one
+        }
         const bool identifier = !letters && is_identifier(text);
         spelling.starts_identifier = identifier;
         spelling.ends_identifier = identifier && symbol.parameter_count == 0;
@@ -195,6 +214,13 @@ void WordPrinter::append(std::span<const Code> codes,
 }
 
 bool WordPrinter::print(const Word& word, const Sink& flush) {
+    if (!one_text_ || word.module_count() == 0) {
+        return print_modules(word, flush);
+    }
+    return flush(quote()) && print_modules(word, flush) && flush(quote());
+}
+
+bool WordPrinter::print_modules(const Word& word, const Sink& flush) {
     after_identifier_ = false;
     const float* const parameters = word.parameters().data();
     switch (word.code_width()) {

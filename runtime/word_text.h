@@ -28,6 +28,9 @@ public:
     explicit WordPrinter(const Bytecode& bytecode);
     /// What comes next is not behind what was printed before.
     void begin() { after_identifier_ = false; }
+    /// What stands before and behind a word that is not empty: with `names characters` it is one
+    /// text in back quotes. print() writes it, append() does not.
+    [[nodiscard]] std::string_view quote() const { return one_text_ ? "`" : ""; }
     /// Appends the text of `codes`; `parameters` holds exactly what they store.
     void append(std::span<const Code> codes, std::span<const float> parameters, std::string& out);
     /// Hands the text of a whole word to `flush` in pieces; false as soon as flush returns false.
@@ -52,6 +55,7 @@ private:
     using Sink = std::function<bool(std::string_view)>;
 
     void make_pairs();
+    [[nodiscard]] bool print_modules(const Word& word, const Sink& flush);
     [[nodiscard]] bool write_letters(std::span<const std::uint8_t> codes, const Sink& sink);
 
     template <typename C>
@@ -64,6 +68,7 @@ private:
     std::vector<Pair> pairs_;   // by after_identifier_, first and second code; empty: not made
     std::vector<char> buffer_;
     bool after_identifier_ = false;
+    bool one_text_ = false;
 };
 
 } // namespace lsys

@@ -45,7 +45,7 @@ SourceSpan module_name_span(const CheckInput& input, const ProgramWord& word, st
     const ProgramModule module = input.program.modules[index];
     const std::string_view text = input.sources.file(word.file).text();
     const std::string_view name = input.name(module.symbol);
-    const bool quoted = module.begin < text.size() && text[module.begin] == '`';
+    const bool quoted = module.begin < text.size() && text[module.begin] == '`' && name != "`";
     const auto length = static_cast<std::uint32_t>(name.size() + (quoted ? 2 : 0));
     return {word.file, module.begin, module.begin + length};
 }

@@ -54,7 +54,7 @@ void DeclarationResolver::object(const ObjectNode& node) {
         if (!check_bare(module, "#object")) {
             continue;
         }
-        if (is_structural(name)) {
+        if (is_structural(resolution_.program.settings.turtle, name)) {
             bad(module.name_span, fmt::format("`{}` cannot draw an object", name));
         } else if (binding) {
             bind(module, *binding);
@@ -144,7 +144,8 @@ void DeclarationResolver::ignore_module(const ModuleView& module,
     if (!check_bare(module, considers ? "#consider" : "#ignore")) {
         return;
     }
-    const SymbolKind kind = kind_of(resolution_.text(module.name));
+    const SymbolKind kind =
+        kind_of(resolution_.program.settings.turtle, resolution_.text(module.name));
     if (kind == SymbolKind::BranchOpen || kind == SymbolKind::BranchClose) {
         bad(module.name_span, considers
                                   ? "brackets count in any case: contexts follow the branches"

@@ -89,7 +89,8 @@ bool HeadResolver::pattern(ModuleList list, Part part, ProgramPattern& out) {
             fine = false;
             continue;
         }
-        const SymbolKind kind = kind_of(resolution_.text(module.name));
+        const SymbolKind kind =
+            kind_of(resolution_.program.settings.turtle, resolution_.text(module.name));
         if (kind == SymbolKind::BranchOpen || kind == SymbolKind::BranchClose) {
             fine = bracket(module, part, out) && fine;
             continue;
@@ -107,7 +108,8 @@ bool HeadResolver::pattern(ModuleList list, Part part, ProgramPattern& out) {
 }
 
 bool HeadResolver::bracket(const ModuleView& module, Part part, ProgramPattern& out) {
-    const bool opens = kind_of(resolution_.text(module.name)) == SymbolKind::BranchOpen;
+    const bool opens = kind_of(resolution_.program.settings.turtle,
+                               resolution_.text(module.name)) == SymbolKind::BranchOpen;
     if (part != Part::Right) {
         Diagnostic& error =
             resolution_.diagnostics.add(DiagnosticCode::BracketInHead, module.span,

@@ -24,6 +24,12 @@ constexpr TurtleCommand kSetWidth{"!", SetWidth, 2, "width, sides"};
 constexpr TurtleCommand kScaleStep{"\"", ScaleStep, 1, "factor of the step"};
 constexpr TurtleCommand kSetColour{"'", SetColour, 1, "index of a colour"};
 
+constexpr TurtleCommand kParameterBegin{"(", ParameterBegin, 0, ""};
+constexpr TurtleCommand kParameterEnd{")", ParameterEnd, 0, ""};
+constexpr TurtleCommand text(std::string_view name) {
+    return {name, Text, 0, ""};
+}
+
 constexpr TurtleCommand turn(std::string_view name, TurtleOperation operation) {
     return {name, operation, 1, "angle"};
 }
@@ -125,6 +131,8 @@ constexpr std::array kHoudini{
     kCut,
 };
 
+// A word of L3D is a text: a parenthesis behind a command holds its parameter, character by
+// character.
 constexpr std::array kL3d{
     length("F", Forward),
     length("f", Forward),
@@ -140,10 +148,20 @@ constexpr std::array kL3d{
     kTurnAround,
     kSave,
     kRestore,
-    kPolygonBegin,
-    kPolygonVertex,
-    kPolygonEnd,
-    kCut,
+    kParameterBegin,
+    kParameterEnd,
+    text(" "),
+    text("."),
+    text("0"),
+    text("1"),
+    text("2"),
+    text("3"),
+    text("4"),
+    text("5"),
+    text("6"),
+    text("7"),
+    text("8"),
+    text("9"),
 };
 
 constexpr std::array kLplus{
@@ -165,10 +183,32 @@ constexpr std::array kLplus{
     kTurnAround,
     kSave,
     kRestore,
-    kPolygonBegin,
-    kPolygonVertex,
-    kPolygonEnd,
+    kParameterBegin,
+    kParameterEnd,
+    text(" "),
+    text("."),
+    text("0"),
+    text("1"),
+    text("2"),
+    text("3"),
+    text("4"),
+    text("5"),
+    text("6"),
+    text("7"),
+    text("8"),
+    text("9"),
 };
+
+/// The same as the program has it, which takes pi for degrees.
+template <std::size_t size>
+constexpr std::array<TurtleCommand, size> of_program(std::array<TurtleCommand, size> commands) {
+    for (TurtleCommand& command : commands) {
+        command.operation = command.operation == TurnAround ? TurnByPi : command.operation;
+    }
+    return commands;
+}
+constexpr std::array kL3dProgram = of_program(kL3d);
+constexpr std::array kLplusProgram = of_program(kLplus);
 
 constexpr std::array kSys{
     TurtleCommand{"F", TaperedForward, 3, "length, base width, tip width"},
@@ -207,6 +247,10 @@ constexpr std::array kCarey{
     kPolygonEnd,
 };
 
+bool has_polygons(TurtleProfile profile) {
+    return find_turtle_command(profile, "{") != nullptr;
+}
+
 constexpr std::array<TurtleObject, 9> kObjects{{
     {"BRANCH", Branch},
     {"SPHERE", Sphere},
@@ -239,6 +283,10 @@ std::span<const TurtleCommand> turtle_commands(TurtleProfile profile) {
         return kSys;
     case TurtleProfile::Carey:
         return kCarey;
+    case TurtleProfile::L3dProgram:
+        return kL3dProgram;
+    case TurtleProfile::LplusProgram:
+        return kLplusProgram;
     }
     LSYS_CHECK(false, static_cast<int>(profile));
     return {};
@@ -253,20 +301,24 @@ const TurtleCommand* find_turtle_command(TurtleProfile profile, std::string_view
     return nullptr;
 }
 
-bool is_structural(std::string_view name) {
-    return name.size() == 1 && std::string_view("[]{}.").find(name) != std::string_view::npos;
+bool is_structural(TurtleProfile profile, std::string_view name) {
+    const std::string_view names = has_polygons(profile) ? "[]{}." : "[]";
+    return name.size() == 1 && names.find(name) != std::string_view::npos;
 }
 
 bool takes_no_parameters(std::string_view name) {
     return name.size() == 1 && std::string_view("[]{}.|$").find(name) != std::string_view::npos;
 }
 
-SymbolKind kind_of(std::string_view name) {
+SymbolKind kind_of(TurtleProfile profile, std::string_view name) {
     if (name == "[") {
         return SymbolKind::BranchOpen;
     }
     if (name == "]") {
         return SymbolKind::BranchClose;
+    }
+    if (!has_polygons(profile)) {
+        return SymbolKind::Plain;
     }
     if (name == "{") {
         return SymbolKind::PolygonOpen;

@@ -26,11 +26,12 @@ struct TurtleCommand {
 [[nodiscard]] const TurtleCommand* find_turtle_command(TurtleProfile profile,
                                                        std::string_view name);
 
-/// `[ ] { } .` mean the same in every profile; they take no parameters and no #object binds them.
-[[nodiscard]] bool is_structural(std::string_view name);
+/// `[ ]` mean the same in every profile, `{ } .` in all but those of L3D, which has no polygons;
+/// they take no parameters and no #object binds them.
+[[nodiscard]] bool is_structural(TurtleProfile profile, std::string_view name);
 /// Those of which LANGUAGE.md section 3 says that they take no parameters.
 [[nodiscard]] bool takes_no_parameters(std::string_view name);
-[[nodiscard]] SymbolKind kind_of(std::string_view name);
+[[nodiscard]] SymbolKind kind_of(TurtleProfile profile, std::string_view name);
 
 /// An object that #object can bind.
 struct TurtleObject {

@@ -51,23 +51,27 @@ constexpr std::array kCountKeys{
              "a whole number from 1 to 100,000"},
 };
 
-constexpr std::array<std::string_view, 8> kOtherKeys{"turtle",  "names",   "rewriting", "choice",
-                                                     "weights", "tropism", "seed",      "at_depth"};
+constexpr std::array<std::string_view, 9> kOtherKeys{
+    "turtle", "names", "rewriting", "choice", "weights", "random", "tropism", "seed", "at_depth"};
 
-constexpr std::array kTurtles{TurtleProfile::Lsys,    TurtleProfile::Thesis, TurtleProfile::Abop,
-                              TurtleProfile::Houdini, TurtleProfile::L3d,    TurtleProfile::Lplus,
-                              TurtleProfile::Sys,     TurtleProfile::Carey};
+constexpr std::array kTurtles{TurtleProfile::Lsys,       TurtleProfile::Thesis,
+                              TurtleProfile::Abop,       TurtleProfile::Houdini,
+                              TurtleProfile::L3d,        TurtleProfile::Lplus,
+                              TurtleProfile::Sys,        TurtleProfile::Carey,
+                              TurtleProfile::L3dProgram, TurtleProfile::LplusProgram};
 constexpr std::array kModes{RewritingMode::Parallel, RewritingMode::Sequential,
                             RewritingMode::Cyclic};
 constexpr std::array kScopes{ChoiceScope::Module, ChoiceScope::Generation};
 constexpr std::array kAtDepths{AtDepth::Error, AtDepth::Stop};
+constexpr std::array kSources{RandomSource::Philox, RandomSource::Glibc};
 constexpr std::array kWeights{WeightRule::One, WeightRule::Any};
 
-/// `names words` and `names letters`, which are read by the front end.
-enum class NameReading : std::uint8_t { Words, Letters };
-constexpr std::array kReadings{NameReading::Words, NameReading::Letters};
+/// What the front end reads.
+enum class NameReading : std::uint8_t { Words, Letters, Characters };
+constexpr std::array kReadings{NameReading::Words, NameReading::Letters, NameReading::Characters};
 std::string_view name_of(NameReading reading) {
-    return reading == NameReading::Words ? "words" : "letters";
+    constexpr std::array<std::string_view, 3> kNames{"words", "letters", "characters"};
+    return kNames[static_cast<std::size_t>(reading)];
 }
 
 } // namespace
@@ -108,6 +112,8 @@ void SetResolver::read_mode(const SetNode& node, std::string_view key) {
         choose(node, kModes, settings.rewriting);
     } else if (key == "choice") {
         choose(node, kScopes, settings.choice);
+    } else if (key == "random") {
+        choose(node, kSources, settings.random);
     } else if (key == "weights") {
         choose(node, kWeights, settings.weights);
     } else if (key == "at_depth") {
@@ -115,11 +121,12 @@ void SetResolver::read_mode(const SetNode& node, std::string_view key) {
     } else if (key == "names") {
         auto reading = NameReading::Words;
         choose(node, kReadings, reading);
-        if (reading == NameReading::Letters) {
+        if (reading != NameReading::Words) {
             resolution_.letter_files.push_back(node.key_span.file);
         }
         if (!resolution_.ast.files.empty() && node.key_span.file == resolution_.ast.files[0].file) {
-            settings.print_letters = reading == NameReading::Letters;
+            settings.print_letters = reading != NameReading::Words;
+            settings.print_characters = reading == NameReading::Characters;
         }
     } else {
         for (const std::string_view other : kOtherKeys) {

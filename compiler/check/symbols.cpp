@@ -47,7 +47,7 @@ SymbolId SymbolTable::make(NameId name, std::uint32_t parameter_count) {
     Symbol symbol;
     symbol.name = name;
     symbol.parameter_count = parameter_count;
-    symbol.kind = parameter_count == 0 ? kind_of(text) : SymbolKind::Plain;
+    symbol.kind = parameter_count == 0 ? kind_of(program.settings.turtle, text) : SymbolKind::Plain;
     symbol.ignored = is_ignored(name) && symbol.kind != SymbolKind::BranchOpen &&
                      symbol.kind != SymbolKind::BranchClose;
     const auto binding = bindings_.find(static_cast<std::uint32_t>(name));

@@ -13,9 +13,11 @@ PlaceWriter::PlaceWriter(const Program& program,
     : program_(program), sources_(sources), runs_(bytecode.template_places) {
     spellings_.reserve(program.symbols.size());
     for (const Symbol& symbol : program.symbols) {
+        const std::string_view name = names.text(symbol.name);
         spellings_.push_back(
-            {static_cast<std::uint32_t>(names.text(symbol.name).size()),
-             symbol.parameter_count != 0 && symbol.turtle != TurtleOperation::SaveBranch});
+            {static_cast<std::uint32_t>(name.size()),
+             symbol.parameter_count != 0 && symbol.turtle != TurtleOperation::SaveBranch,
+             name != "`"});
     }
 }
 
@@ -49,7 +51,8 @@ bool PlaceWriter::move_to(std::uint32_t offset) {
 std::uint32_t PlaceWriter::length_of(const ProgramModule& module) const {
     constexpr std::uint32_t kQuotes = 2;
     const Spelling& spelling = spellings_[static_cast<std::size_t>(module.symbol)];
-    const std::uint32_t name = spelling.length + (text_[module.begin] == '`' ? kQuotes : 0);
+    const std::uint32_t name =
+        spelling.length + (spelling.may_be_quoted && text_[module.begin] == '`' ? kQuotes : 0);
     if (!spelling.has_arguments) {
         return name;
     }

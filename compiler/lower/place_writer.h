@@ -31,6 +31,7 @@ private:
     struct Spelling {
         std::uint32_t length = 0; // of the name
         bool has_arguments = false;
+        bool may_be_quoted = true; // no back quote itself
     };
 
     const Program& program_;

@@ -100,7 +100,7 @@ private:
                 out_ += ' ';
             }
             const std::string_view name = names_.text(program_.symbol(module.symbol).name);
-            const bool quoted = text[module.begin] == '`';
+            const bool quoted = text[module.begin] == '`' && name != "`";
             end = module.begin + static_cast<std::uint32_t>(name.size()) + (quoted ? 2U : 0U);
             if (program_.symbol(module.symbol).parameter_count != 0) {
                 end = static_cast<std::uint32_t>(end_of_arguments(text, end));

@@ -164,7 +164,8 @@ Translation translate_carey(FileId root, const ParseContext& context) {
     std::map<std::string, std::size_t> alternatives;
     bool any_choice = false;
     for (const CareyRule& rule : session.rules) {
-        any_choice = ++alternatives[without_blanks(context.sources.text(rule.left))] > 1 || any_choice;
+        any_choice =
+            ++alternatives[without_blanks(context.sources.text(rule.left))] > 1 || any_choice;
     }
     Translation translation(root);
     translation.put("#set turtle carey;\n#set names letters;\n#set rewriting cyclic;\n");

@@ -164,7 +164,11 @@ void LexemeReader::module() {
     if (is_letter(c)) {
         take(LexemeKind::Module, word_length(at_));
     } else if (c == '`') {
-        const std::size_t end = text_.find('`', at_ + 1);
+        // Side by side they are one text, or modules that stay side by side.
+        std::size_t end = text_.find('`', at_ + 1);
+        while (end != text_.npos && end + 1 < text_.size() && text_[end + 1] == '`') {
+            end = text_.find('`', end + 2);
+        }
         take(LexemeKind::Module, end == text_.npos ? rest() : end + 1 - at_);
     } else if (c == '(') {
         take(LexemeKind::Open, 1);

@@ -14,7 +14,7 @@ void parse_text(const PlainText& plain,
                 Ast& ast,
                 IncludeChain& includes) {
     ParseSession session(context, plain.scanned, ast, &includes);
-    session.builder.set_letters(plain.letters);
+    session.builder.set_names(plain.names);
     const lsys_grammar::Scanning scanning(session);
     lsys_grammar::Parser parser(session, scanning.scanner());
     const int failed = parser.parse();

@@ -153,6 +153,21 @@ bool is_colour_symbol(ParseSession& session) {
     return true;
 }
 
+void check_quoted_text(ParseSession& session, std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const CodePoint point = decode_utf8(text.substr(at));
+        if ((point.value < 0x20 || (point.value >= 0x7F && point.value <= 0xA0)) &&
+            session.wants(DiagnosticCode::BadQuotedName)) {
+            const auto begin = session.scan.begin + static_cast<std::uint32_t>(at);
+            session.context.diagnostics.add(DiagnosticCode::BadQuotedName,
+                                            session.scanned.span(begin, begin + point.length),
+                                            "a control character is no module");
+            return;
+        }
+        at += point.length;
+    }
+}
+
 NameId quoted_name(ParseSession& session, std::string_view text, SourceSpan span) {
     const std::string_view name = text.substr(1, text.size() - 2);
     std::size_t count = 0;

@@ -28,6 +28,8 @@ void report_extra_parenthesis(ParseSession& session);
 /// Whether the `;` at hand is a module of other programs, `;(0.9)`; reported.
 bool is_colour_symbol(ParseSession& session);
 
+/// Reports what is no character of a text whose characters are modules; `text` has the quotes.
+void check_quoted_text(ParseSession& session, std::string_view text);
 /// The name in back quotes; `text` has the quotes.
 NameId quoted_name(ParseSession& session, std::string_view text, SourceSpan span);
 void report_unclosed_back_quote(ParseSession& session);

@@ -75,23 +75,25 @@ void scan_all(ParseSession& session) {
     }
 }
 
-/// Whether the first `#set names` of the text says `letters`.
-bool sets_letters(const ScannedText& scanned, const ParseContext& context) {
+/// What the first `#set names` of the text says.
+ModuleNames names_of(const ScannedText& scanned, const ParseContext& context) {
     using Kind = lsys_grammar::Parser::symbol_kind;
-    if (scanned.text.find("letters") == std::string_view::npos) {
-        return false;
+    if (scanned.text.find("letters") == std::string_view::npos &&
+        scanned.text.find("characters") == std::string_view::npos) {
+        return ModuleNames::Words;
     }
     Scratch scratch(context);
     ParseSession session(scratch.context, scanned, scratch.ast, nullptr);
     session.silent = true;
     const NameId names = scratch.names.intern("names");
     const NameId letters = scratch.names.intern("letters");
+    const NameId characters = scratch.names.intern("characters");
     lsys_grammar::Scanning scanning(session);
     int matched = 0; // of: SET names
     while (true) {
         const auto token = lsys_grammar::next_token(session, scanning.scanner());
         if (token.kind() == Kind::S_YYEOF) {
-            return false;
+            return ModuleNames::Words;
         }
         if (token.kind() == Kind::S_SET) {
             matched = 1;
@@ -100,7 +102,9 @@ bool sets_letters(const ScannedText& scanned, const ParseContext& context) {
         } else {
             const auto word = token.value.name;
             if (matched == 2) {
-                return word == letters;
+                return word == letters      ? ModuleNames::Letters
+                       : word == characters ? ModuleNames::Characters
+                                            : ModuleNames::Words;
             }
             matched = word == names ? 2 : 0;
         }
@@ -131,7 +135,7 @@ PlainText make_plain(FileId file, const ParseContext& context, bool silent) {
             plain.scanned.map = plain.map.get();
         }
     }
-    plain.letters = sets_letters(plain.scanned, context);
+    plain.names = names_of(plain.scanned, context);
     return plain;
 }
 
@@ -139,7 +143,7 @@ PlainText make_plain(const Translation& translation, const ParseContext& context
     PlainText plain;
     plain.scanned = {translation.file(), context.sources.file(translation.file()).text(),
                      translation.text(), nullptr, &translation};
-    plain.letters = sets_letters(plain.scanned, context);
+    plain.names = names_of(plain.scanned, context);
     return plain;
 }
 

@@ -16,8 +16,8 @@ struct PlainText {
     std::string own;
     std::unique_ptr<TextMap> map;
     ScannedText scanned;
-    /// `#set names letters` stands in the file, and no other `#set names` before it.
-    bool letters = false;
+    /// What the first `#set names` of the file says.
+    ModuleNames names = ModuleNames::Words;
 };
 
 /// Reports to the context's diagnostics unless `silent`. The result holds views of the file's text.

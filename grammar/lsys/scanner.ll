@@ -359,6 +359,11 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
   "`"[^`\n\0]*"`"       {
                           replace_in_quotes(session, TEXT);
                           const SourceSpan span = session.token();
+                          if (session.builder.module_names() == ModuleNames::Characters &&
+                              scan.part != Part::ObjectName) {
+                              check_quoted_text(session, TEXT);
+                              return Token(Parser::token::TOK_TEXT, {scan.begin, scan.end}, span);
+                          }
                           const NameId name = quoted_name(session, TEXT, span);
                           if (scan.part == Part::ObjectName) {
                               scan.enter(Part::ObjectValue);

@@ -26,12 +26,19 @@ struct TextRange {
     std::uint32_t end = 0;
 };
 
+/// `#set names`: what a module name is.
+enum class ModuleNames : std::uint8_t {
+    Words,
+    Letters,    // every letter is a module
+    Characters, // and so is every character of a text in back quotes
+};
+
 class AstBuilder {
 public:
     AstBuilder(const ScannedText& scanned, Ast& ast, Names& names, Diagnostics& diagnostics);
 
-    /// Every letter of a module name is a module (`#set names letters`).
-    void set_letters(bool letters) { letters_ = letters; }
+    void set_names(ModuleNames names) { module_names_ = names; }
+    [[nodiscard]] ModuleNames module_names() const { return module_names_; }
 
     NameId intern(std::string_view name) { return names_.intern(name); }
 
@@ -60,6 +67,9 @@ public:
     [[nodiscard]] ModuleList modules(ModuleList list, TextRange run);
     /// Appends one module of any name, as one in back quotes.
     [[nodiscard]] ModuleList quoted_module(ModuleList list, NameId name, SourceSpan span);
+    /// Appends the characters of a text in back quotes, each a module. Two texts side by side have
+    /// a back quote between them.
+    [[nodiscard]] ModuleList quoted_text(ModuleList list, TextRange quoted);
     /// Gives the last module of `list`, which ends with its name, the last `count` arguments;
     /// `parentheses` goes from `(` to `)`.
     [[nodiscard]] ModuleList
@@ -127,6 +137,7 @@ private:
     std::uint32_t read_plain_arguments(std::uint32_t open, std::uint32_t name_end);
     ExpressionId plain_number(std::uint32_t begin, std::uint32_t end);
     void push_letters(TextRange word);
+    void push_character(std::string_view character, std::uint32_t begin);
     NameId intern_word(std::string_view word);
     void count_bracket(char bracket, SourceSpan span);
     void check_stray_comment(std::uint32_t slashes);
@@ -136,7 +147,8 @@ private:
     Ast& ast_;
     Names& names_;
     Diagnostics& diagnostics_;
-    bool letters_ = false;
+    ModuleNames module_names_ = ModuleNames::Words;
+    std::uint32_t text_end_ = 0; // of the last text in back quotes, in the scanned text
 
     std::array<NameId, 128> single_; // names of one character, once met
     struct CachedWord {

@@ -4,6 +4,7 @@
 #include "grammar/session/ast_builder.h"
 #include "grammar/session/number.h"
 #include "grammar/session/reports.h"
+#include "grammar/utf8.h"
 
 namespace lsys {
 
@@ -62,12 +63,13 @@ ModuleList AstBuilder::modules(ModuleList list, TextRange run) {
             at = read_plain_arguments(at, name_end);
             continue;
         case CharacterClass::Letter:
-            if ((at + 1 < run.end && is_word(text[at + 1])) || (letters_ && c == '_')) {
+            if ((at + 1 < run.end && is_word(text[at + 1])) ||
+                (module_names_ != ModuleNames::Words && c == '_')) {
                 std::uint32_t end = at + 1;
                 while (end < run.end && is_word(text[end])) {
                     ++end;
                 }
-                if (letters_) {
+                if (module_names_ != ModuleNames::Words) {
                     push_letters({at, end});
                 } else {
                     push_module(intern_word(text.substr(at, end - at)), at);
@@ -137,6 +139,38 @@ ModuleList AstBuilder::quoted_module(ModuleList list, NameId name, SourceSpan sp
         count_bracket(text[0], span);
     }
     ast_.modules.push_back({static_cast<std::uint32_t>(name), span.begin});
+    list.span = list.count == 0 ? span : join(list.span, span);
+    list.count = static_cast<std::uint32_t>(ast_.modules.size()) - list.first;
+    return list;
+}
+
+/// `character`: one, which stands for what is at `begin`.
+void AstBuilder::push_character(std::string_view character, std::uint32_t begin) {
+    if (character.size() > 1) {
+        push_module(names_.intern(character), begin);
+        return;
+    }
+    if (character == "[" || character == "]") {
+        count_bracket(character[0], scanned_.span(begin, begin + 1));
+    }
+    NameId& name = single_[static_cast<unsigned char>(character[0]) & 0x7Fu];
+    if (name > kNoName) {
+        name = names_.intern(character);
+    }
+    push_module(name, begin);
+}
+
+ModuleList AstBuilder::quoted_text(ModuleList list, TextRange quoted) {
+    if (list.count != 0 && quoted.begin == text_end_) {
+        push_character("`", quoted.begin);
+    }
+    for (std::uint32_t at = quoted.begin + 1; at + 1 < quoted.end;) {
+        const std::uint32_t length = decode_utf8(scanned_.text.substr(at)).length;
+        push_character(scanned_.text.substr(at, length), at);
+        at += length;
+    }
+    text_end_ = quoted.end;
+    const SourceSpan span = scanned_.span(quoted.begin, quoted.end);
     list.span = list.count == 0 ? span : join(list.span, span);
     list.count = static_cast<std::uint32_t>(ast_.modules.size()) - list.first;
     return list;

@@ -87,7 +87,7 @@ Status dump_syntax(const DumpCommand& command, const Console& console) {
     Diagnostics diagnostics;
     const FileId root = sources.add(shown_path(command.file), std::move(grammar.value().bytes));
     const FileLoader load = make_loader(console);
-    const ParseContext context{sources, names, diagnostics, load};
+    const ParseContext context{sources, names, diagnostics, load, command.grammar.bug_compatible};
     const std::string text = command.stage == Stage::Tokens
                                  ? dump_tokens(sources.file(root))
                                  : dump_ast(parse_dialect(root, dialect, context), names, sources);

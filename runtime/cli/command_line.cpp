@@ -79,6 +79,10 @@ void add_grammar(CLI::App& app, GrammarOptions& options) {
         ->allow_extra_args(false)
         ->group("Grammar");
     add_dialect(app, options.dialect);
+    app.add_flag("--bug-compatible", options.bug_compatible,
+                 "Keep the bugs of the program that owns the dialect (l3d, lplus), its random "
+                 "numbers and surfaces too")
+        ->group("Grammar");
     add_parsed(app, "--max-modules", options.max_modules,
                whole(1, std::numeric_limits<std::uint64_t>::max()),
                "The most modules a word may have (default 4294967296)")

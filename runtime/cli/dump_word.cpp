@@ -298,10 +298,13 @@ Status dump_streamed(const DumpCommand& command,
         WordPrinter printer(bytecode);
         ModuleLines lines(bytecode);
         std::string text;
+        bool begun = false; // the word has a module
         const auto print = [&](const StreamChunk& chunk) {
             if (command.origins) {
                 lines.append(chunk, text);
             } else {
+                text += begun || chunk.codes.empty() ? "" : printer.quote();
+                begun = begun || !chunk.codes.empty();
                 printer.append(chunk.codes, chunk.parameters, text);
             }
             if (text.size() < kPieceOfText) {
@@ -312,6 +315,7 @@ Status dump_streamed(const DumpCommand& command,
             return fine && !console.interrupted();
         };
         const Status status = stream(plan, grammar, console, print, outcome);
+        text += begun ? printer.quote() : "";
         text += command.origins ? "" : "\n";
         if (status == Status::Fine) {
             static_cast<void>(writer.write(text));

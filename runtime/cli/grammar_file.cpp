@@ -133,7 +133,8 @@ Result<Done> compile_text(const std::string& path,
         return load(wanted);
     };
     Ast ast = parse_dialect(root, text.dialect,
-                            {grammar.sources, grammar.names, grammar.diagnostics, load_included},
+                            {grammar.sources, grammar.names, grammar.diagnostics, load_included,
+                             options.bug_compatible},
                             &grammar.translation);
     const bool foreign = text.dialect != Dialect::Lsys;
     if (foreign && grammar.diagnostics.has_errors()) {

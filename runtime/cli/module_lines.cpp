@@ -12,7 +12,9 @@ void ModuleLines::append(const StreamChunk& piece, std::string& text) {
     for (std::size_t i = 0; i < piece.codes.size(); ++i) {
         const std::uint32_t stored = bytecode_.stored_parameters(piece.codes[i]);
         modules_.begin();
+        text += modules_.quote();
         modules_.append(piece.codes.subspan(i, 1), parameters.first(stored), text);
+        text += modules_.quote();
         parameters = parameters.subspan(stored);
         text += ' ';
         origins_.append(piece.origins[i], text);

@@ -30,6 +30,7 @@ struct MessageOptions {
 /// How a grammar is read and compiled.
 struct GrammarOptions {
     std::string dialect; // empty: by what the file holds, else by its extension
+    bool bug_compatible = false;
     std::vector<Definition> definitions;
     std::optional<std::uint32_t> generations; // -n
     std::uint64_t max_modules = std::uint64_t{1} << 32;

@@ -49,6 +49,9 @@ Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generat
     : bytecode_(bytecode), inputs_(inputs), each_generation_(each_generation),
       productions_(bytecode.of(stage)),
       parallel_(stage != Stage::Rewrite || bytecode.settings.rewriting == RewritingMode::Parallel) {
+    if (bytecode.settings.random == RandomSource::Glibc) {
+        dice_.emplace(bytecode, inputs.seed);
+    }
     make_codes();
     make_families();
     make_guards();
@@ -322,6 +325,9 @@ void Plan::reset_row(Code code) {
 void Plan::prepare(std::uint32_t generation) {
     LSYS_CHECK(each_generation_);
     generation_ = generation;
+    if (dice_) {
+        dice_->roll(generation);
+    }
     for (const std::uint32_t index : varying_families_) {
         families_[index].current = false;
         if (parallel_) {
@@ -345,6 +351,9 @@ void Plan::select_rule(std::uint32_t rule) {
 }
 
 float Plan::rule_draw(std::uint32_t rule, std::uint32_t generation) const {
+    if (dice_) {
+        return dice_->draw(rule, generation);
+    }
     const std::uint64_t position = ~std::uint64_t{0} - rule;
     return unit_interval(draw_block(inputs_.seed, generation, position, 0)[0]);
 }

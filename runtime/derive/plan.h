@@ -14,6 +14,7 @@
 
 #include "compiler/bytecode.h"
 #include "runtime/derive/folded_index.h"
+#include "runtime/derive/rule_dice.h"
 #include "runtime/expressions/eval.h"
 #include "runtime/expressions/shape.h"
 
@@ -235,6 +236,7 @@ private:
     TableRange productions_;
     bool parallel_; // a family holds all productions of its symbol
     std::uint32_t generation_ = 0;
+    std::optional<RuleDice> dice_; // with `random glibc`
     std::vector<Row> rows_;
     std::vector<Entry> entries_;
     std::vector<Lane> lanes_;

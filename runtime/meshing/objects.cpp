@@ -130,8 +130,14 @@ void append_objects(const Skeleton& skeleton,
                     const std::vector<UserMesh>& user_meshes,
                     const MeshOptions& options,
                     MeshBuilder& builder) {
+    // Leaves of the program L3D are drawn with its segments.
+    const auto is_drawn = [&](const PlacedObject& object) {
+        return !(skeleton.of_program && options.method == MeshMethod::Tubes &&
+                 object.kind == TurtleOperation::Leaf);
+    };
     const Groups groups = group_items(skeleton.objects.size(), [&](std::uint64_t i) {
-        return key_of(skeleton.objects[i], user_meshes.size());
+        return is_drawn(skeleton.objects[i]) ? key_of(skeleton.objects[i], user_meshes.size())
+                                             : kNoGroup;
     });
     Workers workers(options.threads);
     Shape shape;

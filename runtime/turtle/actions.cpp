@@ -13,7 +13,8 @@ constexpr double kHalfDegree = std::numbers::pi / 360.0;
 /// Profiles whose leaves are copied to the place of the turtle, which stays there.
 bool leaves_stay(TurtleProfile profile) {
     return profile == TurtleProfile::Houdini || profile == TurtleProfile::L3d ||
-           profile == TurtleProfile::Lplus || profile == TurtleProfile::Carey;
+           profile == TurtleProfile::Lplus || profile == TurtleProfile::Carey ||
+           is_of_program(profile);
 }
 
 /// Rotations against the sense of yaw(), pitch() and roll().
@@ -30,6 +31,7 @@ QuickAction quick_action(const Action& action, bool angle_is_constant) {
     };
     switch (action.operation) {
     case TurtleOperation::Nothing:
+    case TurtleOperation::Text:
         return QuickAction::Nothing;
     case TurtleOperation::YawRight:
     case TurtleOperation::YawLeft:
@@ -57,6 +59,7 @@ Action action_of(const BytecodeSymbol& symbol, TurtleProfile profile) {
     action.operation = symbol.turtle;
     action.given = static_cast<std::uint8_t>(std::min(symbol.parameter_count, kTurtleArguments));
     action.advances = !(symbol.turtle == TurtleOperation::Leaf && leaves_stay(profile));
+    action.character = symbol.name.size() == 1 ? symbol.name[0] : '\0';
     action.unit_length = symbol.turtle == TurtleOperation::Disk ? 0.0F : 1.0F;
     return action;
 }
@@ -92,6 +95,7 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
             action.unit_length = i < options.mesh_lengths.size() ? options.mesh_lengths[i] : 1.0F;
             table.mesh_files.push_back(symbol.mesh_file);
         }
+        table.reads_text = table.reads_text || symbol.turtle == TurtleOperation::ParameterBegin;
         of_symbol.push_back(action);
     }
     table.by_code.reserve(bytecode.code_count());

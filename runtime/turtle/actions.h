@@ -33,11 +33,13 @@ struct Action {
     HalfAngle turn;                                  // rotations by a constant angle, signed
     float unit_length = 1.0F;                        // objects
     std::uint32_t mesh_file = 0;                     // in Skeleton::mesh_files
+    char character = '\0';                           // of a module whose name is one
 };
 
 struct ActionTable {
     std::vector<Action> by_code;
     std::vector<std::string> mesh_files;
+    bool reads_text = false; // a parenthesis may hold a parameter
 };
 
 /// Precondition: verified bytecode.

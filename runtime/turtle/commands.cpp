@@ -51,6 +51,7 @@ bool Turtle::State::forward(const Action& action, const float* arguments, float 
     const float length = (action.given > 0 ? arguments[0] : now.step) * part;
     const float spring = action.given > 1 ? arguments[1] : bytecode.settings.spring;
     const float width = relative ? 2.0F * std::abs(length) * now.width : now.width;
+    now.sides = of_program ? program_sides(now.width) : now.sides;
     polygons.path(now.pose);
     if (!draw(static_cast<double>(length), width, width * now.taper, spring,
               action.given > 2 ? arguments + 2 : nullptr)) {
@@ -248,6 +249,9 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
     };
     switch (action.operation) {
     case TurtleOperation::Nothing:
+    case TurtleOperation::ParameterBegin:
+    case TurtleOperation::ParameterEnd:
+    case TurtleOperation::Text:
         return true;
     case TurtleOperation::Forward:
     case TurtleOperation::Branch:
@@ -285,6 +289,9 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
         return true;
     case TurtleOperation::TurnAround:
         yaw(now.pose, {0.0, 1.0});
+        return true;
+    case TurtleOperation::TurnByPi:
+        yaw(now.pose, inverse(half_angle(std::numbers::pi)));
         return true;
     case TurtleOperation::RollAround:
         roll(now.pose, {0.0, 1.0});

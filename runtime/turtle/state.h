@@ -13,6 +13,7 @@
 #include <limits>
 #include <new>
 #include <numbers>
+#include <string>
 #include <utility>
 
 namespace lsys {
@@ -24,7 +25,14 @@ inline constexpr float kRelativeTaper = 0.95F;
 inline constexpr float kPercent = 0.01F;
 
 [[nodiscard]] inline bool is_relative(TurtleProfile profile) {
-    return profile == TurtleProfile::L3d || profile == TurtleProfile::Lplus;
+    return profile == TurtleProfile::L3d || profile == TurtleProfile::Lplus ||
+           is_of_program(profile);
+}
+
+/// Sides of a segment as the program L3D has them: by the radius as a part of the length.
+[[nodiscard]] inline std::uint8_t program_sides(float thickness) {
+    const auto value = static_cast<double>(thickness);
+    return value < 0.2 ? 20 : value < 0.4 ? 40 : value < 0.6 ? 60 : value < 0.8 ? 80 : 100;
 }
 
 /// What `[` saves beside the pose.
@@ -40,6 +48,19 @@ struct Brush {
     bool moved = false; // since the segment was drawn
 };
 
+/// Where words are texts: the last command, which is obeyed when what follows is known, and the
+/// text of its parameter.
+struct PendingCommand {
+    static constexpr std::size_t kLongest = 1023;
+    bool there = false;
+    bool in_parameter = false;
+    Action action;
+    std::uint64_t position = 0;
+    Code code = 0;
+    Origin origin;
+    std::string text;
+};
+
 /// Two parts that are copied apart, since one of them lives in registers.
 struct TurtleState : Brush {
     Pose pose;
@@ -53,6 +74,8 @@ struct Turtle::State {
         interprets = program.has(Stage::Interpret);
         relative = is_relative(settings.turtle);
         has_tropism = settings.has_tropism;
+        of_program = is_of_program(settings.turtle);
+        skeleton.of_program = of_program;
         begin();
     }
 
@@ -85,6 +108,11 @@ struct Turtle::State {
     template <bool kOrigins, typename C>
     TurtleStatus
     run_some(std::span<const C> codes, const float*& parameters, const Origin* origins);
+    template <typename C>
+    TurtleStatus
+    run_text(std::span<const C> codes, const float*& parameters, const Origin* origins);
+    bool take_character(const Action& action, Code character, const float* arguments);
+    bool obey_pending();
     bool take_origin(const Origin& origin);
     /// False: the drawing has ended as `status`.
     bool obey(const Action& action, const float* arguments);
@@ -148,7 +176,10 @@ struct Turtle::State {
     bool interprets = false;
     std::unique_ptr<Interpretation> interpretation; // made with the first piece
     std::vector<Code> piece;                        // of a word of narrow codes
-    bool relative = false;                          // widths are factors of the length
+    PendingCommand pending;
+    bool keeps_origins = false; // of words that are texts
+    bool relative = false;      // widths are factors of the length
+    bool of_program = false;    // what the program L3D has of its own is done
     bool has_tropism = false;
     // The last segment whose mass was worked out.
     double massed_length = -1.0;

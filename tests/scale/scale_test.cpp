@@ -207,6 +207,20 @@ std::map<std::string, Case> cases() {
                                "foreign-syntax"};
     all["carey-garbage-10mb"] = {repeated("axiom: F\n", "a=(\xFF(:@\n:", 1'000'000, ""), carey, 1,
                                  "foreign-syntax"};
+    const std::vector<std::string> l3d{"check", "--dialect", "l3d", "%"};
+    all["l3d-line-10mb"] = {repeated("1\n30\n20\nA\nA=", "F+(20) [`A]", 1'000'000, "\n@\n"), l3d, 0,
+                            ""};
+    all["l3d-blanks-10mb"] = {repeated("1\n30\n20\nFA\nA=F", "     (", 1'700'000, "\n@\n"), l3d, 0,
+                              "foreign-quirk"};
+    all["l3d-zeros-10mb"] = {repeated("1\n30\n20\nF", std::string(1, '\0'), 10'000'000, ""), l3d, 1,
+                             "foreign-syntax"};
+    all["l3d-rules"] = {[](const std::string& path) {
+                            write_lines(path, "1\n30\n20\nF\n", 200'000, [](std::uint64_t i) {
+                                return "A" + std::to_string(i) + "=F\n";
+                            });
+                            std::ofstream(path, std::ios::app) << "@\n";
+                        },
+                        l3d, 0, ""};
     all["nested-word"] = {
         repeated("#n = 5000;\n#w : A;\n#p : A : * : [A];\n#q : F < A : * : A;\n", " ", 1, ""),
         {"dump", "--count", "%"},
