@@ -423,7 +423,7 @@ Derivation derive(const Grammar& grammar, const Request& request) {
             static_cast<std::uint32_t>(std::strtoul(depth->c_str(), nullptr, 10));
     }
     const std::string turtle = setting(grammar, "turtle").value_or("lsys");
-    system.cuts = turtle != "lplus" && turtle != "sys";
+    system.cuts = turtle == "lsys" || turtle == "thesis" || turtle == "abop" || turtle == "houdini";
     try {
         const Start start(grammar, request, system);
         system.steps = request.generations.value_or(start.generations());
