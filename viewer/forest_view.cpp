@@ -291,14 +291,15 @@ void ForestView::list_branches(const RingOptions& options) {
         }
         total += span.count;
     }
+    // Finer levels first: they are nearer, and hide what comes behind.
     std::uint32_t first = 0;
-    std::size_t mesh = 0;
-    for (std::uint32_t f = 0; f < model_.forms.size(); ++f) {
-        const TreeForm& form = model_.forms[f];
-        for (std::uint32_t level = 0; level < kTreeLevels; ++level) {
-            for (std::uint32_t i = 0; i < form.cache->instances.size(); ++i, ++mesh) {
-                const std::uint32_t count = mesh_counts_[mesh];
-                mesh_counts_[mesh] = first; // where its list goes on
+    for (std::uint32_t level = 0; level < kTreeLevels; ++level) {
+        for (std::uint32_t f = 0; f < model_.forms.size(); ++f) {
+            const TreeForm& form = model_.forms[f];
+            const auto instances = static_cast<std::uint32_t>(form.cache->instances.size());
+            for (std::uint32_t i = 0; i < instances; ++i) {
+                std::uint32_t& place = mesh_counts_[first_mesh_[f] + level * instances + i];
+                const std::uint32_t count = std::exchange(place, first); // where its list goes on
                 if (count != 0) {
                     lists_.runs.push_back({f, level, i, first, count});
                     lists_.triangles += std::uint64_t{count} * form.mesh_triangles[level][i];

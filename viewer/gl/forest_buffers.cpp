@@ -31,9 +31,12 @@ struct Vertex {
 static_assert(sizeof(Vertex) == 16);
 
 struct Look {
-    glm::vec4 colour{};
-    std::array<std::uint32_t, 4> kind{};
+    glm::vec3 colour{};
+    std::uint32_t kind = 0; // kTextured, kThrough
 };
+static_assert(sizeof(Look) == 16);
+constexpr std::uint32_t kTextured = 1; // what branch.frag.glsl asks for
+constexpr std::uint32_t kThrough = 2;
 
 struct FormRecord {
     glm::vec4 cylinder{};
@@ -100,13 +103,11 @@ std::vector<std::uint16_t> add_looks(const std::vector<Material>& materials,
     std::vector<std::uint16_t> numbers;
     for (const Material& material : materials) {
         Look look;
-        look.colour = material.colour;
-        look.kind[0] = material.textured ? 1 : 0;
+        look.colour = glm::vec3(material.colour);
         // Leaves, petals, and meshes of files that are seen from both sides: most are leaves.
-        look.kind[1] = material.two_sided || material.kind == MaterialKind::Leaf ||
-                               material.kind == MaterialKind::Flower
-                           ? 1
-                           : 0;
+        const bool is_through = material.two_sided || material.kind == MaterialKind::Leaf ||
+                                material.kind == MaterialKind::Flower;
+        look.kind = (material.textured ? kTextured : 0) | (is_through ? kThrough : 0);
         const auto same = std::find_if(looks.begin(), looks.end(), [&](const Look& other) {
             return other.colour == look.colour && other.kind == look.kind;
         });

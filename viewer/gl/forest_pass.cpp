@@ -52,8 +52,8 @@ Result<Done> ForestPass::reload(const ShaderSource& shaders) {
     };
     constexpr std::array<Wanted, 5> kWanted = {
         {{&Programs::solid, "branch.vert.glsl", "branch.frag.glsl", "#define ONE_TAP\n"},
-         {&Programs::cut_out, "branch.vert.glsl", "branch.frag.glsl",
-          "#define ONE_TAP\n#define CUT_OUT\n"},
+         {&Programs::cut_out, "branch.vert.glsl", "leaf.frag.glsl",
+          "#define ONE_TAP\n#define CUT_OUT\n#define LIT_AT_CORNERS\n"},
          {&Programs::impostor, "impostor.vert.glsl", "impostor.frag.glsl", "#define ONE_TAP\n"},
          {&Programs::impostor_depth, "impostor.vert.glsl", "impostor.frag.glsl", "#define DEPTH\n"},
          {&Programs::impostor_shadow, "impostor.vert.glsl", "impostor.frag.glsl",

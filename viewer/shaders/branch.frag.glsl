@@ -1,18 +1,13 @@
 #include "light.glsl"
-// What parts of a tree look like; the C++ side is gl/forest_buffers.h.
-struct Look {
-    vec4 colour;
-    uvec4 kind; // textured, of light through it
-};
-layout(std430, binding = 3) readonly buffer Looks { Look looks[]; };
 layout(binding = 1) uniform sampler2D bark_texture;
 layout(binding = 2) uniform sampler2D leaf_texture;
-in vec3 place;
 in vec3 across;
 in vec2 uv;
-flat in uint look;
+flat in vec3 tint;
+flat in uint kind; // bits: 1 textured, 2 of light through it
 in vec3 part;
 #ifdef PORTRAIT
+in vec3 place;
 // Seen from outside, for impostors: what light does is not known yet.
 layout(location = 2) uniform vec4 middle; // of the picture, m; its depth
 layout(location = 3) uniform vec3 to_eye;
@@ -25,11 +20,13 @@ vec2 folded(vec3 n) {
     return 0.5 * e + 0.5;
 }
 #else
+in vec3 sun_map;
+in vec2 air;
 out vec4 colour;
 #endif
 void main() {
-    Look of = looks[look];
-    vec3 albedo = of.colour.rgb;
+    vec3 albedo = tint;
+    bool is_through = (kind & 2u) != 0u;
 #ifdef CUT_OUT
     vec4 texel = texture(leaf_texture, uv);
     if (texel.a < 0.5) {
@@ -37,7 +34,7 @@ void main() {
     }
     albedo *= texel.rgb;
 #else
-    if (of.kind.x != 0u) {
+    if ((kind & 1u) != 0u) {
         albedo *= texture(bark_texture, uv).rgb;
     }
 #endif
@@ -48,13 +45,14 @@ void main() {
 #ifdef PORTRAIT
     albedo_out = vec4(sqrt(albedo), 1.0);
     float depth = dot(place - middle.xyz, to_eye) / middle.w;
-    normal_out = vec4(folded(normal), 0.5 + 0.5 * depth, of.kind.y != 0u ? 1.0 : 0.0);
+    normal_out = vec4(folded(normal), 0.5 + 0.5 * depth, is_through ? 1.0 : 0.0);
 #else
-    if (of.kind.y != 0u) {
+    if (is_through) {
         normal = leaf_normal(normal, part);
     }
-    float lit = sunlight(place, normal, sun_within(part));
-    float through = of.kind.y != 0u ? 0.5 : 0.0;
-    colour = displayed(seen(shade_within(albedo, normal, lit, through, openness(part)), place));
+    float lit = sunlight_at(sun_map, sun_within(part));
+    float through = is_through ? 0.5 : 0.0;
+    colour =
+        displayed(through_air(shade_within(albedo, normal, lit, through, openness(part)), air));
 #endif
 }

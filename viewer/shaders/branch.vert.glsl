@@ -1,33 +1,69 @@
+#include "light.glsl"
 #include "forest.glsl"
+// What parts of a tree look like; the C++ side is gl/forest_buffers.cpp.
+struct Look {
+    vec3 colour;
+    uint kind;
+};
+layout(std430, binding = 3) readonly buffer Looks { Look looks[]; };
 layout(location = 0) in vec3 position;  // in the heroes' box
 layout(location = 1) in uint material;
 layout(location = 2) in vec2 normal;    // octahedral
 layout(location = 3) in vec2 texture_coordinate;
 layout(location = 4) in uint branch;    // in branches
-out vec3 place;
-out vec3 across;
 out vec2 uv;
-flat out uint look;
+// What varies little along a triangle is found at its corners: of leaves, all light.
+#ifdef LIT_AT_CORNERS
+out vec3 front; // what leaf.frag.glsl asks for
+out vec3 back;
+out vec3 haze;
+#else
+out vec3 across;
+flat out vec3 tint;
+flat out uint kind;
 out vec3 part; // from the middle of the crown, as parts of its axes
+#endif
+#if defined(PORTRAIT)
+out vec3 place;
+#elif !defined(LIT_AT_CORNERS)
+out vec3 sun_map;
+out vec2 air;
+#endif
 void main() {
     Branch at = branches[branch];
     TreeAt tree = tree_at(at.turn.w);
     vec4 turn = vec4(unpackSnorm2x16(at.turn.x), unpackSnorm2x16(at.turn.y));
     turn = normalize(turn);
     float size = at.place_scale.w * forms[tree.form].cylinder.w;
-    place = at.place_scale.xyz + turned(turn, size * position);
-    part = (place - middle_of(tree)) / crown_of(tree);
+    vec3 world = at.place_scale.xyz + turned(turn, size * position);
+    vec3 in_crown = (world - middle_of(tree)) / crown_of(tree);
 #ifdef CUT_OUT
-    place = in_wind(place, tree, 1.0);
+    world = in_wind(world, tree, 1.0);
 #else
-    place = in_wind(place, tree, 0.0);
+    world = in_wind(world, tree, 0.0);
 #endif
-    across = turned(turn, octahedral(normal));
+    vec3 surface = turned(turn, octahedral(normal));
     uv = texture_coordinate;
-    look = material;
-#ifdef SHADOW
-    gl_Position = frame.shadow_from_world * vec4(place, 1.0);
+    Look look = looks[material];
+#ifdef LIT_AT_CORNERS
+    float lit = sunlight_at(in_sun_map(world, frame.to_sun.xyz), sun_within(in_crown));
+    float open = openness(in_crown);
+    vec2 air = air_to(world);
+    vec3 seen_of = air.y * look.colour;
+    front = shade_within(seen_of, leaf_normal(surface, in_crown), lit, 0.5, open);
+    back = shade_within(seen_of, leaf_normal(-surface, in_crown), lit, 0.5, open);
+    haze = through_air(vec3(0.0), air);
 #else
-    gl_Position = frame.view_projection * vec4(place, 1.0);
+    across = surface;
+    tint = look.colour;
+    kind = look.kind;
+    part = in_crown;
 #endif
+#if defined(PORTRAIT)
+    place = world;
+#elif !defined(LIT_AT_CORNERS)
+    sun_map = in_sun_map(world, frame.to_sun.xyz);
+    air = air_to(world);
+#endif
+    gl_Position = frame.view_projection * vec4(world, 1.0);
 }

@@ -9,7 +9,7 @@ struct Form {
     vec4 pictures; // first layer of its portraits
 };
 layout(std430, binding = 0) readonly buffer Branches { Branch branches[]; };
-layout(std430, binding = 1) readonly buffer Trees { uint trees[]; }; // six words each
+layout(std430, binding = 1) readonly buffer Trees { uvec2 trees[]; }; // three each
 layout(std430, binding = 2) readonly buffer Forms { Form forms[]; };
 
 struct TreeAt {
@@ -22,15 +22,14 @@ struct TreeAt {
 };
 
 TreeAt tree_at(uint index) {
-    uint at = 6u * index;
+    uvec2 first = trees[3u * index], second = trees[3u * index + 1u], third = trees[3u * index + 2u];
     TreeAt tree;
-    tree.root = vec3(uintBitsToFloat(trees[at]), uintBitsToFloat(trees[at + 1u]),
-                     uintBitsToFloat(trees[at + 2u]));
-    tree.scale = uintBitsToFloat(trees[at + 3u]);
-    tree.yaw = float(trees[at + 4u] & 0xFFFFu) * (6.2831853 / 65536.0);
-    tree.phase = float(trees[at + 4u] >> 16) / 65536.0;
-    tree.form = trees[at + 5u] & 0xFFFFu;
-    tree.portrait = trees[at + 5u] >> 16;
+    tree.root = vec3(uintBitsToFloat(first), uintBitsToFloat(second.x));
+    tree.scale = uintBitsToFloat(second.y);
+    tree.yaw = float(third.x & 0xFFFFu) * (6.2831853 / 65536.0);
+    tree.phase = float(third.x >> 16) / 65536.0;
+    tree.form = third.y & 0xFFFFu;
+    tree.portrait = third.y >> 16;
     return tree;
 }
 

@@ -1,12 +1,16 @@
+#include "light.glsl"
 #include "impostor.glsl"
 layout(location = 0) in uint index; // of the tree
 invariant gl_Position; // depths are drawn first, and compared
-out vec3 place;
-out vec3 corner;         // in its layer, which goes along
-flat out vec4 to_eye;    // unit; depth of the picture, m
-flat out float yaw;
-out vec3 within;         // from the middle, as parts of the crown's axes
-flat out vec3 deeper;    // what the depth of the picture adds to it
+out vec3 corner;      // in its layer, which goes along
+out vec3 sun_map;     // of the picture's middle plane
+flat out vec3 nearer; // what the depth of the picture adds to it
+#ifndef SHADOW
+out vec2 air;
+out vec3 within;      // from the middle, as parts of the crown's axes
+flat out vec3 deeper; // what the depth of the picture adds to it
+flat out vec2 yaw;    // cosine and sine
+#endif
 void main() {
     TreeAt tree = tree_at(index);
     vec3 middle = middle_of(tree);
@@ -23,18 +27,22 @@ void main() {
     vec3 up = cross(eye, right);
     vec2 at = vec2(gl_VertexID & 1, gl_VertexID >> 1);
     vec3 size = tree.scale * picture_size(tree.form, elevation);
-    place = middle + (2.0 * at.x - 1.0) * size.x * right + (2.0 * at.y - 1.0) * size.y * up;
-    vec3 axes = crown_of(tree);
-    within = (place - middle) / axes;
-    deeper = eye * size.z / axes;
+    vec3 place = middle + (2.0 * at.x - 1.0) * size.x * right + (2.0 * at.y - 1.0) * size.y * up;
+    vec3 still = place;
     place = in_wind(place, tree, 0.0);
     corner = vec3((vec2(view, elevation) + at) / vec2(kYaws, 3),
                   forms[tree.form].pictures.x + float(tree.portrait));
-    to_eye = vec4(eye, size.z);
-    yaw = tree.yaw;
+    nearer = mat3(frame.shadow_from_world) * (eye * size.z);
 #ifdef SHADOW
+    sun_map = (frame.shadow_from_world * vec4(place, 1.0)).xyz;
     gl_Position = frame.shadow_from_world * vec4(place, 1.0);
 #else
+    vec3 axes = crown_of(tree);
+    within = (still - middle) / axes;
+    deeper = eye * size.z / axes;
+    sun_map = in_sun_map(place, frame.to_sun.xyz);
+    air = air_to(place);
+    yaw = vec2(cos(tree.yaw), sin(tree.yaw));
     gl_Position = frame.view_projection * vec4(place, 1.0);
 #endif
 }

@@ -9,17 +9,23 @@ vec3 sky_colour(vec3 direction) {
     float near2 = near_sun * near_sun;
     float near4 = near2 * near2;
     float near16 = near4 * near4 * near4 * near4;
-    return colour + frame.sun.rgb * (0.05 * near16 + 0.25 * pow(near16, 25.0));
+    float near64 = near16 * near16 * near16 * near16;
+    float near256 = near64 * near64 * near64 * near64;
+    return colour + frame.sun.rgb * (0.05 * near16 + 0.25 * near256 * near64 * near64);
 }
 
-// How much of the sun is seen from a place, 0 to 1; `normal` moves the place off its surface.
+// Where a place is looked for in the sun's map: a little nearer to the sun.
+vec3 in_sun_map(vec3 place, vec3 nearer) {
+    return (frame.shadow_from_world * vec4(place + nearer * (1.5 * frame.horizon.w), 1.0)).xyz;
+}
+
+// How much of the sun is seen from a place of its map, 0 to 1.
 // ONE_TAP, TWO_TAPS: fewer looks at the map, each of which filters four texels.
 // `outside`: what is told where the map does not reach.
-float sunlight(vec3 place, vec3 normal, float outside) {
+float sunlight_at(vec3 at, float outside) {
     if (frame.to_sun.w == 0.0) {
         return 1.0;
     }
-    vec4 at = frame.shadow_from_world * vec4(place + normal * (1.5 * frame.horizon.w), 1.0);
     vec2 corner = at.xy * 0.5 + 0.5;
     if (any(lessThan(corner, vec2(0.0))) || any(greaterThan(corner, vec2(1.0))) || at.z > 1.0) {
         return outside;
@@ -40,6 +46,11 @@ float sunlight(vec3 place, vec3 normal, float outside) {
     lit *= 0.25;
 #endif
     return mix(lit, outside, smoothstep(0.8, 1.0, max(abs(at.x), abs(at.y))));
+}
+
+// The same for a surface; its normal moves the place off it.
+float sunlight(vec3 place, vec3 normal, float outside) {
+    return sunlight_at(in_sun_map(place, normal), outside);
 }
 
 vec3 ambient(vec3 normal) {
@@ -78,29 +89,31 @@ float sun_within(vec3 part) {
     return 0.12 + 0.78 * smoothstep(-0.25, 0.95, dot(part, frame.to_sun.xyz));
 }
 
-// Through the air between eye and place.
-vec3 seen(vec3 radiance, vec3 place) {
-    if (frame.sun.w == 0.0) {
-        return radiance;
-    }
+// The air between eye and place: how much of the sun's glow it has, and what comes through it.
+vec2 air_to(vec3 place) {
     vec3 way = place - frame.eye_time.xyz;
     float away = length(way);
     // The sky just above the horizon there, as sky_colour() has it.
-    float near_sun = max(dot(way, frame.to_sun.xyz) / away, 0.0);
+    float near_sun = max(dot(way, frame.to_sun.xyz) / max(away, 1e-6), 0.0);
     near_sun *= near_sun;
     near_sun *= near_sun;
     near_sun *= near_sun;
-    return mix(frame.horizon.rgb + frame.sun.rgb * (0.05 * near_sun * near_sun), radiance,
-               exp(-frame.sun.w * away));
+    return vec2(0.05 * near_sun * near_sun, exp(-frame.sun.w * away));
+}
+vec3 through_air(vec3 radiance, vec2 air) {
+    return mix(frame.horizon.rgb + frame.sun.rgb * air.x, radiance, air.y);
+}
+vec3 seen(vec3 radiance, vec3 place) {
+    return through_air(radiance, air_to(place));
 }
 
-// As the eye adapts to it, as sRGB.
+// As the eye adapts to it, as sRGB. What follows the square root is one curve for both, within
+// 0.0035: tone mapping by (2.51 x^2 + 0.03 x) / (2.43 x^2 + 0.59 x + 0.14), as is common for film,
+// and the powers of sRGB.
 vec4 displayed(vec3 radiance) {
-    vec3 x = radiance * frame.sky.w;
-    vec3 mapped = clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
-    // The powers of sRGB by roots, within 0.3 %.
-    vec3 root2 = sqrt(mapped);
-    vec3 root4 = sqrt(root2);
-    vec3 high = 0.585122381 * root2 + 0.783140355 * root4 - 0.368262736 * sqrt(root4);
-    return vec4(mix(high, mapped * 12.92, lessThan(mapped, vec3(0.0031308))), 1.0);
+    vec3 root = sqrt(radiance * frame.sky.w);
+    return vec4(clamp(root * (5.954052 * root - 0.104695) /
+                          (1.0 + root * (5.964331 * root - 0.525280)),
+                      0.0, 1.0),
+                1.0);
 }

@@ -2,12 +2,14 @@
 layout(binding = 2) uniform sampler2D noise; // repeats
 in vec3 place;
 in vec3 across;
+in vec3 sun_map;
+in vec3 air; // and how far away it is, m
 out vec4 colour;
 // Grass where it is level, earth where it is steep or bare, in patches.
 void main() {
     vec3 up = normalize(across);
     // Each pattern is gone before it is seen to repeat.
-    float away = length(place - frame.eye_time.xyz);
+    float away = air.z;
     vec4 coarse = texture(noise, place.xz * (1.0 / 173.0));
     vec4 between = mix(vec4(0.5), texture(noise, place.zx * (1.0 / 37.0)),
                        clamp(2.0 - away / 150.0, 0.0, 1.0));
@@ -23,6 +25,6 @@ void main() {
     vec3 earth = mix(vec3(0.060, 0.045, 0.030), vec3(0.110, 0.086, 0.058), close.g);
     vec3 albedo = mix(grass, earth, bare) * (0.7 + 0.6 * fine);
     vec3 normal = normalize(up + 0.4 * vec3(fine - 0.5, 0.0, close.g - 0.5));
-    float lit = sunlight(place, up, 1.0);
-    colour = displayed(seen(shade(albedo, normal, place, lit, 0.0), place));
+    float lit = sunlight_at(sun_map, 1.0);
+    colour = displayed(through_air(shade(albedo, normal, place, lit, 0.0), air.xy));
 }

@@ -1,4 +1,4 @@
-#include "frame.glsl"
+#include "light.glsl"
 // CDLOD (Strugar 2010): corners move to those of the next level before it takes over.
 layout(binding = 1) uniform sampler2DArray heights; // a layer for each level, corners at texels
 layout(location = 0) uniform ivec2 origins[12];     // of each layer, in cells of its level
@@ -9,6 +9,8 @@ layout(location = 0) in uvec2 corner;
 layout(location = 1) in ivec3 patch_at; // x, z in cells of its level; the level
 out vec3 place;
 out vec3 across;
+out vec3 sun_map;
+out vec3 air; // and how far away it is, m
 
 float height_at(ivec2 at, int level) {
     return texelFetch(heights, ivec3(at - origins[level], level), 0).r;
@@ -40,5 +42,7 @@ void main() {
     float here = height_at(at, level);
     place = vec3(ground.x, here + morph * (height_at(even, level) - here), ground.y);
     across = normal;
+    sun_map = in_sun_map(place, normal);
+    air = vec3(air_to(place), distance(place, frame.eye_time.xyz));
     gl_Position = frame.view_projection * vec4(place, 1.0);
 }
