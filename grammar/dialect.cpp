@@ -2,6 +2,7 @@
 
 #include "grammar/carey/frontend.h"
 #include "grammar/contract.h"
+#include "grammar/cpfg/frontend.h"
 #include "grammar/l3d/frontend.h"
 #include "grammar/sys/frontend.h"
 
@@ -24,10 +25,11 @@ struct Entry {
 };
 
 /// In order of Dialect. Content is asked in this order too.
-constexpr std::array<Entry, 5> kEntries{{
+constexpr std::array<Entry, 6> kEntries{{
     {{Dialect::Lsys, "lsys", "lsys", ".lsys"}, nullptr, nullptr},
     {{Dialect::Sys, "sys", "the .sys forest", ".sys"}, recognise_sys, translate_sys},
     {{Dialect::Carey, "carey", "Carey's rule list", ".rules"}, recognise_carey, translate_carey},
+    {{Dialect::Cpfg, "cpfg", "a cpfg L-system", ""}, recognise_cpfg, translate_cpfg},
     {{Dialect::L3d, "l3d", "L3D", ".l3d .l"}, recognise_l3d, translate_l3d},
     {{Dialect::Lplus, "lplus", "L+System", ".l++"}, recognise_l3d, translate_lplus},
 }};

@@ -17,6 +17,7 @@ enum class Dialect : std::uint8_t {
     Lsys,
     Sys,   // the forest of 2005
     Carey, // the forest generator of 2019
+    Cpfg,  // L-systems of L-studio and vlab
     L3d,
     Lplus, // L+System, an extension of L3D
 };
