@@ -18,9 +18,9 @@ constexpr std::array<std::string_view, 2> kChoiceScopes{"module", "generation"};
 constexpr std::array<std::string_view, 2> kWeightRules{"one", "any"};
 constexpr std::array<std::string_view, 2> kAtDepths{"error", "stop"};
 constexpr std::array<std::string_view, 2> kRandomSources{"philox", "glibc"};
-constexpr std::array<std::string_view, 10> kTurtleProfiles{
-    "lsys",  "thesis", "abop",  "houdini",     "l3d",
-    "lplus", "sys",    "carey", "l3d_program", "lplus_program"};
+constexpr std::array<std::string_view, 12> kTurtleProfiles{
+    "lsys", "thesis", "abop",        "houdini",       "l3d",      "lplus",
+    "sys",  "carey",  "l3d_program", "lplus_program", "fractint", "sidefx"};
 
 } // namespace
 

@@ -20,7 +20,7 @@ enum class WeightRule : std::uint8_t { One, Any };
 /// it ends the run, or it stays what it is.
 enum class AtDepth : std::uint8_t { Error, Stop };
 /// Which table of section 7 gives modules their meaning for the turtle.
-/// The last two are L3d and Lplus as the program L3D has them.
+/// L3dProgram and LplusProgram are L3d and Lplus as the program L3D has them.
 enum class TurtleProfile : std::uint8_t {
     Lsys,
     Thesis,
@@ -31,8 +31,11 @@ enum class TurtleProfile : std::uint8_t {
     Sys,
     Carey,
     L3dProgram,
-    LplusProgram
+    LplusProgram,
+    Fractint,
+    Sidefx,
 };
+inline constexpr TurtleProfile kLastTurtleProfile = TurtleProfile::Sidefx;
 
 [[nodiscard]] constexpr bool is_of_program(TurtleProfile profile) {
     return profile == TurtleProfile::L3dProgram || profile == TurtleProfile::LplusProgram;

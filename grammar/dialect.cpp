@@ -3,6 +3,8 @@
 #include "grammar/carey/frontend.h"
 #include "grammar/contract.h"
 #include "grammar/cpfg/frontend.h"
+#include "grammar/fractint/frontend.h"
+#include "grammar/houdini/frontend.h"
 #include "grammar/l3d/frontend.h"
 #include "grammar/sys/frontend.h"
 
@@ -16,20 +18,29 @@ namespace {
 using Translate = Translation (*)(FileId root, const ParseContext& context);
 /// What in a text tells the dialect; empty: nothing does.
 using Recognise = std::string_view (*)(std::string_view text);
+using SystemsIn = std::vector<std::string> (*)(std::string_view text);
 
 /// Everything that is known of a dialect.
 struct Entry {
     DialectRow row;
     Recognise recognise = nullptr;
     Translate translate = nullptr;
+    SystemsIn systems = nullptr; // where a file may hold several
 };
 
 /// In order of Dialect. Content is asked in this order too.
-constexpr std::array<Entry, 6> kEntries{{
+constexpr std::array<Entry, 8> kEntries{{
     {{Dialect::Lsys, "lsys", "lsys", ".lsys"}, nullptr, nullptr},
     {{Dialect::Sys, "sys", "the .sys forest", ".sys"}, recognise_sys, translate_sys},
+    {{Dialect::Houdini, "houdini", "Houdini's rules", ".hlsys"},
+     recognise_houdini,
+     translate_houdini},
     {{Dialect::Carey, "carey", "Carey's rule list", ".rules"}, recognise_carey, translate_carey},
     {{Dialect::Cpfg, "cpfg", "a cpfg L-system", ""}, recognise_cpfg, translate_cpfg},
+    {{Dialect::Fractint, "fractint", "a Fractint collection", ""},
+     recognise_fractint,
+     translate_fractint,
+     systems_in_fractint},
     {{Dialect::L3d, "l3d", "L3D", ".l3d .l"}, recognise_l3d, translate_l3d},
     {{Dialect::Lplus, "lplus", "L+System", ".l++"}, recognise_l3d, translate_lplus},
 }};
@@ -97,6 +108,15 @@ DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
         }
     }
     return {};
+}
+
+bool has_systems(Dialect dialect) {
+    return kEntries[static_cast<std::size_t>(dialect)].systems != nullptr;
+}
+
+std::vector<std::string> systems_in(Dialect dialect, std::string_view text) {
+    const Entry& entry = kEntries[static_cast<std::size_t>(dialect)];
+    return entry.systems != nullptr ? entry.systems(text) : std::vector<std::string>();
 }
 
 Translation translate(FileId root, Dialect dialect, const ParseContext& context) {

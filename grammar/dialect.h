@@ -10,14 +10,17 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lsys {
 
 enum class Dialect : std::uint8_t {
     Lsys,
-    Sys,   // the forest of 2005
-    Carey, // the forest generator of 2019
-    Cpfg,  // L-systems of L-studio and vlab
+    Sys,      // the forest of 2005
+    Houdini,  // rule texts of its L-system node; asked before Carey's, whose settings it shares
+    Carey,    // the forest generator of 2019
+    Cpfg,     // L-systems of L-studio and vlab
+    Fractint, // its .l collections
     L3d,
     Lplus, // L+System, an extension of L3D
 };
@@ -40,6 +43,11 @@ struct DetectedDialect {
 };
 /// By what the text holds, else by the extension of `path`.
 [[nodiscard]] DetectedDialect detect_dialect(std::string_view path, std::string_view text);
+
+/// The names of the systems of a file, in order; none where a file of the dialect is one system.
+[[nodiscard]] std::vector<std::string> systems_in(Dialect dialect, std::string_view text);
+/// Whether a file of the dialect may hold several systems, each with a name.
+[[nodiscard]] bool has_systems(Dialect dialect);
 
 /// Makes .lsys text of the file `root`. Mistakes are reported where they stand; after errors the
 /// text is what could be read, and not to be used. Precondition: not Dialect::Lsys.

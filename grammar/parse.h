@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 
 namespace lsys {
 
@@ -25,6 +26,7 @@ struct ParseContext {
     const FileLoader& load;
     /// Of dialects whose program has bugs: they are kept.
     bool bug_compatible = false;
+    std::string_view system{}; // of a file that holds several, the one that is read
 };
 
 /// Parses the .lsys file `root` and, in place, the files it includes. Always yields an Ast; after

@@ -7,10 +7,15 @@
 namespace lsys {
 
 void Translation::copy(SourceSpan span, const SourceMap& sources) {
-    if (span.begin == span.end) {
+    copy_as(sources.text(span), span);
+}
+
+void Translation::copy_as(std::string_view text, SourceSpan span) {
+    LSYS_CHECK(text.size() == span.end - span.begin);
+    if (text.empty()) {
         return;
     }
-    text_ += sources.text(span);
+    text_ += text;
     const auto end = static_cast<std::uint32_t>(text_.size());
     if (!parts_.empty() && parts_.back().verbatim && parts_.back().span.file == span.file &&
         parts_.back().span.end == span.begin) {

@@ -20,6 +20,8 @@ public:
 
     /// Appends the bytes of `span`, as they are: each stands for itself.
     void copy(SourceSpan span, const SourceMap& sources);
+    /// Appends `text`, whose bytes stand for those of `span` one by one.
+    void copy_as(std::string_view text, SourceSpan span);
     /// Appends `text`, which stands for `span` as a whole.
     void put(std::string_view text, SourceSpan span);
     /// Appends what nothing in the original says: it stands where the last part ended.

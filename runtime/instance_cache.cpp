@@ -167,7 +167,7 @@ private:
             add_real(branch.id, formal);
         }
         const TurtlePlace& place = branch.place;
-        for (const float value : {place.width, place.taper, place.step, place.angle}) {
+        for (const float value : {place.width, place.taper, place.step, place.angle, place.aside}) {
             add_real(branch.id, value);
         }
         add(place.sides);

@@ -57,6 +57,7 @@ struct TurtlePlace {
     float taper = 1.0F;
     float step = 0.0F;
     float angle = 0.0F;
+    float aside = 0.0F; // degrees, of the second heading of the profile `fractint`
     std::uint32_t sides = 0;
     std::uint32_t colour = 0;
     std::uint32_t order = 0; // open brackets

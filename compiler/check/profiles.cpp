@@ -247,6 +247,63 @@ constexpr std::array kCarey{
     kPolygonEnd,
 };
 
+// Fractint's turtle in the plane: `F G + - |` have a heading of whole angles, `D M \\ /` another
+// one.
+constexpr std::array kFractint{
+    TurtleCommand{"F", Forward, 0, ""},
+    TurtleCommand{"G", Move, 0, ""},
+    TurtleCommand{"D", AsideForward, 0, ""},
+    TurtleCommand{"M", AsideMove, 0, ""},
+    TurtleCommand{"+", YawLeft, 0, ""},
+    TurtleCommand{"-", YawRight, 0, ""},
+    TurtleCommand{"|", TurnMost, 0, ""},
+    turn("\\", AsideLeft),
+    turn("/", AsideRight),
+    TurtleCommand{"!", Mirror, 0, ""},
+    TurtleCommand{"@", ScaleStep, 1, "factor of the step"},
+    TurtleCommand{"C", SetColour, 1, "index of a colour"},
+    TurtleCommand{"<", AddColour, 1, "number of colours"},
+    TurtleCommand{">", SubtractColour, 1, "number of colours"},
+    kSave,
+    kRestore,
+};
+
+// Houdini's own turtle. All its turns are those of ABOP the other way round.
+constexpr std::array kSidefx{
+    TurtleCommand{"F", Forward, 4, "length, width, sections, sides"},
+    TurtleCommand{"H", HalfForward, 4, "length, width, sections, sides"},
+    TurtleCommand{"G", QuietMove, 4, "length, width, sections, sides"},
+    TurtleCommand{"f", Move, 4, "length, width, sections, sides"},
+    TurtleCommand{"h", HalfMove, 4, "length, width, sections, sides"},
+    TurtleCommand{"J", Leaf, 5, "size, nothing, three values"},
+    TurtleCommand{"K", Leaf, 5, "size, nothing, three values"},
+    TurtleCommand{"M", Leaf, 5, "size, nothing, three values"},
+    TurtleCommand{"T", Bend, 1, "susceptibility"},
+    turn("+", YawRight),
+    turn("-", YawLeft),
+    turn("&", PitchUp),
+    turn("^", PitchDown),
+    turn("\\", RollRight),
+    turn("/", RollLeft),
+    kTurnAround,
+    TurtleCommand{"*", RollAround, 0, ""},
+    TurtleCommand{"~", TurnBy, 3, "angles of pitch, roll and yaw"},
+    kUpright,
+    TurtleCommand{"aim", Aim, 3, "a point"},
+    kScaleStep,
+    TurtleCommand{"!", ScaleWidth, 1, "factor of the width"},
+    TurtleCommand{";", ScaleAngle, 1, "factor of the angle"},
+    TurtleCommand{"_", DivideStep, 1, "divisor of the step"},
+    TurtleCommand{"?", DivideWidth, 1, "divisor of the width"},
+    TurtleCommand{"@", DivideAngle, 1, "divisor of the angle"},
+    kSave,
+    kRestore,
+    kPolygonBegin,
+    kPolygonVertex,
+    kPolygonEnd,
+    kCut,
+};
+
 bool has_polygons(TurtleProfile profile) {
     return find_turtle_command(profile, "{") != nullptr;
 }
@@ -287,6 +344,10 @@ std::span<const TurtleCommand> turtle_commands(TurtleProfile profile) {
         return kL3dProgram;
     case TurtleProfile::LplusProgram:
         return kLplusProgram;
+    case TurtleProfile::Fractint:
+        return kFractint;
+    case TurtleProfile::Sidefx:
+        return kSidefx;
     }
     LSYS_CHECK(false, static_cast<int>(profile));
     return {};

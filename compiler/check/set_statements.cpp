@@ -54,11 +54,11 @@ constexpr std::array kCountKeys{
 constexpr std::array<std::string_view, 9> kOtherKeys{
     "turtle", "names", "rewriting", "choice", "weights", "random", "tropism", "seed", "at_depth"};
 
-constexpr std::array kTurtles{TurtleProfile::Lsys,       TurtleProfile::Thesis,
-                              TurtleProfile::Abop,       TurtleProfile::Houdini,
-                              TurtleProfile::L3d,        TurtleProfile::Lplus,
-                              TurtleProfile::Sys,        TurtleProfile::Carey,
-                              TurtleProfile::L3dProgram, TurtleProfile::LplusProgram};
+constexpr std::array kTurtles{
+    TurtleProfile::Lsys,         TurtleProfile::Thesis,   TurtleProfile::Abop,
+    TurtleProfile::Houdini,      TurtleProfile::L3d,      TurtleProfile::Lplus,
+    TurtleProfile::Sys,          TurtleProfile::Carey,    TurtleProfile::L3dProgram,
+    TurtleProfile::LplusProgram, TurtleProfile::Fractint, TurtleProfile::Sidefx};
 constexpr std::array kModes{RewritingMode::Parallel, RewritingMode::Sequential,
                             RewritingMode::Cyclic};
 constexpr std::array kScopes{ChoiceScope::Module, ChoiceScope::Generation};

@@ -92,6 +92,12 @@ private:
                 .notes.emplace_back("the branches of one generation all choose alike, which "
                                     "branches that are put together from others would not");
         }
+        if (std::any_of(program_.symbols.begin(), program_.symbols.end(),
+                        [](const auto& symbol) { return symbol.turtle == TurtleOperation::Aim; })) {
+            refuse(program_.axiom.span, "a system that aims at points cannot be instanced")
+                .notes.emplace_back("where a branch is put elsewhere, it would aim at another "
+                                    "point");
+        }
         for (const Production& production : program_.productions) {
             if (production.stage != Stage::Rewrite) {
                 refuse(production.name_span, fmt::format("a system with `{}` cannot be instanced",
@@ -153,8 +159,9 @@ private:
     void find_reach() {
         for (std::size_t i = 0; i < program_.symbols.size(); ++i) {
             const TurtleOperation turtle = program_.symbols[i].turtle;
-            reach_[i].knows_up = turtle == TurtleOperation::RollUpright ||
-                                 (program_.settings.has_tropism && draws(turtle));
+            reach_[i].knows_up =
+                turtle == TurtleOperation::RollUpright || turtle == TurtleOperation::TurnMost ||
+                turtle == TurtleOperation::Bend || (program_.settings.has_tropism && draws(turtle));
         }
         std::vector<std::uint32_t> rule_sizes(program_.rule_count, 0);
         for (const Production& production : program_.productions) {

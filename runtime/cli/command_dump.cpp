@@ -82,12 +82,16 @@ Status dump_syntax(const DumpCommand& command, const Console& console) {
                                       shown_path(command.file), row_of(dialect).title)},
                     console);
     }
+    if (const Result<Done> fine = check_system(command.file, dialect, command.grammar); !fine) {
+        return fail(fine.error(), console);
+    }
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
     const FileId root = sources.add(shown_path(command.file), std::move(grammar.value().bytes));
     const FileLoader load = make_loader(console);
-    const ParseContext context{sources, names, diagnostics, load, command.grammar.bug_compatible};
+    const ParseContext context{
+        sources, names, diagnostics, load, command.grammar.bug_compatible, command.grammar.system};
     const std::string text = command.stage == Stage::Tokens
                                  ? dump_tokens(sources.file(root))
                                  : dump_ast(parse_dialect(root, dialect, context), names, sources);

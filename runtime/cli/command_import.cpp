@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -30,13 +32,13 @@ struct Imported {
 /// file derives.
 Status import_text(const std::string& path,
                    GrammarText text,
-                   const ImportCommand& command,
+                   const GrammarOptions& options,
                    const Console& console,
                    Imported& imported) {
     imported.dialect = text.dialect;
     Grammar grammar;
     const Result<Done> compiled =
-        compile_text(path, std::move(text), command.grammar, make_loader(console), grammar);
+        compile_text(path, std::move(text), options, make_loader(console), grammar);
     if (!compiled) {
         return fail(compiled.error(), console);
     }
@@ -44,8 +46,10 @@ Status import_text(const std::string& path,
     imported.warnings = grammar.diagnostics.count(Severity::Warning);
     if (status == Status::Fine) {
         imported.text = fmt::format(
-            "// Imported from `{}`, {}.\n{}", fs::path(shown_path(path)).filename().string(),
-            row_of(imported.dialect).title, format_text(grammar.translation));
+            "// Imported from `{}`, {}{}.\n{}", fs::path(shown_path(path)).filename().string(),
+            row_of(imported.dialect).title,
+            options.system.empty() ? std::string() : fmt::format(": {}", options.system),
+            format_text(grammar.translation));
     }
     return status;
 }
@@ -72,7 +76,109 @@ Result<std::vector<fs::path>> files_of(const std::string& folder) {
     return files;
 }
 
-/// A line for each file; what is no grammar of a known dialect is passed over.
+/// What came of many.
+struct Tally {
+    Status status = Status::Fine;
+    std::uint64_t done = 0;
+    std::uint64_t lost = 0;
+};
+
+/// `name` as that of a file.
+std::string file_name(std::string_view name) {
+    std::string text;
+    for (const char c : name) {
+        const bool fits =
+            static_cast<unsigned char>(c) > 0x20 && c != '/' && c != '\\' && c != 0x7F;
+        text += fits ? c : '_';
+    }
+    return text.starts_with('.') ? "_" + text : text;
+}
+
+/// Imports one system to the file `to`, and says on a line what came of it.
+Result<Done> import_one(const std::string& path,
+                        GrammarText text,
+                        const GrammarOptions& options,
+                        const fs::path& to,
+                        const Console& console,
+                        Tally& tally) {
+    const std::string_view title = row_of(text.dialect).title;
+    Imported imported;
+    Status one = import_text(path, std::move(text), options, console, imported);
+    if (one == Status::Fine) {
+        one = write_imported(to.string(), imported.text, console);
+    }
+    (one == Status::Fine ? tally.done : tally.lost) += 1;
+    tally.status = worse(tally.status, one);
+    const std::string what =
+        options.system.empty() ? path : fmt::format("{}: `{}`", path, options.system);
+    return console.write(one == Status::Fine
+                             ? fmt::format("{}: {}, {} warnings, written to {}\n", what, title,
+                                           imported.warnings, to.string())
+                             : fmt::format("{}: {}, not imported\n", what, title));
+}
+
+/// All systems of a file, each to `folder`/`prefix`NAME.lsys. Of two with one name, whatever the
+/// case of its letters, only the first can be asked for.
+Result<Done> import_systems(const std::string& path,
+                            const GrammarText& text,
+                            const ImportCommand& command,
+                            const fs::path& folder,
+                            const std::string& prefix,
+                            const Console& console,
+                            Tally& tally) {
+    std::set<std::string> known;
+    for (const std::string& system : systems_in(text.dialect, text.bytes)) {
+        if (console.interrupted()) {
+            tally.status = Status::Interrupted;
+            return Done{};
+        }
+        std::string low = system;
+        std::transform(low.begin(), low.end(), low.begin(), [](char c) {
+            return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        });
+        if (!known.insert(low).second) {
+            ++tally.lost;
+            tally.status = worse(tally.status, Status::AuthorErrors);
+            if (Result<Done> written = console.write(fmt::format(
+                    "{}: `{}`: a second system of this name, not imported\n", path, system));
+                !written) {
+                return written;
+            }
+            continue;
+        }
+        GrammarOptions options = command.grammar;
+        options.system = system;
+        if (Result<Done> written =
+                import_one(path, text, options, folder / (prefix + file_name(system) + ".lsys"),
+                           console, tally);
+            !written) {
+            return written;
+        }
+    }
+    return Done{};
+}
+
+Result<Done> make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    return error ? Result<Done>(Error{fmt::format("cannot make the folder `{}`: {}",
+                                                  folder.string(), error.message())})
+                 : Done{};
+}
+
+Status end_tally(const Result<Done>& result, const Tally& tally, const Console& console) {
+    if (!result) {
+        return fail(result.error(), console);
+    }
+    if (tally.status == Status::Interrupted) {
+        return tally.status;
+    }
+    const Result<Done> written =
+        console.write(fmt::format("{} imported, {} not\n", tally.done, tally.lost));
+    return written ? tally.status : fail(written.error(), console);
+}
+
+/// A line for each system of the files; what is no grammar of a known dialect is passed over.
 Status import_folder(const ImportCommand& command, const Console& console) {
     const Result<std::vector<fs::path>> files = files_of(command.folder);
     if (!files) {
@@ -80,16 +186,10 @@ Status import_folder(const ImportCommand& command, const Console& console) {
     }
     const fs::path target =
         command.output.empty() ? fs::path(command.folder) : fs::path(command.output);
-    std::error_code error;
-    fs::create_directories(target, error);
-    if (error) {
-        return fail(
-            Error{fmt::format("cannot make the folder `{}`: {}", target.string(), error.message())},
-            console);
+    if (const Result<Done> made = make_folder(target); !made) {
+        return fail(made.error(), console);
     }
-    Status status = Status::Fine;
-    std::uint64_t done = 0;
-    std::uint64_t lost = 0;
+    Tally tally;
     for (const fs::path& path : files.value()) {
         if (console.interrupted()) {
             return Status::Interrupted;
@@ -101,27 +201,36 @@ Status import_folder(const ImportCommand& command, const Console& console) {
         if (!text || text.value().dialect == Dialect::Lsys) {
             continue;
         }
-        const std::string_view title = row_of(text.value().dialect).title;
-        Imported imported;
-        Status one =
-            import_text(path.string(), std::move(text.value()), command, console, imported);
-        const fs::path to = target / path.filename().concat(".lsys");
-        if (one == Status::Fine) {
-            one = write_imported(to.string(), imported.text, console);
+        const bool several = has_systems(text.value().dialect) && command.grammar.system.empty() &&
+                             systems_in(text.value().dialect, text.value().bytes).size() > 1;
+        const std::string name = path.filename().string();
+        const Result<Done> result =
+            several ? import_systems(path.string(), text.value(), command, target, name + ".",
+                                     console, tally)
+                    : import_one(path.string(), std::move(text.value()), command.grammar,
+                                 target / (name + ".lsys"), console, tally);
+        if (!result) {
+            return fail(result.error(), console);
         }
-        done += one == Status::Fine ? 1U : 0U;
-        lost += one == Status::Fine ? 0U : 1U;
-        const std::string line =
-            one == Status::Fine ? fmt::format("{}: {}, {} warnings, written to {}\n", path.string(),
-                                              title, imported.warnings, to.string())
-                                : fmt::format("{}: {}, not imported\n", path.string(), title);
-        if (const Result<Done> written = console.write(line); !written) {
-            return fail(written.error(), console);
-        }
-        status = worse(status, one);
     }
-    const Result<Done> written = console.write(fmt::format("{} imported, {} not\n", done, lost));
-    return written ? status : fail(written.error(), console);
+    return end_tally(Done{}, tally, console);
+}
+
+/// `-o FOLDER` of a file of several systems.
+Status
+import_to_folder(const ImportCommand& command, const GrammarText& text, const Console& console) {
+    if (const Result<Done> made = make_folder(command.output); !made) {
+        return fail(made.error(), console);
+    }
+    Tally tally;
+    const Result<Done> result =
+        import_systems(command.file, text, command, command.output, "", console, tally);
+    return end_tally(result, tally, console);
+}
+
+bool is_folder(const std::string& path) {
+    std::error_code error;
+    return path.ends_with('/') || (!path.empty() && fs::is_directory(path, error));
 }
 
 } // namespace
@@ -143,9 +252,13 @@ Status run_import(const ImportCommand& command, const Console& console) {
         return fail(Error{fmt::format("`{}` is a .lsys file already", shown_path(command.file))},
                     console);
     }
+    if (has_systems(text.value().dialect) && command.grammar.system.empty() &&
+        is_folder(command.output)) {
+        return import_to_folder(command, text.value(), console);
+    }
     Imported imported;
     const Status status =
-        import_text(command.file, std::move(text.value()), command, console, imported);
+        import_text(command.file, std::move(text.value()), command.grammar, console, imported);
     if (status != Status::Fine) {
         return status;
     }

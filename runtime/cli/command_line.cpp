@@ -83,6 +83,10 @@ void add_grammar(CLI::App& app, GrammarOptions& options) {
                  "Keep the bugs of the program that owns the dialect (l3d, lplus), its random "
                  "numbers and surfaces too")
         ->group("Grammar");
+    app.add_option("--system", options.system,
+                   "Which system of a file that holds several (default: the only one)")
+        ->type_name("NAME")
+        ->group("Grammar");
     add_parsed(app, "--max-modules", options.max_modules,
                whole(1, std::numeric_limits<std::uint64_t>::max()),
                "The most modules a word may have (default 4294967296)")
@@ -337,8 +341,9 @@ void add_import(CLI::App& app, ImportCommand& command) {
     app.add_option("--all", command.folder, "Import every grammar of a folder instead")
         ->type_name("FOLDER");
     app.add_option("-o,--output", command.output,
-                   "The .lsys file, or the folder for --all; `-` is standard output (default: "
-                   "standard output; with --all beside the originals)")
+                   "The .lsys file, or the folder for --all or for each system of a file that "
+                   "holds several; `-` is standard output (default: standard output; with --all "
+                   "beside the originals)")
         ->type_name("FILE");
     add_grammar(app, command.grammar);
     add_messages(app, command.messages);

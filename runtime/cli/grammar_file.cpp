@@ -82,6 +82,10 @@ Status load_module(std::string_view bytes,
                    const GrammarOptions& options,
                    const Console& console,
                    Grammar& grammar) {
+    if (!options.system.empty()) {
+        console.error(fmt::format("--system: `{}` is compiled and holds one system only", path));
+        return Status::Failure;
+    }
     if (!options.definitions.empty()) {
         console.error(fmt::format("-D cannot change `{}`, which is compiled", path));
         console.help("compile the grammar again with this -D");
@@ -103,6 +107,13 @@ Status load_module(std::string_view bytes,
 }
 
 } // namespace
+
+Result<Done> check_system(const std::string& path, Dialect dialect, const GrammarOptions& options) {
+    return options.system.empty() || has_systems(dialect)
+               ? Result<Done>(Done{})
+               : Error{fmt::format("--system: `{}` is {} and holds one system only",
+                                   shown_path(path), row_of(dialect).title)};
+}
 
 FileLoader make_loader(const Console& console) {
     return
@@ -127,6 +138,9 @@ Result<Done> compile_text(const std::string& path,
                           const GrammarOptions& options,
                           const FileLoader& load,
                           Grammar& grammar) {
+    if (Result<Done> fine = check_system(path, text.dialect, options); !fine) {
+        return fine;
+    }
     const FileId root = grammar.sources.add(shown_path(path), std::move(text.bytes));
     const FileLoader load_included = [&load, &grammar](const std::string& wanted) {
         grammar.included.push_back(wanted);
@@ -134,7 +148,7 @@ Result<Done> compile_text(const std::string& path,
     };
     Ast ast = parse_dialect(root, text.dialect,
                             {grammar.sources, grammar.names, grammar.diagnostics, load_included,
-                             options.bug_compatible},
+                             options.bug_compatible, options.system},
                             &grammar.translation);
     const bool foreign = text.dialect != Dialect::Lsys;
     if (foreign && grammar.diagnostics.has_errors()) {

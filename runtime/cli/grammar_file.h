@@ -44,6 +44,10 @@ struct GrammarText {
 [[nodiscard]] Result<GrammarText>
 read_grammar(const std::string& path, const std::string& dialect, const Console& console);
 
+/// Error: --system of a dialect whose files are one system.
+[[nodiscard]] Result<Done>
+check_system(const std::string& path, Dialect dialect, const GrammarOptions& options);
+
 /// Compiles the `text` of `path`; diagnostics are collected, not shown. An Error is a -D of
 /// no constant.
 [[nodiscard]] Result<Done> compile_text(const std::string& path,

@@ -31,6 +31,7 @@ struct MessageOptions {
 struct GrammarOptions {
     std::string dialect; // empty: by what the file holds, else by its extension
     bool bug_compatible = false;
+    std::string system; // of a file that holds several; empty: the only one
     std::vector<Definition> definitions;
     std::optional<std::uint32_t> generations; // -n
     std::uint64_t max_modules = std::uint64_t{1} << 32;

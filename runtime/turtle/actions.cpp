@@ -14,7 +14,7 @@ constexpr double kHalfDegree = std::numbers::pi / 360.0;
 bool leaves_stay(TurtleProfile profile) {
     return profile == TurtleProfile::Houdini || profile == TurtleProfile::L3d ||
            profile == TurtleProfile::Lplus || profile == TurtleProfile::Carey ||
-           is_of_program(profile);
+           is_of_program(profile) || profile == TurtleProfile::Sidefx;
 }
 
 /// Rotations against the sense of yaw(), pitch() and roll().
@@ -54,11 +54,14 @@ QuickAction quick_action(const Action& action, bool angle_is_constant) {
     }
 }
 
-Action action_of(const BytecodeSymbol& symbol, TurtleProfile profile) {
+Action action_of(const BytecodeSymbol& symbol, TurtleProfile profile, float step_scale) {
     Action action;
     action.operation = symbol.turtle;
     action.given = static_cast<std::uint8_t>(std::min(symbol.parameter_count, kTurtleArguments));
-    action.advances = !(symbol.turtle == TurtleOperation::Leaf && leaves_stay(profile));
+    // What Houdini places is bound to its leaf inputs.
+    action.advances = profile != TurtleProfile::Sidefx &&
+                      !(symbol.turtle == TurtleOperation::Leaf && leaves_stay(profile));
+    action.usual_size = profile == TurtleProfile::Sidefx ? step_scale : 1.0F;
     action.character = symbol.name.size() == 1 ? symbol.name[0] : '\0';
     action.unit_length = symbol.turtle == TurtleOperation::Disk ? 0.0F : 1.0F;
     return action;
@@ -78,18 +81,28 @@ HalfAngle half_angle(double degrees) {
     return {std::cos(turn * kHalfDegree), std::sin(turn * kHalfDegree)};
 }
 
+bool uses_aside(const Bytecode& bytecode) {
+    return std::any_of(bytecode.symbols.begin(), bytecode.symbols.end(), [](const auto& symbol) {
+        return symbol.turtle == TurtleOperation::AsideForward ||
+               symbol.turtle == TurtleOperation::AsideMove;
+    });
+}
+
 ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options) {
     ActionTable table;
     const std::size_t symbol_count = bytecode.symbols.size();
+    // Where a second heading is drawn along, turns of the first do not move it.
     const bool angle_is_constant =
+        !uses_aside(bytecode) &&
         std::none_of(bytecode.symbols.begin(), bytecode.symbols.end(), [](const auto& symbol) {
-            return symbol.turtle == TurtleOperation::ScaleAngle;
+            return symbol.turtle == TurtleOperation::ScaleAngle ||
+                   symbol.turtle == TurtleOperation::DivideAngle;
         });
     std::vector<Action> of_symbol;
     of_symbol.reserve(symbol_count);
     for (std::size_t i = 0; i < symbol_count; ++i) {
         const BytecodeSymbol& symbol = bytecode.symbols[i];
-        Action action = action_of(symbol, bytecode.settings.turtle);
+        Action action = action_of(symbol, bytecode.settings.turtle, bytecode.settings.step_scale);
         if (symbol.turtle == TurtleOperation::MeshFile) {
             action.mesh_file = static_cast<std::uint32_t>(table.mesh_files.size());
             action.unit_length = i < options.mesh_lengths.size() ? options.mesh_lengths[i] : 1.0F;
@@ -115,6 +128,10 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
             action.turn.sine = -action.turn.sine;
         }
         action.quick = quick_action(action, angle_is_constant);
+        if (action.quick == QuickAction::Forward && action.given > 1 &&
+            bytecode.settings.turtle == TurtleProfile::Sidefx) {
+            action.quick = QuickAction::None; // the width is a parameter
+        }
         if (action.quick == QuickAction::Restore && options.branches != nullptr) {
             action.quick = QuickAction::None; // the watcher is told
         }

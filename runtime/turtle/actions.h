@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-inline constexpr std::uint32_t kTurtleArguments = 3;
+inline constexpr std::uint32_t kTurtleArguments = 4;
 
 /// Cosine and sine of half an angle: what a rotation of a quaternion needs.
 struct HalfAngle {
@@ -32,6 +32,7 @@ struct Action {
     std::array<float, kTurtleArguments> arguments{}; // if none is stored
     HalfAngle turn;                                  // rotations by a constant angle, signed
     float unit_length = 1.0F;                        // objects
+    float usual_size = 1.0F;                         // of objects without a parameter
     std::uint32_t mesh_file = 0;                     // in Skeleton::mesh_files
     char character = '\0';                           // of a module whose name is one
 };
@@ -41,6 +42,9 @@ struct ActionTable {
     std::vector<std::string> mesh_files;
     bool reads_text = false; // a parenthesis may hold a parameter
 };
+
+/// Whether any module moves along the second heading.
+[[nodiscard]] bool uses_aside(const Bytecode& bytecode);
 
 /// Precondition: verified bytecode.
 [[nodiscard]] ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options);

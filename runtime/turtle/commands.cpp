@@ -48,6 +48,9 @@ bool Turtle::State::draw(
 
 /// F and H: a whole or half of the length, and the physics' spring and mass.
 bool Turtle::State::forward(const Action& action, const float* arguments, float part) {
+    if (wide) {
+        return wide_forward(action, arguments, part);
+    }
     const float length = (action.given > 0 ? arguments[0] : now.step) * part;
     const float spring = action.given > 1 ? arguments[1] : bytecode.settings.spring;
     const float width = relative ? 2.0F * std::abs(length) * now.width : now.width;
@@ -82,7 +85,7 @@ bool Turtle::State::place(const Action& action, const float* arguments) {
     if (!has_room(skeleton.objects)) {
         return false;
     }
-    const float size = action.given > 0 ? arguments[0] : 1.0F;
+    const float size = action.given > 0 ? arguments[0] : action.usual_size;
     PlacedObject object;
     object.kind = action.operation;
     object.mesh_file = action.mesh_file;
@@ -136,6 +139,7 @@ TurtlePlace Turtle::State::place_now() const {
     place.taper = now.taper;
     place.step = now.step;
     place.angle = now.angle;
+    place.aside = static_cast<float>(now.aside);
     place.sides = now.sides;
     place.colour = now.colour;
     place.order = order();
@@ -269,11 +273,28 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
         now.moved = true;
         return is_fine_place();
     }
+    case TurtleOperation::QuietMove:
+        advance(now.pose, static_cast<double>(argument(now.step)));
+        now.moved = true;
+        return is_fine_place();
+    case TurtleOperation::Bend:
+        bend(now.pose, {0.0F, -1.0F, 0.0F, argument(0.0F)});
+        return true;
+    case TurtleOperation::TurnBy:
+        turn_by(action, arguments);
+        return true;
+    case TurtleOperation::Aim:
+        if (action.given == 3) {
+            aim(now.pose, {arguments[0], arguments[1], arguments[2]});
+        }
+        return true;
     case TurtleOperation::YawRight:
         yaw(now.pose, inverse(turn()));
+        now.aside += has_aside ? static_cast<double>(now.angle) : 0.0;
         return true;
     case TurtleOperation::YawLeft:
         yaw(now.pose, turn());
+        now.aside -= has_aside ? static_cast<double>(now.angle) : 0.0;
         return true;
     case TurtleOperation::PitchDown:
         pitch(now.pose, inverse(turn()));
@@ -295,6 +316,27 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
         return true;
     case TurtleOperation::RollAround:
         roll(now.pose, {0.0, 1.0});
+        return true;
+    case TurtleOperation::TurnMost:
+        turn_most();
+        return true;
+    case TurtleOperation::Mirror:
+        mirror();
+        return true;
+    case TurtleOperation::AsideForward:
+    case TurtleOperation::AsideMove:
+        return aside_forward(action, arguments);
+    case TurtleOperation::AsideLeft:
+        now.aside += static_cast<double>(argument(0.0F));
+        return true;
+    case TurtleOperation::AsideRight:
+        now.aside -= static_cast<double>(argument(0.0F));
+        return true;
+    case TurtleOperation::AddColour:
+        add_colour(argument(0.0F), 1.0);
+        return true;
+    case TurtleOperation::SubtractColour:
+        add_colour(argument(0.0F), -1.0);
         return true;
     case TurtleOperation::RollUpright:
         roll_upright(now.pose);
@@ -325,6 +367,15 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
         return true;
     case TurtleOperation::ScaleAngle:
         scale_angle(argument(settings.angle_scale));
+        return true;
+    case TurtleOperation::DivideWidth:
+        set_width(now.width / argument(settings.width_scale));
+        return true;
+    case TurtleOperation::DivideStep:
+        now.step /= argument(settings.step_scale);
+        return true;
+    case TurtleOperation::DivideAngle:
+        scale_angle(1.0F / argument(settings.angle_scale));
         return true;
     case TurtleOperation::SetColour:
         set_colour(action.given != 0 ? static_cast<double>(arguments[0]) : now.colour + 1.0);

@@ -5,6 +5,8 @@
 #include <glm/ext/vector_double3.hpp>
 #include <glm/geometric.hpp>
 
+#include <cmath>
+
 namespace lsys {
 
 namespace {
@@ -48,6 +50,25 @@ void bend(Pose& pose, const std::array<float, 4>& tropism) {
     }
     const double angle = static_cast<double>(tropism[3]) * length;
     turn_to(pose, glm::angleAxis(angle, axis / length) * frame);
+}
+
+void aim(Pose& pose, const std::array<float, 3>& point) {
+    const glm::dvec3 way =
+        glm::dvec3(point[0], point[1], point[2]) - glm::dvec3(pose.x, pose.y, pose.z);
+    const double distance = glm::length(way);
+    if (!(distance > 0.0)) {
+        return;
+    }
+    const glm::dquat frame = turned(pose);
+    const glm::dvec3 heading = frame * glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 axis = glm::cross(heading, way / distance);
+    const double sine = glm::length(axis);
+    const double cosine = glm::dot(heading, way / distance);
+    if (sine > kVertical) {
+        turn_to(pose, glm::angleAxis(std::atan2(sine, cosine), axis / sine) * frame);
+    } else if (cosine < 0.0) { // half a turn about the right axis
+        turn_to(pose, frame * glm::dquat(0.0, 1.0, 0.0, 0.0));
+    }
 }
 
 } // namespace lsys

@@ -65,6 +65,9 @@ void roll_upright(Pose& pose);
 /// Turns the heading by e |H x T| radians towards T (ABOP 2.3); `tropism` is T and e.
 void bend(Pose& pose, const std::array<float, 4>& tropism);
 
+/// Turns the heading towards a point by the least turn; nothing where it is there.
+void aim(Pose& pose, const std::array<float, 3>& point);
+
 [[nodiscard]] inline glm::vec3 position_of(const Pose& p) {
     return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
 }

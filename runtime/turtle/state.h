@@ -23,6 +23,10 @@ inline constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<floa
 /// Reduction of a segment's radius along it where the profile has one: DIALECTS.md 1.3.
 inline constexpr float kRelativeTaper = 0.95F;
 inline constexpr float kPercent = 0.01F;
+inline constexpr double kFullTurn = 360.0;
+/// Colours of Fractint: 256, of which 0 is the ground and 15 where it begins.
+inline constexpr std::uint16_t kFirstColour = 15;
+inline constexpr double kColours = 256.0;
 
 [[nodiscard]] inline bool is_relative(TurtleProfile profile) {
     return profile == TurtleProfile::L3d || profile == TurtleProfile::Lplus ||
@@ -42,6 +46,7 @@ struct Brush {
     float step = 0.0F;  // m
     float angle = 0.0F; // degrees
     HalfAngle turn;     // of `angle`
+    double aside = 0.0; // degrees, of the second heading to the left of the first
     std::uint32_t segment = kNoSegment;
     std::uint16_t colour = 0;
     std::uint8_t sides = 0;
@@ -76,6 +81,8 @@ struct Turtle::State {
         has_tropism = settings.has_tropism;
         of_program = is_of_program(settings.turtle);
         skeleton.of_program = of_program;
+        has_aside = uses_aside(bytecode);
+        wide = settings.turtle == TurtleProfile::Sidefx;
         begin();
     }
 
@@ -89,6 +96,10 @@ struct Turtle::State {
         now.angle = settings.angle;
         now.turn = half_angle(static_cast<double>(settings.angle));
         now.sides = static_cast<std::uint8_t>(std::clamp(settings.sides, kMinSides, kMaxSides));
+        if (settings.turtle == TurtleProfile::Fractint) {
+            yaw(now.pose, half_angle(-90.0)); // to the right of the picture
+            now.colour = kFirstColour;
+        }
     }
 
     template <typename C>
@@ -139,6 +150,13 @@ struct Turtle::State {
     void set_sides(float sides);
     void set_colour(double index);
     void scale_angle(float factor);
+    void turn_left(double degrees);
+    void turn_most();
+    void mirror();
+    bool wide_forward(const Action& action, const float* arguments, float part);
+    void turn_by(const Action& action, const float* arguments);
+    bool aside_forward(const Action& action, const float* arguments);
+    void add_colour(float number, double sign);
 
     void note(TurtleFaultKind kind);
     bool stop(TurtleStatus why) {
@@ -181,6 +199,8 @@ struct Turtle::State {
     bool relative = false;      // widths are factors of the length
     bool of_program = false;    // what the program L3D has of its own is done
     bool has_tropism = false;
+    bool wide = false;      // segments have their width as a parameter, as in Houdini
+    bool has_aside = false; // something is drawn along the second heading
     // The last segment whose mass was worked out.
     double massed_length = -1.0;
     float massed_base = -1.0F;

@@ -221,6 +221,30 @@ std::map<std::string, Case> cases() {
                             std::ofstream(path, std::ios::app) << "@\n";
                         },
                         l3d, 0, ""};
+    const std::vector<std::string> fractint{"check", "--dialect", "fractint", "-n", "1", "%"};
+    all["fractint-line-10mb"] = {
+        repeated("A { angle 4\n axiom f\n f=", "f+[-@.5F]", 1'100'000, "\n}\n"), fractint, 0, ""};
+    all["fractint-systems-10mb"] = {[](const std::string& path) {
+                                        write_lines(path, "", 250'000, [](std::uint64_t i) {
+                                            return "s" + std::to_string(i) +
+                                                   " { angle 4\n axiom f\n f=f+f\n}\n";
+                                        });
+                                    },
+                                    fractint, 1, "which-system"};
+    all["fractint-zeros-10mb"] = {repeated("A {", std::string(1, '\0'), 10'000'000, ""), fractint,
+                                  1, "foreign-syntax"};
+    all["fractint-garbage-10mb"] = {repeated("A { axiom f\n", "=x=\xFF(@q\n:", 1'000'000, "}"),
+                                    fractint, 1, "foreign-syntax"};
+    const std::vector<std::string> houdini{"check", "--dialect", "houdini", "-n", "1", "%"};
+    all["houdini-line-10mb"] = {repeated("F\nF=", "F+[&(1)F]", 1'100'000, "\n"), houdini, 0, ""};
+    all["houdini-sum-10mb"] = {repeated("A(1)\nA(x)=F(", "x + ", 2'500'000, "1)\n"), houdini, 0,
+                               ""};
+    all["houdini-parentheses-10mb"] = {repeated("A(1)\nA(x)=F(", "(", 10'000'000, "\n"), houdini, 1,
+                                       "foreign-syntax"};
+    all["houdini-zeros-10mb"] = {repeated("F", std::string(1, '\0'), 10'000'000, ""), houdini, 1,
+                                 "foreign-syntax"};
+    all["houdini-garbage-10mb"] = {repeated("A\n", "A=(\xFF:@\n:", 1'000'000, ""), houdini, 1,
+                                   "foreign-syntax"};
     all["nested-word"] = {
         repeated("#n = 5000;\n#w : A;\n#p : A : * : [A];\n#q : F < A : * : A;\n", " ", 1, ""),
         {"dump", "--count", "%"},

@@ -1,0 +1,28 @@
+// The parameters of Houdini's node that a rule text may give, a line `key: value` each.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace lsys {
+
+enum class HoudiniSettingKind : std::uint8_t {
+    Generations,
+    Number,  // a `#set`
+    Value,   // b, c or d
+    Gravity, // of T without a parameter
+    Seed,
+    Ignore, // symbols that contexts do not see
+};
+
+struct HoudiniSettingRow {
+    std::string_view key; // as houdini_key() has it
+    HoudiniSettingKind kind{};
+    std::string_view name; // of the setting in .lsys
+};
+
+/// Null: there is none. Several keys may be one setting.
+[[nodiscard]] const HoudiniSettingRow* find_houdini_setting(std::string_view key);
+
+} // namespace lsys

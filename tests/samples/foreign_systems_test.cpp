@@ -1,0 +1,105 @@
+// Grammars of other programs: what is imported derives what the original derives.
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using lsys::tests::LscRun;
+using lsys::tests::run_lsc;
+using lsys::tests::ScratchFolder;
+
+struct Foreign {
+    std::string file;   // in samples/dialects
+    std::string system; // of a file of several
+    std::string generations;
+    std::string count; // of modules then; empty: by chance
+};
+
+std::vector<Foreign> foreign_samples() {
+    return {
+        {"fractint/curves.l", "Snowflake", "4", "1792"},
+        {"fractint/curves.l", "Dragon", "8", "1022"},
+        {"fractint/curves.l", "ColourBush", "3", "1685"},
+        {"fractint/curves.l", "Squares", "3", "232"},
+        {"fractint/curves.l", "Star", "3", "464"},
+        {"houdini/tree.hlsys", "", "5", ""},
+        {"houdini/signal.hlsys", "", "6", ""},
+        {"houdini/figure.hlsys", "", "3", "190"},
+    };
+}
+
+std::vector<std::string> with_system(std::vector<std::string> arguments, const Foreign& foreign) {
+    if (!foreign.system.empty()) {
+        arguments.insert(arguments.end(), {"--system", foreign.system});
+    }
+    return arguments;
+}
+
+} // namespace
+
+TEST_CASE("the .sys figure is one program in every syntax") {
+    // The dump of a program without the names of its turtle, symbols and productions.
+    const auto program_of = [](const std::string& name, const std::string& text) {
+        const ScratchFolder scratch;
+        lsys::tests::write_text(scratch / name, text);
+        LscRun run = run_lsc({"dump", "--stage", "program", "-n", "3", scratch / name}, "");
+        CHECK(run.status == 0);
+        const std::vector<std::pair<std::string, std::string>> names{{"turtle sys", "turtle"},
+                                                                     {"turtle sidefx", "turtle"},
+                                                                     {"turtle lsys", "turtle"},
+                                                                     {"tapered-forward", "forward"},
+                                                                     {"`>`", "-"},
+                                                                     {"`<`", "+"}};
+        for (const auto& [from, to] : names) {
+            for (std::size_t at = run.out.find(from); at != std::string::npos;
+                 at = run.out.find(from, at)) {
+                run.out.replace(at, from.size(), to);
+            }
+        }
+        return run.out;
+    };
+    const std::string of_sys = program_of("f.sys", "LSYSTEM\n1\nF\nF F[>F][<F]F 1\n");
+    CHECK(of_sys.find("F : * : F [ - F ] [ + F ] F") != std::string::npos);
+    CHECK(of_sys == program_of("f.lsys", "#set names letters;\n#w : F;\n"
+                                         "#r1 : F : * : F[-F][+F]F;\n"));
+    CHECK(of_sys == program_of("f.hlsys", "F\nF=F[-F][+F]F\n"));
+}
+
+TEST_CASE("an imported grammar derives what the original derives") {
+    const std::string folder = LSYS_SOURCE_DIR "/samples/dialects/";
+    for (const Foreign& foreign : foreign_samples()) {
+        const std::string file = folder + foreign.file;
+        INFO(foreign.file << " " << foreign.system);
+        const ScratchFolder scratch;
+        const LscRun imported = run_lsc(with_system({"import", file, "-n", foreign.generations,
+                                                     "-o", scratch / "imported.lsys"},
+                                                    foreign),
+                                        "");
+        CHECK(imported.status == 0);
+        CHECK(imported.err.empty());
+        for (const char* const stage : {"word", "skeleton"}) {
+            const std::vector<std::string> dump{"dump", "-n", foreign.generations, "--stage",
+                                                stage};
+            std::vector<std::string> original = dump;
+            original.push_back(file);
+            std::vector<std::string> copy = dump;
+            copy.push_back(scratch / "imported.lsys");
+            const LscRun first = run_lsc(with_system(original, foreign), "");
+            const LscRun second = run_lsc(copy, "");
+            CHECK(first.status == 0);
+            CHECK(!first.out.empty());
+            CHECK(first.out == second.out);
+        }
+        const LscRun counted =
+            run_lsc(with_system({"dump", file, "-n", foreign.generations, "--count"}, foreign), "");
+        if (!foreign.count.empty()) {
+            CHECK(counted.out == foreign.count + "\n");
+        }
+    }
+}
