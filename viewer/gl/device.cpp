@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <epoxy/gl.h>
+#include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 namespace lsys::view {
@@ -14,6 +16,13 @@ constexpr std::size_t kMostErrors = 16;
 std::string text_of(GLenum name) {
     const auto* const text = reinterpret_cast<const char*>(glGetString(name));
     return text == nullptr ? std::string("unknown") : std::string(text);
+}
+
+bool draws_in_software(std::string_view renderer) {
+    constexpr std::array<std::string_view, 3> kKnown = {"llvmpipe", "softpipe", "SwiftShader"};
+    return std::any_of(kKnown.begin(), kKnown.end(), [&](std::string_view known) {
+        return renderer.find(known) != std::string_view::npos;
+    });
 }
 
 void GLAPIENTRY on_message(GLenum /*source*/,
@@ -38,6 +47,24 @@ Device::Device() {
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     glDebugMessageCallback(on_message, this);
+    is_software_ = draws_in_software(text_of(GL_RENDERER));
+}
+
+Device::~Device() {
+    glDeleteSync(pass_);
+}
+
+void Device::end_pass() {
+    if (!is_software_) {
+        return;
+    }
+    const GLsync before = std::exchange(pass_, glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
+    glFlush();
+    if (before != nullptr) {
+        constexpr GLuint64 kLong = 60'000'000'000; // ns
+        glClientWaitSync(before, 0, kLong);
+        glDeleteSync(before);
+    }
 }
 
 void Device::report(std::string message) {

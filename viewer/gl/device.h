@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <epoxy/gl.h>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ class Device {
 public:
     /// Of the context that is current; listens to its reports.
     Device();
+    ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
@@ -28,9 +30,16 @@ public:
     void add_upload(std::uint64_t bytes) { uploaded_ += bytes; }
     void report(std::string message);
 
+    /// To be called between passes. A software renderer holds all triangles of a picture in memory
+    /// until it is drawn; here it begins with those there are. It is never more than one pass
+    /// behind.
+    void end_pass();
+
     [[nodiscard]] std::string renderer() const; // "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5"
 
 private:
+    bool is_software_ = false;
+    GLsync pass_ = nullptr; // the last one's end
     std::uint64_t live_ = 0;
     std::uint64_t uploaded_ = 0;
     std::uint64_t error_count_ = 0;

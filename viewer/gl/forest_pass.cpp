@@ -170,12 +170,14 @@ void ForestPass::draw_impostors(std::span<const std::uint32_t> trees, FrameStats
     // seen. A software renderer does not skip what comes after a texel was discarded.
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     draw_quads(programs_.impostor_depth, trees.size());
+    device_->end_pass();
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_EQUAL);
     glDepthMask(GL_FALSE);
     draw_quads(programs_.impostor, trees.size());
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_GEQUAL);
+    device_->end_pass();
     stats.draws += 2;
     stats.triangles += 4 * trees.size();
 }
@@ -209,9 +211,11 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     glUseProgram(programs_.solid.name());
     stats.branches.draws += buffers_.draw(BranchClass::OneSided);
     stats.branches.draws += buffers_.draw(BranchClass::TwoSided);
+    device_->end_pass();
     glUseProgram(programs_.cut_out.name());
     stats.branches.draws += buffers_.draw(BranchClass::CutOut);
     stats.branches.triangles += lists_->triangles;
+    device_->end_pass();
     glDisable(GL_CULL_FACE);
     draw_impostors(lists_->trees, stats.impostors);
     if (!lists_->clumps.empty()) {

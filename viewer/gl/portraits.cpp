@@ -254,6 +254,7 @@ void Portraits::draw_row(const Cylinder& form,
                 buffers.draw(BranchClass::TwoSided);
             }
         }
+        device_->end_pass();
     }
 }
 
