@@ -107,14 +107,23 @@ private:
         return std::find(std::begin(kWords), std::end(kWords), word) != std::end(kWords);
     }
 
+    /// Backslashes at the end of a line, with that end; two are a habit of some files.
+    static std::size_t splice_length(std::string_view text) {
+        std::size_t length = std::min(text.find_first_not_of('\\'), text.size());
+        if (length == 0 || length > 2) {
+            return 0;
+        }
+        length += text.substr(length).starts_with("\r\n") ? 1U : 0U;
+        return text.substr(length).starts_with("\n") ? length + 1 : 0;
+    }
+
     /// Reads a directive with its continued lines; returns where the next line begins.
     std::size_t directive(FileId id, std::string_view text, std::size_t first) {
         std::string line;
         std::size_t at = first;
         while (at < text.size() && text[at] != '\n') {
-            if (text[at] == '\\' &&
-                (text.substr(at, 2) == "\\\n" || text.substr(at, 3) == "\\\r\n")) {
-                at += text[at + 1] == '\r' ? 3U : 2U;
+            if (const std::size_t splice = splice_length(text.substr(at)); splice != 0) {
+                at += splice;
                 line += ' ';
             } else if (text.substr(at, 2) == "/*") {
                 at = comment_end(id, text, at);

@@ -90,7 +90,8 @@ public:
     int interpret_depth = -1;
     std::vector<int> definitions; // statements
     std::vector<int> start;
-    std::vector<std::vector<int>> each; // StartEach, EndEach
+    std::vector<int> start_each;
+    std::vector<int> end_each;
     std::vector<int> end;
     Stage stage = Stage::Rewrite; // of the productions that are being read
     int systems = 0;

@@ -1,0 +1,40 @@
+// The functions that cpfg models draw as curves: `func(3, x)`. A view file beside the L-system
+// lists their files (`function: leaf.func 100`) or a set of them with names (`function set:
+// all.fset`). A curve is a B-spline in a plane whose x ascends; as an expression it is a row of
+// chords.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+struct CurvePoint {
+    double x = 0.0;
+    double y = 0.0;
+};
+
+struct CpfgCurve {
+    std::string name;               // empty: a file of its own has none
+    std::vector<CurvePoint> points; // of its polygon of control, x ascends
+};
+
+/// What a view file says that a word depends on.
+struct CpfgView {
+    std::string angle; // an expression of .lsys; empty: none is given
+    std::vector<CpfgCurve> curves;
+};
+
+/// The text of a file that lies beside the L-system, by its name; nothing if it cannot be read.
+using FileBeside = std::function<std::optional<std::string>(std::string_view name)>;
+
+[[nodiscard]] CpfgView read_view(std::string_view text, const FileBeside& beside);
+
+/// The curve at `x`, an expression of .lsys; outside of the curve its ends. No chord is further
+/// from the curve than a thousandth of its height.
+[[nodiscard]] std::string curve_at(const CpfgCurve& curve, const std::string& x);
+
+} // namespace lsys

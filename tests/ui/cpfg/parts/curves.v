@@ -1,0 +1,3 @@
+angle factor: 12
+function: rise.func 100
+function set: more.fset
