@@ -180,7 +180,7 @@ private:
 template <typename Stream, typename Value>
 void settings(Stream& stream, Value& s) {
     stream.tag(s.turtle, kLastTurtleProfile);
-    stream.tag(s.rewriting, RewritingMode::Cyclic);
+    stream.tag(s.rewriting, RewritingMode::Leftmost);
     stream.tag(s.choice, ChoiceScope::Generation);
     stream.tag(s.weights, WeightRule::Any);
     stream.tag(s.random, RandomSource::Glibc);

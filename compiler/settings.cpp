@@ -13,7 +13,8 @@ std::string_view name_in(const std::array<std::string_view, size>& names, Enum v
     return names[index];
 }
 
-constexpr std::array<std::string_view, 3> kRewritingModes{"parallel", "sequential", "cyclic"};
+constexpr std::array<std::string_view, 4> kRewritingModes{"parallel", "sequential", "cyclic",
+                                                          "leftmost"};
 constexpr std::array<std::string_view, 2> kChoiceScopes{"module", "generation"};
 constexpr std::array<std::string_view, 2> kWeightRules{"one", "any"};
 constexpr std::array<std::string_view, 2> kAtDepths{"error", "stop"};

@@ -9,7 +9,7 @@
 namespace lsys {
 
 /// How a generation rewrites the word (LANGUAGE.md section 5).
-enum class RewritingMode : std::uint8_t { Parallel, Sequential, Cyclic };
+enum class RewritingMode : std::uint8_t { Parallel, Sequential, Cyclic, Leftmost };
 /// Whether each module draws its production, or all modules of a rule share one draw a generation.
 enum class ChoiceScope : std::uint8_t { Module, Generation };
 /// Where the draws of `choice generation` come from: section 6, or the rand() of glibc.

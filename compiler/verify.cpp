@@ -49,7 +49,8 @@ private:
 
     bool settings() {
         const Settings& s = bytecode_.settings;
-        if (!within(s.turtle, kLastTurtleProfile) || !within(s.rewriting, RewritingMode::Cyclic) ||
+        if (!within(s.turtle, kLastTurtleProfile) ||
+            !within(s.rewriting, RewritingMode::Leftmost) ||
             !within(s.choice, ChoiceScope::Generation) || !within(s.random, RandomSource::Glibc) ||
             !within(s.weights, WeightRule::Any) || !within(s.at_depth, AtDepth::Stop)) {
             return fail("a setting has a value that does not exist");

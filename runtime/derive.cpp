@@ -193,6 +193,7 @@ struct Derivation::State {
         plan->prepare(age);
         switch (bytecode.settings.rewriting) {
         case RewritingMode::Parallel:
+        case RewritingMode::Leftmost:
             return rewrite(0, current);
         case RewritingMode::Sequential:
             return rewrite_sequentially(current);

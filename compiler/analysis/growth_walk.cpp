@@ -196,8 +196,8 @@ Count GrowthWalk::most_matches(const SequenceRule& rule) const {
     return most;
 }
 
-void GrowthWalk::rewrite_sequences(SequenceRule& rule) {
-    const Count matches = most_matches(rule);
+/// A sequence may match any number of times up to `matches`.
+void GrowthWalk::use_up(const SequenceRule& rule, const Count& matches) {
     if (is_zero(matches)) {
         return;
     }
@@ -207,6 +207,12 @@ void GrowthWalk::rewrite_sequences(SequenceRule& rule) {
             Count& low = low_[static_cast<std::size_t>(id)];
             low = subtract(low, matches * count_of(uses));
         }
+    }
+}
+
+void GrowthWalk::write(const SequenceRule& rule, const Count& matches) {
+    if (is_zero(matches)) {
+        return;
     }
     reserve();
     for (const ClassTerm& term : rule.most) {
@@ -219,7 +225,10 @@ void GrowthWalk::rewrite_sequences(SequenceRule& rule) {
 void GrowthWalk::pass(const Rule& rule) {
     ++work_;
     if (rule.sequence != kNone) {
-        rewrite_sequences(sequences_[rule.sequence]);
+        const SequenceRule& sequence = sequences_[rule.sequence];
+        const Count matches = most_matches(sequence);
+        use_up(sequence, matches);
+        write(sequence, matches);
         return;
     }
     const auto found = by_symbol_.find(static_cast<std::uint32_t>(rule.symbol));
@@ -253,6 +262,23 @@ void GrowthWalk::advance() {
     case RewritingMode::Parallel: {
         const std::vector<ClassId> ids = present_;
         rewrite(ids);
+        break;
+    }
+    case RewritingMode::Leftmost: {
+        index_by_symbol();
+        std::vector<Count> matches;
+        matches.reserve(sequences_.size());
+        for (const SequenceRule& sequence : sequences_) {
+            matches.push_back(most_matches(sequence));
+        }
+        for (std::size_t i = 0; i < sequences_.size(); ++i) {
+            use_up(sequences_[i], matches[i]);
+        }
+        const std::vector<ClassId> ids = present_;
+        rewrite(ids);
+        for (std::size_t i = 0; i < sequences_.size(); ++i) {
+            write(sequences_[i], matches[i]);
+        }
         break;
     }
     case RewritingMode::Sequential:

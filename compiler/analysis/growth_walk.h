@@ -68,7 +68,8 @@ private:
     void list_rules();
     void pass(const Rule& rule);
     void rewrite(std::span<const ClassId> ids);
-    void rewrite_sequences(SequenceRule& rule);
+    void use_up(const SequenceRule& rule, const Count& matches);
+    void write(const SequenceRule& rule, const Count& matches);
     [[nodiscard]] Count most_matches(const SequenceRule& rule) const;
     void meet(ClassId id);
     void reserve();

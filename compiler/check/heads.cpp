@@ -51,7 +51,7 @@ bool HeadResolver::check_shape(const ProductionNode& node) {
             fmt::format("{} modules are to be rewritten as one", node.predecessor.count));
         error.notes.emplace_back("in parallel rewriting every module is rewritten by itself");
         error.help.emplace_back("write the neighbours as contexts (`A < B > C`), or use "
-                                "`#set rewriting sequential;`");
+                                "`#set rewriting leftmost;` or `sequential`");
         return false;
     }
     return fine;
@@ -101,7 +101,9 @@ bool HeadResolver::pattern(ModuleList list, Part part, ProgramPattern& out) {
     }
     for (const SourceSpan open : open_) {
         resolution_.diagnostics.add(DiagnosticCode::BracketInHead, open,
-                                    "this `[` of the context is never closed");
+                                    part == Part::Predecessor
+                                        ? "this `[` of the predecessor is never closed"
+                                        : "this `[` of the context is never closed");
         fine = false;
     }
     return fine;
@@ -110,7 +112,9 @@ bool HeadResolver::pattern(ModuleList list, Part part, ProgramPattern& out) {
 bool HeadResolver::bracket(const ModuleView& module, Part part, ProgramPattern& out) {
     const bool opens = kind_of(resolution_.program.settings.turtle,
                                resolution_.text(module.name)) == SymbolKind::BranchOpen;
-    if (part != Part::Right) {
+    const bool rewritten = part == Part::Predecessor &&
+                           resolution_.program.settings.rewriting == RewritingMode::Leftmost;
+    if (part != Part::Right && !rewritten) {
         Diagnostic& error =
             resolution_.diagnostics.add(DiagnosticCode::BracketInHead, module.span,
                                         part == Part::Left ? "a left context cannot hold brackets"
@@ -125,10 +129,15 @@ bool HeadResolver::bracket(const ModuleView& module, Part part, ProgramPattern& 
         open_.push_back(module.span);
     } else if (open_.empty()) {
         resolution_.diagnostics.add(DiagnosticCode::BracketInHead, module.span,
-                                    "this `]` of the context closes nothing");
+                                    rewritten ? "this `]` of the predecessor closes nothing"
+                                              : "this `]` of the context closes nothing");
         return false;
     } else {
         open_.pop_back();
+    }
+    if (rewritten) { // a module like others
+        append(module, 0, out);
+        return true;
     }
     out.items.push_back({opens ? PatternKind::Open : PatternKind::Close, kNoSymbol, 0,
                          module.span.begin, module.span.end});

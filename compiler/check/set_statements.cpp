@@ -60,7 +60,7 @@ constexpr std::array kTurtles{
     TurtleProfile::Sys,          TurtleProfile::Carey,    TurtleProfile::L3dProgram,
     TurtleProfile::LplusProgram, TurtleProfile::Fractint, TurtleProfile::Sidefx};
 constexpr std::array kModes{RewritingMode::Parallel, RewritingMode::Sequential,
-                            RewritingMode::Cyclic};
+                            RewritingMode::Cyclic, RewritingMode::Leftmost};
 constexpr std::array kScopes{ChoiceScope::Module, ChoiceScope::Generation};
 constexpr std::array kAtDepths{AtDepth::Error, AtDepth::Stop};
 constexpr std::array kSources{RandomSource::Philox, RandomSource::Glibc};

@@ -64,8 +64,11 @@ void CpfgWriter::keep_tilde(CpfgProduction& each) const {
 }
 
 std::string CpfgWriter::key_of(const CpfgProduction& each) {
-    const CpfgModule& module = each.predecessor.front();
-    return module.name + "/" + std::to_string(module.arguments.size());
+    std::string key;
+    for (const CpfgModule& module : each.predecessor) {
+        key += module.name + "/" + std::to_string(module.arguments.size()) + " ";
+    }
+    return key;
 }
 
 void CpfgWriter::check_module(CpfgModule& module) {
@@ -175,6 +178,12 @@ void CpfgWriter::view() {
 
 void CpfgWriter::settings() {
     out_.put("#set turtle abop;\n#set names letters;\n", header_);
+    const auto several = [](const CpfgProduction& each) {
+        return each.stage == Stage::Rewrite && each.predecessor.size() > 1;
+    };
+    if (std::any_of(session_.productions.begin(), session_.productions.end(), several)) {
+        out_.put("#set rewriting leftmost;\n", header_);
+    }
     if (!view_.angle.empty()) {
         out_.put("#set angle " + view_.angle + ";\n", header_);
     }

@@ -50,7 +50,7 @@ void CpfgWriter::find_bindings() {
     std::set<std::pair<Stage, std::string>> grouped;
     for (std::size_t i = 0; i < session_.productions.size(); ++i) {
         const CpfgProduction& each = session_.productions[i];
-        if (each.predecessor.size() != 1) {
+        if (each.predecessor.empty()) {
             continue;
         }
         const std::vector<std::string> names = formals_of(each);
@@ -95,9 +95,10 @@ void CpfgWriter::bind_group(const std::vector<std::size_t>& members) {
     int draws = 0;
     for (const std::size_t i : members) {
         const CpfgProduction& each = session_.productions[i];
-        if (!each.left.empty() || !each.right.empty()) {
+        if (!each.left.empty() || !each.right.empty() || each.predecessor.size() != 1) {
             session_.unable(each.span, "a choice by a random number, or by weights that depend on "
-                                       "parameters, among productions with contexts");
+                                       "parameters, among productions with contexts or of several "
+                                       "modules");
             return;
         }
         draws += bindings_[i].draws;
@@ -165,10 +166,12 @@ void CpfgWriter::pattern(const std::vector<CpfgModule>& list) {
 
 /// Whether the production can be written at all.
 bool CpfgWriter::check(const CpfgProduction& each) {
-    if (each.predecessor.size() != 1) {
-        session_.unable(each.span, each.predecessor.empty()
-                                       ? "a production without a module"
-                                       : "a production that rewrites several modules as one");
+    if (each.predecessor.empty()) {
+        session_.unable(each.span, "a production without a module");
+        return false;
+    }
+    if (each.predecessor.size() != 1 && each.stage != Stage::Rewrite) {
+        session_.unable(each.span, "a decomposition or a homomorphism of several modules as one");
         return false;
     }
     const bool contexts = !each.left.empty() || !each.right.empty();

@@ -50,16 +50,15 @@ bool Chooser<C>::choose(const ModulePlace& place, const Row& row, std::uint32_t&
     const Bytecode& bytecode = plan_.bytecode();
     const Family& family = plan_.family(row.source);
     const std::span<const Candidate> candidates = plan_.candidates(family);
-    if (plan_.predecessor_count() > 1 &&
-        !matcher_.matches_predecessor(bytecode.productions[candidates[0].production],
-                                      place.index)) {
-        return true;
-    }
     const float* const own = matcher_.own(place);
     std::uint32_t group = kNone; // whose contexts were looked for last
     bool in_context = true;
     for (std::uint32_t i = 0; i < candidates.size(); ++i) {
         const Candidate& candidate = candidates[i];
+        if (candidate.modules > 1 && !matcher_.matches_predecessor(
+                                         bytecode.productions[candidate.production], place.index)) {
+            continue;
+        }
         if (candidate.has_context) {
             if (candidate.group != group) {
                 group = candidate.group;

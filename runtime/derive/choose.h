@@ -72,7 +72,7 @@ public:
             }
         }
         if (row.right_guard != kNone) {
-            const std::uint64_t next = contexts_->next_from(index + plan_.predecessor_count());
+            const std::uint64_t next = contexts_->next_from(index + plan_.guard_distance());
             if (next == kNowhere || plan_.guards()[row.right_guard + word_.codes[next]] == 0) {
                 return false;
             }

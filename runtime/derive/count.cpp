@@ -16,7 +16,7 @@ CountResult count_modules(const Plan& plan,
     const Entry* const entries = plan.entries().data();
     const C* const codes = word.codes;
     const float* const parameters = word.parameters;
-    const std::uint32_t predecessor_count = plan.predecessor_count();
+    const bool several = plan.predecessor_count() > 1;
     const std::uint64_t end = request.end;
     const std::uint64_t room_modules = request.room_modules;
     const std::uint64_t room_parameters = request.room_parameters;
@@ -54,8 +54,9 @@ CountResult count_modules(const Plan& plan,
         records += row.kind != RowKind::Fixed ? 1 : 0;
         parameter += row.stored;
         ++index;
-        if (record != 0 && predecessor_count > 1) {
-            for (std::uint32_t i = 1; i < predecessor_count; ++i, ++index) {
+        if (record != 0 && several) {
+            const std::uint32_t used = plan.used_by(entries[row.base + record]);
+            for (std::uint32_t i = 1; i < used; ++i, ++index) {
                 parameter += rows[codes[index]].stored;
             }
         }

@@ -76,7 +76,7 @@ std::optional<RuntimeError> find_fault(const Plan& plan,
                                 plan.candidate(entry.candidate), fault, false);
             }
         }
-        const std::uint32_t modules = record != 0 ? plan.predecessor_count() : 1;
+        const std::uint32_t modules = record != 0 ? plan.used_by(entry) : 1;
         for (std::uint32_t i = 0; i < modules; ++i, ++place.index) {
             place.parameter += plan.row(word.codes[place.index]).stored;
         }

@@ -41,7 +41,7 @@ private:
             const std::uint32_t record = *records_++;
             if (record != 0) {
                 entry = entries_ + row.base + record;
-                used = plan_.predecessor_count();
+                used = plan_.used_by(*entry);
             }
         }
         if (entry->candidate == kNone) {

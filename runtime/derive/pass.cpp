@@ -414,7 +414,8 @@ std::uint32_t Passes::dominant_production(const WordView<C>& word, const PassKey
                 LSYS_CHECK(counted, place.index); // or the pass had ended before
             }
             ++uses[record == 0 ? code : row.base + record];
-            const std::uint32_t modules = record == 0 ? 1 : plan_.predecessor_count();
+            const std::uint32_t modules =
+                record == 0 ? 1 : plan_.used_by(plan_.entries()[row.base + record]);
             for (std::uint32_t i = 0; i < modules; ++i, ++place.index) {
                 place.parameter += plan_.row(word.codes[place.index]).stored;
             }
@@ -424,13 +425,13 @@ std::uint32_t Passes::dominant_production(const WordView<C>& word, const PassKey
     std::uint32_t dominant = kNone;
     for (std::size_t i = 0; i < uses.size(); ++i) {
         const Entry& entry = plan_.entries()[i];
-        if (entry.candidate == kNone || entry.code_count <= plan_.predecessor_count()) {
+        const std::uint32_t used = plan_.used_by(entry);
+        if (entry.candidate == kNone || entry.code_count <= used) {
             continue;
         }
         const std::uint32_t production = plan_.candidate(entry.candidate).production;
-        added[production] = saturating_add(
-            added[production],
-            saturating_multiply(uses[i], entry.code_count - plan_.predecessor_count()));
+        added[production] = saturating_add(added[production],
+                                           saturating_multiply(uses[i], entry.code_count - used));
     }
     for (std::uint32_t production = 0; production < added.size(); ++production) {
         if (added[production] > (dominant == kNone ? 0 : added[dominant])) {

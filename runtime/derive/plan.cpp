@@ -48,7 +48,8 @@ std::uint64_t bytes_of(const std::vector<T>& values) {
 Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generation, Stage stage)
     : bytecode_(bytecode), inputs_(inputs), each_generation_(each_generation),
       productions_(bytecode.of(stage)),
-      parallel_(stage != Stage::Rewrite || bytecode.settings.rewriting == RewritingMode::Parallel) {
+      parallel_(stage != Stage::Rewrite || bytecode.settings.rewriting == RewritingMode::Parallel ||
+                bytecode.settings.rewriting == RewritingMode::Leftmost) {
     if (bytecode.settings.random == RandomSource::Glibc) {
         dice_.emplace(bytecode, inputs.seed);
     }
@@ -59,6 +60,9 @@ Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generat
     if (parallel_) {
         if (has_parameters_ && bytecode_.code_count() <= kMostFoldedCodes) {
             folded_index_.emplace(bytecode_);
+        }
+        for (const Candidate& candidate : candidates_) {
+            predecessor_count_ = std::max(predecessor_count_, candidate.modules);
         }
         for (std::uint32_t i = 0; i < families_.size(); ++i) {
             put_in_force(i);
@@ -171,6 +175,7 @@ void Plan::make_families() {
         }
         const std::uint32_t own_end = item.first_formal + own_count;
         candidate.production = p;
+        candidate.modules = production.predecessor.count;
         candidate.group = production.group;
         candidate.own_first = item.first_formal;
         candidate.weight = production.weight;
@@ -182,6 +187,7 @@ void Plan::make_families() {
                                 own_end);
         candidate.gathers = candidate.reads_context || item.first_formal != 0 ||
                             (production.predecessor.count > 1 && own_count > 0);
+        family.several = family.several || candidate.modules > 1;
         family.has_context = family.has_context || candidate.has_context;
         family.reads_context = family.reads_context || candidate.reads_context;
         family.varies = family.varies || (one_choice && production.stochastic) ||
@@ -218,7 +224,7 @@ void Plan::make_guards() {
         for (const Candidate& candidate : candidates(family)) {
             const BytecodeProduction& production = bytecode_.productions[candidate.production];
             all_left = all_left && production.has_left;
-            all_right = all_right && production.has_right &&
+            all_right = all_right && production.has_right && !(parallel_ && family.several) &&
                         bytecode_.patterns[production.right.first].kind == PatternKind::Module;
         }
         for (const Candidate& candidate : candidates(family)) {

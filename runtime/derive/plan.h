@@ -75,6 +75,7 @@ struct Family {
     std::uint32_t count = 0;
     std::uint32_t left_guard = kNone; // codes that may stand left of a module that is rewritten
     std::uint32_t right_guard = kNone;
+    bool several = false; // a candidate rewrites several modules
     bool has_context = false;
     bool reads_context = false; // a formal of a context is used
     bool reads_own = false;     // an entry reads the module's parameters
@@ -87,6 +88,7 @@ enum class ConditionKind : std::uint8_t { Always, Never, Comparisons, Expression
 struct Candidate {
     std::uint32_t production = 0;
     std::uint32_t group = 0;
+    std::uint32_t modules = 1;   // that a match uses up
     std::uint32_t own_first = 0; // formal of the module's first parameter
     std::uint32_t first_comparison = 0;
     std::uint32_t comparison_count = 0;
@@ -181,8 +183,17 @@ public:
     [[nodiscard]] bool all_fixed() const { return dynamic_rows_ == 0; }
     [[nodiscard]] bool needs_contexts() const { return needs_contexts_; }
     [[nodiscard]] bool reads_contexts() const { return reads_contexts_; }
-    /// Modules a match uses up; above 1 only in a pass of one rule.
+    /// The most modules that a match uses up; above 1 in a pass of one rule, of which each match
+    /// uses as many, and in leftmost rewriting.
     [[nodiscard]] std::uint32_t predecessor_count() const { return predecessor_count_; }
+    /// Modules that a match uses up whose successor is this entry.
+    [[nodiscard]] std::uint32_t used_by(const Entry& entry) const {
+        return entry.candidate == kNone ? 1 : candidates_[entry.candidate].modules;
+    }
+    /// From a module to the first that guards on its right may look at.
+    [[nodiscard]] std::uint32_t guard_distance() const {
+        return parallel_ ? 1 : predecessor_count_;
+    }
     /// Rule in force, or kNone: all.
     [[nodiscard]] std::uint32_t selected_rule() const { return selected_rule_; }
     /// First symbol of a rule's predecessor.

@@ -162,7 +162,7 @@ void Plan::resolve(std::uint32_t family_index, Code code) {
     row.right_guard = family.right_guard;
     const float* const own = own_constants(row);
     row.slow = own != nullptr && family.reads_own;
-    if (predecessor_count_ > 1) {
+    if (family.several) {
         set_kind(code, RowKind::General);
         return;
     }

@@ -288,7 +288,7 @@ private:
                 const std::uint32_t record = *records_++;
                 if (record != 0) {
                     entry = entries_ + row.base + record;
-                    modules = plan_.predecessor_count();
+                    modules = plan_.used_by(*entry);
                 }
             }
             codes_ = std::copy_n(pool_ + entry->first_code, entry->code_count, codes_);

@@ -93,7 +93,7 @@ TEST_CASE("words that become empty stay empty") {
 }
 
 TEST_CASE("every mode without productions keeps the axiom") {
-    for (const char* mode : {"parallel", "sequential", "cyclic"}) {
+    for (const char* mode : {"parallel", "sequential", "cyclic", "leftmost"}) {
         Grammar grammar = letter_system("A[B]", {});
         add_setting(grammar, "rewriting", mode);
         CHECK(difference(one_step(grammar, 0)) == "");

@@ -187,8 +187,8 @@ void rewrite(const Reading& reading, const Choice& choice, std::size_t position,
     }
 }
 
-// Reads the word once from left to right. In parallel rewriting a predecessor is one module, so
-// that this is also the step that rewrites all modules at once.
+// Reads the word once from left to right, as leftmost rewriting does. In parallel rewriting a
+// predecessor is one module, so that this is also the step that rewrites all modules at once.
 Word read_once(const Reading& reading, Derivation& derivation) {
     Word out;
     std::size_t position = 0;

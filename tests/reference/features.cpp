@@ -236,6 +236,7 @@ const std::vector<std::string>& feature_names() {
                                                     "more than 256 modules in the axiom",
                                                     "set rewriting sequential",
                                                     "set rewriting cyclic",
+                                                    "set rewriting leftmost",
                                                     "set choice generation",
                                                     "set weights any",
                                                     "define: range",
@@ -248,17 +249,21 @@ const std::vector<std::string>& feature_names() {
                                                     "context, parallel",
                                                     "context, sequential",
                                                     "context, cyclic",
+                                                    "context, leftmost",
                                                     "context []",
                                                     "context [ ]",
                                                     "several predecessor modules, sequential",
                                                     "several predecessor modules, cyclic",
+                                                    "several predecessor modules, leftmost",
                                                     "empty successor",
                                                     "choice module, parallel",
                                                     "choice module, sequential",
                                                     "choice module, cyclic",
+                                                    "choice module, leftmost",
                                                     "choice generation, parallel",
                                                     "choice generation, sequential",
                                                     "choice generation, cyclic",
+                                                    "choice generation, leftmost",
                                                     "probability with condition",
                                                     "probability without condition",
                                                     "more than four ranges in a successor",
@@ -312,9 +317,11 @@ const std::vector<std::string>& feature_names() {
                                                     "decompose, parallel",
                                                     "decompose, sequential",
                                                     "decompose, cyclic",
+                                                    "decompose, leftmost",
                                                     "cut, parallel",
                                                     "cut, sequential",
-                                                    "cut, cyclic"};
+                                                    "cut, cyclic",
+                                                    "cut, leftmost"};
     return kNames;
 }
 

@@ -28,7 +28,9 @@ bool fits(const std::string& name, bool letters) {
 Plan make_plan(bool letters_files, bool words_files, Random& random) {
     Plan plan;
     plan.rewriting =
-        random.percent(56) ? "parallel" : (random.percent(50) ? "sequential" : "cyclic");
+        random.percent(50)
+            ? "parallel"
+            : random.pick(std::vector<std::string>{"sequential", "cyclic", "leftmost"});
     plan.choice_generation = random.percent(25);
     plan.weights_any = random.percent(25);
     plan.brackets = random.percent(60);

@@ -297,6 +297,16 @@ TEST_CASE("cyclic rewriting: Carey's type 1") {
     CHECK(counts(carey, 6) == Counts{4, 26, 29, 117, 135, 487, 571});
 }
 
+TEST_CASE("leftmost rewriting makes one pass of all rules") {
+    Grammar grammar = letter_system("ABABC", {"AB=CA", "C=", "A=B"});
+    add_setting(grammar, "rewriting", "leftmost");
+    CHECK(text_after(grammar, 1) == "CACA");
+    CHECK(text_after(grammar, 2) == "BB"); // no `AB` is left: each module goes by itself
+    Grammar pairs = letter_system("AAAAA", {"AA=B", "A<A=C", "A=D"});
+    add_setting(pairs, "rewriting", "leftmost");
+    CHECK(text_after(pairs, 1) == "BBC"); // the last has an A to its left in the word read
+}
+
 TEST_CASE("sequential rewriting makes a pass of every rule") {
     Grammar grammar = letter_system("ABAB", {"AB=C", "C=AC", "A=AA"});
     add_setting(grammar, "rewriting", "sequential");
