@@ -31,6 +31,14 @@ std::vector<Foreign> foreign_samples() {
         {"houdini/tree.hlsys", "", "5", ""},
         {"houdini/signal.hlsys", "", "6", ""},
         {"houdini/figure.hlsys", "", "3", "190"},
+        {"sys/figure.sys", "", "3", "190"},
+        {"sys/poplar.sys", "", "9", ""},
+        {"carey/umbel.rules", "", "8", ""},
+        {"cpfg/figure.l", "", "3", "190"},
+        {"cpfg/fern.l", "", "14", "179"},
+        {"cpfg/shower.l", "", "9", ""},
+        {"l3d/larch.l3d", "", "6", "1147"},
+        {"l3d/rose.l++", "", "5", ""},
     };
 }
 
@@ -45,17 +53,13 @@ std::vector<std::string> with_system(std::vector<std::string> arguments, const F
 
 TEST_CASE("the .sys figure is one program in every syntax") {
     // The dump of a program without the names of its turtle, symbols and productions.
-    const auto program_of = [](const std::string& name, const std::string& text) {
+    using Names = std::vector<std::pair<std::string, std::string>>;
+    const auto program_of = [](const std::string& name, const std::string& text,
+                               const Names& names) {
         const ScratchFolder scratch;
         lsys::tests::write_text(scratch / name, text);
         LscRun run = run_lsc({"dump", "--stage", "program", "-n", "3", scratch / name}, "");
         CHECK(run.status == 0);
-        const std::vector<std::pair<std::string, std::string>> names{{"turtle sys", "turtle"},
-                                                                     {"turtle sidefx", "turtle"},
-                                                                     {"turtle lsys", "turtle"},
-                                                                     {"tapered-forward", "forward"},
-                                                                     {"`>`", "-"},
-                                                                     {"`<`", "+"}};
         for (const auto& [from, to] : names) {
             for (std::size_t at = run.out.find(from); at != std::string::npos;
                  at = run.out.find(from, at)) {
@@ -64,11 +68,25 @@ TEST_CASE("the .sys figure is one program in every syntax") {
         }
         return run.out;
     };
-    const std::string of_sys = program_of("f.sys", "LSYSTEM\n1\nF\nF F[>F][<F]F 1\n");
+    const std::string of_sys = program_of(
+        "f.sys", "LSYSTEM\n1\nF\nF F[>F][<F]F 1\n",
+        {{"turtle sys", "turtle"}, {"tapered-forward", "forward"}, {"`>`", "-"}, {"`<`", "+"}});
     CHECK(of_sys.find("F : * : F [ - F ] [ + F ] F") != std::string::npos);
-    CHECK(of_sys == program_of("f.lsys", "#set names letters;\n#w : F;\n"
-                                         "#r1 : F : * : F[-F][+F]F;\n"));
-    CHECK(of_sys == program_of("f.hlsys", "F\nF=F[-F][+F]F\n"));
+    CHECK(of_sys == program_of("f.lsys",
+                               "#set names letters;\n#w : F;\n"
+                               "#r1 : F : * : F[-F][+F]F;\n",
+                               {{"turtle lsys", "turtle"}}));
+    CHECK(of_sys == program_of("f.hlsys", "F\nF=F[-F][+F]F\n", {{"turtle sidefx", "turtle"}}));
+    // cpfg's + turns left, and its files say how many steps there are.
+    CHECK(of_sys == program_of("f.l",
+                               "Lsystem: 1\nderivation length: 3\nAxiom: F\n"
+                               "F --> F[+F][-F]F\nendlsystem\n",
+                               {{"turtle abop", "turtle"},
+                                {"generations 3\n", ""},
+                                {"p1", "r1"},
+                                {" + ", " ~ "},
+                                {" - ", " + "},
+                                {" ~ ", " - "}}));
 }
 
 TEST_CASE("an imported grammar derives what the original derives") {

@@ -1,0 +1,3 @@
+angle increment: 55
+function: grow.func 100
+function: open.func 100
