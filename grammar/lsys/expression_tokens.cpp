@@ -88,7 +88,7 @@ Token between_values(ParseSession& session) {
                 DiagnosticCode::MissingComma, place, "two values without a `,` between them");
             add_fix(diagnostic, "add `,`", place, ",");
         }
-        return Token(Parser::token::TOK_COMMA, place);
+        return Token(Parser::token::TOK_COMMA, place).as_supplied();
     }
     const bool joins_conditions = scan.part == Part::Condition && scan.open.empty() && !adjacent;
     if (session.wants(DiagnosticCode::MissingOperator)) {
@@ -111,8 +111,9 @@ Token between_values(ParseSession& session) {
                                              : "a product is written with `*`");
         }
     }
-    return joins_conditions ? Token(Parser::token::TOK_AND, place)
-                            : Token(Parser::token::TOK_STAR, place);
+    return (joins_conditions ? Token(Parser::token::TOK_AND, place)
+                             : Token(Parser::token::TOK_STAR, place))
+        .as_supplied();
 }
 
 } // namespace
@@ -161,9 +162,9 @@ std::optional<Token> closing(ParseSession& session, char character) {
         add_fix(diagnostic, "add `" + closer + "`", place, closer);
     }
     if (scan.pop() == OpenBracket::Kind::Brace) {
-        return Token(Parser::token::TOK_RBRACE, place);
+        return Token(Parser::token::TOK_RBRACE, place).as_supplied();
     }
-    return Token(Parser::token::TOK_RPAREN, place);
+    return Token(Parser::token::TOK_RPAREN, place).as_supplied();
 }
 
 bool lengthen_chain(ParseSession& session) {

@@ -74,6 +74,7 @@ struct ScanState {
     bool skipping = false;           // everything up to `;` is dropped
     bool failed = false; // a syntax error was reported: no more reports in this statement
     bool semicolon_supplied = false;
+    bool supplied = false;     // the last token was
     bool value_before = false; // the last token ends a value
     bool name_before = false;  // the last token is a name in an expression
     std::uint32_t statement_begin = 0;

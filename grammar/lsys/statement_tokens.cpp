@@ -257,10 +257,10 @@ std::optional<Token> missing_opening(ParseSession& session) {
     scan.end = scan.begin; // what follows is still to be read
     if (wants_equals) {
         scan.enter(Part::Value);
-        return Token(Parser::token::TOK_ASSIGN, place);
+        return Token(Parser::token::TOK_ASSIGN, place).as_supplied();
     }
     after_opening_colon(session);
-    return Token(Parser::token::TOK_COLON, place);
+    return Token(Parser::token::TOK_COLON, place).as_supplied();
 }
 
 bool is_needless_sign(ParseSession& session) {
@@ -421,12 +421,12 @@ Token drain(ParseSession& session) {
         const SourceSpan place = session.supplied();
         switch (scan.pop()) {
         case OpenBracket::Kind::Module:
-            return Token(Parser::token::TOK_CLOSE, place);
+            return Token(Parser::token::TOK_CLOSE, place).as_supplied();
         case OpenBracket::Kind::Brace:
-            return Token(Parser::token::TOK_RBRACE, place);
+            return Token(Parser::token::TOK_RBRACE, place).as_supplied();
         case OpenBracket::Kind::Call:
         case OpenBracket::Kind::Group:
-            return Token(Parser::token::TOK_RPAREN, place);
+            return Token(Parser::token::TOK_RPAREN, place).as_supplied();
         }
     }
     if (scan.draining == Drain::Colon) {
@@ -438,11 +438,11 @@ Token drain(ParseSession& session) {
     }
     if (scan.part == Part::Condition) {
         scan.enter(Part::Successor);
-        return Token(Parser::token::TOK_COLON, session.supplied());
+        return Token(Parser::token::TOK_COLON, session.supplied()).as_supplied();
     }
     if (scan.part == Part::Head) {
         scan.enter(Part::Successor); // nothing of it will come
-        return Token(Parser::token::TOK_YYerror, session.supplied());
+        return Token(Parser::token::TOK_YYerror, session.supplied()).as_supplied();
     }
     if (scan.statement_open) {
         const SourceSpan place = session.supplied();
@@ -458,9 +458,9 @@ Token drain(ParseSession& session) {
             scan.draining = Drain::Nothing;
         }
         scan.semicolon_supplied = true;
-        return Token(Parser::token::TOK_SEMICOLON, place);
+        return Token(Parser::token::TOK_SEMICOLON, place).as_supplied();
     }
-    return Token(Parser::token::TOK_END, session.supplied());
+    return Token(Parser::token::TOK_END, session.supplied()).as_supplied();
 }
 
 Token lose_statement(ParseSession& session) {

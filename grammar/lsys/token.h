@@ -15,6 +15,12 @@ struct Token {
     }
     Token(Kind token, float number, SourceSpan span) : Token(token, span) { value.number = number; }
 
+    /// The same, of a token that nobody wrote.
+    [[nodiscard]] Token as_supplied() const {
+        Token token = *this;
+        token.supplied = true;
+        return token;
+    }
     /// The parser numbers tokens and symbols alike.
     [[nodiscard]] Parser::symbol_kind_type kind() const {
         return static_cast<Parser::symbol_kind_type>(type);
@@ -23,6 +29,7 @@ struct Token {
     Kind type;
     TokenValue value;
     SourceSpan location;
+    bool supplied = false; // by the scanner, which has reported it
 };
 
 } // namespace lsys::lsys_grammar
