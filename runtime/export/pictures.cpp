@@ -1,12 +1,11 @@
 #include "runtime/export/pictures.h"
 
-#include "runtime/derive/workers.h"
 #include "runtime/export/formats.h"
 #include "runtime/export/text.h"
+#include "runtime/workers.h"
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <new>
 #include <stdexcept>
@@ -122,18 +121,12 @@ Pictures find_pictures(const Mesh& mesh, ExportFormat format, const ExportInfo& 
 std::vector<std::string> encode_pictures(const std::vector<Picture>& pictures,
                                          std::uint32_t threads) {
     std::vector<std::string> files(pictures.size());
-    std::atomic<bool> no_memory{false};
     Workers workers(threads);
-    workers.for_each(pictures.size(), [&](std::uint64_t i) {
-        try {
-            files[i] = encode_png(paint(pictures[i]));
-        } catch (const std::bad_alloc&) {
-            no_memory = true;
-        }
-    });
+    for_each_piece(workers, pictures.size(),
+                   [&](std::uint64_t i) { files[i] = encode_png(paint(pictures[i])); });
     const bool all = std::none_of(files.begin(), files.end(),
                                   [](const std::string& file) { return file.empty(); });
-    if (no_memory || !all) {
+    if (!all) {
         throw std::bad_alloc();
     }
     return files;

@@ -8,6 +8,8 @@
 
 namespace lsys {
 
+class Workers;
+
 /// In Axes::next: nothing goes on, but branches begin there.
 inline constexpr std::uint32_t kForked = kNoSegment - 1;
 
@@ -28,8 +30,8 @@ struct Axes {
 [[nodiscard]] bool joins(const Segment& parent, const Segment& child);
 
 /// A segment is continued by its linked child of the same order; of several, by the one that bends
-/// least, and of equal ones by the first.
-[[nodiscard]] Axes find_axes(const Skeleton& skeleton);
+/// least, and of equal ones by the first. The same for any number of workers.
+[[nodiscard]] Axes find_axes(const Skeleton& skeleton, Workers& workers);
 
 /// Whether an axis begins with `segment`.
 [[nodiscard]] inline bool

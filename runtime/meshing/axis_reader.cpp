@@ -28,9 +28,10 @@ constexpr std::uint32_t kMostLevels = 8;
 constexpr float kHidden = 0.9F;
 constexpr float kThickestBranch = 1.5F; // in radii of the parent; above, the base is closed
 constexpr float kCollarSlope = 0.13F;
-constexpr float kLeastSine = 0.5F;  // of the angle of a branch, that a collar allows for
-constexpr float kMostOfEdge = 0.7F; // that a collar may take
-constexpr float kMostParts = 16.0F; // of an edge that is cut for noise
+constexpr float kLeastSine = 0.5F;      // of the angle of a branch, that a collar allows for
+constexpr float kMostOfEdge = 0.7F;     // that a collar may take
+constexpr float kMostParts = 16.0F;     // of an edge that is cut for noise
+constexpr std::size_t kExtraJoints = 2; // of a run: a collar and the tip
 
 float greatest_coordinate(const glm::vec3& v) {
     return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
@@ -67,6 +68,12 @@ std::uint32_t fewer_sides(std::uint32_t sides) {
     return sides <= 3 ? 3 : sides == 4 ? 5 : (sides - 1) | 1U;
 }
 
+/// Both lines of the cache that it may lie in.
+void prefetch(const Segment& segment) {
+    __builtin_prefetch(&segment);
+    __builtin_prefetch(&segment.forked);
+}
+
 } // namespace
 
 AxisReader::AxisReader(const Skeleton& skeleton, const Axes& axes, const MeshOptions& options)
@@ -87,6 +94,11 @@ AxisReader::AxisReader(const Skeleton& skeleton, const Axes& axes, const MeshOpt
 void AxisReader::start(std::uint32_t first_segment) {
     segment_ = first_segment;
     attached_ = true;
+    std::size_t segments = 0;
+    for (std::uint32_t at = first_segment; at < kForked; at = axes_.next[at]) {
+        ++segments;
+    }
+    joints_.reserve(segments + kExtraJoints); // growing would take as much fresh memory again
 }
 
 bool AxisReader::next(Run& run) {
@@ -108,7 +120,11 @@ bool AxisReader::read(Run& run) {
     const Segment* last = nullptr;
     bool pointed = false;
     std::uint32_t at = segment_;
-    for (; at < kForked; at = axes_.next[at]) {
+    for (std::uint32_t after = 0; at < kForked; at = after) {
+        after = axes_.next[at];
+        if (after < kForked) {
+            prefetch(skeleton_.segments[after]); // what branches off lies between
+        }
         const Segment& segment = skeleton_.segments[at];
         if (!(segment.length > 0.0F)) {
             continue;

@@ -4,6 +4,7 @@
 #include "runtime/meshing/axes.h"
 #include "runtime/meshing/axis_reader.h"
 #include "runtime/meshing/tube_writer.h"
+#include "runtime/workers.h"
 
 #include <glm/geometric.hpp>
 
@@ -51,7 +52,8 @@ public:
     RingSegments(const Skeleton& skeleton,
                  const MeshOptions& options,
                  std::span<VertexSegments> segments)
-        : skeleton_(skeleton), options_(options), segments_(segments), axes_(find_axes(skeleton)) {}
+        : skeleton_(skeleton), options_(options), segments_(segments), workers_(options.threads),
+          axes_(find_axes(skeleton, workers_)) {}
 
     void name_all() {
         AxisReader reader(skeleton_, axes_, options_);
@@ -188,6 +190,7 @@ private:
     const Skeleton& skeleton_;
     const MeshOptions& options_;
     std::span<VertexSegments> segments_;
+    Workers workers_;
     Axes axes_;
     std::vector<std::uint32_t> chain_;  // segments of the run, and what is not drawn behind it
     std::vector<std::uint32_t> places_; // in chain_, of each joint

@@ -51,18 +51,13 @@ void TubeWriter::put_ring(const Ring& ring) {
     const std::uint64_t first = at_.vertex;
     const std::uint32_t columns = columns_of(ring.sides, options_);
     at_.vertex += columns;
-    if (skips_) {
-        return;
-    }
     if (noise_ != nullptr) {
         put_noise(ring, first);
     } else {
-        const glm::vec3 wide = ring.stretch * ring.mitre;
         const float part = 1.0F / std::sqrt(1.0F + ring.slope * ring.slope);
-        const Ellipse position{lanes(ring.centre),
-                               lanes(ring.radius * (at_.normal + ring.normal_part * wide)),
-                               lanes(ring.radius * (ring.binormal + ring.binormal_part * wide))};
-        const Ellipse normal{lanes((-ring.slope * part) * at_.tangent), lanes(part * at_.normal),
+        const Ellipse position{lanes(ring.centre), lanes(ring.radius * ring.wide_normal),
+                               lanes(ring.radius * ring.wide_binormal)};
+        const Ellipse normal{lanes((-ring.slope * part) * ring.tangent), lanes(part * ring.normal),
                              lanes(part * ring.binormal)};
         put_ellipses(block_.positions.data() + first, position, block_.normals.data() + first,
                      normal, directions(ring.sides), columns);
@@ -91,10 +86,9 @@ void TubeWriter::put_textured(const Ring& ring, std::uint64_t first) {
     }
     glm::vec4* to = block_.tangents.data() + first;
     const Direction* at = directions(ring.sides);
-    const glm::vec3& binormal = ring.binormal;
     if (noise_ == nullptr) {
-        const Lanes a = lanes(at_.normal);
-        const Lanes b = lanes(binormal);
+        const Lanes a = lanes(ring.normal);
+        const Lanes b = lanes(ring.binormal);
         const Lanes sign = lanes(glm::vec3(0.0F), 1.0F);
         for (std::uint32_t i = 0; i < columns; ++i) {
             store_four(to + i, sign + (lanes(at[i].cosine) * b - lanes(at[i].sine) * a));
@@ -103,27 +97,26 @@ void TubeWriter::put_textured(const Ring& ring, std::uint64_t first) {
     }
     for (std::uint32_t i = 0; i < columns; ++i) {
         const glm::vec3& normal = block_.normals[first + i];
-        const glm::vec3 around = at[i].cosine * binormal - at[i].sine * at_.normal;
+        const glm::vec3 around = at[i].cosine * ring.binormal - at[i].sine * ring.normal;
         to[i] = glm::vec4(glm::normalize(around - normal * glm::dot(normal, around)), 1.0F);
     }
 }
 
 void TubeWriter::put_noise(const Ring& ring, std::uint64_t first) {
     const Direction* at = directions(ring.sides);
-    const glm::vec3& binormal = ring.binormal;
     const float amount = std::min(options_.bark_noise, 0.9F);
     for (std::uint32_t i = 0; i < ring.sides; ++i) {
-        const glm::vec3 out = at[i].cosine * at_.normal + at[i].sine * binormal;
-        const glm::vec3 around = at[i].cosine * binormal - at[i].sine * at_.normal;
+        const glm::vec3 out = at[i].cosine * ring.normal + at[i].sine * ring.binormal;
+        const glm::vec3 around = at[i].cosine * ring.binormal - at[i].sine * ring.normal;
         const NoiseSample noise =
             noise_->at(static_cast<float>(i) / static_cast<float>(ring.sides), ring.arc);
         const float factor = 1.0F + amount * noise.value;
-        const glm::vec3 offset = out + (ring.stretch * glm::dot(out, ring.mitre)) * ring.mitre;
+        const glm::vec3 offset = at[i].cosine * ring.wide_normal + at[i].sine * ring.wide_binormal;
         const float along =
             std::clamp(ring.slope * factor + ring.radius * amount * noise.by_length, -8.0F, 8.0F);
         block_.positions[first + i] = ring.centre + (ring.radius * factor) * offset;
-        block_.normals[first + i] =
-            glm::normalize(out - along * at_.tangent - (amount * noise.by_angle / factor) * around);
+        block_.normals[first + i] = glm::normalize(out - along * ring.tangent -
+                                                   (amount * noise.by_angle / factor) * around);
     }
     if (seam_) {
         block_.positions[first + ring.sides] = block_.positions[first];
@@ -131,19 +124,12 @@ void TubeWriter::put_noise(const Ring& ring, std::uint64_t first) {
     }
 }
 
-void TubeWriter::put_tip(const glm::vec3& position,
-                         const glm::vec3& normal,
-                         double arc,
-                         const Ring& ring) {
-    const std::uint64_t vertex = at_.vertex++;
-    if (skips_) {
-        return;
-    }
-    block_.set(vertex, {.position = position,
-                        .normal = normal,
-                        .texture_coordinate = {0.5F, v_of(arc)},
-                        .tangent = glm::vec4(at_.normal, 1.0F),
-                        .palette = ring.colour});
+void TubeWriter::put_tip(const glm::vec3& position, const glm::vec3& normal, const Ring& ring) {
+    block_.set(at_.vertex++, {.position = position,
+                              .normal = normal,
+                              .texture_coordinate = {0.5F, v_of(ring.arc)},
+                              .tangent = glm::vec4(ring.normal, 1.0F),
+                              .palette = ring.colour});
 }
 
 } // namespace lsys

@@ -22,6 +22,7 @@ constexpr float kBallRing = 0.75F;
 constexpr float kBallHeight = 0.62F;
 // How much of the bisector the first of three tangents of a bend has: a third of 90 degrees.
 constexpr float kThird = 0.57735F;
+constexpr float kTurnsBack = -0.9F; // cosine of a bend
 
 glm::vec3 any_perpendicular(const glm::vec3& unit) {
     const glm::vec3 other =
@@ -50,6 +51,13 @@ double mean_circumference(const Run& run) {
     return 2.0 * std::numbers::pi * area / length;
 }
 
+/// The unit axis of the bend from one edge to the next; any across the normal, if it turns back.
+glm::vec3 bend_axis(const glm::vec3& in, const glm::vec3& out, const glm::vec3& normal) {
+    const glm::vec3 turn = glm::cross(in, out);
+    const float sine = std::sqrt(glm::dot(turn, turn));
+    return sine > 1e-3F ? turn * (1.0F / sine) : across(glm::cross(in, normal), in);
+}
+
 float slope_of(const Run& run, std::size_t i) {
     const std::size_t low = i == 0 ? 0 : i - 1;
     const std::size_t high = std::min(i + 1, run.joints.size() - 1);
@@ -75,8 +83,7 @@ void TubeWriter::write(const Run& run) {
 TubeWriter::Place TubeWriter::begin(const Run& run) const {
     Place place;
     place.vertex = at_.vertex;
-    place.tangent = run.joints[0].heading;
-    place.normal = across(run.side, place.tangent);
+    place.normal = across(run.side, run.joints[0].heading);
     if (seam_ || options_.bark_noise > 0.0F) {
         place.circumference = mean_circumference(run);
     }
@@ -89,10 +96,21 @@ void TubeWriter::write(const Run& run, Place& place, std::size_t end) {
     place = at_;
 }
 
-void TubeWriter::skip(const Run& run, Place& place, std::size_t end) {
-    skips_ = true;
-    write(run, place, end);
-    skips_ = false;
+void TubeWriter::skip(const Run& run, Place& place, std::size_t end) const {
+    if (place.joint == 0) {
+        place.vertex +=
+            (run.begin == TubeEnd::Flat ? 1U : 0U) + columns_of(run.joints[0].sides, options_);
+        place.joint = 1;
+    }
+    for (std::size_t i = place.joint; i < end; ++i) {
+        const Joint& before = run.joints[i - 1];
+        const Joint& joint = run.joints[i];
+        const std::uint32_t rings = joint.rings + (joint.colour != before.colour ? 1U : 0U);
+        place.vertex += std::uint64_t{rings} * columns_of(joint.sides, options_);
+        place.arc += static_cast<double>(before.length);
+        carry(before.heading, joint.heading, place);
+    }
+    place.joint = end;
 }
 
 void TubeWriter::go(const Run& run, std::size_t end) {
@@ -107,17 +125,18 @@ void TubeWriter::go(const Run& run, std::size_t end) {
     }
     noise_ = noise ? &*noise : nullptr;
     Ring ring;
-    ring.arc = at_.arc;
+    double arc = at_.arc;
+    ring.arc = arc;
     if (at_.joint == 0 && end > 0) {
         ring.centre = joints[0].centre;
         ring.radius = joints[0].radius;
         ring.slope = slope_of(run, 0);
         ring.sides = joints[0].sides;
         ring.colour = joints[0].colour;
+        set_straight(joints[0].heading, ring);
         if (run.begin == TubeEnd::Flat) {
-            put_tip(ring.centre, -at_.tangent, ring.arc, ring);
+            put_tip(ring.centre, -ring.tangent, ring);
         }
-        set_frame(ring);
         put_ring(ring);
         at_.joint = 1;
     }
@@ -126,65 +145,83 @@ void TubeWriter::go(const Run& run, std::size_t end) {
         const Joint& joint = joints[i];
         ring.centre = joint.centre;
         ring.radius = joint.radius;
-        ring.slope = skips_ ? 0.0F : slope_of(run, i);
-        ring.arc += static_cast<double>(before.length);
+        ring.slope = slope_of(run, i);
+        arc += static_cast<double>(before.length);
+        ring.arc = arc;
         ring.sides = joint.sides;
         ring.colour = before.colour;
         if (joint.rings > 1) {
             bend(before, joint, ring);
         } else {
-            // The ring lies in the plane that halves the bend, as an ellipse: both edges are as
-            // thick as the radius says.
-            const glm::vec3 sum = before.heading + joint.heading;
-            const float twice = std::sqrt(glm::dot(sum, sum));
-            const float half_cosine = 0.5F * twice;
-            carry(before.heading, sum * (1.0F / twice));
-            ring.mitre = joint.heading - before.heading;
-            ring.stretch = 0.25F / (half_cosine * (1.0F + half_cosine));
-            set_frame(ring);
+            set_mitred(before.heading, joint.heading, ring);
             put_ring(ring);
-            change_colour(ring, joint.colour);
         }
+        if (ring.colour != joint.colour) { // the ring is there once for each
+            ring.colour = joint.colour;
+            put_ring(ring);
+        }
+        carry(before.heading, joint.heading, at_);
     }
     at_.joint = end;
-    at_.arc = ring.arc;
+    at_.arc = arc;
     if (end > last) {
-        ring.colour = joints[last].colour;
         close(run, ring);
     }
 }
 
-/// Carries the frame along `edge` to where the axis goes along `tangent`, both unit.
-void TubeWriter::carry(const glm::vec3& edge, const glm::vec3& tangent) {
-    const glm::vec3 left = at_.normal - edge * (2.0F * glm::dot(edge, at_.normal));
-    const glm::vec3 left_tangent = at_.tangent - edge * (2.0F * glm::dot(edge, at_.tangent));
-    const glm::vec3 mirror = tangent - left_tangent;
-    const float scale = 2.0F / glm::dot(mirror, mirror);
-    at_.normal = left - mirror * (scale * glm::dot(mirror, left));
-    at_.tangent = tangent;
-    // A million steps leave it a unit vector across the tangent.
-    if (++at_.steps % kStepsToDrift == 0) {
-        at_.normal -= tangent * glm::dot(tangent, at_.normal);
-        at_.normal *= 1.5F - 0.5F * glm::dot(at_.normal, at_.normal);
+/// Carries the normal of the place around a joint from one edge to the next, both unit.
+void TubeWriter::carry(const glm::vec3& in, const glm::vec3& out, Place& place) {
+    glm::vec3& normal = place.normal;
+    const float cosine = glm::dot(in, out);
+    if (cosine > kTurnsBack) {
+        normal -= (glm::dot(normal, out) / (1.0F + cosine)) * (in + out);
+    } else {
+        const glm::vec3 axis = bend_axis(in, out, normal);
+        normal = glm::dot(normal, axis) * axis +
+                 glm::dot(normal, glm::cross(axis, in)) * glm::cross(axis, out);
+    }
+    // A million steps leave it a unit vector across the edge.
+    if (++place.steps % kStepsToDrift == 0) {
+        normal -= out * glm::dot(out, normal);
+        normal *= 1.5F - 0.5F * glm::dot(normal, normal);
     }
 }
 
-void TubeWriter::set_frame(Ring& ring) const {
-    ring.binormal = glm::cross(at_.tangent, at_.normal);
-    ring.normal_part = glm::dot(at_.normal, ring.mitre);
-    ring.binormal_part = glm::dot(ring.binormal, ring.mitre);
+/// A ring across an edge, as a circle.
+void TubeWriter::set_straight(const glm::vec3& edge, Ring& ring) const {
+    ring.tangent = edge;
+    ring.normal = at_.normal;
+    ring.binormal = glm::cross(edge, at_.normal);
+    ring.wide_normal = ring.normal;
+    ring.wide_binormal = ring.binormal;
+}
+
+/// A ring in the plane that halves the bend from one edge to the next, as an ellipse: both edges
+/// are as thick as the radius says.
+void TubeWriter::set_mitred(const glm::vec3& in, const glm::vec3& out, Ring& ring) const {
+    const glm::vec3& normal = at_.normal;
+    const glm::vec3 binormal = glm::cross(in, normal);
+    const float normal_part = glm::dot(normal, out);
+    const float binormal_part = glm::dot(binormal, out);
+    const float sum = 1.0F + glm::dot(in, out);
+    const float length = std::sqrt(2.0F * sum); // of the two edges together
+    ring.tangent = (in + out) * (1.0F / length);
+    // Turned by half of the bend.
+    const glm::vec3 turn = (in + ring.tangent) * (1.0F / (length + sum));
+    ring.normal = normal - normal_part * turn;
+    ring.binormal = binormal - binormal_part * turn;
+    // Drawn along the edge to the plane.
+    const glm::vec3 along = in * (1.0F / sum);
+    ring.wide_normal = normal - normal_part * along;
+    ring.wide_binormal = binormal - binormal_part * along;
 }
 
 /// Two or three rings around a joint, each bending by at most 60 degrees. They lie a little apart,
 /// so that no corners coincide where the axis of the bend meets them.
-void TubeWriter::bend(const Joint& before, const Joint& joint, Ring ring) {
+void TubeWriter::bend(const Joint& before, const Joint& joint, Ring& ring) {
     const glm::vec3& in = before.heading;
     const float cosine = glm::dot(in, joint.heading);
-    const glm::vec3 turn = glm::cross(in, joint.heading);
-    const float sine = std::sqrt(glm::dot(turn, turn));
-    const glm::vec3 axis =
-        sine > 1e-3F ? turn * (1.0F / sine)
-                     : across(glm::cross(in, at_.normal), in); // which way, if it turns back
+    const glm::vec3 axis = bend_axis(in, joint.heading, at_.normal);
     const glm::vec3 across_in = glm::cross(axis, in);
     const float half_cosine = std::sqrt(std::max(0.5F + 0.5F * cosine, 0.0F));
     const float half_sine = std::sqrt(std::max(0.5F - 0.5F * cosine, 0.0F));
@@ -198,53 +235,39 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring ring) {
     const float on = 0.75F * std::min(kSpread * joint.radius, 0.25F * joint.length);
     const glm::vec3 centre = ring.centre;
     const double arc = ring.arc;
-    ring.stretch = 1.0F / part_cosine - 1.0F;
-    // All tangents lie in the plane of the bend, so what a frame has along the axis and across it
-    // stays as it is. `mitre` is the axis times the tangent.
-    carry(in, part_cosine * in + part_sine * across_in);
-    ring.mitre = part_cosine * across_in - part_sine * in;
-    const float along_axis = glm::dot(at_.normal, axis);
-    const float along_mitre = glm::dot(at_.normal, ring.mitre);
-    ring.normal_part = along_mitre;
-    ring.binormal_part = -along_axis;
-    ring.binormal = along_mitre * axis - along_axis * ring.mitre;
+    // All tangents lie in the plane of the bend, so what the frame has along the axis and across it
+    // stays as it is.
+    const glm::vec3 along_axis = glm::dot(at_.normal, axis) * axis;
+    const float across_axis = glm::dot(at_.normal, across_in);
+    const glm::vec3 binormal_along = across_axis * axis;
+    const float binormal_across = -glm::dot(at_.normal, axis);
+    const float wide = 1.0F / part_cosine;
+    // A ring whose tangent has these parts of the edge before and across it.
+    const auto put = [&](float along, float aside) {
+        const glm::vec3 mitre = along * across_in - aside * in; // the axis times the tangent
+        ring.tangent = along * in + aside * across_in;
+        ring.normal = along_axis + across_axis * mitre;
+        ring.binormal = binormal_along + binormal_across * mitre;
+        ring.wide_normal = along_axis + (wide * across_axis) * mitre;
+        ring.wide_binormal = binormal_along + (wide * binormal_across) * mitre;
+        put_ring(ring);
+    };
     ring.centre = centre - back * in;
     ring.arc = arc - static_cast<double>(back);
-    put_ring(ring);
-    const auto turn_to = [&](const glm::vec3& tangent, const glm::vec3& mitre) {
-        at_.tangent = tangent;
-        at_.normal = along_axis * axis + along_mitre * mitre;
-        ring.mitre = mitre;
-        ring.binormal = along_mitre * axis - along_axis * mitre;
-    };
-    const glm::vec3 middle = half_cosine * in + half_sine * across_in;
-    const glm::vec3 middle_mitre = half_cosine * across_in - half_sine * in;
+    put(part_cosine, part_sine);
     if (joint.rings > 2) {
-        turn_to(middle, middle_mitre);
         ring.centre = centre;
         ring.arc = arc;
-        put_ring(ring);
+        put(half_cosine, half_sine);
     }
-    const float rest_cosine = half_cosine * part_cosine + half_sine * part_sine;
-    const float rest_sine = half_sine * part_cosine - half_cosine * part_sine;
-    turn_to(rest_cosine * middle + rest_sine * middle_mitre,
-            rest_cosine * middle_mitre - rest_sine * middle);
     ring.centre = centre + on * joint.heading;
     ring.arc = arc + static_cast<double>(on);
-    put_ring(ring);
-    change_colour(ring, joint.colour);
-}
-
-/// Where the colour changes, the ring is there once for each.
-void TubeWriter::change_colour(Ring& ring, std::uint16_t colour) {
-    if (ring.colour != colour) {
-        ring.colour = colour;
-        put_ring(ring);
-    }
+    const float sine = 2.0F * half_sine * half_cosine;
+    put(cosine * part_cosine + sine * part_sine, sine * part_cosine - cosine * part_sine);
 }
 
 /// `ring` is the last one written.
-void TubeWriter::close(const Run& run, Ring ring) {
+void TubeWriter::close(const Run& run, Ring& ring) {
     if (run.end == TubeEnd::Point) {
         return;
     }
@@ -254,14 +277,14 @@ void TubeWriter::close(const Run& run, Ring ring) {
     float height = kBluntHeight;
     if (run.end == TubeEnd::Ball) {
         height = 1.0F;
-        ring.centre = base + (kBallHeight * radius) * at_.tangent;
+        ring.centre = base + (kBallHeight * radius) * ring.tangent;
         ring.radius = kBallRing * radius;
         ring.slope = -1.0F;
         ring.arc = arc + static_cast<double>(kBallHeight * radius);
         put_ring(ring);
     }
-    put_tip(base + (height * radius) * at_.tangent, at_.tangent,
-            arc + static_cast<double>(height * radius), ring);
+    ring.arc = arc + static_cast<double>(height * radius);
+    put_tip(base + (height * radius) * ring.tangent, ring.tangent, ring);
 }
 
 } // namespace lsys

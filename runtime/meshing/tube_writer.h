@@ -1,6 +1,9 @@
-// TubeWriter: the vertices of rings for the runs of axes. Frames are carried along an axis
+// TubeWriter: the vertices of rings for the runs of axes. The normal is carried from edge to edge
 // by double reflection (Wang, Juettler, Zheng and Liu, "Computation of rotation minimizing frames",
-// ACM TOG 27(1), 2008, section 4), so that a tube does not twist where the turtle rolls.
+// ACM TOG 27(1), 2008, section 4), so that a tube does not twist where the turtle rolls. It lies
+// across the edge, so the first reflection, along the edge, leaves it as it is; the second, in the
+// plane that halves the bend, is what remains. Corners of neighbouring rings are joined by lines
+// that are parallel to the edge between them.
 #pragma once
 
 #include "runtime/meshing/axis_reader.h"
@@ -29,8 +32,7 @@ public:
         std::uint64_t vertex = 0;
         double arc = 0.0;
         double circumference = 0.0; // at the mean radius, where it is needed
-        glm::vec3 tangent{};
-        glm::vec3 normal{}; // where the first corner is seen from the axis
+        glm::vec3 normal{}; // across the edge to the joint: where the first corner is seen from it
         std::uint32_t steps = 0;
     };
 
@@ -38,44 +40,42 @@ public:
     [[nodiscard]] Place begin(const Run& run) const;
     /// Writes what begins before joint `end`; the place moves there.
     void write(const Run& run, Place& place, std::size_t end);
-    /// Moves the place as write() does, and writes nothing.
-    void skip(const Run& run, Place& place, std::size_t end);
+    /// Moves the place as write() does up to a joint of the run, and writes nothing.
+    void skip(const Run& run, Place& place, std::size_t end) const;
 
     [[nodiscard]] std::uint64_t vertex() const { return at_.vertex; }
 
 private:
-    /// Where a ring lies and how; the axes of its ellipse are stretched along `mitre`. It lies
-    /// across the tangent of the place, and its corners begin at the normal there.
+    /// Where a ring lies and how: across the tangent, as an ellipse.
     struct Ring {
         glm::vec3 centre{};
         float radius = 0.0F;
-        float slope = 0.0F;   // of the radius by arc length
-        glm::vec3 mitre{};    // perpendicular to the tangent
-        float stretch = 0.0F; // added per square of the length of `mitre`
+        float slope = 0.0F; // of the radius by arc length
+        glm::vec3 tangent{};
+        glm::vec3 normal{}; // unit; seen from the axis, the first corner lies there
         glm::vec3 binormal{};
-        float normal_part = 0.0F; // of `mitre`, along the normal
-        float binormal_part = 0.0F;
+        glm::vec3 wide_normal{}; // the normal and the binormal, stretched along the bend
+        glm::vec3 wide_binormal{};
         double arc = 0.0;
         std::uint32_t sides = 0;
         std::uint16_t colour = 0;
     };
 
     void go(const Run& run, std::size_t end);
-    void set_frame(Ring& ring) const;
-    void carry(const glm::vec3& edge, const glm::vec3& tangent);
-    void bend(const Joint& before, const Joint& joint, Ring ring);
-    void change_colour(Ring& ring, std::uint16_t colour);
+    void set_straight(const glm::vec3& edge, Ring& ring) const;
+    void set_mitred(const glm::vec3& in, const glm::vec3& out, Ring& ring) const;
+    static void carry(const glm::vec3& in, const glm::vec3& out, Place& place);
+    void bend(const Joint& before, const Joint& joint, Ring& ring);
     void put_ring(const Ring& ring);
     void put_textured(const Ring& ring, std::uint64_t first);
     void put_noise(const Ring& ring, std::uint64_t first);
-    void put_tip(const glm::vec3& position, const glm::vec3& normal, double arc, const Ring& ring);
-    void close(const Run& run, Ring ring);
+    void put_tip(const glm::vec3& position, const glm::vec3& normal, const Ring& ring);
+    void close(const Run& run, Ring& ring);
     [[nodiscard]] float v_of(double arc) const { return static_cast<float>(-arc * v_scale_); }
 
     MeshBlock block_;
     const MeshOptions& options_;
     bool seam_;
-    bool skips_ = false;
     Place at_;
     // Of the run that is being written:
     double v_scale_ = 0.0;

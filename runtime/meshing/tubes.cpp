@@ -1,16 +1,15 @@
 #include "runtime/meshing/tubes.h"
 
 #include "grammar/contract.h"
-#include "runtime/derive/workers.h"
 #include "runtime/meshing/axes.h"
 #include "runtime/meshing/axis_reader.h"
 #include "runtime/meshing/tube_triangles.h"
 #include "runtime/meshing/tube_writer.h"
+#include "runtime/workers.h"
 
 #include <algorithm>
 #include <atomic>
 #include <memory>
-#include <new>
 #include <span>
 #include <utility>
 #include <vector>
@@ -74,22 +73,6 @@ std::vector<Piece> make_pieces(std::uint64_t segments, std::size_t colours) {
         piece.triangles.resize(colours);
     }
     return pieces;
-}
-
-/// Throws std::bad_alloc where a piece did.
-template <typename Visit>
-void for_each_piece(Workers& workers, std::uint64_t pieces, const Visit& visit) {
-    std::atomic<bool> no_memory{false};
-    workers.for_each(pieces, [&](std::uint64_t i) {
-        try {
-            visit(i);
-        } catch (const std::bad_alloc&) {
-            no_memory = true;
-        }
-    });
-    if (no_memory) {
-        throw std::bad_alloc();
-    }
 }
 
 /// Reads all runs of a piece and makes their triangles.
@@ -235,14 +218,15 @@ private:
         }
         TubeWriter::Place& next = shared.places[task_.part + 1];
         TubeWriter::Place place = shared.places[task_.part];
-        if (!alone_) {
+        const bool others_wait = !alone_ && end < run.joints.size();
+        if (others_wait) {
             next = place;
             writer_.skip(run, next, end);
             shared.known = task_.part + 2;
             shared.known.notify_all();
         }
         writer_.write(run, place, end);
-        if (alone_) {
+        if (!others_wait) {
             next = place;
             shared.known = task_.part + 2;
         }
@@ -279,7 +263,8 @@ private:
 } // namespace
 
 void append_tubes(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder) {
-    const Axes axes = find_axes(skeleton);
+    Workers workers(options.threads);
+    const Axes axes = find_axes(skeleton, workers);
     ColourSlots slots(axes.colours.empty() ? 0 : axes.colours.back() + std::size_t{1});
     std::vector<MeshBuilder::WholePart> parts;
     for (const std::uint16_t colour : axes.colours) {
@@ -287,7 +272,6 @@ void append_tubes(const Skeleton& skeleton, const MeshOptions& options, MeshBuil
         parts.push_back({.material = wood_material(colour), .triangles = {}});
     }
     std::vector<Piece> pieces = make_pieces(skeleton.segments.size(), parts.size());
-    Workers workers(options.threads);
     for_each_piece(workers, pieces.size(), [&](std::uint64_t i) {
         PieceReader(skeleton, axes, options, slots, pieces[i]).read();
     });

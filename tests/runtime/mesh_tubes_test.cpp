@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat3x3.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -144,6 +146,33 @@ TEST_CASE("frames carried around bends stay flat in a plane", "[mesh][tubes]") {
     const Mesh mesh = tubes(plant.skeleton(), kBare);
     for (std::size_t ring = 0; ring <= 40; ++ring) {
         CHECK(mesh.positions[1 + ring * 8].z == Approx(0.1F).margin(1e-5));
+    }
+}
+
+TEST_CASE("lines between the corners of two rings are parallel to the edge", "[mesh][tubes]") {
+    // A screw: every bend turns about another axis. Up to 60 degrees have one ring, up to 120 two.
+    const float degrees = GENERATE(20.0F, 58.0F, 62.0F, 110.0F, 130.0F, 170.0F);
+    CAPTURE(degrees);
+    const std::size_t rings = degrees < 60.0F ? 1 : degrees < 120.0F ? 2 : 3;
+    const float bend = degrees * kPi / 180.0F;
+    constexpr std::size_t kEdges = 40;
+    Plant plant;
+    glm::mat3 frame(1.0F);
+    std::uint32_t last = kNoSegment;
+    for (std::size_t i = 0; i < kEdges; ++i) {
+        last = plant.add(last, frame[1], 1.0F, {.roll = 0.3F * static_cast<float>(i)});
+        frame = frame * glm::mat3(glm::rotate(glm::mat4(1.0F), 0.8F, {0, 1, 0})) *
+                glm::mat3(glm::rotate(glm::mat4(1.0F), bend, {1, 0, 0}));
+    }
+    const Skeleton skeleton = plant.skeleton();
+    const Mesh mesh = tubes(skeleton, kBare);
+    REQUIRE(mesh.positions.size() == 2 + 8 * (2 + (kEdges - 1) * rings));
+    for (std::size_t i = 0; i < kEdges; ++i) {
+        const glm::vec3* const from = &mesh.positions[1 + 8 * i * rings];
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+            const glm::vec3 line = from[8 + corner] - from[corner];
+            CHECK(distance_to_line(line, {}, heading(skeleton.segments[i].frame)) < 2e-5F);
+        }
     }
 }
 
