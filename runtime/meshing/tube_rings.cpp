@@ -54,7 +54,8 @@ void TubeWriter::put_ring(const Ring& ring) {
     if (noise_ != nullptr) {
         put_noise(ring, first);
     } else {
-        const float part = 1.0F / std::sqrt(1.0F + ring.slope * ring.slope);
+        const float part =
+            ring.slope == 0.0F ? 1.0F : 1.0F / std::sqrt(1.0F + ring.slope * ring.slope);
         const Ellipse position{lanes(ring.centre), lanes(ring.radius * ring.wide_normal),
                                lanes(ring.radius * ring.wide_binormal)};
         const Ellipse normal{lanes((-ring.slope * part) * ring.tangent), lanes(part * ring.normal),

@@ -61,9 +61,12 @@ glm::vec3 bend_axis(const glm::vec3& in, const glm::vec3& out, const glm::vec3& 
 float slope_of(const Run& run, std::size_t i) {
     const std::size_t low = i == 0 ? 0 : i - 1;
     const std::size_t high = std::min(i + 1, run.joints.size() - 1);
-    const float length = (i == 0 ? 0.0F : run.joints[low].length) + run.joints[i].length;
     const float rise = run.radii.empty() ? run.joints[high].radius - run.joints[low].radius
                                          : run.radii[high] - run.radii[low];
+    if (rise == 0.0F) {
+        return 0.0F;
+    }
+    const float length = (i == 0 ? 0.0F : run.joints[low].length) + run.joints[i].length;
     const float slope = rise / length;
     return std::min(std::max(slope, -kGreatestSlope), kGreatestSlope); // without branches
 }
@@ -153,7 +156,11 @@ void TubeWriter::go(const Run& run, std::size_t end) {
         if (joint.rings > 1) {
             bend(before, joint, ring);
         } else {
-            set_mitred(before.heading, joint.heading, ring);
+            if (before.heading == joint.heading) {
+                set_straight(joint.heading, ring);
+            } else {
+                set_mitred(before.heading, joint.heading, ring);
+            }
             put_ring(ring);
         }
         if (ring.colour != joint.colour) { // the ring is there once for each
@@ -171,6 +178,9 @@ void TubeWriter::go(const Run& run, std::size_t end) {
 
 /// Carries the normal of the place around a joint from one edge to the next, both unit.
 void TubeWriter::carry(const glm::vec3& in, const glm::vec3& out, Place& place) {
+    if (in == out) {
+        return;
+    }
     glm::vec3& normal = place.normal;
     const float cosine = glm::dot(in, out);
     if (cosine > kTurnsBack) {
