@@ -1,6 +1,7 @@
 // Arguments of turtle commands that are hardly meant: an angle in radians, a negative width.
 #include "compiler/check/lints.h"
 #include "compiler/check/places.h"
+#include "compiler/turtle_turns.h"
 
 #include <fmt/format.h>
 
@@ -11,20 +12,6 @@
 namespace lsys {
 
 namespace {
-
-bool turns(TurtleOperation operation) {
-    switch (operation) {
-    case TurtleOperation::YawRight:
-    case TurtleOperation::YawLeft:
-    case TurtleOperation::PitchDown:
-    case TurtleOperation::PitchUp:
-    case TurtleOperation::RollRight:
-    case TurtleOperation::RollLeft:
-        return true;
-    default:
-        return false;
-    }
-}
 
 /// The fraction of a half turn that an angle is in radians, to the places it is commonly written
 /// with.

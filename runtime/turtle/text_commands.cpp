@@ -3,6 +3,7 @@
 // seen.
 #include "runtime/turtle/text_commands.h"
 
+#include "compiler/turtle_turns.h"
 #include "runtime/turtle/state.h"
 
 #include <charconv>
@@ -14,19 +15,8 @@ namespace {
 
 /// Angles and percents, of which the program L3D takes a parameter of 1 for none.
 bool takes_default_for_one(TurtleOperation operation) {
-    switch (operation) {
-    case TurtleOperation::YawRight:
-    case TurtleOperation::YawLeft:
-    case TurtleOperation::PitchDown:
-    case TurtleOperation::PitchUp:
-    case TurtleOperation::RollRight:
-    case TurtleOperation::RollLeft:
-    case TurtleOperation::ThickenWidth:
-    case TurtleOperation::ThinWidth:
-        return true;
-    default:
-        return false;
-    }
+    return turns(operation) || operation == TurtleOperation::ThickenWidth ||
+           operation == TurtleOperation::ThinWidth;
 }
 
 } // namespace

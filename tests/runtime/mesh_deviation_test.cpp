@@ -31,21 +31,6 @@ bool same(const Mesh& a, const Mesh& b) {
            a.colours == b.colours && a.segments == b.segments && a.indices == b.indices;
 }
 
-/// Triangles whose front is not the side that the normals at its corners are on.
-std::size_t turned_over(const Mesh& mesh) {
-    std::size_t turned = 0;
-    const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
-    for (std::size_t i = 0; i < indices.size(); i += 3) {
-        const std::uint32_t* const corner = &indices[i];
-        const glm::dvec3 front = test::twice_area(
-            mesh.positions[corner[0]], mesh.positions[corner[1]], mesh.positions[corner[2]]);
-        const glm::vec3 normal =
-            mesh.normals[corner[0]] + mesh.normals[corner[1]] + mesh.normals[corner[2]];
-        turned += glm::dot(front, glm::dvec3(normal)) > 0.0 ? 0U : 1U;
-    }
-    return turned;
-}
-
 constexpr std::uint32_t kPieces = 40;
 constexpr float kThick = 0.2F;
 
@@ -155,7 +140,7 @@ TEST_CASE("transitions between numbers of sides are smooth and textured", "[mesh
             CHECK(up.y == Approx(part));
         }
     }
-    CHECK(turned_over(mesh) == 0);
+    CHECK(test::turned_over(mesh) == 0);
     CHECK(test::topology_of(mesh).open_edges == 0);
 }
 
@@ -198,7 +183,7 @@ TEST_CASE("a tube of different numbers of sides is closed", "[mesh][tubes]") {
     CHECK(topology.euler() == 2);
     CHECK(test::volume_of(mesh) > 0.0);
     if (bend < 0.5F && noise == 0.0F) {
-        CHECK(turned_over(mesh) == 0);
+        CHECK(test::turned_over(mesh) == 0);
     }
     MeshOptions whole = options;
     whole.deviation = 0.0F;

@@ -33,21 +33,6 @@ float distance_to_line(const glm::vec3& point, const glm::vec3& on, const glm::v
     return glm::length(way - unit * glm::dot(way, unit));
 }
 
-/// Triangles whose front is not the side that the normals at its corners are on.
-std::size_t turned_over(const Mesh& mesh) {
-    std::size_t turned = 0;
-    const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
-    for (std::size_t i = 0; i < indices.size(); i += 3) {
-        const std::uint32_t* const corner = &indices[i];
-        const glm::dvec3 front = test::twice_area(
-            mesh.positions[corner[0]], mesh.positions[corner[1]], mesh.positions[corner[2]]);
-        const glm::vec3 normal =
-            mesh.normals[corner[0]] + mesh.normals[corner[1]] + mesh.normals[corner[2]];
-        turned += glm::dot(front, glm::dvec3(normal)) > 0.0 ? 0U : 1U;
-    }
-    return turned;
-}
-
 /// Two segments of length 1 and 1.3 that enclose an angle.
 Skeleton bent(float degrees, float tip_radius) {
     Plant plant;
@@ -187,7 +172,7 @@ TEST_CASE("normals point away from the axis and lean with the taper", "[mesh][tu
         CHECK(n.y == Approx(0.25F * part));
         CHECK(n.x * p.x + n.z * p.z == Approx(part * std::hypot(p.x, p.z)));
     }
-    CHECK(turned_over(tubes(bent(30.0F, 0.05F), kBare)) == 0);
+    CHECK(test::turned_over(tubes(bent(30.0F, 0.05F), kBare)) == 0);
 }
 
 TEST_CASE("texture runs around and up with square texels", "[mesh][tubes]") {
@@ -246,7 +231,7 @@ TEST_CASE("rings of different sides are joined without a gap", "[mesh][tubes]") 
     for (const MeshOptions& options : {kBare, MeshOptions{.threads = 1}}) {
         const Mesh mesh = tubes(plant.skeleton(), options);
         CHECK(test::topology_of(mesh).open_edges == 0);
-        CHECK(turned_over(mesh) == 0);
+        CHECK(test::turned_over(mesh) == 0);
     }
 }
 

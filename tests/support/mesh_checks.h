@@ -20,6 +20,21 @@ inline glm::dvec3 twice_area(const glm::vec3& a, const glm::vec3& b, const glm::
     return glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
 }
 
+/// Triangles whose front is not the side that the normals at its corners are on.
+inline std::size_t turned_over(const Mesh& mesh) {
+    std::size_t turned = 0;
+    const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        const std::uint32_t* const corner = &indices[i];
+        const glm::dvec3 front = twice_area(mesh.positions[corner[0]], mesh.positions[corner[1]],
+                                            mesh.positions[corner[2]]);
+        const glm::vec3 normal =
+            mesh.normals[corner[0]] + mesh.normals[corner[1]] + mesh.normals[corner[2]];
+        turned += glm::dot(front, glm::dvec3(normal)) > 0.0 ? 0U : 1U;
+    }
+    return turned;
+}
+
 /// Arrays in parallel, indices in range, unit normals, orthogonal unit tangents, no triangle
 /// without area, parts that cover the indices.
 inline void check_mesh(const Mesh& mesh, const MeshOptions& options) {
