@@ -246,6 +246,8 @@ record_heroes(const Bytecode& bytecode, const CacheOptions& options, InstanceCac
     turtle_options.max_bytes = options.max_bytes;
     turtle_options.cancelled = options.cancelled;
     turtle_options.branches = &recorder;
+    turtle_options.seed = options.seed;
+    turtle_options.generations = options.generations;
     Turtle turtle(bytecode, turtle_options);
     for (std::uint32_t k = 0; k < options.heroes && outcome.fine(); ++k) {
         outcome.hero = k;
@@ -263,7 +265,7 @@ record_heroes(const Bytecode& bytecode, const CacheOptions& options, InstanceCac
             break;
         }
         if (k > 0) {
-            turtle.begin_again();
+            turtle.begin_again(derive.seed);
         }
         recorder.begin_hero(k, turtle.place(), turtle.drawn());
         outcome.drawn = turtle.feed(derivation.word());
@@ -273,6 +275,9 @@ record_heroes(const Bytecode& bytecode, const CacheOptions& options, InstanceCac
         if (outcome.drawn == TurtleStatus::Ok) {
             recorder.end_hero(turtle.drawn());
         }
+    }
+    if (outcome.drawn == TurtleStatus::NotInterpreted) {
+        outcome.error = turtle.error();
     }
     outcome.faults = turtle.faults();
     if (outcome.fine()) {

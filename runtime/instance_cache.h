@@ -104,9 +104,9 @@ struct CacheOptions {
 struct CacheOutcome {
     DeriveStatus derived = DeriveStatus::Ok;
     TurtleStatus drawn = TurtleStatus::Ok;
-    RuntimeError error;                                  // where derived is Error
-    LimitReport limit;                                   // where it is Limit or OutOfMemory
-    std::uint32_t hero = 0;                              // that could not be made
+    RuntimeError error;     // where derived is Error, or drawn NotInterpreted
+    LimitReport limit;      // where it is Limit or OutOfMemory
+    std::uint32_t hero = 0; // that could not be made
     std::array<TurtleFault, kTurtleFaultKinds> faults{}; // of all heroes
 
     [[nodiscard]] bool fine() const {

@@ -28,6 +28,12 @@ struct SceneFile {
     SourceSpan span;
 };
 
+/// A name that a scene gives, and where; empty: none.
+struct SceneName {
+    std::string text;
+    SourceSpan span;
+};
+
 enum class TerrainKind : std::uint8_t { Flat, Noise, HeightMap };
 
 struct SceneTerrain {
@@ -52,6 +58,9 @@ struct SceneDefinition {
 struct SceneSpecies {
     std::string name; // no two are alike
     SceneFile grammar;
+    SceneName dialect; // of the grammar; empty: what it holds tells
+    SceneName system;  // of a file that holds several; empty: the only one
+    bool bug_compatible = false;
     std::vector<SceneDefinition> definitions;
     /// One number of generations for each stage, rising; empty: one stage, the grammar's own.
     std::vector<std::uint32_t> stages;

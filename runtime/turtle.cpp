@@ -326,8 +326,9 @@ TurtleStatus Turtle::finish() {
     return state.status;
 }
 
-void Turtle::begin_again() {
+void Turtle::begin_again(std::uint64_t seed) {
     State& state = *state_;
+    state.options.seed = seed;
     LSYS_CHECK(state.status == TurtleStatus::Ok);
     state.begin();
     state.stack.clear();

@@ -130,8 +130,9 @@ public:
                                     std::span<const Origin> origins);
     /// After the last module.
     [[nodiscard]] TurtleStatus finish();
-    /// The next word begins as the first one did, beside what is drawn. After finish().
-    void begin_again();
+    /// The next word, of a derivation with that seed, begins as the first one did, beside what is
+    /// drawn. After finish().
+    void begin_again(std::uint64_t seed);
     [[nodiscard]] TurtlePlace place() const;
     [[nodiscard]] DrawnCounts drawn() const;
 

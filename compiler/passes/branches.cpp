@@ -42,13 +42,18 @@ public:
     std::optional<Branches> run() {
         refuse_system();
         for (const Production& production : program_.productions) {
-            rules_of_[first_of(production)].push_back(&production.predecessor);
+            if (production.stage == Stage::Rewrite) {
+                rules_of_[first_of(production)].push_back(&production.predecessor);
+            }
         }
         find_reach();
         walk(program_.axiom, "axiom", kNone);
         branches_.sites.clear(); // the axiom has no choice
+        // Branches that a decomposition writes are not offered: how many passes are left for what
+        // is in them is no part of their key. What is drawn in place of a module, none rewrites.
         for (std::uint32_t i = 0; i < program_.productions.size(); ++i) {
-            walk(program_.productions[i].successor, "successor", i);
+            const Production& production = program_.productions[i];
+            walk(production.successor, "successor", production.stage == Stage::Rewrite ? i : kNone);
         }
         for_each_symbol(program_, program_.axiom, [&](std::size_t, SymbolId symbol) {
             branches_.axiom_varies = branches_.axiom_varies || reach_of(symbol).varies;
@@ -99,23 +104,6 @@ private:
                                     "point");
         }
         for (const Production& production : program_.productions) {
-            if (production.stage != Stage::Rewrite) {
-                refuse(production.name_span, fmt::format("a system with `{}` cannot be instanced",
-                                                         keyword_of(production.stage)))
-                    .notes.emplace_back("what stands in a branch is known only when the word of a "
-                                        "generation is complete, or drawn");
-                break;
-            }
-        }
-        for (const Symbol& symbol : program_.symbols) {
-            if (symbol.turtle == TurtleOperation::Cut) {
-                refuse(program_.axiom.span, "a system that cuts branches off with `%` cannot be "
-                                            "instanced")
-                    .notes.emplace_back("a branch would be recorded with what is cut off later");
-                break;
-            }
-        }
-        for (const Production& production : program_.productions) {
             const std::string_view name = names_.text(production.name);
             if (production.has_left || production.has_right) {
                 refuse(production.has_left ? production.left.span : production.right.span,
@@ -132,8 +120,8 @@ private:
         return static_cast<std::size_t>(production.predecessor.items.front().symbol);
     }
 
-    /// Whether a production's predecessor stands at module `index` of a word. None of them has
-    /// brackets, so that it never goes across the border of a branch.
+    /// Whether the predecessor of a production that rewrites stands at module `index` of a word.
+    /// None of them has brackets, so that it never goes across the border of a branch.
     [[nodiscard]] bool is_rewritten(const ProgramWord& word, std::uint32_t index) const {
         const SymbolId symbol = program_.modules[word.first_module + index].symbol;
         const auto& rules = rules_of_[static_cast<std::size_t>(symbol)];

@@ -75,10 +75,16 @@ private:
             const auto recorded = static_cast<std::uint32_t>(sites.size()) - taken;
             const double probability =
                 chance * std::pow(rho_, taken) * std::pow(1.0 - rho_, recorded);
-            out_ += fmt::format("#{}.{} : {} : ", names_.text(production.name), form,
-                                text_of(production.predecessor.span));
+            const std::string_view name = names_.text(production.name);
+            const bool rewrites = production.stage == Stage::Rewrite;
+            out_ += rewrites ? fmt::format("#{}.{}", name, form)
+                             : fmt::format("{} {}", keyword_of(production.stage), name);
+            out_ += fmt::format(" : {} : ", text_of(production.predecessor.span));
             out_ += production.condition == kNoValue ? "*" : text_of(production.condition_span);
-            out_ += fmt::format(" ~ {:.9g} : ", probability);
+            if (rewrites || production.stochastic) {
+                out_ += fmt::format(" ~ {:.9g}", probability);
+            }
+            out_ += " : ";
             successor(production.successor, form, sites);
             out_ += ";\n";
         }

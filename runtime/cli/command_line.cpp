@@ -358,8 +358,10 @@ void add_stats(CLI::App& app, StatsCommand& command) {
     add_grammar(app, command.grammar);
     add_messages(app, command.messages);
     add_deny(app, command.messages);
-    app.footer("Predicts the size of every generation without deriving. With --message-format json "
-               "the\ntable is JSON too.\nExample: lsc stats -n 12 tree.lsys");
+    app.footer(
+        "Predicts the size of every generation without deriving; where a grammar decomposes or "
+        "cuts off,\nwords are derived and counted. With --message-format json the table is "
+        "JSON too.\nExample: lsc stats -n 12 tree.lsys");
 }
 
 void add_format(CLI::App& app, FormatCommand& command) {

@@ -1,8 +1,10 @@
 #include "compiler/growth.h"
+#include "runtime/cli/arguments.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/grammar_file.h"
 #include "runtime/cli/tell.h"
+#include "runtime/derive.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -71,7 +73,7 @@ std::string lay_out(const std::vector<Row>& rows) {
     return text;
 }
 
-std::string make_table(const GrowthPrediction& growth) {
+std::string make_table(const GrowthPrediction& growth, std::string_view kind) {
     Row head{"generation", "modules", "parameters", "segments", "bytes", "growth"};
     if (growth.has_expected) {
         head.insert(head.begin() + 2, "expected");
@@ -92,11 +94,57 @@ std::string make_table(const GrowthPrediction& growth) {
         rows.push_back(std::move(row));
     }
     std::string text = lay_out(rows);
-    text += growth.exact ? "exact\n"
-            : growth.has_expected
-                ? "bounds and expected counts: the productions are chosen by chance\n"
-                : "bounds: the productions depend on parameters, neighbours or chance\n";
+    text += kind;
     return text;
+}
+
+std::string_view kind_of(const GrowthPrediction& growth) {
+    return growth.exact ? "exact\n"
+           : growth.has_expected
+               ? "bounds and expected counts: the productions are chosen by chance\n"
+               : "bounds: the productions depend on parameters, neighbours or chance\n";
+}
+
+/// What a word holds, as GrowthPrediction counts it.
+GenerationSize size_of(const Bytecode& bytecode, const Word& word) {
+    std::vector<std::uint64_t> census(bytecode.code_count(), 0);
+    for (std::uint64_t i = 0; i < word.module_count(); ++i) {
+        ++census[word.code(i)];
+    }
+    std::uint64_t segments = 0;
+    for (Code code = 0; code < census.size(); ++code) {
+        const BytecodeSymbol& symbol = bytecode.symbol(bytecode.symbol_of(code));
+        segments += draws(symbol.turtle) ? census[code] : 0;
+    }
+    const auto count = [](std::uint64_t value) { return Count{value, false, 0.0}; };
+    const std::uint64_t parameters = word.parameters().size();
+    return {count(word.module_count()), count(parameters), count(segments),
+            count(word.module_count() * code_width(bytecode.code_count()) + 4 * parameters)};
+}
+
+/// Derives the words, of which nothing is known before, and counts what they hold.
+Status count_words(const StatsCommand& command,
+                   std::uint32_t generations,
+                   const Grammar& grammar,
+                   const Console& console,
+                   GrowthPrediction& growth) {
+    const Bytecode& bytecode = *grammar.bytecode;
+    DeriveOptions options;
+    options.generations = generations;
+    options.seed = bytecode.settings.seed;
+    options.limits = {command.grammar.max_modules, half_of_memory()};
+    options.cancelled = console.io().interrupted;
+    Derivation derivation(bytecode, options);
+    DeriveStatus status = derivation.start();
+    while (status == DeriveStatus::Ok) {
+        growth.low.push_back(size_of(bytecode, derivation.word()));
+        growth.high.push_back(growth.low.back());
+        if (derivation.age() == generations) {
+            break;
+        }
+        status = derivation.step();
+    }
+    return tell(status, derivation.error(), derivation.limit(), options.limits, grammar, console);
 }
 
 /// As a JSON number where it is one exactly, else as text.
@@ -119,12 +167,15 @@ nlohmann::ordered_json json_size(const GenerationSize& size) {
 }
 
 /// One object a generation.
-std::string make_json(const GrowthPrediction& growth) {
+std::string make_json(const GrowthPrediction& growth, bool predicted) {
     std::string text;
     for (std::size_t i = 0; i < growth.low.size(); ++i) {
         nlohmann::ordered_json object;
         object["generation"] = i;
         object["exact"] = growth.exact;
+        if (!predicted) {
+            object["derived"] = true; // the words of one seed
+        }
         object["low"] = json_size(growth.low[i]);
         object["high"] = json_size(growth.high[i]);
         if (growth.has_expected) {
@@ -143,20 +194,29 @@ Status run_stats(const StatsCommand& command, const Console& console) {
     if (status != Status::Fine) {
         return status;
     }
-    if (!is_growth_known(*grammar.bytecode)) {
-        return fail(
-            Error{fmt::format("how the words of this grammar grow is not known before: it {}; "
-                              "`lsc dump --count --all` counts what is derived",
-                              grammar.bytecode->cuts() ? "cuts branches off with `%`"
-                                                       : "has `#decompose`")},
-            console);
-    }
     const std::uint32_t wanted =
         command.grammar.generations.value_or(grammar.bytecode->generations.value_or(0));
     const std::uint32_t shown = std::min(wanted, kMaxRows);
-    const GrowthPrediction growth = predict_growth(*grammar.bytecode, shown);
-    const std::string text =
-        command.messages.format == MessageFormat::Json ? make_json(growth) : make_table(growth);
+    const bool known = is_growth_known(*grammar.bytecode);
+    GrowthPrediction growth;
+    Status counted = Status::Fine;
+    std::string kind;
+    if (known) {
+        growth = predict_growth(*grammar.bytecode, shown);
+        kind = kind_of(growth);
+    } else {
+        counted = count_words(command, shown, grammar, console, growth);
+        kind = fmt::format("counted in the words of seed {}, which were derived: the grammar {}\n",
+                           grammar.bytecode->settings.seed,
+                           grammar.bytecode->cuts() ? "cuts branches off with `%`"
+                                                    : "has `#decompose`");
+        if (growth.low.empty()) {
+            return counted;
+        }
+    }
+    const std::string text = command.messages.format == MessageFormat::Json
+                                 ? make_json(growth, known)
+                                 : make_table(growth, kind);
     if (const Result<Done> written = write_file("-", text, console); !written) {
         console.error(written.error().message);
         return Status::Failure;
@@ -164,7 +224,7 @@ Status run_stats(const StatsCommand& command, const Console& console) {
     if (shown < wanted) {
         console.info(fmt::format("only the first {} of {} generations are shown", shown, wanted));
     }
-    return Status::Fine;
+    return counted;
 }
 
 } // namespace lsys::lsc

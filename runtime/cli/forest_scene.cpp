@@ -44,6 +44,10 @@ Result<Done> apply(const ForestCommand& command, Scene& scene) {
         take(command.cache_cap, species.cache.cap);
         take(command.tolerance, species.cache.tolerance);
         take(command.rho, species.rho);
+        const GrammarOptions& grammar = command.grammar;
+        species.dialect.text = grammar.dialect.empty() ? species.dialect.text : grammar.dialect;
+        species.system.text = grammar.system.empty() ? species.system.text : grammar.system;
+        species.bug_compatible = species.bug_compatible || grammar.bug_compatible;
         if (command.grammar.generations) {
             species.stages = {*command.grammar.generations};
             species.years_of_stage = 0.0F;

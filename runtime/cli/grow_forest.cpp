@@ -1,6 +1,7 @@
 #include "runtime/cli/grow_forest.h"
 
 #include "compiler/instance.h"
+#include "grammar/dialect.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/grammar_file.h"
 #include "runtime/cli/plant.h"
@@ -23,16 +24,14 @@ std::string path_in(const std::string& folder, const std::string& path) {
     return (std::filesystem::path(folder) / path).string();
 }
 
-/// An error about a file, where the scene names it.
-Status fail_at(const SceneFile& file,
-               const Error& error,
-               const SourceMap& sources,
-               const Console& console) {
-    if (file.span.file == kNoFile) {
+/// An error about a file or another name, where the scene has it.
+Status
+fail_at(SourceSpan place, const Error& error, const SourceMap& sources, const Console& console) {
+    if (place.file == kNoFile) {
         return fail(error, console);
     }
     Diagnostics diagnostics;
-    diagnostics.add(DiagnosticCode::BadSceneValue, file.span, error.message);
+    diagnostics.add(DiagnosticCode::BadSceneValue, place, error.message);
     static_cast<void>(console.show(diagnostics, sources));
     return Status::Failure;
 }
@@ -81,6 +80,9 @@ Status grow_stage(const SceneSpecies& species,
                   std::vector<UserMesh>& user_meshes,
                   std::vector<std::string>& files) {
     GrammarOptions options;
+    options.dialect = species.dialect.text;
+    options.bug_compatible = species.bug_compatible;
+    options.system = species.system.text;
     options.generations = generations;
     options.max_modules = limits.max_modules;
     for (const SceneDefinition& definition : species.definitions) {
@@ -126,8 +128,9 @@ Status grow_stage(const SceneSpecies& species,
         return fail(read.error(), console);
     }
     const CacheOutcome outcome = make_instance_cache(*grammar.bytecode, cache, stage.cache);
-    const Status derived =
-        tell(outcome.derived, outcome.error, outcome.limit, cache.limits, grammar, console);
+    const bool interpreted = outcome.drawn != TurtleStatus::NotInterpreted;
+    const Status derived = tell(interpreted ? outcome.derived : DeriveStatus::Error, outcome.error,
+                                outcome.limit, cache.limits, grammar, console);
     if (derived != Status::Fine) {
         return derived;
     }
@@ -148,9 +151,11 @@ bool is_grown_alike(const SceneSpecies& a, const SceneSpecies& b) {
     const auto same_definition = [](const SceneDefinition& one, const SceneDefinition& other) {
         return one.name == other.name && one.value == other.value;
     };
-    return a.grammar.path == b.grammar.path && a.stages == b.stages && a.rho == b.rho &&
-           a.cache.heroes == b.cache.heroes && a.cache.seed == b.cache.seed &&
-           a.cache.cap == b.cache.cap && a.cache.tolerance == b.cache.tolerance &&
+    return a.grammar.path == b.grammar.path && a.dialect.text == b.dialect.text &&
+           a.system.text == b.system.text && a.bug_compatible == b.bug_compatible &&
+           a.stages == b.stages && a.rho == b.rho && a.cache.heroes == b.cache.heroes &&
+           a.cache.seed == b.cache.seed && a.cache.cap == b.cache.cap &&
+           a.cache.tolerance == b.cache.tolerance &&
            std::equal(a.definitions.begin(), a.definitions.end(), b.definitions.begin(),
                       b.definitions.end(), same_definition);
 }
@@ -209,7 +214,7 @@ Status grow_species(const Scene& scene,
     }
     Result<Terrain> terrain = make_terrain(scene.terrain, folder, console);
     if (!terrain) {
-        return fail_at(scene.terrain.map,
+        return fail_at(scene.terrain.map.span,
                        Error{fmt::format("terrain: {}", terrain.error().message)}, sources,
                        console);
     }
@@ -217,7 +222,7 @@ Status grow_species(const Scene& scene,
     if (!scene.density_map.path.empty()) {
         Result<GreyMap> map = read_map(path_in(folder, scene.density_map.path), 0, 0, console);
         if (!map) {
-            return fail_at(scene.density_map, map.error(), sources, console);
+            return fail_at(scene.density_map.span, map.error(), sources, console);
         }
         grown.density_map = std::move(map.value());
     }
@@ -227,9 +232,14 @@ Status grow_species(const Scene& scene,
         std::error_code ignored;
         if (!std::filesystem::exists(path_in(folder, species.grammar.path), ignored)) {
             return fail_at(
-                species.grammar,
+                species.grammar.span,
                 Error{fmt::format("there is no file `{}`", path_in(folder, species.grammar.path))},
                 sources, console);
+        }
+        if (!species.dialect.text.empty() && !find_dialect(species.dialect.text)) {
+            return fail_at(species.dialect.span,
+                           Error{fmt::format("there is no dialect `{}`", species.dialect.text)},
+                           sources, console);
         }
         ForestSpecies& made = grown.forest.species.emplace_back();
         made.name = species.name;

@@ -55,6 +55,16 @@ void read_grammar(SpeciesReader& from) {
         from.reader.missing("grammar", "the species is to be drawn")
             .help.emplace_back("name a grammar beside the scene: `grammar = \"pine.lsys\"`");
     }
+    const auto optional_name = [&](std::string_view key, SceneName& name) {
+        if (auto text = from.reader.text(key)) {
+            name = {std::move(*text), from.reader.span_of(key)};
+        }
+    };
+    optional_name("dialect", from.species.dialect);
+    optional_name("system", from.species.system);
+    if (!from.species.system.text.empty()) {
+        from.species.name = from.species.system.text;
+    }
     if (auto name = from.reader.text("name")) {
         from.species.name = std::move(*name);
     } else if (from.reader.has("name")) {

@@ -35,6 +35,8 @@ constexpr KeyPlace kPlaces[] = {
     {"highest", "[terrain]"},
     {"filter", "[terrain]"},
     {"grammar", "[[species]]"},
+    {"dialect", "[[species]]"},
+    {"system", "[[species]]"},
     {"n", "[[species]]"},
     {"stages", "[[species]]"},
     {"years_of_stage", "[[species]]"},

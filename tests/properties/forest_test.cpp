@@ -100,6 +100,17 @@ TEST_CASE("where nothing is left to chance, every tree is the plain plant") {
         "[&(50) A(l*0.6, w*0.5)] A(l*0.9, w*0.8);",
         // a branch that grows on
         "#set names letters; #w : A; #p : A : * : F[+B]A; #q : B : * : F[-B]FB; #r : F : * : FF;",
+        // drawn in place of its modules, in branches of their own
+        "#set names letters; #w : A; #p : A : * : I[+A][-A]IA; #q : I : * : II;"
+        "#interpret i : I : * : F[&J]; #interpret j : A : * : {.F+F+F.}; #interpret k : J : * : "
+        "FF;",
+        // decomposed within a generation, with branches of their own
+        "#w : A(0); #p : A(t) : * : F [+ B(t)] A(t + 0.5); #b : B(t) : * : B(t + 0.4) F;"
+        "#decompose d : A(t) : t > 1 : M(t) [& B(t - 1)] A(t - 1); #decompose m : M(t) : * : F(t);",
+        // cut off, in the branch and around it
+        "#set names letters; #w : A; #p : A : * : F[+A][-BA]/A; #b : B : * : C; #c : C : * : F%;",
+        // that knows where up is, by what is drawn
+        "#set names letters; #w : A; #p : A : * : F[&A][//&A]D; #interpret d : D : * : $F;",
         // that knows where up is
         "#set names letters; #set tropism 0 -1 0 0.2; #w : A; #p : A : * : F[&A][//&A]$F;");
     const float rho = GENERATE(0.3F, 0.6F, 1.0F);
@@ -111,6 +122,24 @@ TEST_CASE("where nothing is left to chance, every tree is the plain plant") {
         CHECK(tree.size() == plain.size());
         CHECK(count_strangers(tree, plain, 1e-4) == 0);
         CHECK(count_strangers(plain, tree, 1e-4) == 0);
+    }
+}
+
+TEST_CASE("without taking, what is drawn in place of modules is drawn with the draws of the hero") {
+    const std::string grammar =
+        "#set names letters; #w : A; #p : A : ~ 0.5 : F[+A]A; #q : A : ~ 0.5 : I[-A]A;"
+        "#interpret i : I : * : F({1, 3})[+({10, 80})F]; #interpret f : F : * : F({0.5, 1});";
+    const Planted planted = plant(grammar, 5, 0.0F, heroes(4, 9));
+    for (std::uint32_t number = 0; number < 20; ++number) {
+        const std::vector<TreeSegment> tree = segments_of(planted.cache, tree_of(number), 1);
+        std::uint32_t hero = 0;
+        TreeExpander expander(planted.cache, 1);
+        expander.expand(tree_of(number), [&](const BranchInstance& at) {
+            hero = planted.cache.instances[at.instance].hero;
+        });
+        const std::vector<TreeSegment> plain = segments_of(plain_plant(grammar, 5, 9 + hero));
+        CHECK(tree.size() == plain.size());
+        CHECK(count_strangers(tree, plain, 1e-4) == 0);
     }
 }
 

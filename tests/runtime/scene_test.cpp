@@ -111,6 +111,19 @@ seed_distance = 33
 
 } // namespace
 
+TEST_CASE("a species may say which system of which dialect it is") {
+    const Scene scene =
+        scene_of("[[species]]\ngrammar = \"a.l\"\nsystem = \"Dragon\"\n"
+                 "dialect = \"fractint\"\n"
+                 "[[species]]\ngrammar = \"a.l\"\nsystem = \"Tree\"\nname = \"t\"\n");
+    CHECK(scene.species[0].name == "Dragon");
+    CHECK(scene.species[0].system.text == "Dragon");
+    CHECK(scene.species[0].dialect.text == "fractint");
+    CHECK(scene.species[1].name == "t");
+    CHECK(scene.species[1].system.text == "Tree");
+    CHECK(parsed("[[species]]\ngrammar = \"a.l\"\nsystem = 3\n").messages.starts_with("3:10-"));
+}
+
 TEST_CASE("a scene of one grammar has all defaults") {
     const Scene scene = scene_of("[[species]]\ngrammar = \"trees/pine.lsys\"\n");
     CHECK(scene.terrain.kind == lsys::TerrainKind::Flat);
@@ -125,6 +138,8 @@ TEST_CASE("a scene of one grammar has all defaults") {
     const SceneSpecies& pine = scene.species[0];
     CHECK(pine.name == "pine");
     CHECK(pine.grammar.path == "trees/pine.lsys");
+    CHECK(pine.dialect.text.empty());
+    CHECK(pine.system.text.empty());
     CHECK(pine.rho == 0.6F);
     CHECK(pine.cache.heroes == 10);
     CHECK(pine.cache.seed == 0);

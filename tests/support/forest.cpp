@@ -61,7 +61,10 @@ Skeleton plain_plant(const std::string& grammar, std::uint32_t generations, std:
     Derivation derivation(*compiled.outcome.bytecode, options);
     REQUIRE(derivation.start() == DeriveStatus::Ok);
     REQUIRE(derivation.run_to(generations) == DeriveStatus::Ok);
-    Turtle turtle(*compiled.outcome.bytecode, {});
+    TurtleOptions drawing;
+    drawing.seed = seed;
+    drawing.generations = generations;
+    Turtle turtle(*compiled.outcome.bytecode, drawing);
     REQUIRE(turtle.feed(derivation.word()) == TurtleStatus::Ok);
     REQUIRE(turtle.finish() == TurtleStatus::Ok);
     return turtle.take_skeleton();
