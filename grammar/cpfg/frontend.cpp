@@ -12,6 +12,48 @@
 
 namespace lsys {
 
+namespace {
+
+/// The stages behind the parser go through nodes by recursion.
+constexpr int kDeepest = 1000;
+
+} // namespace
+
+int CpfgSession::add(CpfgExpression expression) {
+    for (const int part : expression.parts) {
+        expression.depth =
+            std::max(expression.depth, expressions[static_cast<std::size_t>(part)].depth + 1);
+    }
+    if (expression.depth > kDeepest) {
+        if (expression.depth == kDeepest + 1) { // what it is part of is no other mistake
+            unable(expression.span, "an expression of more than 1000 operations in one another");
+        }
+        expression.parts.clear();
+        expression.kind = CpfgKind::Number;
+    }
+    expressions.push_back(std::move(expression));
+    return static_cast<int>(expressions.size()) - 1;
+}
+
+int CpfgSession::add(CpfgStatement statement) {
+    for (const std::vector<int>* const block : {&statement.block, &statement.otherwise}) {
+        for (const int index : *block) {
+            const bool nests = statement.kind == CpfgStatementKind::If;
+            const int depth = nests ? statements[static_cast<std::size_t>(index)].depth + 1 : 1;
+            statement.depth = std::max(statement.depth, depth);
+        }
+    }
+    if (statement.depth > kDeepest) {
+        if (statement.depth == kDeepest + 1) {
+            unable(statement.span, "more than 1000 blocks in one another");
+        }
+        statement.block.clear();
+        statement.otherwise.clear();
+    }
+    statements.push_back(std::move(statement));
+    return static_cast<int>(statements.size()) - 1;
+}
+
 void CpfgSession::production(CpfgProduction made) {
     made.stage = stage;
     productions.push_back(std::move(made));

@@ -8,6 +8,7 @@
 #include "grammar/translation.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,6 +33,7 @@ struct CpfgExpression {
     std::string text;
     std::vector<int> parts; // in CpfgSession::expressions
     SourceSpan span;
+    int depth = 1; // of what is nested in it
 };
 
 enum class CpfgStatementKind : std::uint8_t { Assign, Call, If, Loop, Array };
@@ -43,6 +45,7 @@ struct CpfgStatement {
     std::vector<int> block; // statements of If; values of Array
     std::vector<int> otherwise;
     SourceSpan span;
+    int depth = 1;
 };
 
 struct CpfgModule {
@@ -112,14 +115,9 @@ public:
     void give_back(std::uint32_t length) { at_ -= length; }
 
     // --- for the parser
-    int add(CpfgExpression expression) {
-        expressions.push_back(std::move(expression));
-        return static_cast<int>(expressions.size()) - 1;
-    }
-    int add(CpfgStatement statement) {
-        statements.push_back(std::move(statement));
-        return static_cast<int>(statements.size()) - 1;
-    }
+    /// What is nested too deep is reported, and left out.
+    int add(CpfgExpression expression);
+    int add(CpfgStatement statement);
     void unable(SourceSpan span, std::string message) const {
         context.diagnostics.add(DiagnosticCode::ForeignFeature, span, std::move(message));
     }
@@ -144,12 +142,30 @@ private:
     void* scanner_ = nullptr;
 };
 
+/// A list that grows while it is parsed. The parser copies values; these copies share their items.
+template <typename T>
+class CpfgList {
+public:
+    void push_back(T item) {
+        if (!items_) {
+            items_ = std::make_shared<std::vector<T>>();
+        }
+        items_->push_back(std::move(item));
+    }
+    [[nodiscard]] std::vector<T> take() const {
+        return items_ ? std::move(*items_) : std::vector<T>();
+    }
+
+private:
+    std::shared_ptr<std::vector<T>> items_;
+};
+
 /// What tokens and symbols of the parser carry.
 struct CpfgValue {
     std::string text;
     int index = -1; // of an expression or statement
-    std::vector<int> list;
-    std::vector<CpfgModule> modules;
+    CpfgList<int> list;
+    CpfgList<CpfgModule> modules;
     CpfgProduction production;
 };
 
