@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 namespace lsys {
 
@@ -137,6 +138,10 @@ void HoudiniExpressions::write_call(const HoudiniNode& node, const HoudiniScope&
         write_random(node, scope);
         return;
     }
+    if (name == "int") {
+        write_whole(node);
+        return;
+    }
     const auto* const found =
         std::find_if(kFunctions.begin(), kFunctions.end(),
                      [&](const Function& function) { return function.name == name; });
@@ -164,22 +169,81 @@ void HoudiniExpressions::write_call(const HoudiniNode& node, const HoudiniScope&
     std::reverse(items_.begin() + static_cast<std::ptrdiff_t>(at) + 1, items_.end());
 }
 
+/// Whether an expression has a random number; `is_positive`: and cannot be below 0.
+bool HoudiniExpressions::draws(int root, bool& is_positive) const {
+    bool found = false;
+    is_positive = true;
+    std::vector<int> open{root};
+    while (!open.empty()) {
+        const HoudiniNode& node = session_.nodes[static_cast<std::size_t>(open.back())];
+        open.pop_back();
+        const std::string_view text = session_.context.sources.text(node.span);
+        const bool random = node.kind == HoudiniNodeKind::Call && text == "rand";
+        const bool keeps_sign =
+            node.kind == HoudiniNodeKind::Number || node.kind == HoudiniNodeKind::Group ||
+            (node.kind == HoudiniNodeKind::Binary && (text == "+" || text == "*" || text == "/"));
+        found = found || random;
+        is_positive = is_positive && (random || keeps_sign);
+        if (node.kind == HoudiniNodeKind::Call) {
+            for (int each = session_.arguments[static_cast<std::size_t>(node.first)].first;
+                 each != -1 && !random;
+                 each = session_.nodes[static_cast<std::size_t>(each)].next) {
+                open.push_back(each);
+            }
+        } else {
+            for (const int part : {node.first, node.second}) {
+                if (part != -1) {
+                    open.push_back(part);
+                }
+            }
+        }
+    }
+    return found;
+}
+
+/// `int(x)`: x without what stands behind its point.
+void HoudiniExpressions::write_whole(const HoudiniNode& node) {
+    const HoudiniArguments& given = session_.arguments[static_cast<std::size_t>(node.first)];
+    bool is_positive = false;
+    if (given.count != 1) {
+        session_.context.diagnostics.add(DiagnosticCode::ForeignSyntax, node.span,
+                                         "`int` takes one number");
+    } else if (!draws(given.first, is_positive)) {
+        items_.push_back({-1, ")))", node.span});
+        items_.push_back({given.first, {}, {}});
+        items_.push_back({-1, ") * floor(abs(", node.span});
+        items_.push_back({given.first, {}, {}});
+        items_.push_back({-1, "(sign(", node.span});
+    } else if (is_positive) {
+        items_.push_back({-1, ")", node.span});
+        items_.push_back({given.first, {}, {}});
+        items_.push_back({-1, "floor(", node.span});
+    } else {
+        missing(node.span, "`int` of a random number that may be below 0");
+    }
+}
+
 /// A number from 0 to 1, whatever the seed.
 void HoudiniExpressions::write_random(const HoudiniNode& node, const HoudiniScope& scope) {
     if (scope.place == HoudiniPlace::Condition || scope.place == HoudiniPlace::Probability) {
         Diagnostic& error =
             session_.context.diagnostics.add(DiagnosticCode::ForeignFeature, node.span,
                                              "chance cannot stand in a condition or probability");
-        error.help.emplace_back("write the probability behind the rule, as in `A=B:0.3`");
+        error.help.emplace_back("write the probability behind the rule, as in `A=B:0.3`; a first "
+                                "rule with `rand(i)<0.3` and a second without condition are read");
         return;
     }
+    say_random(node.span);
+    translation_.put("{0, 1}", node.span);
+}
+
+void HoudiniExpressions::say_random(SourceSpan place) {
     if (!said_random_) {
         said_random_ = true;
         session_.context.diagnostics.add(
-            DiagnosticCode::ForeignLoss, node.span,
+            DiagnosticCode::ForeignLoss, place,
             "`rand` draws a number of its own each time; Houdini gives one number for one seed");
     }
-    translation_.put("{0, 1}", node.span);
 }
 
 } // namespace lsys

@@ -29,6 +29,8 @@ public:
     /// What `a` is.
     void set_angle(std::string angle) { angle_ = std::move(angle); }
     void write(int node, const HoudiniScope& scope);
+    /// Says once that `rand` does not depend on its seed.
+    void say_random(SourceSpan place);
 
 private:
     /// What is still to be written: a node, or a text that stands for a place.
@@ -42,6 +44,8 @@ private:
     void write_name(const HoudiniNode& node, const HoudiniScope& scope);
     void write_call(const HoudiniNode& node, const HoudiniScope& scope);
     void write_random(const HoudiniNode& node, const HoudiniScope& scope);
+    void write_whole(const HoudiniNode& node);
+    [[nodiscard]] bool draws(int root, bool& is_positive) const;
     void write_binary(const HoudiniNode& node);
     void missing(SourceSpan place, const std::string& message) const;
 

@@ -1,5 +1,6 @@
 // How HoudiniWriter writes rules.
 #include "grammar/houdini/writer.h"
+#include "grammar/session/number.h"
 
 #include <string>
 
@@ -33,6 +34,58 @@ std::string HoudiniWriter::group_of(const HoudiniRule& rule) const {
         group += '\n';
     }
     return group;
+}
+
+/// The probability that `rand(seed) < number` holds, and its like; empty: it is no such condition.
+std::string HoudiniWriter::chance_of(int condition) const {
+    const auto node_at = [&](int index) -> const HoudiniNode& {
+        const HoudiniNode* node = &session_.nodes[static_cast<std::size_t>(index)];
+        while (node->kind == HoudiniNodeKind::Group) {
+            node = &session_.nodes[static_cast<std::size_t>(node->first)];
+        }
+        return *node;
+    };
+    const HoudiniNode& test = node_at(condition);
+    if (test.kind != HoudiniNodeKind::Binary) {
+        return {};
+    }
+    const HoudiniNode& left = node_at(test.first);
+    const HoudiniNode& right = node_at(test.second);
+    const std::string_view sign = text(test.span);
+    if (left.kind != HoudiniNodeKind::Call || text(left.span) != "rand" ||
+        right.kind != HoudiniNodeKind::Number || (sign[0] != '<' && sign[0] != '>')) {
+        return {};
+    }
+    const float limit = read_literal(text(right.span)).value;
+    if (!(limit > 0.0F && limit < 1.0F)) {
+        return {};
+    }
+    const std::string number(text(right.span));
+    return sign[0] == '<' ? number : "(1 - " + number + ")";
+}
+
+/// Two rules of a group, of which the first has `rand(seed) < number` for its condition and the
+/// second has none, are a choice.
+void HoudiniWriter::find_chances() {
+    std::map<std::string, std::vector<const HoudiniRule*>> groups;
+    std::map<std::string_view, std::size_t> rules_of; // by symbol
+    for (const HoudiniRule& rule : session_.rules) {
+        groups[group_of(rule)].push_back(&rule);
+        const HoudiniList& head = session_.lists[static_cast<std::size_t>(rule.predecessor)];
+        ++rules_of[text(module(head.begin).symbol)];
+    }
+    for (const auto& [group, rules] : groups) {
+        const HoudiniList& head = session_.lists[static_cast<std::size_t>(rules[0]->predecessor)];
+        if (rules.size() != 2 || rules_of[text(module(head.begin).symbol)] != 2 ||
+            has_probability_[group] || rules[0]->condition == -1 || rules[1]->condition != -1) {
+            continue;
+        }
+        const std::string chance = chance_of(rules[0]->condition);
+        if (!chance.empty()) {
+            chances_[rules[0]] = chance;
+            chances_[rules[1]] = "(1 - " + chance + ")";
+        }
+    }
 }
 
 bool HoudiniWriter::check_head(const HoudiniRule& rule) {
@@ -170,7 +223,10 @@ void HoudiniWriter::write_form(const HoudiniRule& rule, const Form& form, const 
     }
     translation_.put(" : ", rule.span);
     const bool weighted = has_probability_[group_of(rule)];
-    if (rule.condition != -1) {
+    if (const auto chance = chances_.find(&rule); chance != chances_.end()) {
+        expressions_.say_random(rule.span);
+        translation_.put("* ~ " + chance->second, rule.span);
+    } else if (rule.condition != -1) {
         expressions_.write(rule.condition, {HoudiniPlace::Condition, &rule, &zeros_});
     } else if (!weighted) {
         translation_.put("*", rule.span);

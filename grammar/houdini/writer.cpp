@@ -36,6 +36,7 @@ HoudiniWriter::HoudiniWriter(const HoudiniSession& session, Translation& transla
         bool& known = has_probability_[group_of(rule)];
         known = known || rule.probability != -1;
     }
+    find_chances();
 }
 
 void HoudiniWriter::mistake(SourceSpan place, const std::string& message) const {

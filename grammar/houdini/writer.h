@@ -45,6 +45,8 @@ private:
     void write_ageing(const HoudiniRule& rule, std::size_t index);
     [[nodiscard]] std::vector<Form> forms_of(const HoudiniRule& rule) const;
     [[nodiscard]] std::string group_of(const HoudiniRule& rule) const;
+    void find_chances();
+    [[nodiscard]] std::string chance_of(int condition) const;
     bool check_head(const HoudiniRule& rule);
 
     void write_word(int list, const HoudiniScope& scope);
@@ -63,7 +65,8 @@ private:
     HoudiniSymbols symbols_;
     std::map<std::string_view, SourceSpan> settings_; // by the name of .lsys
     HoudiniExpressions expressions_;
-    std::map<std::string, bool> has_probability_; // by group
+    std::map<std::string, bool> has_probability_;       // by group
+    std::map<const HoudiniRule*, std::string> chances_; // in place of a condition with `rand`
     std::map<std::string_view, bool> aged_;
     std::vector<std::string_view> zeros_;
     std::string lost_; // symbols that have been told
