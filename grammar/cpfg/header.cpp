@@ -85,10 +85,9 @@ void CpfgWriter::check_module(CpfgModule& module) {
     } else if ((name == "{" || name == "}") && module.has_arguments) {
         expressions_.leave_out(module.span, "{(", "parameters of `" + name + "` are left out");
     }
-    // a label's text
+    // what a label says
     std::erase_if(module.arguments, [&](int argument) {
-        const bool text = name.starts_with("@") && expression(argument).kind == CpfgKind::String;
-        return text;
+        return name.starts_with("@") && expression(argument).kind == CpfgKind::String;
     });
     module.has_arguments = !module.arguments.empty();
 }
@@ -262,6 +261,13 @@ void CpfgWriter::names(const char* begin, const std::vector<CpfgModule>& list) {
     for (const CpfgModule& module : list) {
         for (const char c : module.name) {
             wanted.insert(std::string(1, c));
+        }
+    }
+    for (const CpfgModule& module : list) {
+        if (!session_.considers && (module.name == "[" || module.name == "]")) {
+            expressions_.leave_out(module.span, "ignored bracket",
+                                   "brackets always count in contexts: that they are ignored is "
+                                   "left out");
         }
     }
     std::set<std::string> spelled_names;
