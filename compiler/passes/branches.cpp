@@ -105,6 +105,17 @@ private:
         }
         for (const Production& production : program_.productions) {
             const std::string_view name = names_.text(production.name);
+            const bool rewrites_brackets = std::any_of(
+                production.predecessor.items.begin(), production.predecessor.items.end(),
+                [&](const ProgramPatternItem& item) {
+                    return program_.symbol(item.symbol).kind == SymbolKind::BranchOpen;
+                });
+            if (rewrites_brackets) {
+                refuse(production.predecessor.span,
+                       fmt::format("production `{}` rewrites a branch with what is around it, so "
+                                   "its system cannot be instanced",
+                                   name));
+            }
             if (production.has_left || production.has_right) {
                 refuse(production.has_left ? production.left.span : production.right.span,
                        fmt::format("production `{}` has a context, so its system cannot be "

@@ -109,6 +109,9 @@ TEST_CASE("where nothing is left to chance, every tree is the plain plant") {
         "#decompose d : A(t) : t > 1 : M(t) [& B(t - 1)] A(t - 1); #decompose m : M(t) : * : F(t);",
         // cut off, in the branch and around it
         "#set names letters; #w : A; #p : A : * : F[+A][-BA]/A; #b : B : * : C; #c : C : * : F%;",
+        // of several modules that are rewritten as one
+        "#set names letters; #set rewriting leftmost; #w : AB;"
+        "#p : AB : * : F[+AB]/AB[&ABA]; #q : A : * : F[-AB]; #r : B : * : F;",
         // that knows where up is, by what is drawn
         "#set names letters; #w : A; #p : A : * : F[&A][//&A]D; #interpret d : D : * : $F;",
         // that knows where up is
