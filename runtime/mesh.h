@@ -12,10 +12,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace lsys {
+
+struct Texture; // runtime/texture.h
 
 enum class MaterialKind : std::uint8_t { Bark, Leaf, Flower, Plain };
 
@@ -26,7 +29,8 @@ struct Material {
     glm::vec4 colour{1.0F};
     bool two_sided = false;
     bool cut_out = false;  // texels below half opacity are not there
-    bool textured = false; // by the texture of its kind, see runtime/texture.h
+    bool textured = false; // by `picture`, or that of its kind, see runtime/texture.h
+    std::shared_ptr<const Texture> picture = nullptr; // of a file; multiplied by the colour
 };
 
 /// Triangles of one material: indices[first_index, first_index + index_count).
@@ -90,13 +94,23 @@ struct MeshOptions {
 
 enum class MeshStatus : std::uint8_t { Ok, TooManyVertices, Limit, OutOfMemory };
 
+/// A name in the text of a file.
+struct ObjName {
+    std::string name;
+    std::uint64_t offset = 0;
+};
+
 /// A mesh read from a file for `#object X "leaf.obj"`; extent along +Y gives the turtle its step.
 struct UserMesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> texture_coordinates;
     std::vector<std::uint32_t> indices;
-    [[nodiscard]] float length() const; // greatest y, at least 0
+    std::vector<ObjName> libraries;         // files of materials that it names
+    std::vector<ObjName> materials;         // of its faces, by their first; no name: of none
+    std::shared_ptr<const Texture> picture; // that all of it shows; may be none
+    std::vector<std::string> files;         // that were looked for to find it
+    [[nodiscard]] float length() const;     // greatest y, at least 0
 };
 
 /// Makes `mesh` from `skeleton`. `user_meshes` are those of Skeleton::mesh_files, in order. The

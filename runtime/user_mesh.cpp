@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <system_error>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -153,6 +154,10 @@ private:
             read_normal(line);
         } else if (kind == "f") {
             read_face(line);
+        } else if (kind == "mtllib") {
+            add_name(rest_of_line(), known_libraries_, mesh_.libraries);
+        } else if (kind == "usemtl") {
+            material_ = rest_of_line();
         }
         if (error_) {
             return;
@@ -160,6 +165,27 @@ private:
         while (!word().empty()) {
         }
         pass_end();
+    }
+
+    /// Names may have blanks in them, but not at their ends.
+    ObjName rest_of_line() {
+        skip_blanks();
+        const std::size_t begin = at_;
+        while (!ends_here(at_)) {
+            ++at_;
+        }
+        std::size_t end = at_;
+        while (end > begin && is_blank(text_[end - 1])) {
+            --end;
+        }
+        return {std::string(text_.substr(begin, end - begin)), begin};
+    }
+    static void add_name(const ObjName& name,
+                         std::unordered_set<std::string>& known,
+                         std::vector<ObjName>& names) {
+        if (known.insert(name.name).second) {
+            names.push_back(name);
+        }
     }
 
     // --- numbers
@@ -310,6 +336,10 @@ private:
         if (glm::dot(area, area) == 0.0) {
             return;
         }
+        if (mesh_.materials.empty() || material_.name != last_material_) {
+            last_material_ = material_.name;
+            add_name(material_, known_materials_, mesh_.materials);
+        }
         for (const Corner* corner : {&a, &b, &c}) {
             mesh_.indices.push_back(numbers_.number(*corner));
             if (!has_normal(*corner)) {
@@ -356,6 +386,10 @@ private:
     std::vector<glm::vec2> texture_coordinates_;
     std::vector<glm::dvec3> around_; // sums of twice the areas of faces, by vertex
     CornerNumbers numbers_;
+    ObjName material_; // of the faces that follow
+    std::string last_material_;
+    std::unordered_set<std::string> known_libraries_;
+    std::unordered_set<std::string> known_materials_;
     UserMesh mesh_;
 };
 
@@ -367,6 +401,60 @@ float UserMesh::length() const {
         greatest = std::max(greatest, position.y);
     }
     return greatest;
+}
+
+std::unordered_map<std::string, MaterialPicture> pictures_of(std::string_view mtl) {
+    std::unordered_map<std::string, MaterialPicture> materials;
+    MaterialPicture* material = nullptr; // that the lines are about
+    for (std::size_t at = 0; at < mtl.size();) {
+        const std::size_t end = std::min(mtl.find_first_of("\r\n", at), mtl.size());
+        std::size_t begin = at;
+        const auto skip_blanks = [&] {
+            while (begin < end && is_blank(mtl[begin])) {
+                ++begin;
+            }
+        };
+        const auto next_word = [&] {
+            skip_blanks();
+            const std::size_t first = begin;
+            while (begin < end && !is_blank(mtl[begin])) {
+                ++begin;
+            }
+            return mtl.substr(first, begin - first);
+        };
+        const std::string_view kind = next_word();
+        skip_blanks();
+        std::size_t last = end;
+        while (last > begin && is_blank(mtl[last - 1])) {
+            --last;
+        }
+        if (kind == "newmtl") {
+            material = &materials[std::string(mtl.substr(begin, last - begin))];
+        } else if (kind == "map_Kd" && material != nullptr) {
+            // Options stand before the name: a word, then its numbers or one more word.
+            while (begin < last && mtl[begin] == '-') {
+                material->has_options = true;
+                const std::string_view option = next_word();
+                const bool of_numbers =
+                    option == "-o" || option == "-s" || option == "-t" || option == "-mm";
+                std::size_t kept = begin;
+                for (int i = 0; i < (of_numbers ? 3 : 1); ++i) {
+                    kept = begin;
+                    const std::string_view value = next_word();
+                    if (of_numbers &&
+                        value.find_first_not_of("+-.0123456789eE") != std::string_view::npos) {
+                        begin = kept;
+                        break;
+                    }
+                }
+                skip_blanks();
+            }
+            const std::size_t name = std::min(begin, last);
+            material->file = {std::string(mtl.substr(name, last - name)), name};
+        }
+        at = end + 1;
+    }
+    return materials;
 }
 
 Result<UserMesh> read_obj(std::string_view text) {

@@ -20,6 +20,12 @@ constexpr std::size_t kAllPortraits = 16;
 /// With fewer, all are shown.
 constexpr std::size_t kFewLeaves = 24;
 
+/// Of a form.
+std::size_t most_portraits_of(std::size_t forms) {
+    return std::clamp<std::size_t>(kAllPortraits / std::max<std::size_t>(forms, 1), 1,
+                                   kMostPortraits);
+}
+
 bool is_leaf(const PlacedObject& object) {
     return object.kind == TurtleOperation::Leaf || object.kind == TurtleOperation::MeshFile ||
            object.kind == TurtleOperation::Flower;
@@ -120,22 +126,24 @@ InstanceMeshStatus make_form(const InstanceCache& cache,
                              std::size_t most_portraits,
                              TreeForm& form) {
     form.cache = &cache;
+    const auto meshes = std::make_shared<TreeMeshes>();
+    TreeMeshes& levels = *meshes;
+    form.meshes = meshes;
     MeshOptions level_options = options;
     level_options.tangents = false;
     level_options.colours = false;
-    InstanceMeshStatus status =
-        make_instance_meshes(cache, user_meshes, level_options, form.levels[0]);
+    InstanceMeshStatus status = make_instance_meshes(cache, user_meshes, level_options, levels[0]);
     if (status != InstanceMeshStatus::Ok) {
         return status;
     }
     find_portraits(form, key, most_portraits);
-    const std::vector<Bounds> bounds = bounds_of(cache, form.levels[0]);
+    const std::vector<Bounds> bounds = bounds_of(cache, levels[0]);
     form.reach = reaches_of(cache, bounds)[0];
-    measure_portraits(form, key, form.levels[0]);
+    measure_portraits(form, key, levels[0]);
     for (std::uint32_t level = 1; level < kTreeLevels; ++level) {
         level_options.level = options.level + level;
         status = make_instance_meshes(coarsened(cache, level, form.height()), user_meshes,
-                                      level_options, form.levels[level]);
+                                      level_options, levels[level]);
         if (status != InstanceMeshStatus::Ok) {
             return status;
         }
@@ -144,7 +152,7 @@ InstanceMeshStatus make_form(const InstanceCache& cache,
         form.mesh_triangles[level].resize(cache.instances.size());
         for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
             form.mesh_triangles[level][i] =
-                static_cast<std::uint32_t>(form.levels[level].triangles_of(i));
+                static_cast<std::uint32_t>(levels[level].triangles_of(i));
         }
     }
     TreeExpander expander(cache, key);
@@ -164,8 +172,8 @@ InstanceMeshStatus make_form(const InstanceCache& cache,
 std::uint64_t ForestModel::mesh_bytes() const {
     std::uint64_t bytes = 0;
     for (const TreeForm& form : forms) {
-        for (const InstanceMeshes& level : form.levels) {
-            bytes += level.byte_count();
+        for (std::size_t l = 0; form.meshes != nullptr && l < kTreeLevels; ++l) {
+            bytes += (*form.meshes)[l].byte_count();
         }
     }
     return bytes;
@@ -275,7 +283,8 @@ InstanceMeshStatus make_forest_model(const Forest& forest,
                                      const Terrain& terrain,
                                      const std::vector<std::vector<UserMesh>>& user_meshes,
                                      const MeshOptions& options,
-                                     ForestModel& model) {
+                                     ForestModel& model,
+                                     const KnownModel& known) {
     model = {};
     model.forest = &forest;
     model.terrain = &terrain;
@@ -283,10 +292,20 @@ InstanceMeshStatus make_forest_model(const Forest& forest,
     for (const ForestSpecies& species : forest.species) {
         forms += species.stages.size();
     }
-    const std::size_t most_portraits =
-        std::clamp<std::size_t>(kAllPortraits / std::max<std::size_t>(forms, 1), 1, kMostPortraits);
+    const std::size_t most_portraits = most_portraits_of(forms);
+    const bool knows = known.model != nullptr && known.key == forest.key &&
+                       known.options == options &&
+                       most_portraits == most_portraits_of(known.model->forms.size());
     for (std::size_t s = 0; s < forest.species.size(); ++s) {
         model.first_form.push_back(static_cast<std::uint32_t>(model.forms.size()));
+        if (knows && known.species[s]) {
+            const std::uint32_t first = known.model->first_form[*known.species[s]];
+            for (std::uint32_t i = 0; i < forest.species[s].stages.size(); ++i) {
+                TreeForm& form = model.forms.emplace_back(known.model->forms[first + i]);
+                form.cache = &forest.species[s].stages[i].cache;
+            }
+            continue;
+        }
         for (const ForestStage& stage : forest.species[s].stages) {
             const InstanceMeshStatus status =
                 make_form(stage.cache, forest.key, user_meshes[s], options, most_portraits,

@@ -8,6 +8,8 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace lsys::view {
@@ -21,11 +23,14 @@ struct Ball {
     float radius = 0.0F; // m
 };
 
+/// Of each level, finest first.
+using TreeMeshes = std::array<InstanceMeshes, kTreeLevels>;
+
 /// Plants of one species with one number of generations, seen from outside. Lengths are of trees of
 /// scale 1 at the origin.
 struct TreeForm {
     const InstanceCache* cache = nullptr;
-    std::array<InstanceMeshes, kTreeLevels> levels; // may be given back once they are drawn from
+    std::shared_ptr<const TreeMeshes> meshes; // may be given back once they are drawn from
     std::array<std::vector<std::uint32_t>, kTreeLevels> mesh_triangles; // of each instance
     std::array<double, kTreeLevels> triangles{}; // of a tree, the mean of the portraits
     double branches = 0.0;                       // the same
@@ -55,14 +60,25 @@ struct ForestModel {
     [[nodiscard]] std::uint64_t mesh_bytes() const;
 };
 
+/// A model that was made before, with its meshes.
+struct KnownModel {
+    const ForestModel* model = nullptr;
+    std::uint64_t key = 0; // of its forest
+    MeshOptions options;
+    /// Of each species of the new forest, the one there with the same heroes.
+    std::vector<std::optional<std::size_t>> species;
+};
+
 /// `user_meshes` are those of each species. Forest and terrain outlive the model. `options.level`
-/// is that of the finest. Other than Ok: what could not be made.
+/// is that of the finest. What `known` has is taken from there. Other than Ok: what could not be
+/// made.
 [[nodiscard]] InstanceMeshStatus
 make_forest_model(const Forest& forest,
                   const Terrain& terrain,
                   const std::vector<std::vector<UserMesh>>& user_meshes,
                   const MeshOptions& options,
-                  ForestModel& model);
+                  ForestModel& model,
+                  const KnownModel& known = {});
 
 /// The heroes of a cache as level `level` shows them: thin twigs are left out, and so are leaves,
 /// of which the others are larger, at most twice as long. `height`: of the trees, m.

@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <ostream>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -122,10 +124,13 @@ Status grow_stage(const SceneSpecies& species,
             files.push_back(path_in(folder, symbol.mesh_file));
         }
     }
-    if (const Result<Done> read =
-            read_user_meshes(path, *grammar.bytecode, console, user_meshes, cache.mesh_lengths);
-        !read) {
-        return fail(read.error(), console);
+    const Status read =
+        read_user_meshes(path, *grammar.bytecode, console, user_meshes, cache.mesh_lengths);
+    for (const UserMesh& mesh : user_meshes) {
+        files.insert(files.end(), mesh.files.begin(), mesh.files.end());
+    }
+    if (read != Status::Fine) {
+        return read;
     }
     const CacheOutcome outcome = make_instance_cache(*grammar.bytecode, cache, stage.cache);
     const bool interpreted = outcome.drawn != TurtleStatus::NotInterpreted;
@@ -245,7 +250,11 @@ Status grow_species(const Scene& scene,
         made.name = species.name;
         made.years_of_stage = species.years_of_stage;
         std::vector<UserMesh>& meshes = grown.user_meshes.emplace_back();
-        if (const std::optional<std::size_t> at = find_known(species, known)) {
+        const std::optional<std::size_t> at = grown.known.emplace_back(find_known(species, known));
+        std::string& said = grown.said.emplace_back();
+        if (at) {
+            said = known.grown->said[*at];
+            console.io().err << said << std::flush;
             made.stages = known.grown->forest.species[*at].stages;
             meshes = known.grown->user_meshes[*at];
             continue;
@@ -254,9 +263,16 @@ Status grow_species(const Scene& scene,
         for (std::size_t i = 0; i < stages; ++i) {
             const std::optional<std::uint32_t> generations =
                 species.stages.empty() ? std::nullopt : std::optional(species.stages[i]);
+            std::ostringstream text;
+            const Io& io = console.io();
+            const Console heard(
+                {io.in, io.out, text, io.err_is_terminal, io.interrupted, io.program},
+                console.options());
             const Status status =
                 grow_stage(species, path_in(folder, species.grammar.path), generations, limits,
-                           console, made.stages.emplace_back(), meshes, grown.files);
+                           heard, made.stages.emplace_back(), meshes, grown.files);
+            said += text.str();
+            io.err << text.str() << std::flush;
             if (status != Status::Fine) {
                 return status;
             }

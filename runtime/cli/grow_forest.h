@@ -32,7 +32,10 @@ struct GrownForest {
     std::optional<GreyMap> density_map;
     PlacementReport placed;
     std::vector<std::string> files; // that it was made of, or would have been
-    double cache_seconds = 0.0;     // to derive and draw the heroes
+    /// Of each species, where a known forest had its heroes; none: they were grown.
+    std::vector<std::optional<std::size_t>> known;
+    std::vector<std::string> said; // while those of each species were grown
+    double cache_seconds = 0.0; // to derive and draw the heroes
     double place_seconds = 0.0;
 };
 

@@ -2,6 +2,7 @@
 
 #include "runtime/cli/files.h"
 #include "runtime/cli/foresight.h"
+#include "runtime/cli/mesh_pictures.h"
 #include "runtime/cli/progress.h"
 #include "runtime/cli/stopwatch.h"
 #include "runtime/cli/tell.h"
@@ -106,11 +107,12 @@ Status tell_drawn(TurtleStatus status,
     return Status::Failure;
 }
 
-Result<Done> read_user_meshes(const std::string& grammar_file,
-                              const Bytecode& bytecode,
-                              const Console& console,
-                              std::vector<UserMesh>& meshes,
-                              std::vector<float>& lengths) {
+Status read_user_meshes(const std::string& grammar_file,
+                        const Bytecode& bytecode,
+                        const Console& console,
+                        std::vector<UserMesh>& meshes,
+                        std::vector<float>& lengths) {
+    Status shown = Status::Fine;
     const std::filesystem::path folder = std::filesystem::path(grammar_file).parent_path();
     for (std::size_t i = 0; i < bytecode.symbols.size(); ++i) {
         const BytecodeSymbol& symbol = bytecode.symbols[i];
@@ -120,17 +122,19 @@ Result<Done> read_user_meshes(const std::string& grammar_file,
         const std::string path = (folder / symbol.mesh_file).string();
         Result<std::string> text = read_file(path, ~std::uint64_t{0}, console);
         if (!text) {
-            return text.error();
+            return fail(text.error(), console);
         }
         Result<UserMesh> mesh = read_obj(text.value());
         if (!mesh) {
-            return Error{fmt::format("cannot use `{}`: {}", path, mesh.error().message)};
+            return fail(Error{fmt::format("cannot use `{}`: {}", path, mesh.error().message)},
+                        console);
         }
+        shown = worse(shown, read_mesh_picture(path, text.value(), console, mesh.value()));
         lengths.resize(bytecode.symbols.size(), 1.0F);
         lengths[i] = mesh.value().length();
         meshes.push_back(std::move(mesh.value()));
     }
-    return Done{};
+    return shown;
 }
 
 void fold_modules(const DeriveOptions& options, Grammar& grammar) {
@@ -170,10 +174,10 @@ grow_plant(const PlantRequest& request, Grammar& grammar, const Console& console
         progress.update(generation, modules, Clock::now());
     };
     TurtleOptions turtle_options;
-    if (const Result<Done> read = read_user_meshes(request.file, bytecode, console,
-                                                   plant.user_meshes, turtle_options.mesh_lengths);
-        !read) {
-        return fail(read.error(), console);
+    if (const Status read = read_user_meshes(request.file, bytecode, console, plant.user_meshes,
+                                             turtle_options.mesh_lengths);
+        read != Status::Fine) {
+        return read;
     }
     turtle_options.max_bytes = request.max_bytes;
     turtle_options.cancelled = console.io().interrupted;

@@ -61,12 +61,12 @@ struct Plant {
                                 const Console& console);
 
 /// Reads the mesh files of `#object`, which lie beside the grammar unless their path is absolute.
-/// `lengths` are those of the symbols.
-[[nodiscard]] Result<Done> read_user_meshes(const std::string& grammar_file,
-                                            const Bytecode& bytecode,
-                                            const Console& console,
-                                            std::vector<UserMesh>& meshes,
-                                            std::vector<float>& lengths);
+/// `lengths` are those of the symbols. Fine: all are there, but pictures may be missing.
+[[nodiscard]] Status read_user_meshes(const std::string& grammar_file,
+                                      const Bytecode& bytecode,
+                                      const Console& console,
+                                      std::vector<UserMesh>& meshes,
+                                      std::vector<float>& lengths);
 
 /// Folds what a derivation from the axiom can reach: grammar.bytecode becomes a program that
 /// derives the same words faster, with codes of its own.

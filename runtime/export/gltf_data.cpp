@@ -22,7 +22,7 @@ using ColourBytes = std::array<std::uint8_t, 4>; // linear, opaque
 constexpr std::size_t kChunk = 16384; // vertices
 
 bool is_coloured(const Mesh& mesh, const MeshPart& part) {
-    if (!is_complete(mesh, mesh.colours)) {
+    if (!is_complete(mesh, mesh.colours) || mesh.materials[part.material].picture != nullptr) {
         return false;
     }
     const glm::vec3 own(mesh.materials[part.material].colour);

@@ -15,7 +15,7 @@ namespace lsys {
 namespace {
 
 bool shows_texture(const Mesh& mesh, const Material& material) {
-    return material.textured && has_texture(material.kind) &&
+    return material.textured && (material.picture != nullptr || has_texture(material.kind)) &&
            is_complete(mesh, mesh.texture_coordinates);
 }
 
@@ -29,7 +29,7 @@ bool is_in_use(const Mesh& mesh, std::size_t material) {
 std::size_t number_of(std::vector<Picture>& list, const Picture& wanted) {
     const auto found = std::find_if(list.begin(), list.end(), [&wanted](const Picture& picture) {
         return picture.kind == wanted.kind && picture.material == wanted.material &&
-               picture.tint == wanted.tint;
+               picture.tint == wanted.tint && picture.file == wanted.file;
     });
     if (found != list.end()) {
         return static_cast<std::size_t>(found - list.begin());
@@ -64,8 +64,9 @@ void tint(Texture& texture, const glm::vec3& colour) {
 }
 
 Texture paint(const Picture& picture) {
-    Texture texture =
-        picture.kind == PictureKind::Relief ? bark_normals() : material_texture(picture.material);
+    Texture texture = picture.kind == PictureKind::Relief ? bark_normals()
+                      : picture.file != nullptr           ? *picture.file
+                                                          : material_texture(picture.material);
     if (picture.kind == PictureKind::Opacity) {
         for (std::size_t i = 0; i < texture.texels.size(); i += 4) {
             std::fill_n(texture.texels.begin() + static_cast<std::ptrdiff_t>(i), 3,
@@ -99,14 +100,16 @@ Pictures find_pictures(const Mesh& mesh, ExportFormat format, const ExportInfo& 
         const bool bark = material.kind == MaterialKind::Bark;
         Picture wanted;
         wanted.material = material.kind;
+        wanted.file = material.picture;
+        const std::string what = wanted.file != nullptr ? material.name : bark ? "bark" : "leaf";
         MaterialPictures& shown = pictures.of_materials[i];
         wanted.tint = is_gltf ? glm::vec3(1.0F) : glm::vec3(material.colour);
-        wanted.name = name(is_gltf ? (bark ? "bark" : "leaf") : material.name);
+        wanted.name = name(is_gltf ? what : material.name);
         shown.colour = number_of(pictures.list, wanted);
         wanted.tint = glm::vec3(1.0F);
         if (is_obj && material.cut_out) {
             wanted.kind = PictureKind::Opacity;
-            wanted.name = name(bark ? "bark opacity" : "leaf opacity");
+            wanted.name = name(what + " opacity");
             shown.opacity = number_of(pictures.list, wanted);
         }
         if (!is_obj && bark && (!is_gltf || is_complete(mesh, mesh.tangents))) {

@@ -7,6 +7,7 @@
 #include "runtime/texture.h"
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,8 +23,9 @@ enum class PictureKind : std::uint8_t {
 struct Picture {
     PictureKind kind = PictureKind::Colour;
     MaterialKind material = MaterialKind::Bark;
-    glm::vec3 tint{1.0F}; // linear
-    std::string name;     // of the file for OBJ and USDA
+    glm::vec3 tint{1.0F};                // linear
+    std::shared_ptr<const Texture> file; // shown in place of that of the material's kind
+    std::string name;                    // of the file for OBJ and USDA
 };
 
 /// Numbers of pictures.

@@ -70,8 +70,12 @@ Material make_material(const MaterialKey& key) {
         }
         break;
     }
+    if (key.picture != 0) {
+        material.name = fmt::format("picture {}", key.picture);
+    }
     material.kind = key.kind;
-    material.colour = glm::vec4(palette_colour(key.palette), 1.0F);
+    material.colour =
+        glm::vec4(key.picture != 0 ? glm::vec3(1.0F) : palette_colour(key.palette), 1.0F);
     material.two_sided = key.two_sided;
     material.cut_out = key.cut_out;
     material.textured = key.textured;
@@ -250,6 +254,9 @@ MeshStatus MeshBuilder::finish() {
                                .first_index = first,
                                .index_count = count});
         mesh_.materials.push_back(make_material(part.material));
+        if (part.material.picture != 0) {
+            mesh_.materials.back().picture = pictures_[part.material.picture - 1U];
+        }
     }
     parts_.clear();
     return MeshStatus::Ok;

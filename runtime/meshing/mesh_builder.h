@@ -6,8 +6,10 @@
 #include "runtime/mesh.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace lsys {
@@ -19,10 +21,11 @@ struct MaterialKey {
     bool two_sided = false;
     bool cut_out = false;
     bool textured = false;
+    std::uint16_t picture = 0; // number in set_pictures(), from 1; 0: that of its kind
     friend bool operator==(const MaterialKey&, const MaterialKey&) = default;
     friend bool operator<(const MaterialKey& a, const MaterialKey& b) {
-        return std::tie(a.kind, a.palette, a.two_sided, a.cut_out, a.textured) <
-               std::tie(b.kind, b.palette, b.two_sided, b.cut_out, b.textured);
+        return std::tie(a.kind, a.palette, a.two_sided, a.cut_out, a.textured, a.picture) <
+               std::tie(b.kind, b.palette, b.two_sided, b.cut_out, b.textured, b.picture);
     }
 };
 /// Textured bark for palette index 0, the plain colour for any other: what wood is made of.
@@ -70,6 +73,10 @@ public:
     MeshBuilder& operator=(const MeshBuilder&) = delete;
 
     [[nodiscard]] const MeshOptions& options() const { return options_; }
+    /// Those of files, which MaterialKey::picture counts.
+    void set_pictures(std::vector<std::shared_ptr<const Texture>> pictures) {
+        pictures_ = std::move(pictures);
+    }
     /// Ok until something did not fit.
     [[nodiscard]] MeshStatus status() const { return status_; }
     [[nodiscard]] std::uint64_t vertex_count() const { return vertices_; }
@@ -113,6 +120,7 @@ private:
     MeshStatus status_ = MeshStatus::Ok;
     std::uint64_t vertices_ = 0;
     std::uint64_t triangle_bytes_ = 0;
+    std::vector<std::shared_ptr<const Texture>> pictures_;
     std::vector<Part> parts_; // those of place_parts() and reserve_parts() first
     std::size_t first_parts_ = 0;
 };

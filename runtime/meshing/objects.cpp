@@ -139,6 +139,11 @@ void append_objects(const Skeleton& skeleton,
         return is_drawn(skeleton.objects[i]) ? key_of(skeleton.objects[i], user_meshes.size())
                                              : kNoGroup;
     });
+    std::vector<std::shared_ptr<const Texture>> pictures;
+    for (const UserMesh& mesh : user_meshes) {
+        pictures.push_back(mesh.picture);
+    }
+    builder.set_pictures(std::move(pictures));
     Workers workers(options.threads);
     Shape shape;
     std::uint64_t shape_key = kNoGroup;
@@ -151,6 +156,11 @@ void append_objects(const Skeleton& skeleton,
             shape = object.kind == TurtleOperation::MeshFile
                         ? make_shape(user_meshes[object.mesh_file])
                         : make_shape(object.kind, options.level);
+            for (ShapePart& part : shape.parts) {
+                if (part.material.textured && object.kind == TurtleOperation::MeshFile) {
+                    part.material.picture = static_cast<std::uint16_t>(object.mesh_file + 1);
+                }
+            }
         }
         const auto colour = static_cast<std::uint16_t>(group.key & 0xFFFFu);
         for (const ShapePart& part : shape.parts) {

@@ -1,6 +1,7 @@
 #include "runtime/meshing/shapes.h"
 
 #include "runtime/meshing/surfaces.h"
+#include "runtime/texture.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -343,6 +344,11 @@ Shape make_shape(TurtleOperation kind, std::uint32_t level) {
 Shape make_shape(const UserMesh& mesh) {
     ShapePart part = plain(kGrey);
     part.material.two_sided = true; // many are leaves
+    if (mesh.picture != nullptr && !mesh.texture_coordinates.empty()) {
+        part.material.textured = true;
+        part.material.cut_out = has_holes(*mesh.picture);
+        part.takes_colour = false;
+    }
     part.positions = mesh.positions;
     part.normals = mesh.normals;
     part.texture_coordinates = mesh.texture_coordinates;

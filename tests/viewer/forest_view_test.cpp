@@ -110,7 +110,7 @@ TEST_CASE("all corners of a tree lie within its ball") {
     const auto wood = make_wood(200, 50.0F);
     ForestView view(wood->model);
     const TreeForm& form = wood->model.forms[0];
-    const std::vector<Bounds> bounds = bounds_of(*form.cache, form.levels[0]);
+    const std::vector<Bounds> bounds = bounds_of(*form.cache, (*form.meshes)[0]);
     TreeExpander expander(*form.cache, wood->forest.key);
     for (const ViewTree& tree : view.trees()) {
         const Ball ball = view.reach_of(tree, view.model().forest->trees[tree.tree].yaw);
@@ -244,6 +244,28 @@ TEST_CASE("coarser levels have fewer triangles, and leave the finest as it is") 
         CHECK(same.skeleton.segments[i].base_radius ==
               form.cache->skeleton.segments[i].base_radius);
     }
+}
+
+TEST_CASE("what is known of a forest is not meshed again") {
+    const std::unique_ptr<Wood> wood = make_wood(10, 20.0F);
+    KnownModel known{&wood->model, wood->forest.key, {}, {std::size_t{0}}};
+    const auto made = [&] {
+        ForestModel model;
+        REQUIRE(make_forest_model(wood->forest, *wood->terrain, {{}}, {}, model, known) ==
+                InstanceMeshStatus::Ok);
+        CHECK(model.forms[0].mesh_triangles == wood->model.forms[0].mesh_triangles);
+        return model;
+    };
+    CHECK(made().forms[0].meshes == wood->model.forms[0].meshes);
+    CHECK(made().forms[0].cache == &wood->forest.species[0].stages[0].cache);
+    known.species[0].reset();
+    CHECK(made().forms[0].meshes != wood->model.forms[0].meshes);
+    known.species[0] = 0;
+    known.options.sides = 5;
+    CHECK(made().forms[0].meshes != wood->model.forms[0].meshes);
+    known.options = {};
+    ++known.key;
+    CHECK(made().forms[0].meshes != wood->model.forms[0].meshes);
 }
 
 TEST_CASE("portraits are of every hero, and cells of a form's trees fill their square") {

@@ -67,6 +67,8 @@ TEST_CASE("plants look as they did") {
         {"thesis-7-1-bent", {sample("crankshaw-7-1"), "--gravity", "9.81"}},
         {"thesis-7-1-wind", {sample("crankshaw-7-1"), "--wind", "3,0,0,0.5", "--time", "2"}},
         {"flowers", {sample("abop-lychnis")}},
+        {"picture-of-a-file",
+         {sample("teach-picture"), "--camera", "eye 1.4,1.6,1.4 target 0,1.1,0 fov 50"}},
         {"wireframe", {sample("crankshaw-7-3"), "--wireframe"}},
         {"skeleton-lines", {sample("abop-1-24d"), "--style", "none", "--lines", "skeleton"}},
         {"turtle-path", {sample("crankshaw-7-1"), "--lines", "path"}},

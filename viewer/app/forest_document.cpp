@@ -18,14 +18,21 @@ struct Wish {
     const ForestDocument* known = nullptr;
 };
 
-lsc::Status
-make_model(const ViewOptions& options, const lsc::Console& console, ForestDocument& document) {
+lsc::Status make_model(const ViewOptions& options,
+                       const ForestDocument* before,
+                       const lsc::Console& console,
+                       ForestDocument& document) {
     MeshOptions mesh = options.mesh;
     mesh.threads = options.threads;
     mesh.max_bytes = options.max_bytes;
     const lsc::GrownForest& grown = document.grown;
-    switch (
-        make_forest_model(grown.forest, *grown.terrain, grown.user_meshes, mesh, document.model)) {
+    KnownModel known;
+    if (before != nullptr) {
+        known = {&before->model, before->grown.forest.key, before->mesh_options, grown.known};
+    }
+    document.mesh_options = mesh;
+    switch (make_forest_model(grown.forest, *grown.terrain, grown.user_meshes, mesh, document.model,
+                              known)) {
     case InstanceMeshStatus::Ok:
         break;
     case InstanceMeshStatus::Joined:
@@ -82,7 +89,7 @@ lsc::Status make(const ViewOptions& options,
         return lsc::Status::Interrupted;
     }
     start = lsc::Clock::now();
-    status = make_model(options, console, document);
+    status = make_model(options, wish.known, console, document);
     document.mesh_seconds = lsc::seconds_since(start);
     return status;
 }

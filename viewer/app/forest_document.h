@@ -14,6 +14,7 @@ struct ForestDocument {
     Scene scene; // as it was asked for
     lsc::GrownForest grown;
     ForestModel model; // of `grown`, which must not move
+    MeshOptions mesh_options;
     double parse_seconds = 0.0;
     double mesh_seconds = 0.0;
 };

@@ -93,7 +93,7 @@ void draw_years(LiveForest& view) {
     ForestSettings& settings = view.settings;
     auto years = static_cast<int>(view.years());
     if (ImGui::SliderInt("years", &years, 0,
-                         static_cast<int>(std::max({usual, view.years(), 1U})))) {
+                         static_cast<int>(std::max({2 * usual, view.years(), 1U})))) {
         view.set_years(static_cast<std::uint32_t>(std::max(years, 0)));
     }
     if (ImGui::Button(settings.grows ? "pause" : "play")) {

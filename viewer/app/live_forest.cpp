@@ -175,7 +175,7 @@ void LiveForest::swap(ForestOutcome outcome) {
     const std::shared_ptr<ForestDocument> before = document_;
     const std::shared_ptr<ForestDocument> document = std::move(outcome.document);
     const Camera overall = overview(*document, aspect_);
-    if (Result<Done> shown = renderer_->show_forest(std::move(document->model)); !shown) {
+    if (Result<Done> shown = renderer_->show_forest(document->model); !shown) {
         shader_message_ = shown.error().message;
         console_.error(shader_message_);
         return;
@@ -226,9 +226,12 @@ bool LiveForest::draw(std::uint32_t width, std::uint32_t height) {
     if (document_ != nullptr) {
         frame.light = forest_light(*document_);
     }
-    if (settings.windy || settings.grows || has_worked_ ||
-        (frame_ && !(frame_->camera == frame.camera))) {
+    const bool moves = settings.windy || settings.grows || has_worked_ ||
+                       (frame_ && !(frame_->camera == frame.camera));
+    if (moves) {
         last_motion_ = SteadyClock::now();
+    } else if (is_slow_ && loader_.is_busy()) {
+        return false; // the next forest would wait for a picture of this one
     }
     has_worked_ = false;
     is_coarse_ = is_slow_ && lsc::seconds_since(last_motion_) < kRest;

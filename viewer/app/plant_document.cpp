@@ -56,6 +56,9 @@ std::vector<std::string> files_of(const ViewOptions& options, const PlantDocumen
             }
         }
     }
+    for (const UserMesh& mesh : document.plant.user_meshes) {
+        files.insert(files.end(), mesh.files.begin(), mesh.files.end());
+    }
     return files;
 }
 

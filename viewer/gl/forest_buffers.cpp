@@ -1,5 +1,7 @@
 #include "viewer/gl/forest_buffers.h"
 
+#include "runtime/texture.h"
+
 #include <glm/common.hpp>
 #include <glm/gtc/packing.hpp>
 
@@ -91,7 +93,7 @@ std::array<std::int8_t, 2> folded(const glm::vec3& n) {
 }
 
 BranchClass class_of(const Material& material) {
-    if (material.cut_out && material.textured) {
+    if (material.cut_out && material.textured && material.picture == nullptr) {
         return BranchClass::CutOut;
     }
     return material.two_sided ? BranchClass::TwoSided : BranchClass::OneSided;
@@ -104,10 +106,14 @@ std::vector<std::uint16_t> add_looks(const std::vector<Material>& materials,
     for (const Material& material : materials) {
         Look look;
         look.colour = glm::vec3(material.colour);
+        if (material.picture != nullptr) {
+            look.colour *= mean_colour(*material.picture);
+        }
         // Leaves, petals, and meshes of files that are seen from both sides: most are leaves.
         const bool is_through = material.two_sided || material.kind == MaterialKind::Leaf ||
                                 material.kind == MaterialKind::Flower;
-        look.kind = (material.textured ? kTextured : 0) | (is_through ? kThrough : 0);
+        look.kind = (material.textured && material.picture == nullptr ? kTextured : 0) |
+                    (is_through ? kThrough : 0);
         const auto same = std::find_if(looks.begin(), looks.end(), [&](const Look& other) {
             return other.colour == look.colour && other.kind == look.kind;
         });
@@ -158,7 +164,7 @@ void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
     std::vector<float> boxes;
     for (const TreeForm& form : model.forms) {
         float box = 1e-6F;
-        for (const InstanceMeshes& level : form.levels) {
+        for (const InstanceMeshes& level : *form.meshes) {
             vertex_count += level.mesh.positions.size();
             index_count += level.mesh.indices.size();
             for (const glm::vec3& at : level.mesh.positions) {
@@ -187,8 +193,9 @@ void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
         auto& levels = form_levels_.emplace_back();
         std::uint64_t& digest = mesh_digests_.emplace_back(kDigestStart);
         digest = digest_of(std::span<const float>(&boxes[f], 1), digest);
+        const std::shared_ptr<const TreeMeshes> of_levels = std::move(model.forms[f].meshes);
         for (std::size_t l = 0; l < kTreeLevels; ++l) {
-            InstanceMeshes meshes = std::move(model.forms[f].levels[l]);
+            const InstanceMeshes& meshes = (*of_levels)[l];
             const Mesh& mesh = meshes.mesh;
             const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
             const std::vector<std::uint16_t> numbers = add_looks(mesh.materials, looks);

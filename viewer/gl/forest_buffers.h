@@ -44,7 +44,7 @@ public:
     /// What the calls that follow are about.
     void turn_to(Subject subject);
 
-    /// Takes the meshes out of the model.
+    /// Gives the meshes of the model back.
     void upload(ForestModel& model, const PortraitPlan& plan);
     /// With the cells as trees of the forms that stand for them.
     void upload_trees(const ForestView& view);

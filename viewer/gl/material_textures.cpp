@@ -1,7 +1,5 @@
 #include "viewer/gl/material_textures.h"
 
-#include "runtime/texture.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -73,7 +71,8 @@ void keep_coverage(Texture& texture, double wanted) {
     }
 }
 
-TextureObject upload(Device& device, Texture texture, GLenum format, bool cut_out) {
+TextureObject
+upload(Device& device, Texture texture, GLenum format, bool cut_out, bool repeats = false) {
     TextureObject object = make_texture(device, GL_TEXTURE_2D);
     const auto levels =
         static_cast<GLsizei>(std::bit_width(std::max(texture.width, texture.height)));
@@ -90,7 +89,7 @@ TextureObject upload(Device& device, Texture texture, GLenum format, bool cut_ou
             keep_coverage(texture, wanted);
         }
     }
-    const GLint wrap = cut_out ? GL_CLAMP_TO_EDGE : GL_REPEAT;
+    const GLint wrap = cut_out && !repeats ? GL_CLAMP_TO_EDGE : GL_REPEAT;
     glTextureParameteri(object.name(), GL_TEXTURE_WRAP_S, wrap);
     glTextureParameteri(object.name(), GL_TEXTURE_WRAP_T, wrap);
     glTextureParameteri(object.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
@@ -114,6 +113,10 @@ GLuint MaterialTextures::bark_normals() {
         normals_ = upload(*device_, lsys::bark_normals(), GL_RGBA8, false);
     }
     return normals_.name();
+}
+
+TextureObject MaterialTextures::make(const Texture& picture) const {
+    return upload(*device_, picture, GL_SRGB8_ALPHA8, has_holes(picture), true);
 }
 
 } // namespace lsys::view

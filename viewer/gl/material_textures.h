@@ -1,7 +1,7 @@
 // MaterialTextures: the pictures of runtime/texture.h on the device, made when first asked for.
 #pragma once
 
-#include "runtime/mesh.h"
+#include "runtime/texture.h"
 #include "viewer/gl/objects.h"
 
 #include <array>
@@ -15,6 +15,8 @@ public:
     /// Of a kind that has_texture().
     [[nodiscard]] GLuint base(MaterialKind kind);
     [[nodiscard]] GLuint bark_normals();
+    /// A picture of a file, with coverage kept if it has holes.
+    [[nodiscard]] TextureObject make(const Texture& picture) const;
 
 private:
     Device* device_;

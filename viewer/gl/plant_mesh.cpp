@@ -32,7 +32,7 @@ PlantMesh::PlantMesh(Device& device)
     }
 }
 
-void PlantMesh::upload(const Mesh& mesh) {
+void PlantMesh::upload(const Mesh& mesh, const MaterialTextures& textures) {
     positions_.fill(std::span<const glm::vec3>(mesh.positions));
     normals_.fill(std::span<const glm::vec3>(mesh.normals));
     texture_coordinates_.fill(std::span<const glm::vec2>(mesh.texture_coordinates));
@@ -48,6 +48,14 @@ void PlantMesh::upload(const Mesh& mesh) {
     glVertexArrayElementBuffer(array_.name(), indices_.name());
     parts_ = mesh.parts;
     materials_ = mesh.materials;
+    pictures_.clear();
+    for (Material& material : materials_) {
+        TextureObject& picture = pictures_.emplace_back();
+        if (material.picture != nullptr) {
+            picture = textures.make(*material.picture);
+            material.picture.reset(); // it may be large
+        }
+    }
     triangles_ = mesh.indices.size() / 3;
     bounds_ = {};
     for (const glm::vec3& position : mesh.positions) {
@@ -61,8 +69,10 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, bool shaded) const {
     for (const MeshPart& part : parts_) {
         const Material& material = materials_[part.material];
         const bool bumpy = material.textured && material.kind == MaterialKind::Bark;
-        const bool through =
-            material.kind == MaterialKind::Leaf || material.kind == MaterialKind::Flower;
+        const TextureObject& picture = pictures_[part.material];
+        const bool through = material.kind == MaterialKind::Leaf ||
+                             material.kind == MaterialKind::Flower ||
+                             (picture && material.two_sided);
         if (shaded) {
             glUniform4f(kColour, material.colour.r, material.colour.g, material.colour.b,
                         material.colour.a);
@@ -70,7 +80,8 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, bool shaded) const {
         glUniform4i(kKind, material.textured ? 1 : 0, bumpy ? 1 : 0, material.cut_out ? 1 : 0,
                     through ? 1 : 0);
         if (material.textured) {
-            glBindTextureUnit(kBaseTexture, textures.base(material.kind));
+            glBindTextureUnit(kBaseTexture,
+                              picture ? picture.name() : textures.base(material.kind));
         }
         if (bumpy && shaded) {
             glBindTextureUnit(kNormalTexture, textures.bark_normals());

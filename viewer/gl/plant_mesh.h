@@ -15,7 +15,7 @@ public:
     explicit PlantMesh(Device& device);
 
     /// Memory that is large enough is used again.
-    void upload(const Mesh& mesh);
+    void upload(const Mesh& mesh, const MaterialTextures& textures);
     /// With the program of shaders/mesh or shaders/shadow bound; returns the number of draws.
     std::uint64_t draw(MaterialTextures& textures, bool shaded) const;
 
@@ -31,6 +31,7 @@ private:
     Buffer indices_;
     std::vector<MeshPart> parts_;
     std::vector<Material> materials_;
+    std::vector<TextureObject> pictures_; // of files, by material
     std::uint64_t triangles_ = 0;
     Bounds bounds_;
 };

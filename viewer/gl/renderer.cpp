@@ -75,7 +75,7 @@ public:
           lines_(device_), forest_(device_), frame_(device_), empty_(make_vertex_array(device_)) {}
 
     void show_plant(const Mesh& mesh) override {
-        plant_.upload(mesh);
+        plant_.upload(mesh, textures_);
         shadow_.invalidate();
         is_forest_ = false;
     }

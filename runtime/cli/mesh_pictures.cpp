@@ -1,0 +1,171 @@
+#include "runtime/cli/mesh_pictures.h"
+
+#include "grammar/source.h"
+#include "runtime/cli/files.h"
+#include "runtime/texture.h"
+#include "runtime/user_mesh.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace lsys::lsc {
+
+namespace {
+
+constexpr std::uint64_t kMaxPictureBytes = std::uint64_t{1} << 30;
+
+std::string beside(const std::string& path, const std::string& name) {
+    return (std::filesystem::path(path).parent_path() / name).string();
+}
+
+/// A file of materials that could be read.
+struct Library {
+    std::string path;
+    std::string text;
+    std::unordered_map<std::string, MaterialPicture> materials;
+    FileId file = kNoFile; // once something was said about it
+};
+
+class Search {
+public:
+    Search(const std::string& path, const std::string& text, UserMesh& mesh)
+        : path_(path), text_(text), mesh_(mesh) {}
+
+    void run(const Console& console) {
+        for (const ObjName& name : mesh_.libraries) {
+            Library library{beside(path_, name.name), {}, {}};
+            mesh_.files.push_back(library.path);
+            Result<std::string> read = read_bytes(library.path, kMaxSourceBytes, console);
+            if (!read) {
+                warn(path_, text_, obj_, name,
+                     fmt::format("cannot read `{}`: {}", shown_path(library.path),
+                                 read.error().message));
+                continue;
+            }
+            library.text = std::move(read.value());
+            library.materials = pictures_of(library.text);
+            libraries_.push_back(std::move(library));
+        }
+        if (libraries_.empty()) {
+            return;
+        }
+        if (mesh_.materials.empty()) {
+            return;
+        }
+        const Found first = find(mesh_.materials.front());
+        for (const ObjName& material : mesh_.materials) {
+            if (find(material).path != first.path) {
+                warn(path_, text_, obj_, material,
+                     "faces of several pictures: all of the mesh looks as its first face");
+                break;
+            }
+        }
+        if (!first.path.empty()) {
+            read(first, console);
+        }
+    }
+
+    Diagnostics diagnostics;
+    SourceMap sources;
+
+private:
+    void warn(const std::string& path,
+              const std::string& text,
+              FileId& file,
+              const ObjName& name,
+              std::string message) {
+        if (text.size() > kMaxSourceBytes) {
+            diagnostics.add(DiagnosticCode::MeshPicture, SourceSpan{},
+                            fmt::format("{}: {}", shown_path(path), message));
+            return;
+        }
+        if (file == kNoFile) {
+            file = sources.add(shown_path(path), text);
+        }
+        const auto begin = static_cast<std::uint32_t>(name.offset);
+        diagnostics.add(DiagnosticCode::MeshPicture,
+                        {file, begin, begin + static_cast<std::uint32_t>(name.name.size())},
+                        std::move(message));
+    }
+
+    /// The picture of a material; no path: it has none.
+    struct Found {
+        std::string path;
+        Library* library = nullptr;
+        const MaterialPicture* picture = nullptr;
+    };
+    Found find(const ObjName& material) {
+        if (material.name.empty()) {
+            return {};
+        }
+        for (Library& library : libraries_) {
+            const auto found = library.materials.find(material.name);
+            if (found == library.materials.end()) {
+                continue;
+            }
+            const MaterialPicture& picture = found->second;
+            return {picture.file.name.empty() ? std::string()
+                                              : beside(library.path, picture.file.name),
+                    &library, &picture};
+        }
+        if (libraries_.size() == mesh_.libraries.size() && !std::exchange(is_unknown_told_, true)) {
+            warn(path_, text_, obj_, material,
+                 fmt::format("no file of materials has `{}`", material.name));
+        }
+        return {};
+    }
+
+    void read(const Found& found, const Console& console) {
+        const std::string& path = found.path;
+        mesh_.files.push_back(path);
+        const auto say = [&](std::string message) {
+            Library& library = *found.library;
+            warn(library.path, library.text, library.file, found.picture->file, std::move(message));
+        };
+        const Result<std::string> bytes = read_bytes(path, kMaxPictureBytes, console);
+        if (!bytes) {
+            say(fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message));
+            return;
+        }
+        Result<Texture> picture = read_picture(bytes.value());
+        if (!picture) {
+            say(fmt::format("cannot use `{}`: {}", shown_path(path), picture.error().message));
+            return;
+        }
+        if (found.picture->has_options) {
+            say("options before the name of a picture are left out");
+        }
+        if (mesh_.texture_coordinates.empty()) {
+            say(fmt::format("`{}` has no texture coordinates to show this picture by",
+                            shown_path(path_)));
+            return;
+        }
+        mesh_.picture = std::make_shared<const Texture>(std::move(picture.value()));
+    }
+
+    const std::string& path_;
+    const std::string& text_;
+    UserMesh& mesh_;
+    FileId obj_ = kNoFile;
+    bool is_unknown_told_ = false;
+    std::vector<Library> libraries_;
+};
+
+} // namespace
+
+Status read_mesh_picture(const std::string& path,
+                         const std::string& text,
+                         const Console& console,
+                         UserMesh& mesh) {
+    Search search(path, text, mesh);
+    search.run(console);
+    return console.show(search.diagnostics, search.sources);
+}
+
+} // namespace lsys::lsc

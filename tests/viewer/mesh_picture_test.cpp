@@ -1,0 +1,136 @@
+// The picture that a mesh of a file shows: found, shown, exported, waited for.
+#include "runtime/texture.h"
+#include "tests/support/lsc_run.h"
+#include "tests/viewer/lsview_run.h"
+#include "tests/viewer/picture.h"
+#include "viewer/app/plant_document.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <sstream>
+
+using namespace lsys;
+using namespace lsys::tests;
+using namespace lsys::view;
+
+namespace {
+
+// A card that fills the picture, of which the left half is red and the right half is not there.
+constexpr const char* kCard = "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n"
+                              "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+constexpr const char* kPlant = "#n = 1;\n#object L \"card.obj\";\n#w : L(1);\n";
+
+Texture half_red() {
+    Texture texture{8, 8, {}};
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        const std::uint8_t opacity = i % 8 < 4 ? 255 : 0;
+        texture.texels.insert(texture.texels.end(), {255, 0, 0, opacity});
+    }
+    return texture;
+}
+
+struct CardFolder {
+    CardFolder() {
+        write_text(folder / "plant.lsys", kPlant);
+        write_text(folder / "card.obj", kCard);
+        write_text(folder / "card.mtl", "newmtl card\nmap_Kd a card.png\n");
+        write_text(folder / "a card.png", encode_png(half_red()));
+    }
+    [[nodiscard]] LscRun view() const {
+        return run_lsview({folder / "plant.lsys", "--screenshot", "-", "--size", "64x64",
+                           "--no-ground", "--camera", "eye 0,1,4 target 0,1,0 fov 30"});
+    }
+    ScratchFolder folder;
+};
+
+std::array<int, 3> texel(const Picture& picture, std::uint32_t x, std::uint32_t y) {
+    const std::size_t at = std::size_t{4} * (std::size_t{y} * picture.width + x);
+    return {picture.texels[at], picture.texels[at + 1], picture.texels[at + 2]};
+}
+
+} // namespace
+
+TEST_CASE("a mesh of a file shows its picture, with holes") {
+    const CardFolder card;
+    const LscRun run = card.view();
+    CAPTURE(run.err);
+    REQUIRE(run.status == 0);
+    const Picture picture = decode_picture(run.out);
+    const auto left = texel(picture, 20, 32);
+    CHECK(left[0] > 2 * left[1]);
+    CHECK(left[0] > 2 * left[2]);
+    const auto right = texel(picture, 44, 32); // the sky behind it
+    CHECK(right[2] >= right[0]);
+}
+
+TEST_CASE("a mesh without its picture is shown plain, with a warning at the place") {
+    const CardFolder card;
+    const std::string before = card.view().out;
+    SECTION("it is missing") {
+        std::filesystem::remove(card.folder / "a card.png");
+        const LscRun run = card.view();
+        CHECK(run.status == 0);
+        CHECK(run.err.find("card.mtl:2:8: warning: cannot read") != std::string::npos);
+        CHECK(decode_picture(run.out).width == 64);
+        CHECK(run.out != before);
+    }
+    SECTION("it is no PNG") {
+        write_text(card.folder / "a card.png", "\xFF\xD8\xFF\xE0 and so on");
+        const LscRun run = card.view();
+        CHECK(run.status == 0);
+        CHECK(run.err.find("it is a JPEG; only PNG is read") != std::string::npos);
+    }
+    SECTION("it is damaged") {
+        const std::string bytes = read_text(card.folder / "a card.png");
+        write_text(card.folder / "a card.png", bytes.substr(0, bytes.size() / 2));
+        const LscRun run = card.view();
+        CHECK(run.status == 0);
+        CHECK(run.err.find("the PNG cannot be read") != std::string::npos);
+    }
+}
+
+TEST_CASE("files with pictures have that of a mesh") {
+    const CardFolder card;
+    const LscRun run =
+        run_lsc({"export", card.folder / "plant.lsys", "-o", card.folder / "out.obj"}, "");
+    CAPTURE(run.err);
+    REQUIRE(run.status == 0);
+    CHECK(read_text(card.folder / "out.mtl").find("map_Kd out.picture_1.png") != std::string::npos);
+    CHECK(lsys::tests::read_picture(card.folder / "out.picture_1.png").texels == half_red().texels);
+}
+
+TEST_CASE("what a mesh looks for is told, so that it can be waited for") {
+    const CardFolder card;
+    std::filesystem::remove(card.folder / "a card.png");
+    ViewOptions options;
+    options.file = card.folder / "plant.lsys";
+    options.max_bytes = std::uint64_t{1} << 30;
+    std::istringstream in;
+    std::ostringstream out;
+    std::ostringstream err;
+    const lsc::Console console({in, out, err, false, nullptr, "lsview"}, {});
+    PlantDocument document;
+    REQUIRE(make_plant_document(options, console, document) == lsc::Status::Fine);
+    const std::vector<std::string> files = files_of(options, document);
+    for (const char* const name : {"card.obj", "card.mtl", "a card.png"}) {
+        CHECK(std::find(files.begin(), files.end(), card.folder / name) != files.end());
+    }
+}
+
+TEST_CASE("pictures are read whatever their samples, and their colours are known") {
+    const Texture picture = half_red();
+    const Result<Texture> read = lsys::read_picture(encode_png(picture));
+    REQUIRE(read);
+    CHECK(read.value().width == 8);
+    CHECK(read.value().texels == picture.texels);
+    CHECK(has_holes(picture));
+    CHECK(mean_colour(picture) == glm::vec3(1.0F, 0.0F, 0.0F));
+    Texture grey{1, 1, {188, 188, 188, 255}};
+    CHECK_FALSE(has_holes(grey));
+    CHECK(mean_colour(grey).g == Approx(0.503F).margin(0.002));
+    CHECK_FALSE(lsys::read_picture(""));
+    CHECK_FALSE(lsys::read_picture("BM and so on"));
+}
