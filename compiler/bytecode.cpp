@@ -101,6 +101,20 @@ bool draws(TurtleOperation operation) {
     return kTurtleOperations[index].draws;
 }
 
+bool turns(TurtleOperation operation) {
+    switch (operation) {
+    case TurtleOperation::YawRight:
+    case TurtleOperation::YawLeft:
+    case TurtleOperation::PitchDown:
+    case TurtleOperation::PitchUp:
+    case TurtleOperation::RollRight:
+    case TurtleOperation::RollLeft:
+        return true;
+    default:
+        return false;
+    }
+}
+
 TableRange Bytecode::of(Stage stage) const {
     const auto before = [](const BytecodeProduction& p, Stage value) { return p.stage < value; };
     const auto after = [](Stage value, const BytecodeProduction& p) { return value < p.stage; };

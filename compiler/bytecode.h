@@ -74,6 +74,8 @@ inline constexpr std::uint32_t kTurtleOperationCount = 0
 /// taken, the age of the word that holds it, its id.
 inline constexpr std::uint32_t kBranchArguments = 3;
 [[nodiscard]] bool draws(TurtleOperation operation);
+/// Whether it turns the turtle by an angle.
+[[nodiscard]] bool turns(TurtleOperation operation);
 
 enum class SymbolId : std::uint32_t {};
 inline constexpr SymbolId kNoSymbol{0xFFFFFFFFu};

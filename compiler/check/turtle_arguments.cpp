@@ -1,7 +1,6 @@
 // Arguments of turtle commands that are hardly meant: an angle in radians, a negative width.
 #include "compiler/check/lints.h"
 #include "compiler/check/places.h"
-#include "compiler/turtle_turns.h"
 
 #include <fmt/format.h>
 

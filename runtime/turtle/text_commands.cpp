@@ -3,7 +3,6 @@
 // seen.
 #include "runtime/turtle/text_commands.h"
 
-#include "compiler/turtle_turns.h"
 #include "runtime/turtle/state.h"
 
 #include <charconv>
