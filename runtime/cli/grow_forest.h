@@ -35,7 +35,7 @@ struct GrownForest {
     /// Of each species, where a known forest had its heroes; none: they were grown.
     std::vector<std::optional<std::size_t>> known;
     std::vector<std::string> said; // while those of each species were grown
-    double cache_seconds = 0.0; // to derive and draw the heroes
+    double cache_seconds = 0.0;    // to derive and draw the heroes
     double place_seconds = 0.0;
 };
 
