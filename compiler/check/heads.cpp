@@ -136,8 +136,10 @@ bool HeadResolver::bracket(const ModuleView& module, Part part, ProgramPattern& 
         open_.pop_back();
     }
     if (rewritten) { // a module like others
-        append(module, 0, out);
-        return true;
+        const auto first_formal = static_cast<std::uint32_t>(production_->formals.size());
+        const bool fine = formals(module);
+        append(module, first_formal, out);
+        return fine;
     }
     out.items.push_back({opens ? PatternKind::Open : PatternKind::Close, kNoSymbol, 0,
                          module.span.begin, module.span.end});

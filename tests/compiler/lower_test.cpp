@@ -141,6 +141,14 @@ TEST_CASE("a program is the same after a file, and its dumps are total") {
     }
 }
 
+TEST_CASE("brackets of a predecessor stand between the formals of its modules") {
+    const Bytecode b = lowered("#set rewriting leftmost; #set names letters;\n"
+                               "#w : A(1)B[C(2)]D(3);\n"
+                               "#p : A(x)B[C(y)]D(z) : x < z : A(x + y)[B]D(z);\n");
+    CHECK(b.productions[0].formal_count == 3);
+    CHECK(read_module_file(write_module_file(b)).ok());
+}
+
 TEST_CASE("compiling twice gives the same bytes") {
     const char* text = "#w : A(1) B;\n#p : A(x) : * : B A(x + 0.5) +(30) B;\n#q : B : * : F;\n";
     CHECK(write_module_file(lowered(text)) == write_module_file(lowered(text)));
