@@ -130,10 +130,10 @@ std::vector<CurvePoint> chords(const std::vector<CurvePoint>& samples) {
     const double allowed = (high->y - low->y) * kTolerance;
     std::vector<bool> wanted(samples.size(), false);
     wanted.front() = wanted.back() = true;
-    std::vector<std::pair<std::size_t, std::size_t>> todo{{0, samples.size() - 1}};
-    while (!todo.empty()) {
-        const auto [from, to] = todo.back();
-        todo.pop_back();
+    std::vector<std::pair<std::size_t, std::size_t>> spans{{0, samples.size() - 1}};
+    while (!spans.empty()) {
+        const auto [from, to] = spans.back();
+        spans.pop_back();
         const double slope = (samples[to].y - samples[from].y) / (samples[to].x - samples[from].x);
         double most = allowed;
         std::size_t worst = from;
@@ -146,8 +146,8 @@ std::vector<CurvePoint> chords(const std::vector<CurvePoint>& samples) {
         }
         if (worst != from) {
             wanted[worst] = true;
-            todo.emplace_back(from, worst);
-            todo.emplace_back(worst, to);
+            spans.emplace_back(from, worst);
+            spans.emplace_back(worst, to);
         }
     }
     std::vector<CurvePoint> left;
