@@ -131,73 +131,49 @@ constexpr std::array kHoudini{
     kCut,
 };
 
+/// The rows of tables, one after the other.
+template <std::size_t... sizes>
+constexpr auto joined(const std::array<TurtleCommand, sizes>&... tables) {
+    std::array<TurtleCommand, (sizes + ...)> rows{};
+    std::size_t count = 0;
+    const auto append = [&](const auto& table) {
+        for (const TurtleCommand& row : table) {
+            rows[count++] = row;
+        }
+    };
+    (append(tables), ...);
+    return rows;
+}
+
 // A word of L3D is a text: a parenthesis behind a command holds its parameter, character by
 // character.
-constexpr std::array kL3d{
-    length("F", Forward),
-    length("f", Forward),
-    length("g", Move),
-    turn("+", YawLeft),
-    turn("-", YawRight),
-    turn("&", PitchDown),
-    turn("^", PitchUp),
-    turn("\\", RollLeft),
-    turn("/", RollRight),
-    turn("<", RollLeft),
-    turn(">", RollRight),
-    kTurnAround,
-    kSave,
-    kRestore,
-    kParameterBegin,
-    kParameterEnd,
-    text(" "),
-    text("."),
-    text("0"),
-    text("1"),
-    text("2"),
-    text("3"),
-    text("4"),
-    text("5"),
-    text("6"),
-    text("7"),
-    text("8"),
-    text("9"),
+constexpr std::array kTextTurns{
+    turn("+", YawLeft), turn("-", YawRight),  turn("&", PitchDown),
+    turn("^", PitchUp), turn("\\", RollLeft), turn("/", RollRight),
+};
+constexpr std::array kTextOthers{
+    kTurnAround, kSave,     kRestore,  kParameterBegin, kParameterEnd, text(" "),
+    text("."),   text("0"), text("1"), text("2"),       text("3"),     text("4"),
+    text("5"),   text("6"), text("7"), text("8"),       text("9"),
 };
 
-constexpr std::array kLplus{
-    length("F", Forward),
-    length("f", Forward),
-    length("g", Move),
-    length("G", Move),
-    turn("+", YawLeft),
-    turn("-", YawRight),
-    turn("&", PitchDown),
-    turn("^", PitchUp),
-    turn("\\", RollLeft),
-    turn("/", RollRight),
-    TurtleCommand{"<", ThickenWidth, 1, "percent"},
-    TurtleCommand{">", ThinWidth, 1, "percent"},
-    TurtleCommand{"=", SetRelativeWidth, 1, "percent of the length"},
-    TurtleCommand{"%", SetTaper, 1, "percent"},
-    TurtleCommand{"*", Leaf, 1, "size"},
-    kTurnAround,
-    kSave,
-    kRestore,
-    kParameterBegin,
-    kParameterEnd,
-    text(" "),
-    text("."),
-    text("0"),
-    text("1"),
-    text("2"),
-    text("3"),
-    text("4"),
-    text("5"),
-    text("6"),
-    text("7"),
-    text("8"),
-    text("9"),
-};
+constexpr std::array kL3d =
+    joined(std::array{length("F", Forward), length("f", Forward), length("g", Move)},
+           kTextTurns,
+           std::array{turn("<", RollLeft), turn(">", RollRight)},
+           kTextOthers);
+
+constexpr std::array kLplus = joined(
+    std::array{length("F", Forward), length("f", Forward), length("g", Move), length("G", Move)},
+    kTextTurns,
+    std::array{
+        TurtleCommand{"<", ThickenWidth, 1, "percent"},
+        TurtleCommand{">", ThinWidth, 1, "percent"},
+        TurtleCommand{"=", SetRelativeWidth, 1, "percent of the length"},
+        TurtleCommand{"%", SetTaper, 1, "percent"},
+        TurtleCommand{"*", Leaf, 1, "size"},
+    },
+    kTextOthers);
 
 /// The same as the program has it, which takes pi for degrees.
 template <std::size_t size>
