@@ -98,7 +98,11 @@ void AxisReader::start(std::uint32_t first_segment) {
     for (std::uint32_t at = first_segment; at < kForked; at = axes_.next[at]) {
         ++segments;
     }
-    joints_.reserve(segments + kExtraJoints); // growing would take as much fresh memory again
+    joints_.clear();
+    if (const std::size_t joints = segments + kExtraJoints; joints > joints_.capacity()) {
+        // At once: growing would take as much fresh memory again.
+        joints_.reserve(std::max(joints, 2 * joints_.capacity()));
+    }
 }
 
 bool AxisReader::next(Run& run) {
