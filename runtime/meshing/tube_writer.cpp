@@ -247,19 +247,19 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring& ring) {
     const double arc = ring.arc;
     // All tangents lie in the plane of the bend, so what the frame has along the axis and across it
     // stays as it is.
-    const glm::vec3 along_axis = glm::dot(at_.normal, axis) * axis;
+    const float along_axis = glm::dot(at_.normal, axis);
     const float across_axis = glm::dot(at_.normal, across_in);
+    const glm::vec3 normal_along = along_axis * axis;
     const glm::vec3 binormal_along = across_axis * axis;
-    const float binormal_across = -glm::dot(at_.normal, axis);
     const float wide = 1.0F / part_cosine;
     // A ring whose tangent has these parts of the edge before and across it.
     const auto put = [&](float along, float aside) {
         const glm::vec3 mitre = along * across_in - aside * in; // the axis times the tangent
         ring.tangent = along * in + aside * across_in;
-        ring.normal = along_axis + across_axis * mitre;
-        ring.binormal = binormal_along + binormal_across * mitre;
-        ring.wide_normal = along_axis + (wide * across_axis) * mitre;
-        ring.wide_binormal = binormal_along + (wide * binormal_across) * mitre;
+        ring.normal = normal_along + across_axis * mitre;
+        ring.binormal = binormal_along - along_axis * mitre;
+        ring.wide_normal = normal_along + (wide * across_axis) * mitre;
+        ring.wide_binormal = binormal_along - (wide * along_axis) * mitre;
         put_ring(ring);
     };
     ring.centre = centre - back * in;
