@@ -92,11 +92,19 @@ std::array<std::int8_t, 2> folded(const glm::vec3& n) {
     return {part(e.x), part(e.y)};
 }
 
+/// By a texture of the program; of a picture of a file only the mean colour is there.
+bool is_textured(const Material& material) {
+    return material.textured && material.picture == nullptr;
+}
+
 BranchClass class_of(const Material& material) {
-    if (material.cut_out && material.textured && material.picture == nullptr) {
+    if (material.cut_out && is_textured(material)) {
         return BranchClass::CutOut;
     }
-    return material.two_sided ? BranchClass::TwoSided : BranchClass::OneSided;
+    if (!material.two_sided) {
+        return BranchClass::OneSided;
+    }
+    return is_textured(material) ? BranchClass::TwoSided : BranchClass::Plain;
 }
 
 /// The looks of a mesh's materials, those alike once.
@@ -112,8 +120,7 @@ std::vector<std::uint16_t> add_looks(const std::vector<Material>& materials,
         // Leaves, petals, and meshes of files that are seen from both sides: most are leaves.
         const bool is_through = material.two_sided || material.kind == MaterialKind::Leaf ||
                                 material.kind == MaterialKind::Flower;
-        look.kind = (material.textured && material.picture == nullptr ? kTextured : 0) |
-                    (is_through ? kThrough : 0);
+        look.kind = (is_textured(material) ? kTextured : 0) | (is_through ? kThrough : 0);
         const auto same = std::find_if(looks.begin(), looks.end(), [&](const Look& other) {
             return other.colour == look.colour && other.kind == look.kind;
         });
@@ -131,7 +138,7 @@ ForestBuffers::Drawn ForestBuffers::make_drawn(Device& device) {
     return {Buffer(device),
             Buffer(device),
             Buffer(device),
-            {Buffer(device), Buffer(device), Buffer(device)},
+            {Buffer(device), Buffer(device), Buffer(device), Buffer(device)},
             {}};
 }
 

@@ -19,9 +19,10 @@ namespace lsys::view {
 enum class BranchClass : std::uint8_t {
     OneSided,
     TwoSided,
+    Plain,  // two-sided leaves of one colour
     CutOut, // two-sided leaves, cut out of a picture
 };
-inline constexpr std::size_t kBranchClasses = 3;
+inline constexpr std::size_t kBranchClasses = 4;
 
 /// What trees, branches and commands are of: portraits are drawn between pictures of the forest.
 enum class Subject : std::uint8_t { Forest, Portrait };

@@ -50,8 +50,10 @@ Result<Done> ForestPass::reload(const ShaderSource& shaders) {
         const char* fragment;
         const char* defines;
     };
-    constexpr std::array<Wanted, 5> kWanted = {
+    constexpr std::array<Wanted, 6> kWanted = {
         {{&Programs::solid, "branch.vert.glsl", "branch.frag.glsl", "#define ONE_TAP\n"},
+         {&Programs::plain, "branch.vert.glsl", "leaf.frag.glsl",
+          "#define ONE_TAP\n#define LIT_AT_CORNERS\n"},
          {&Programs::cut_out, "branch.vert.glsl", "leaf.frag.glsl",
           "#define ONE_TAP\n#define CUT_OUT\n#define LIT_AT_CORNERS\n"},
          {&Programs::impostor, "impostor.vert.glsl", "impostor.frag.glsl", "#define ONE_TAP\n"},
@@ -212,6 +214,8 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     stats.branches.draws += buffers_.draw(BranchClass::OneSided);
     stats.branches.draws += buffers_.draw(BranchClass::TwoSided);
     device_->end_pass();
+    glUseProgram(programs_.plain.name());
+    stats.branches.draws += buffers_.draw(BranchClass::Plain);
     glUseProgram(programs_.cut_out.name());
     stats.branches.draws += buffers_.draw(BranchClass::CutOut);
     stats.branches.triangles += lists_->triangles;

@@ -1,5 +1,5 @@
 // ForestPass: draws a forest: branches of trees that are near, pictures of those that are far, the
-// ground, and the shadows of all of them. At most nine draws for any number of trees.
+// ground, and the shadows of all of them. At most ten draws for any number of trees.
 #pragma once
 
 #include "grammar/result.h"
@@ -47,6 +47,7 @@ public:
 private:
     struct Programs {
         ProgramObject solid;
+        ProgramObject plain;
         ProgramObject cut_out;
         ProgramObject impostor;
         ProgramObject impostor_depth;

@@ -252,6 +252,7 @@ void Portraits::draw_row(const Cylinder& form,
             } else {
                 buffers.draw(BranchClass::OneSided);
                 buffers.draw(BranchClass::TwoSided);
+                buffers.draw(BranchClass::Plain);
             }
         }
         device_->end_pass();

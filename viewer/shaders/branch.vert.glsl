@@ -16,7 +16,9 @@ out vec2 uv;
 #ifdef LIT_AT_CORNERS
 out vec3 front; // what leaf.frag.glsl asks for
 out vec3 back;
+#ifdef CUT_OUT
 out vec3 haze;
+#endif
 #else
 out vec3 across;
 flat out vec3 tint;
@@ -52,7 +54,13 @@ void main() {
     vec3 seen_of = air.y * look.colour;
     front = shade_within(seen_of, leaf_normal(surface, in_crown), lit, 0.5, open);
     back = shade_within(seen_of, leaf_normal(-surface, in_crown), lit, 0.5, open);
-    haze = through_air(vec3(0.0), air);
+    vec3 air_alone = through_air(vec3(0.0), air);
+#ifdef CUT_OUT
+    haze = air_alone;
+#else
+    front = displayed(front + air_alone).rgb;
+    back = displayed(back + air_alone).rgb;
+#endif
 #else
     across = surface;
     tint = look.colour;

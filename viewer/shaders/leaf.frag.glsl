@@ -1,15 +1,24 @@
 #include "light.glsl"
-// Leaves that are cut out of cards, lit at the corners of the cards.
+// Leaves that are lit at the corners: of cards that they are cut out of, or of one colour.
+#ifdef CUT_OUT
 layout(binding = 2) uniform sampler2D leaf_texture;
 in vec2 uv;
 in vec3 front; // what a white leaf sends to the eye from either side
 in vec3 back;
 in vec3 haze;
+#else
+in vec3 front; // what is displayed
+in vec3 back;
+#endif
 out vec4 colour;
 void main() {
+#ifdef CUT_OUT
     vec4 texel = texture(leaf_texture, uv);
     if (texel.a < 0.5) {
         discard;
     }
     colour = displayed(texel.rgb * (gl_FrontFacing ? front : back) + haze);
+#else
+    colour = vec4(gl_FrontFacing ? front : back, 1.0);
+#endif
 }
