@@ -7,6 +7,7 @@
 #include "viewer/forest_model.h"
 #include "viewer/gl/forest_buffers.h"
 #include "viewer/gl/material_textures.h"
+#include "viewer/portrait_picture.h"
 #include "viewer/portrait_plan.h"
 #include "viewer/renderer.h"
 
@@ -16,14 +17,6 @@
 #include <vector>
 
 namespace lsys::view {
-
-/// Texels of tiles side by side, RGBA.
-struct PortraitPicture {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    std::vector<std::uint8_t> albedos; // square roots of linear RGB; opacity
-    std::vector<std::uint8_t> normals; // octahedral, depth, of light through it
-};
 
 class Portraits {
 public:
