@@ -25,6 +25,12 @@ PoolBranch pool_branch(const BranchInstance& branch, const Instance& instance, s
     return packed;
 }
 
+glm::vec3 PoolBranch::at(const glm::vec3& place) const {
+    const glm::quat turn(static_cast<float>(rotation[3]), static_cast<float>(rotation[0]),
+                         static_cast<float>(rotation[1]), static_cast<float>(rotation[2]));
+    return position + glm::normalize(turn) * (scale * place);
+}
+
 PoolSpan BranchPool::find(std::uint32_t tree) {
     const auto entry = trees_.find(tree);
     if (entry == trees_.end()) {

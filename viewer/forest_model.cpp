@@ -119,6 +119,37 @@ void measure_portraits(TreeForm& form, std::uint64_t key, const InstanceMeshes& 
     form.radius = std::sqrt(radius2);
 }
 
+/// Of the triangles of each instance at any level, seen from its entry.
+std::vector<Bounds> bounds_of_levels(const InstanceCache& cache, const TreeMeshes& levels) {
+    std::vector<Bounds> all(cache.instances.size());
+    for (const InstanceMeshes& level : levels) {
+        const std::vector<Bounds> bounds = bounds_of(cache, level);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (!bounds[i].empty) {
+                all[i].add(bounds[i].low);
+                all[i].add(bounds[i].high);
+            }
+        }
+    }
+    return all;
+}
+
+/// Around boxes that are seen from the entries of instances, where the heroes have them.
+std::vector<Ball> balls_in_heroes(const InstanceCache& cache, const std::vector<Bounds>& bounds) {
+    std::vector<Ball> balls;
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+        if (bounds[i].empty) {
+            balls.push_back({{}, -1.0F});
+            continue;
+        }
+        const Instance& instance = cache.instances[i];
+        const Ball ball = ball_of(bounds[i]);
+        balls.push_back(
+            {glm::vec3(instance.position) + glm::quat(instance.frame) * ball.centre, ball.radius});
+    }
+    return balls;
+}
+
 InstanceMeshStatus make_form(const InstanceCache& cache,
                              std::uint64_t key,
                              const std::vector<UserMesh>& user_meshes,
@@ -137,8 +168,6 @@ InstanceMeshStatus make_form(const InstanceCache& cache,
         return status;
     }
     find_portraits(form, key, most_portraits);
-    const std::vector<Bounds> bounds = bounds_of(cache, levels[0]);
-    form.reach = reaches_of(cache, bounds)[0];
     measure_portraits(form, key, levels[0]);
     for (std::uint32_t level = 1; level < kTreeLevels; ++level) {
         level_options.level = options.level + level;
@@ -155,6 +184,9 @@ InstanceMeshStatus make_form(const InstanceCache& cache,
                 static_cast<std::uint32_t>(levels[level].triangles_of(i));
         }
     }
+    const std::vector<Bounds> bounds = bounds_of_levels(cache, levels);
+    form.reach = reaches_of(cache, bounds)[0];
+    form.mesh_balls = balls_in_heroes(cache, bounds);
     TreeExpander expander(cache, key);
     const auto count = static_cast<double>(form.portraits.size());
     for (const Tree& tree : form.portraits) {

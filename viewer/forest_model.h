@@ -32,6 +32,9 @@ struct TreeForm {
     const InstanceCache* cache = nullptr;
     std::shared_ptr<const TreeMeshes> meshes; // may be given back once they are drawn from
     std::array<std::vector<std::uint32_t>, kTreeLevels> mesh_triangles; // of each instance
+    /// Around the triangles of each instance at any level, where its hero has them; radius below 0:
+    /// there are none.
+    std::vector<Ball> mesh_balls;
     std::array<double, kTreeLevels> triangles{}; // of a tree, the mean of the portraits
     double branches = 0.0;                       // the same
     /// Holds every tree, whatever branches it is of, at yaw 0.

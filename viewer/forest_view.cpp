@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace lsys::view {
@@ -43,6 +44,18 @@ ViewVolume view_volume(const Camera& camera, std::uint32_t width, std::uint32_t 
         volume.planes[i] = glm::vec4(normals[i], -glm::dot(normals[i], camera.eye));
     }
     return volume;
+}
+
+Sway sway_in(const Wind& wind) {
+    // The largest values of the terms of in_wind() in shaders/forest.glsl.
+    constexpr float kPush = 0.004F;
+    constexpr float kTrunk = 1.35F * 1.2F * 1.2F;
+    constexpr float kBoughs = 0.35F * 1.54F;
+    constexpr float kMostFlutter = 0.05F;
+    const float gust = 1.0F + std::abs(wind.gust);
+    const float push = kPush * glm::length(wind.velocity) * gust;
+    return {push * kTrunk, push * gust * kBoughs,
+            std::min(push, kMostFlutter) * std::numbers::sqrt3_v<float>};
 }
 
 ForestView::ForestView(const ForestModel& model) : model_(model), added_(model.terrain->region()) {
@@ -164,6 +177,7 @@ const ForestLists& ForestView::select(const ViewVolume& volume, const RingOption
     lists_.triangles = 0;
     lists_.expanded = 0;
     lists_.waiting = 0;
+    sway_ = sway_in(options.wind);
     candidates_.clear();
     far_.clear();
     seen_cells_.clear();
@@ -172,8 +186,10 @@ const ForestLists& ForestView::select(const ViewVolume& volume, const RingOption
         if (cell.count == 0) {
             continue;
         }
+        const glm::vec3 size = cell.high - cell.low;
         const Ball ball = {0.5F * (cell.low + cell.high),
-                           0.5F * glm::distance(cell.low, cell.high)};
+                           0.5F * glm::length(size) +
+                               sway_.of(cell.tallest, std::max(size.x, size.z))};
         if (volume.meets(ball)) {
             seen_cells_.emplace_back(
                 glm::distance(volume.eye, glm::clamp(volume.eye, cell.low, cell.high)), c);
@@ -202,9 +218,15 @@ const ForestLists& ForestView::select(const ViewVolume& volume, const RingOption
         [&](std::uint32_t slot) { visit_tree(first_added() + slot, volume, options); });
     lists_.detail = fitting_detail(options);
     pool_.begin_turn(kTurnsKept);
-    list_branches(options);
+    list_branches(volume, options);
     lists_.trees.insert(lists_.trees.end(), far_.begin(), far_.end());
     return lists_;
+}
+
+Ball ForestView::swaying(const Ball& ball, const ViewTree& tree) const {
+    const TreeForm& form = model_.forms[tree.form];
+    const float width = glm::length(form.reach.centre) + form.reach.radius;
+    return {ball.centre, ball.radius + sway_.of(tree.scale * form.height(), tree.scale * width)};
 }
 
 void ForestView::visit_tree(std::uint32_t number,
@@ -215,10 +237,10 @@ void ForestView::visit_tree(std::uint32_t number,
     const float pixels =
         pixels_of(volume, portrait.centre, tree.scale * model_.forms[tree.form].height());
     if (pixels >= options.level_pixels.back()) {
-        if (volume.meets(reach_of(tree, tree_of(number).yaw))) {
+        if (volume.meets(swaying(reach_of(tree, tree_of(number).yaw), tree))) {
             candidates_.push_back({number, pixels});
         }
-    } else if (volume.meets(portrait)) {
+    } else if (volume.meets(swaying(portrait, tree))) {
         far_.push_back(number);
     }
 }
@@ -249,15 +271,37 @@ float ForestView::fitting_detail(const RingOptions& options) const {
     }
 }
 
-void ForestView::list_branches(const RingOptions& options) {
+void ForestView::see_branches(const PoolSpan& span,
+                              const ViewTree& tree,
+                              float yaw,
+                              const ViewVolume& volume) {
+    const Ball whole = swaying(reach_of(tree, yaw), tree);
+    const bool is_within = volume.holds(whole);
+    const float sway = whole.radius - tree.scale * model_.forms[tree.form].reach.radius;
+    const std::vector<Ball>& balls = model_.forms[tree.form].mesh_balls;
+    for (std::uint32_t place = span.first; place < span.first + span.count; ++place) {
+        const PoolBranch& branch = pool_.branches()[place];
+        const Ball& ball = balls[branch.mesh];
+        if (ball.radius < 0.0F) {
+            continue;
+        }
+        if (is_within ||
+            volume.meets({branch.at(ball.centre), branch.scale * ball.radius + sway})) {
+            seen_branches_.push_back(place);
+        }
+    }
+}
+
+void ForestView::list_branches(const ViewVolume& volume, const RingOptions& options) {
     struct Drawn {
-        PoolSpan span;
+        std::uint32_t first = 0; // in seen_branches_
+        std::uint32_t end = 0;
         std::uint32_t first_mesh = 0;
     };
+    seen_branches_.clear();
     std::vector<Drawn> drawn;
     std::vector<PoolBranch> made;
     std::fill(mesh_counts_.begin(), mesh_counts_.end(), 0);
-    std::uint32_t total = 0;
     for (const Candidate& candidate : candidates_) {
         const ViewTree& tree = view_tree(candidate.tree);
         const std::uint32_t level = level_of(candidate.pixels * lists_.detail, options);
@@ -282,14 +326,19 @@ void ForestView::list_branches(const RingOptions& options) {
             ++lists_.waiting;
             continue;
         }
-        ++lists_.trees_of_level[level];
         const auto instances =
             static_cast<std::uint32_t>(model_.forms[tree.form].cache->instances.size());
-        drawn.push_back({span, first_mesh_[tree.form] + level * instances});
-        for (std::uint32_t i = 0; i < span.count; ++i) {
-            ++mesh_counts_[drawn.back().first_mesh + pool_.branches()[span.first + i].mesh];
+        const auto first = static_cast<std::uint32_t>(seen_branches_.size());
+        see_branches(span, tree, tree_of(candidate.tree).yaw, volume);
+        if (seen_branches_.size() == first) {
+            continue;
         }
-        total += span.count;
+        ++lists_.trees_of_level[level];
+        drawn.push_back({first, static_cast<std::uint32_t>(seen_branches_.size()),
+                         first_mesh_[tree.form] + level * instances});
+        for (std::uint32_t i = first; i < seen_branches_.size(); ++i) {
+            ++mesh_counts_[drawn.back().first_mesh + pool_.branches()[seen_branches_[i]].mesh];
+        }
     }
     // Finer levels first: they are nearer, and hide what comes behind.
     std::uint32_t first = 0;
@@ -308,10 +357,10 @@ void ForestView::list_branches(const RingOptions& options) {
             }
         }
     }
-    lists_.branches.resize(total);
+    lists_.branches.resize(seen_branches_.size());
     for (const Drawn& tree : drawn) {
-        for (std::uint32_t i = 0; i < tree.span.count; ++i) {
-            const std::uint32_t place = tree.span.first + i;
+        for (std::uint32_t i = tree.first; i < tree.end; ++i) {
+            const std::uint32_t place = seen_branches_[i];
             lists_.branches[mesh_counts_[tree.first_mesh + pool_.branches()[place].mesh]++] = place;
         }
     }

@@ -8,6 +8,7 @@
 // function of forest and camera alone, whatever was looked at before.
 #pragma once
 
+#include "runtime/physics.h"
 #include "viewer/added_trees.h"
 #include "viewer/branch_pool.h"
 #include "viewer/camera.h"
@@ -39,6 +40,16 @@ struct ViewVolume {
         }
         return true;
     }
+    [[nodiscard]] bool holds(const Ball& ball) const {
+        for (const glm::vec4& plane : planes) {
+            if (plane.x * ball.centre.x + plane.y * ball.centre.y + plane.z * ball.centre.z +
+                    plane.w <
+                ball.radius) {
+                return false;
+            }
+        }
+        return true;
+    }
 };
 [[nodiscard]] ViewVolume
 view_volume(const Camera& camera, std::uint32_t width, std::uint32_t height);
@@ -52,7 +63,21 @@ struct RingOptions {
     std::uint64_t most_triangles = 1'500'000;
     /// Trees whose branches are made for one picture; others have to wait, as impostors.
     std::uint32_t most_expansions = ~0U;
+    /// That trees are moved by: what is not in view may come there.
+    Wind wind;
 };
+
+/// How far wind moves what there is of a tree, as shaders/forest.glsl has it.
+struct Sway {
+    float of_height = 0.0F; // m, for each metre of the tree's height and of what it is wide
+    float of_width = 0.0F;
+    float flutter = 0.0F; // m
+
+    [[nodiscard]] float of(float height, float width) const {
+        return of_height * height + of_width * width + flutter;
+    }
+};
+[[nodiscard]] Sway sway_in(const Wind& wind);
 
 /// Branches of one instance and level: places in the list of branches.
 struct BranchRun {
@@ -68,12 +93,12 @@ struct ForestLists {
     std::vector<BranchRun> runs;
     std::vector<std::uint32_t> trees;  // far: numbers of ForestView::trees(), near cells first
     std::vector<std::uint32_t> clumps; // horizon: cells, near ones first
-    std::array<std::uint32_t, kTreeLevels> trees_of_level{};
-    std::uint64_t clumped_trees = 0; // of the cells in `clumps`
-    std::uint64_t triangles = 0;     // of branches
-    std::uint32_t expanded = 0;      // trees whose branches were made for this
-    std::uint32_t waiting = 0;       // that should have branches but are far for now
-    float detail = 1.0F;             // factor of sizes, so that most_triangles is kept
+    std::array<std::uint32_t, kTreeLevels> trees_of_level{}; // with branches in view
+    std::uint64_t clumped_trees = 0;                         // of the cells in `clumps`
+    std::uint64_t triangles = 0;                             // of branches
+    std::uint32_t expanded = 0; // trees whose branches were made for this
+    std::uint32_t waiting = 0;  // that should have branches but are far for now
+    float detail = 1.0F;        // factor of sizes, so that most_triangles is kept
 
     [[nodiscard]] std::uint64_t branch_trees() const {
         std::uint64_t sum = 0;
@@ -147,10 +172,15 @@ private:
     [[nodiscard]] std::uint64_t cell_of(const glm::vec3& place) const;
     [[nodiscard]] ViewTree made_of(const Tree& tree, std::uint32_t index);
     void visit_tree(std::uint32_t number, const ViewVolume& volume, const RingOptions& options);
+    /// What a ball around a part of a tree becomes in the wind.
+    [[nodiscard]] Ball swaying(const Ball& ball, const ViewTree& tree) const;
+    /// Lists the branches of a tree that are in view in seen_branches_.
+    void
+    see_branches(const PoolSpan& span, const ViewTree& tree, float yaw, const ViewVolume& volume);
     /// kTreeLevels: none, an impostor.
     [[nodiscard]] static std::uint32_t level_of(float pixels, const RingOptions& options);
     [[nodiscard]] float fitting_detail(const RingOptions& options) const;
-    void list_branches(const RingOptions& options);
+    void list_branches(const ViewVolume& volume, const RingOptions& options);
 
     const ForestModel& model_;
     LargeVector<ViewTree> trees_;
@@ -168,6 +198,8 @@ private:
     ForestLists lists_;
     std::vector<Candidate> candidates_;
     std::vector<std::uint32_t> far_;
+    std::vector<std::uint32_t> seen_branches_; // places in the pool
+    Sway sway_;
     std::vector<std::pair<float, std::uint32_t>> seen_cells_; // by distance
     std::vector<std::uint32_t> mesh_counts_;
 };

@@ -106,6 +106,78 @@ TEST_CASE("every tree in view is in exactly one ring") {
     }
 }
 
+TEST_CASE("every corner in view of a tree with branches is of a branch that is drawn") {
+    const auto wood = make_wood(3000, 200.0F);
+    const TreeForm& form = wood->model.forms[0];
+    const InstanceCache& cache = *form.cache;
+    TreeExpander expander(cache, wood->forest.key);
+    ForestView view(wood->model);
+    std::size_t left_out = 0;
+    for (const Camera& camera : cameras()) {
+        const ForestLists& lists = view.select(view_volume(camera, 640, 480), wood_rings());
+        std::map<std::uint32_t, std::uint32_t> levels;
+        std::set<std::array<float, 4>> drawn; // places of branches and their trees
+        for (const BranchRun& run : lists.runs) {
+            for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
+                const PoolBranch& branch = view.pool().branches()[lists.branches[i]];
+                levels[branch.tree] = run.level;
+                drawn.insert({branch.position.x, branch.position.y, branch.position.z,
+                              static_cast<float>(branch.mesh)});
+            }
+        }
+        const glm::mat4 matrix =
+            projection_matrix(camera, 640.0F / 480.0F, 0.1F) * view_matrix(camera);
+        for (const auto& [number, level] : levels) {
+            const InstanceMeshes& meshes = (*form.meshes)[level];
+            const LargeVector<std::uint32_t> indices = meshes.mesh.indices.expanded();
+            expander.expand(view.tree_of(number), [&](const BranchInstance& branch) {
+                const Instance& instance = cache.instances[branch.instance];
+                const InstancePose pose = pose_of(branch, instance);
+                const PoolBranch packed = pool_branch(branch, instance, number);
+                bool seen = false;
+                for (const MeshPart& part : meshes.parts_of(branch.instance)) {
+                    for (std::uint64_t k = 0; k < part.index_count; ++k) {
+                        const glm::vec3& corner =
+                            meshes.mesh.positions[indices[part.first_index + k]];
+                        const glm::vec3 at =
+                            pose.translation + pose.rotation * (pose.scale * corner);
+                        const glm::vec4 clip = matrix * glm::vec4(at, 1.0F);
+                        seen = seen || (clip.w > 0.1F && std::abs(clip.x) < clip.w &&
+                                        std::abs(clip.y) < clip.w);
+                    }
+                }
+                const bool listed =
+                    drawn.count({packed.position.x, packed.position.y, packed.position.z,
+                                 static_cast<float>(packed.mesh)}) != 0;
+                if (seen) {
+                    REQUIRE(listed);
+                }
+                left_out += listed ? 0 : 1;
+            });
+        }
+    }
+    CHECK(left_out > 100); // or there is nothing to find
+}
+
+TEST_CASE("what wind moves into the view is drawn") {
+    const auto wood = make_wood(3000, 200.0F);
+    ForestView view(wood->model);
+    RingOptions calm = wood_rings();
+    RingOptions windy = calm;
+    windy.wind = {{30.0F, 0.0F, 0.0F}, 0.5F};
+    for (const Camera& camera : cameras()) {
+        const ViewVolume volume = view_volume(camera, 640, 480);
+        const ForestLists still = view.select(volume, calm);
+        const ForestLists moved = view.select(volume, windy);
+        CHECK(moved.trees.size() >= still.trees.size());
+        CHECK(moved.branches.size() >= still.branches.size());
+        CHECK(moved.clumps.size() >= still.clumps.size());
+    }
+    const Sway sway = sway_in(windy.wind);
+    CHECK(sway.of(10.0F, 5.0F) > 2.0F);
+    CHECK(sway_in(calm.wind).of(10.0F, 5.0F) == 0.0F);
+}
+
 TEST_CASE("all corners of a tree lie within its ball") {
     const auto wood = make_wood(200, 50.0F);
     ForestView view(wood->model);

@@ -155,6 +155,7 @@ void ForestPass::prepare(const Frame& frame) {
     RingOptions rings;
     rings.most_triangles = frame.most_triangles;
     rings.most_expansions = frame.most_expansions;
+    rings.wind = frame.wind;
     rings.horizon_pixels = has_cells_ ? rings.horizon_pixels : 0.0F;
     lists_ = &view_->select(volume_, rings);
     cull_seconds_ = seconds_since(start);
