@@ -19,7 +19,7 @@ ForestView::ForestView(const ForestModel& model) : model_(model), added_(model.t
     for (const TreeForm& form : model_.forms) {
         expanders_.emplace_back(*form.cache, model_.forest->key);
         first_mesh_.push_back(meshes);
-        meshes += kTreeLevels * static_cast<std::uint32_t>(form.cache->instances.size());
+        meshes += (kBlending + 1) * static_cast<std::uint32_t>(form.cache->instances.size());
     }
     mesh_counts_.resize(meshes);
     sort_into_cells();

@@ -27,6 +27,9 @@ struct RingOptions {
     std::array<float, kTreeLevels> level_pixels{860.0F, 430.0F, 260.0F, 150.0F};
     /// Below this, cells are drawn as one.
     float horizon_pixels = 8.0F; // 0: never
+    /// What is up to so many times as large as impostors, or cells, may be is drawn as both: a part
+    /// of the pixels as each, so that none comes or goes at once.
+    float blend = 1.25F;
     /// Of branches; with more, all trees count as smaller than they are.
     std::uint64_t most_triangles = 1'500'000;
     /// Trees whose branches are made for one picture; others have to wait, as impostors.
@@ -47,26 +50,64 @@ struct Sway {
 };
 [[nodiscard]] Sway sway_in(const Wind& wind);
 
-/// Branches of one instance and level: places in the list of branches.
+/// A part of the pixels of what is drawn. Every pixel has a number from 0 to 1
+/// (shaders/blend.glsl): positive parts are those whose number is below it, negative ones those
+/// whose number is not below 1 more than it.
+using Part = float;
+inline constexpr Part kWhole = 1.0F;
+
+/// A tree, or a cell, and how much of its impostor is drawn.
+struct Listed {
+    std::uint32_t number = 0;
+    Part part = kWhole;
+
+    friend bool operator==(const Listed&, const Listed&) = default;
+};
+
+/// A branch in the list: its place in the pool and the part of it that is drawn.
+class ListedBranch {
+public:
+    static constexpr std::uint32_t kPlaceBits = 24; // as shaders/branch.vert.glsl has it
+    static constexpr std::uint32_t kPartSteps = 255;
+
+    ListedBranch() = default;
+    /// `steps`: the part in 1/kPartSteps.
+    explicit ListedBranch(std::uint32_t place, std::uint32_t steps = kPartSteps)
+        : bits_(steps << kPlaceBits | place) {}
+    [[nodiscard]] std::uint32_t place() const { return bits_ & ((1U << kPlaceBits) - 1); }
+    [[nodiscard]] std::uint32_t steps() const { return bits_ >> kPlaceBits; }
+
+    friend bool operator==(const ListedBranch&, const ListedBranch&) = default;
+
+private:
+    std::uint32_t bits_ = 0;
+};
+static_assert(sizeof(ListedBranch) == 4);
+static_assert(BranchPool::kMostBranches <= 1U << ListedBranch::kPlaceBits);
+
+/// Branches of one instance and level.
 struct BranchRun {
     std::uint32_t form = 0;
     std::uint32_t level = 0;
     std::uint32_t instance = 0;
     std::uint32_t first = 0; // in ForestLists::branches
     std::uint32_t count = 0;
+    bool blends = false; // of trees that are drawn as impostors too
 };
 
 struct ForestLists {
-    std::vector<std::uint32_t> branches; // places in the pool, by run
+    std::vector<ListedBranch> branches; // by run
     std::vector<BranchRun> runs;
-    std::vector<std::uint32_t> trees;  // far: numbers of ForestView::trees(), near cells first
-    std::vector<std::uint32_t> clumps; // horizon: cells, near ones first
+    std::vector<Listed> trees;  // far: numbers of ForestView::trees(), near cells first
+    std::vector<Listed> clumps; // horizon: cells, near ones first
     std::array<std::uint32_t, kTreeLevels> trees_of_level{}; // with branches in view
-    std::uint64_t clumped_trees = 0;                         // of the cells in `clumps`
-    std::uint64_t triangles = 0;                             // of branches
-    std::uint32_t expanded = 0; // trees whose branches were made for this
-    std::uint32_t waiting = 0;  // that should have branches but are far for now
-    float detail = 1.0F;        // factor of sizes, so that most_triangles is kept
+    std::uint64_t far_trees = 0;     // of `trees`, without those that have branches too
+    std::uint64_t clumped_trees = 0; // of `clumps`, without those of `trees`
+    std::uint64_t blended = 0;       // trees that are drawn as two things
+    std::uint64_t triangles = 0;     // of branches
+    std::uint32_t expanded = 0;      // trees whose branches were made for this
+    std::uint32_t waiting = 0;       // that should have branches but are far for now
+    float detail = 1.0F;             // factor of sizes, so that most_triangles is kept
 
     [[nodiscard]] std::uint64_t branch_trees() const {
         std::uint64_t sum = 0;
@@ -133,18 +174,43 @@ private:
         float pixels = 0.0F;
     };
 
+    /// A tree with branches in view.
+    struct SeenTree {
+        std::uint32_t first = 0; // in seen_branches_
+        std::uint32_t end = 0;
+        std::uint32_t first_mesh = 0; // in mesh_counts_
+    };
+    /// Levels in mesh_counts_: after the last one, the same once more for trees that blend.
+    static constexpr std::uint32_t kBlending = kTreeLevels;
+
     void sort_into_cells();
     [[nodiscard]] std::uint32_t first_added() const {
         return static_cast<std::uint32_t>(trees_.size());
     }
     [[nodiscard]] std::uint64_t cell_of(const glm::vec3& place) const;
     [[nodiscard]] ViewTree made_of(const Tree& tree, std::uint32_t index);
-    void visit_tree(std::uint32_t number, const ViewVolume& volume, const RingOptions& options);
+    /// `part`: of its impostor, if it is far.
+    void visit_tree(std::uint32_t number,
+                    const ViewVolume& volume,
+                    const RingOptions& options,
+                    Part part = kWhole);
+    /// Lists a cell as one, or its trees, or both.
+    void visit_cell(std::uint32_t index,
+                    float distance,
+                    const ViewVolume& volume,
+                    const RingOptions& options);
+    /// A tree's branches in the pool; they are made if need be. Count 0: they have to wait.
+    [[nodiscard]] PoolSpan branches_of(std::uint32_t number, const RingOptions& options);
+    /// The branches that are seen, sorted into runs.
+    void list_runs();
     /// What a ball around a part of a tree becomes in the wind.
     [[nodiscard]] Ball swaying(const Ball& ball, const ViewTree& tree) const;
     /// Lists the branches of a tree that are in view in seen_branches_.
-    void
-    see_branches(const PoolSpan& span, const ViewTree& tree, float yaw, const ViewVolume& volume);
+    void see_branches(const PoolSpan& span,
+                      const ViewTree& tree,
+                      float yaw,
+                      std::uint32_t part_steps,
+                      const ViewVolume& volume);
     /// kTreeLevels: none, an impostor.
     [[nodiscard]] static std::uint32_t level_of(float pixels, const RingOptions& options);
     [[nodiscard]] float fitting_detail(const RingOptions& options) const;
@@ -162,11 +228,13 @@ private:
     std::uint64_t alive_count_ = 0;
     BranchPool pool_;
     std::vector<TreeExpander> expanders_;   // by form
-    std::vector<std::uint32_t> first_mesh_; // of each form: instances times levels
+    std::vector<std::uint32_t> first_mesh_; // of each form: instances times levels and one
     ForestLists lists_;
     std::vector<Candidate> candidates_;
-    std::vector<std::uint32_t> far_;
-    std::vector<std::uint32_t> seen_branches_; // places in the pool
+    std::vector<Listed> far_;
+    std::vector<ListedBranch> seen_branches_;
+    std::vector<PoolBranch> made_branches_;
+    std::vector<SeenTree> seen_trees_; // whose branches those are
     Sway sway_;
     std::vector<std::pair<float, std::uint32_t>> seen_cells_; // by distance
     std::vector<std::uint32_t> mesh_counts_;

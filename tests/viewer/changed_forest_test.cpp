@@ -29,11 +29,11 @@ std::vector<Drawn> drawn_by(ForestView& view, const Camera& camera) {
     };
     for (const BranchRun& run : lists.runs) {
         for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
-            add(view.pool().branches()[lists.branches[i]].tree, run.level);
+            add(view.pool().branches()[lists.branches[i].place()].tree, run.level);
         }
     }
-    for (const std::uint32_t tree : lists.trees) {
-        add(tree, kTreeLevels);
+    for (const Listed& tree : lists.trees) {
+        add(tree.number, kTreeLevels);
     }
     std::sort(drawn.begin(), drawn.end());
     return drawn;

@@ -37,7 +37,7 @@ std::vector<std::array<std::uint32_t, 3>> branches_of(ForestView& view, const Fo
     std::vector<std::array<std::uint32_t, 3>> branches;
     for (const BranchRun& run : lists.runs) {
         for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
-            const PoolBranch& branch = view.pool().branches()[lists.branches[i]];
+            const PoolBranch& branch = view.pool().branches()[lists.branches[i].place()];
             CHECK(branch.mesh == run.instance);
             branches.push_back({branch.tree, branch.mesh, run.level});
         }
@@ -47,45 +47,59 @@ std::vector<std::array<std::uint32_t, 3>> branches_of(ForestView& view, const Fo
 
 } // namespace
 
-TEST_CASE("every tree in view is in exactly one ring") {
+TEST_CASE("every pixel of a tree in view is of exactly one ring") {
     const auto wood = make_wood(3000, 200.0F);
     ForestView view(wood->model);
     CHECK(view.trees().size() == 3000);
+    std::uint64_t blended = 0;
     for (const Camera& camera : cameras()) {
         const ViewVolume volume = view_volume(camera, 640, 480);
         const ForestLists& lists = view.select(volume, wood_rings());
-        std::vector<std::uint32_t> rings(view.trees().size());
-        std::set<std::uint32_t> near;
+        std::map<std::uint32_t, Part> near;
         std::map<std::uint32_t, std::set<std::uint32_t>> levels;
-        for (const auto& [tree, instance, level] : branches_of(view, lists)) {
-            near.insert(tree);
-            levels[tree].insert(level);
+        for (const BranchRun& run : lists.runs) {
+            for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
+                const ListedBranch branch = lists.branches[i];
+                const std::uint32_t tree = view.pool().branches()[branch.place()].tree;
+                const Part part = static_cast<float>(branch.steps()) /
+                                  static_cast<float>(ListedBranch::kPartSteps);
+                CHECK(run.blends == (part < kWhole));
+                CHECK(near.emplace(tree, part).first->second == part);
+                levels[tree].insert(run.level);
+            }
         }
         for (const auto& [tree, of_tree] : levels) {
             CHECK(of_tree.size() == 1);
         }
         CHECK(near.size() == lists.branch_trees());
-        for (const std::uint32_t tree : near) {
-            ++rings[tree];
-        }
-        for (const std::uint32_t tree : lists.trees) {
-            ++rings[tree];
-        }
-        std::uint64_t clumped = 0;
-        for (const std::uint32_t c : lists.clumps) {
-            const ForestCell& cell = view.cells()[c];
-            clumped += cell.count;
-            for (std::uint32_t i = 0; i < cell.count; ++i) {
-                ++rings[cell.first + i];
+        std::vector<std::vector<Part>> parts(view.trees().size());
+        for (const auto& [tree, part] : near) {
+            if (part > 0.0F) {
+                parts[tree].push_back(part);
             }
         }
-        CHECK(clumped == lists.clumped_trees);
+        for (const Listed& tree : lists.trees) {
+            parts[tree.number].push_back(tree.part);
+        }
+        for (const Listed& clump : lists.clumps) {
+            const ForestCell& cell = view.cells()[clump.number];
+            for (std::uint32_t i = 0; i < cell.count; ++i) {
+                parts[cell.first + i].push_back(clump.part);
+            }
+        }
+        std::uint64_t drawn = 0;
+        for (const std::vector<Part>& of_tree : parts) {
+            drawn += of_tree.empty() ? 0U : 1U;
+        }
+        // Trees of a cell that blends may be out of view themselves.
+        CHECK(drawn >= lists.branch_trees() + lists.far_trees + lists.clumped_trees);
+        CHECK(drawn <=
+              lists.branch_trees() + lists.far_trees + lists.clumped_trees + lists.blended);
+        blended += lists.blended;
         // One by one: nothing that is in view is left out, and nothing is drawn twice.
         const glm::mat4 matrix =
             projection_matrix(camera, 640.0F / 480.0F, 0.1F) * view_matrix(camera);
-        std::size_t in_view = 0;
         for (std::uint32_t t = 0; t < view.trees().size(); ++t) {
-            REQUIRE(rings[t] <= 1);
             const TreeForm& form = wood->model.forms[0];
             const ViewTree& tree = view.trees()[t];
             bool seen = false;
@@ -96,14 +110,58 @@ TEST_CASE("every tree in view is in exactly one ring") {
                 seen = seen ||
                        (clip.w > 0.1F && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w);
             }
-            in_view += seen ? 1 : 0;
-            if (seen) {
-                CAPTURE(t, to_text(camera));
-                REQUIRE(rings[t] == 1);
+            CAPTURE(t, to_text(camera));
+            REQUIRE(parts[t].size() <= 2);
+            if (parts[t].size() == 2) {
+                // The numbers below one, and those that are not.
+                CHECK(parts[t][0] > 0.0F);
+                CHECK(parts[t][1] < 0.0F);
+                REQUIRE(parts[t][0] == Approx(1.0F + parts[t][1]));
+            } else if (seen) {
+                REQUIRE(parts[t] == std::vector<Part>{kWhole});
             }
         }
-        CAPTURE(to_text(camera), in_view);
     }
+    CHECK(blended > 0);
+}
+
+TEST_CASE("what comes nearer turns from one ring to the next bit by bit") {
+    const auto wood = make_wood(200, 5.0F);
+    ForestView view(wood->model);
+    constexpr float kStep = 1.004F;
+    const RingOptions rings = wood_rings();
+    const float most = 1.5F * (kStep - 1.0F) * rings.blend / (rings.blend - 1.0F) + 0.01F;
+    std::map<std::uint32_t, float> branches_before;
+    float horizon_before = 0.0F;
+    float largest = 0.0F;
+    bool is_first = true;
+    for (float away = 2000.0F; away > 20.0F; away /= kStep) {
+        const ForestLists& lists = view.select(
+            view_volume(looking({2.5F, 1, 2.5F + away}, {2.5F, 1, 2.5F}), 640, 480), rings);
+        // How much of each tree are branches, and how much of the forest are cells.
+        std::map<std::uint32_t, float> branches;
+        for (const ListedBranch branch : lists.branches) {
+            branches[view.pool().branches()[branch.place()].tree] =
+                static_cast<float>(branch.steps()) / static_cast<float>(ListedBranch::kPartSteps);
+        }
+        float horizon = 0.0F;
+        for (const Listed& clump : lists.clumps) {
+            horizon += std::abs(clump.part) / static_cast<float>(view.cells().size());
+        }
+        for (std::uint32_t tree = 0; tree < view.trees().size() && !is_first; ++tree) {
+            const float change = std::abs(branches[tree] - branches_before[tree]);
+            largest = std::max(largest, change);
+            REQUIRE(change <= most);
+        }
+        if (!is_first) {
+            REQUIRE(std::abs(horizon - horizon_before) <= most);
+        }
+        branches_before = std::move(branches);
+        horizon_before = horizon;
+        is_first = false;
+    }
+    CHECK(largest > 0.0F);
+    CHECK(horizon_before == 0.0F);
 }
 
 TEST_CASE("every corner in view of a tree with branches is of a branch that is drawn") {
@@ -119,7 +177,7 @@ TEST_CASE("every corner in view of a tree with branches is of a branch that is d
         std::set<std::array<float, 4>> drawn; // places of branches and their trees
         for (const BranchRun& run : lists.runs) {
             for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
-                const PoolBranch& branch = view.pool().branches()[lists.branches[i]];
+                const PoolBranch& branch = view.pool().branches()[lists.branches[i].place()];
                 levels[branch.tree] = run.level;
                 drawn.insert({branch.position.x, branch.position.y, branch.position.z,
                               static_cast<float>(branch.mesh)});
@@ -252,8 +310,8 @@ TEST_CASE("places of trees never overlap, and are used again") {
         REQUIRE(end <= view.pool().branches().size());
         REQUIRE(used == view.pool().used());
         most = std::max(most, used);
-        for (const std::uint32_t place : lists.branches) {
-            REQUIRE(place < end);
+        for (const ListedBranch branch : lists.branches) {
+            REQUIRE(branch.place() < end);
         }
     }
     CHECK(view.pool().branches().size() < 2 * most);

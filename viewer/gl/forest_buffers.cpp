@@ -132,14 +132,19 @@ std::vector<std::uint16_t> add_looks(const std::vector<Material>& materials,
     return numbers;
 }
 
+/// In the commands of what is drawn.
+constexpr std::size_t place_of(std::size_t kind, bool blends) {
+    return kind + (blends ? kBranchClasses : 0);
+}
+
 } // namespace
 
 ForestBuffers::Drawn ForestBuffers::make_drawn(Device& device) {
-    return {Buffer(device),
-            Buffer(device),
-            Buffer(device),
-            {Buffer(device), Buffer(device), Buffer(device), Buffer(device)},
-            {}};
+    Drawn drawn{Buffer(device), Buffer(device), Buffer(device), {}};
+    for (Commands& commands : drawn.commands) {
+        commands.buffer = Buffer(device);
+    }
+    return drawn;
 }
 
 ForestBuffers::ForestBuffers(Device& device)
@@ -319,36 +324,36 @@ void ForestBuffers::set_branches(std::span<const PoolBranch> branches) {
 }
 
 void ForestBuffers::command(const ForestLists& lists) {
-    drawn_->lists.fill(std::span<const std::uint32_t>(lists.branches));
-    glVertexArrayVertexBuffer(array_.name(), 1, drawn_->lists.name(), 0, sizeof(std::uint32_t));
-    std::array<std::vector<DrawCommand>, kBranchClasses> commands;
+    drawn_->lists.fill(std::span<const ListedBranch>(lists.branches));
+    glVertexArrayVertexBuffer(array_.name(), 1, drawn_->lists.name(), 0, sizeof(ListedBranch));
+    std::array<std::vector<DrawCommand>, 2 * kBranchClasses> commands;
     for (const BranchRun& run : lists.runs) {
         const FormLevel& level = form_levels_[run.form][run.level];
         const Piece& piece = level.pieces[run.instance];
         for (std::size_t kind = 0; kind < kBranchClasses; ++kind) {
             if (piece.count[kind] != 0) {
-                commands[kind].push_back({piece.count[kind], run.count, piece.first[kind],
-                                          level.base_vertex, run.first});
+                commands[place_of(kind, run.blends)].push_back({piece.count[kind], run.count,
+                                                                piece.first[kind],
+                                                                level.base_vertex, run.first});
             }
         }
     }
-    for (std::size_t kind = 0; kind < kBranchClasses; ++kind) {
-        drawn_->commands[kind].fill(std::span<const DrawCommand>(commands[kind]));
-        drawn_->command_counts[kind] = static_cast<std::uint32_t>(commands[kind].size());
+    for (std::size_t i = 0; i < commands.size(); ++i) {
+        drawn_->commands[i].buffer.fill(std::span<const DrawCommand>(commands[i]));
+        drawn_->commands[i].count = static_cast<std::uint32_t>(commands[i].size());
     }
 }
 
-std::uint64_t ForestBuffers::draw(BranchClass kind) const {
-    const auto index = static_cast<std::size_t>(kind);
-    if (drawn_->command_counts[index] == 0) {
+std::uint64_t ForestBuffers::draw(BranchClass kind, bool blends) const {
+    const Commands& commands = drawn_->commands[place_of(static_cast<std::size_t>(kind), blends)];
+    if (commands.count == 0) {
         return 0;
     }
     glBindVertexArray(array_.name());
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, drawn_->commands[index].name());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.buffer.name());
     (kind == BranchClass::OneSided ? glEnable : glDisable)(GL_CULL_FACE);
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
-                                static_cast<GLsizei>(drawn_->command_counts[index]),
-                                sizeof(DrawCommand));
+                                static_cast<GLsizei>(commands.count), sizeof(DrawCommand));
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
     return 1;
 }

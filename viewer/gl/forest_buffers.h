@@ -60,8 +60,9 @@ public:
     /// The commands of each class for lists of branches; uploads both.
     void command(const ForestLists& lists);
 
-    /// With a program of branch.*.glsl bound; returns draws.
-    std::uint64_t draw(BranchClass kind) const;
+    /// With a program of branch.*.glsl bound; returns draws. `blends`: those of trees that are
+    /// drawn as impostors too, whose program has BLENDS.
+    std::uint64_t draw(BranchClass kind, bool blends = false) const;
     void bind_storage() const;
     /// After bind_storage(): numbers of trees are those of cells from now on.
     void bind_cells() const;
@@ -87,13 +88,16 @@ private:
         std::vector<Piece> pieces; // by instance
     };
 
+    struct Commands {
+        Buffer buffer;
+        std::uint32_t count = 0;
+    };
     /// What is drawn of a subject.
     struct Drawn {
         Buffer trees;
         Buffer branches;
         Buffer lists;
-        std::array<Buffer, kBranchClasses> commands;
-        std::array<std::uint32_t, kBranchClasses> command_counts{};
+        std::array<Commands, 2 * kBranchClasses> commands; // by class, then of what blends
     };
     [[nodiscard]] static Drawn make_drawn(Device& device);
 

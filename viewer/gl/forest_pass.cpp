@@ -9,7 +9,9 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -37,10 +39,37 @@ double seconds_since(Clock::time_point start) {
 ForestPass::ForestPass(Device& device)
     : device_(&device), buffers_(device), portraits_(device), terrain_(device),
       quads_(make_vertex_array(device)), quad_trees_(device) {
-    glEnableVertexArrayAttrib(quads_.name(), 0);
-    glVertexArrayAttribIFormat(quads_.name(), 0, 1, GL_UNSIGNED_INT, 0);
-    glVertexArrayAttribBinding(quads_.name(), 0, 0);
+    glVertexArrayAttribIFormat(quads_.name(), 0, 1, GL_UNSIGNED_INT, offsetof(Listed, number));
+    glVertexArrayAttribFormat(quads_.name(), 1, 1, GL_FLOAT, GL_FALSE, offsetof(Listed, part));
+    for (const GLuint attribute : {0U, 1U}) {
+        glEnableVertexArrayAttrib(quads_.name(), attribute);
+        glVertexArrayAttribBinding(quads_.name(), attribute, 0);
+    }
     glVertexArrayBindingDivisor(quads_.name(), 0, 1);
+}
+
+Result<ForestPass::BranchPrograms> ForestPass::make_branch_programs(const ShaderSource& shaders,
+                                                                    const std::string& defines) {
+    struct Wanted {
+        ProgramObject BranchPrograms::*program;
+        const char* fragment;
+        const char* defines;
+    };
+    constexpr std::array<Wanted, 3> kWanted = {
+        {{&BranchPrograms::solid, "branch.frag.glsl", "#define ONE_TAP\n"},
+         {&BranchPrograms::plain, "leaf.frag.glsl", "#define ONE_TAP\n#define LIT_AT_CORNERS\n"},
+         {&BranchPrograms::cut_out, "leaf.frag.glsl",
+          "#define ONE_TAP\n#define CUT_OUT\n#define LIT_AT_CORNERS\n"}}};
+    BranchPrograms programs;
+    for (const Wanted& one : kWanted) {
+        Result<ProgramObject> made = make_program(*device_, shaders, "branch.vert.glsl",
+                                                  one.fragment, defines + one.defines);
+        if (!made) {
+            return made.error();
+        }
+        programs.*one.program = std::move(made.value());
+    }
+    return programs;
 }
 
 Result<Done> ForestPass::reload(const ShaderSource& shaders) {
@@ -50,17 +79,20 @@ Result<Done> ForestPass::reload(const ShaderSource& shaders) {
         const char* fragment;
         const char* defines;
     };
-    constexpr std::array<Wanted, 6> kWanted = {
-        {{&Programs::solid, "branch.vert.glsl", "branch.frag.glsl", "#define ONE_TAP\n"},
-         {&Programs::plain, "branch.vert.glsl", "leaf.frag.glsl",
-          "#define ONE_TAP\n#define LIT_AT_CORNERS\n"},
-         {&Programs::cut_out, "branch.vert.glsl", "leaf.frag.glsl",
-          "#define ONE_TAP\n#define CUT_OUT\n#define LIT_AT_CORNERS\n"},
-         {&Programs::impostor, "impostor.vert.glsl", "impostor.frag.glsl", "#define ONE_TAP\n"},
+    constexpr std::array<Wanted, 3> kWanted = {
+        {{&Programs::impostor, "impostor.vert.glsl", "impostor.frag.glsl", "#define ONE_TAP\n"},
          {&Programs::impostor_depth, "impostor.vert.glsl", "impostor.frag.glsl", "#define DEPTH\n"},
          {&Programs::impostor_shadow, "impostor.vert.glsl", "impostor.frag.glsl",
           "#define SHADOW\n"}}};
     Programs programs;
+    for (const bool blends : {false, true}) {
+        Result<BranchPrograms> made =
+            make_branch_programs(shaders, blends ? "#define BLENDS\n" : "");
+        if (!made) {
+            return made.error();
+        }
+        (blends ? programs.blending : programs.branches) = std::move(made.value());
+    }
     for (const Wanted& one : kWanted) {
         Result<ProgramObject> made =
             make_program(*device_, shaders, one.vertex, one.fragment, one.defines);
@@ -164,7 +196,7 @@ void ForestPass::prepare(const Frame& frame) {
     terrain_.prepare(volume_);
 }
 
-void ForestPass::draw_impostors(std::span<const std::uint32_t> trees, FrameStats& stats) {
+void ForestPass::draw_impostors(std::span<const Listed> trees, FrameStats& stats) {
     if (trees.empty()) {
         return;
     }
@@ -186,7 +218,7 @@ void ForestPass::draw_impostors(std::span<const std::uint32_t> trees, FrameStats
 }
 
 void ForestPass::draw_quads(const ProgramObject& program, std::size_t count) {
-    glVertexArrayVertexBuffer(quads_.name(), 0, quad_trees_.name(), 0, sizeof(std::uint32_t));
+    glVertexArrayVertexBuffer(quads_.name(), 0, quad_trees_.name(), 0, sizeof(Listed));
     glUseProgram(program.name());
     glBindTextureUnit(kAlbedos, portraits_.albedos());
     glBindTextureUnit(kNormals, portraits_.normals());
@@ -195,32 +227,41 @@ void ForestPass::draw_quads(const ProgramObject& program, std::size_t count) {
 }
 
 void ForestPass::draw_shadows(const Bounds& lit, ForestFrameStats& stats) {
-    std::vector<std::uint32_t> trees;
-    view_->find_within(lit, trees);
+    std::vector<std::uint32_t> numbers;
+    view_->find_within(lit, numbers);
+    std::vector<Listed> trees;
+    for (const std::uint32_t number : numbers) {
+        trees.push_back({number, kWhole});
+    }
     buffers_.bind_storage();
     glDisable(GL_CULL_FACE);
     if (!trees.empty()) {
-        quad_trees_.fill(std::span<const std::uint32_t>(trees));
+        quad_trees_.fill(std::span<const Listed>(trees));
         draw_quads(programs_.impostor_shadow, trees.size());
         ++stats.shadow.draws;
         stats.shadow.triangles += 2 * trees.size();
     }
 }
 
+void ForestPass::draw_branches(const BranchPrograms& programs, bool blends, FrameStats& stats) {
+    glUseProgram(programs.solid.name());
+    stats.draws += buffers_.draw(BranchClass::OneSided, blends);
+    stats.draws += buffers_.draw(BranchClass::TwoSided, blends);
+    device_->end_pass();
+    glUseProgram(programs.plain.name());
+    stats.draws += buffers_.draw(BranchClass::Plain, blends);
+    glUseProgram(programs.cut_out.name());
+    stats.draws += buffers_.draw(BranchClass::CutOut, blends);
+    device_->end_pass();
+}
+
 void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     buffers_.bind_storage();
     glBindTextureUnit(kBarkTexture, textures.base(MaterialKind::Bark));
     glBindTextureUnit(kLeafTexture, textures.base(MaterialKind::Leaf));
-    glUseProgram(programs_.solid.name());
-    stats.branches.draws += buffers_.draw(BranchClass::OneSided);
-    stats.branches.draws += buffers_.draw(BranchClass::TwoSided);
-    device_->end_pass();
-    glUseProgram(programs_.plain.name());
-    stats.branches.draws += buffers_.draw(BranchClass::Plain);
-    glUseProgram(programs_.cut_out.name());
-    stats.branches.draws += buffers_.draw(BranchClass::CutOut);
+    draw_branches(programs_.branches, false, stats.branches);
+    draw_branches(programs_.blending, true, stats.branches);
     stats.branches.triangles += lists_->triangles;
-    device_->end_pass();
     glDisable(GL_CULL_FACE);
     draw_impostors(lists_->trees, stats.impostors);
     if (!lists_->clumps.empty()) {
@@ -232,7 +273,8 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     stats.terrain.draws += ground.draws;
     stats.terrain.triangles += ground.triangles;
     stats.trees_of_level = lists_->trees_of_level;
-    stats.far_trees = lists_->trees.size();
+    stats.far_trees = lists_->far_trees;
+    stats.blended_trees = lists_->blended;
     stats.horizon_trees = lists_->clumped_trees;
     stats.horizon_cells = lists_->clumps.size();
     stats.drawn_branches = lists_->branches.size();

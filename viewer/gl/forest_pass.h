@@ -1,5 +1,5 @@
 // ForestPass: draws a forest: branches of trees that are near, pictures of those that are far, the
-// ground, and the shadows of all of them. At most ten draws for any number of trees.
+// ground, and the shadows of all of them. At most 14 draws for any number of trees.
 #pragma once
 
 #include "grammar/result.h"
@@ -14,6 +14,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <string>
 
 namespace lsys::view {
 
@@ -45,17 +47,24 @@ public:
     [[nodiscard]] ForestSizes sizes() const;
 
 private:
-    struct Programs {
+    struct BranchPrograms {
         ProgramObject solid;
         ProgramObject plain;
         ProgramObject cut_out;
+    };
+    struct Programs {
+        BranchPrograms branches;
+        BranchPrograms blending;
         ProgramObject impostor;
         ProgramObject impostor_depth;
         ProgramObject impostor_shadow;
     };
 
+    [[nodiscard]] Result<BranchPrograms> make_branch_programs(const ShaderSource& shaders,
+                                                              const std::string& defines);
+    void draw_branches(const BranchPrograms& programs, bool blends, FrameStats& stats);
     /// The pictures of trees, or of cells.
-    void draw_impostors(std::span<const std::uint32_t> trees, FrameStats& stats);
+    void draw_impostors(std::span<const Listed> trees, FrameStats& stats);
     /// Quads of what quad_trees_ holds.
     void draw_quads(const ProgramObject& program, std::size_t count);
 

@@ -74,7 +74,9 @@ ForestLists lists_of(const TreeForm& form,
             lists.runs.push_back({form_index, level, mesh,
                                   static_cast<std::uint32_t>(lists.branches.size()),
                                   static_cast<std::uint32_t>(places.size())});
-            lists.branches.insert(lists.branches.end(), places.begin(), places.end());
+            for (const std::uint32_t place : places) {
+                lists.branches.emplace_back(place);
+            }
         }
     }
     return lists;

@@ -1,4 +1,8 @@
 #include "light.glsl"
+#ifdef BLENDS
+#include "blend.glsl"
+flat in float shown;
+#endif
 layout(binding = 1) uniform sampler2D bark_texture;
 layout(binding = 2) uniform sampler2D leaf_texture;
 in vec3 across;
@@ -25,6 +29,9 @@ in vec2 air;
 out vec4 colour;
 #endif
 void main() {
+#ifdef BLENDS
+    keep_part(shown);
+#endif
     vec3 albedo = tint;
     bool is_through = (kind & 2u) != 0u;
 #ifdef CUT_OUT

@@ -10,7 +10,10 @@ layout(location = 0) in vec3 position;  // in the heroes' box
 layout(location = 1) in uint material;
 layout(location = 2) in vec2 normal;    // octahedral
 layout(location = 3) in vec2 texture_coordinate;
-layout(location = 4) in uint branch;    // in branches
+layout(location = 4) in uint branch;    // in branches; the upper 8 bits: the part of it
+#ifdef BLENDS
+flat out float shown;
+#endif
 out vec2 uv;
 // What varies little along a triangle is found at its corners: of leaves, all light.
 #ifdef LIT_AT_CORNERS
@@ -32,7 +35,10 @@ out vec3 sun_map;
 out vec2 air;
 #endif
 void main() {
-    Branch at = branches[branch];
+    Branch at = branches[branch & 0xFFFFFFu];
+#ifdef BLENDS
+    shown = float(branch >> 24) / 255.0;
+#endif
     TreeAt tree = tree_at(at.turn.w);
     vec4 turn = vec4(unpackSnorm2x16(at.turn.x), unpackSnorm2x16(at.turn.y));
     turn = normalize(turn);

@@ -1,6 +1,8 @@
 #include "light.glsl"
+#include "blend.glsl"
 layout(binding = 3) uniform sampler2DArray albedos; // square roots; opacity
 layout(binding = 4) uniform sampler2DArray normals; // octahedral normal, depth, of light through it
+flat in float shown; // the part of it that is drawn
 in vec3 corner;
 in vec3 sun_map;     // of the picture's middle plane
 flat in vec3 nearer; // what the depth of the picture adds to it
@@ -20,6 +22,9 @@ void main() {
     if (albedo.a < 0.5) {
         discard;
     }
+#endif
+#ifdef DEPTH
+    keep_part(shown);
 #endif
 #ifndef DEPTH
     vec4 shape = texture(normals, corner);

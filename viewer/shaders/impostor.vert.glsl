@@ -1,6 +1,8 @@
 #include "light.glsl"
 #include "impostor.glsl"
 layout(location = 0) in uint index; // of the tree
+layout(location = 1) in float part;
+flat out float shown;
 invariant gl_Position; // depths are drawn first, and compared
 out vec3 corner;      // in its layer, which goes along
 out vec3 sun_map;     // of the picture's middle plane
@@ -12,6 +14,7 @@ flat out vec3 deeper; // what the depth of the picture adds to it
 flat out vec2 yaw;    // cosine and sine
 #endif
 void main() {
+    shown = part;
     TreeAt tree = tree_at(index);
     vec3 middle = middle_of(tree);
 #ifdef SHADOW

@@ -1,4 +1,8 @@
 #include "light.glsl"
+#ifdef BLENDS
+#include "blend.glsl"
+flat in float shown;
+#endif
 // Leaves that are lit at the corners: of cards that they are cut out of, or of one colour.
 #ifdef CUT_OUT
 layout(binding = 2) uniform sampler2D leaf_texture;
@@ -12,6 +16,9 @@ in vec3 back;
 #endif
 out vec4 colour;
 void main() {
+#ifdef BLENDS
+    keep_part(shown);
+#endif
 #ifdef CUT_OUT
     vec4 texel = texture(leaf_texture, uv);
     if (texel.a < 0.5) {
