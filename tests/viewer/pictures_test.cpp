@@ -6,6 +6,11 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -35,6 +40,28 @@ std::string drawn(std::vector<std::string> arguments) {
     CAPTURE(run.err);
     REQUIRE(run.status == 0);
     return std::move(run.out);
+}
+
+struct Square {
+    std::uint32_t x = 0;
+    std::uint32_t y = 0;
+    std::uint32_t side = 0;
+};
+
+std::array<double, 3> mean_of(const Picture& picture, const Square& square) {
+    std::array<double, 3> sum{};
+    for (std::uint32_t y = square.y; y < square.y + square.side; ++y) {
+        for (std::uint32_t x = square.x; x < square.x + square.side; ++x) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                sum[c] += static_cast<double>(
+                    picture.texels[(std::size_t{y} * picture.width + x) * 4 + c]);
+            }
+        }
+    }
+    for (double& channel : sum) {
+        channel /= static_cast<double>(square.side) * static_cast<double>(square.side);
+    }
+    return sum;
 }
 
 void compare(const Scene& scene) {
@@ -106,6 +133,36 @@ TEST_CASE("forests look as they did") {
          {scene("mixed-forest"), "--camera", "eye 120,20,120 target 110,23,110 fov 60", "--wind",
           "12,0,0,0.5", "--time", "1.4"}},
     })));
+}
+
+TEST_CASE("cells at the horizon are as light as their trees") {
+    const auto view = [](const char* size) {
+        return decode_picture(drawn({LSYS_SOURCE_DIR "/tests/bench/view-forest.toml", "--camera",
+                                     "eye 760,80,760 target 350,0,350 fov 60", "--size", size}));
+    };
+    // The same, so small that most trees are drawn by cell, and so large that each is drawn itself.
+    const Picture small = view("160x120");
+    const Picture large = view("1280x960");
+    constexpr std::uint32_t kSquare = 10; // pixels of the small one
+    constexpr std::uint32_t kLarger = 8;
+    double worst = 0.0;
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::uint32_t y = 0; y < small.height; y += kSquare) {
+        for (std::uint32_t x = 0; x < small.width; x += kSquare) {
+            const std::array<double, 3> far = mean_of(small, {x, y, kSquare});
+            const std::array<double, 3> near =
+                mean_of(large, {kLarger * x, kLarger * y, kLarger * kSquare});
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double difference = std::abs(far[c] - near[c]);
+                worst = std::max(worst, difference);
+                sum += difference;
+                count += 1.0;
+            }
+        }
+    }
+    CHECK(worst < 16.0);
+    CHECK(sum / count < 1.2);
 }
 
 TEST_CASE("the counts of a forest are told, and the same every run") {

@@ -190,7 +190,7 @@ void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
         const PictureForm& form = plan.forms[f];
         forms.push_back(
             {{form.cylinder.radius, form.cylinder.low, form.cylinder.high, boxes[f % boxes.size()]},
-             {static_cast<float>(form.first_layer), 0.0F, 0.0F, 0.0F}});
+             {static_cast<float>(form.first_layer), f < boxes.size() ? 0.0F : 1.0F, 0.0F, 0.0F}});
     }
     vertices_.reserve(vertex_count * sizeof(Vertex));
     indices_.reserve(index_count * sizeof(std::uint32_t));
@@ -282,8 +282,10 @@ void ForestBuffers::upload_trees(const ForestView& view) {
     for (const ForestCell& cell : view.cells()) {
         const auto number = static_cast<std::uint32_t>(records.size());
         // Turned by quarters, so that squares stay squares.
-        const std::uint32_t yaw = number * 0x9E3779B1U >> 30U << 14U;
-        records.push_back({cell.middle, cell.scale, yaw, forms + cell.form});
+        const std::uint32_t drawn = number * 0x9E3779B1U;
+        const std::uint32_t yaw = drawn >> 30U << 14U;
+        const std::uint32_t phase = drawn & 0xFFFF0000U;
+        records.push_back({cell.middle, cell.scale, phase | yaw, forms + cell.form});
     }
     cells_.fill(std::span<const TreeRecord>(records));
 }
@@ -302,10 +304,10 @@ void ForestBuffers::bind_cells() const {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, cells_.name());
 }
 
-void ForestBuffers::set_form_trees(std::uint32_t forms) {
-    std::vector<TreeRecord> records(forms);
-    for (std::uint32_t f = 0; f < forms; ++f) {
-        records[f].form_portrait = f;
+void ForestBuffers::set_trees(std::span<const Tree> trees, std::uint32_t form) {
+    std::vector<TreeRecord> records;
+    for (const Tree& tree : trees) {
+        records.push_back({tree.position, tree.scale, 0, form});
     }
     drawn_->trees.fill(std::span<const TreeRecord>(records));
 }

@@ -53,8 +53,8 @@ public:
     void upload_branches(BranchPool& pool);
     /// One tree, of those that were added too.
     void upload_tree(const ForestView& view, std::uint32_t number);
-    /// For portraits: tree k is of form k, at the origin.
-    void set_form_trees(std::uint32_t forms);
+    /// Trees from elsewhere than a forest, for portraits.
+    void set_trees(std::span<const Tree> trees, std::uint32_t form);
     /// Branches from elsewhere than a pool, for portraits.
     void set_branches(std::span<const PoolBranch> branches);
     /// The commands of each class for lists of branches; uploads both.

@@ -4,6 +4,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <array>
@@ -27,8 +28,30 @@ constexpr GLuint kAlbedos = 3;
 constexpr GLuint kNormals = 4;
 // The sun's map: half its side where the eye is near the ground, and at most (m).
 constexpr float kNearestLit = 45.0F;
-constexpr float kFarthestLit = 800.0F;
+constexpr float kFarthestLit = 400.0F;
 constexpr float kGroundBeyond = 3000.0F; // m, of ground that is drawn around the forest
+
+/// What stands in the sun's map, seen from above: of all that lies between two heights.
+/// `shadow_from_world`: as shadow_matrix() has it.
+Bounds casters_of(const glm::mat4& shadow_from_world, float low, float high) {
+    constexpr float kFarthest = -3.0F; // in depths of the map, where the sun is low
+    const glm::mat4 world_from_shadow = glm::inverse(shadow_from_world);
+    Bounds casters;
+    for (const float x : {-1.0F, 1.0F}) {
+        for (const float y : {-1.0F, 1.0F}) {
+            const glm::vec3 first(world_from_shadow * glm::vec4(x, y, 0.0F, 1.0F));
+            const glm::vec3 last(world_from_shadow * glm::vec4(x, y, 1.0F, 1.0F));
+            const glm::vec3 along = last - first; // downwards
+            const auto depth_at = [&](float height) {
+                const float depth = along.y < 0.0F ? (height - first.y) / along.y : kFarthest;
+                return glm::clamp(depth, kFarthest, 1.0F);
+            };
+            casters.add(first + depth_at(high) * along);
+            casters.add(first + depth_at(low) * along);
+        }
+    }
+    return casters;
+}
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -161,10 +184,9 @@ Bounds ForestPass::lit_bounds(const Frame& frame) const {
     const glm::vec2 flat(along.x, along.z);
     const float length = glm::length(flat);
     const float down = along.y < -0.05F ? above / -along.y * length : 2.0F * half;
-    const float reach = std::min(0.75F * half, std::max(down, 0.0F));
-    const glm::vec2 wanted =
-        glm::vec2(camera.eye.x, camera.eye.z) +
-        (length > 1e-4F ? flat / length * (above > 0.5F * half ? down : reach) : glm::vec2(0.0F));
+    const float reach = std::min((above > 0.5F * half ? 1.5F : 0.75F) * half, std::max(down, 0.0F));
+    const glm::vec2 wanted = glm::vec2(camera.eye.x, camera.eye.z) +
+                             (length > 1e-4F ? flat / length * reach : glm::vec2(0.0F));
     const float step = 0.25F * half;
     const glm::vec2 middle = glm::round(wanted / step) * step;
     const Bounds& all = bounds();
@@ -226,9 +248,9 @@ void ForestPass::draw_quads(const ProgramObject& program, std::size_t count) {
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count));
 }
 
-void ForestPass::draw_shadows(const Bounds& lit, ForestFrameStats& stats) {
+void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats) {
     std::vector<std::uint32_t> numbers;
-    view_->find_within(lit, numbers);
+    view_->find_within(casters_of(shadow_from_world, bounds().low.y, bounds().high.y), numbers);
     std::vector<Listed> trees;
     for (const std::uint32_t number : numbers) {
         trees.push_back({number, kWhole});

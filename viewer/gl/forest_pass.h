@@ -39,8 +39,8 @@ public:
     [[nodiscard]] Bounds lit_bounds(const Frame& frame) const;
     /// Chooses what is drawn for the frame and uploads it.
     void prepare(const Frame& frame);
-    /// Into the shadow map that is bound: all that stands within `lit`.
-    void draw_shadows(const Bounds& lit, ForestFrameStats& stats);
+    /// Into the shadow map that is bound: all that casts shadows there.
+    void draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats);
     /// Into the picture that is bound. Uses the texture unit 0 for the shadow map.
     void draw(MaterialTextures& textures, ForestFrameStats& stats);
 

@@ -26,6 +26,8 @@ constexpr float kMargin = 1.04F;
 constexpr std::array<float, Portraits::kElevations> kElevation = {0.0F, 0.6108652F, 1.3089969F};
 constexpr GLint kMiddle = 2;
 constexpr GLint kToEye = 3;
+constexpr GLint kRight = 4;
+constexpr GLint kUp = 5;
 
 /// The last one that begins no later: layers of a form follow one another.
 const Cylinder& cylinder_of(const PortraitPlan& plan, std::uint32_t layer) {
@@ -145,6 +147,8 @@ void Portraits::draw_row(const Cylinder& form,
             glUseProgram(program->name());
             glUniform4f(kMiddle, middle.x, middle.y, middle.z, deep);
             glUniform3f(kToEye, to_eye.x, to_eye.y, to_eye.z);
+            glUniform3f(kRight, right.x, right.y, right.z);
+            glUniform3f(kUp, up.x, up.y, up.z);
             if (program == &cut_out_) {
                 buffers.draw(BranchClass::CutOut);
             } else {
@@ -254,13 +258,12 @@ void Portraits::begin_layer(std::uint32_t layer,
     const TreeForm& form = model.forms[portrait.form];
     std::vector<PoolBranch> branches;
     TreeExpander expander(*form.cache, model.forest->key);
-    for (const Tree& tree : portrait.trees) {
-        expander.expand(tree, [&](const BranchInstance& branch) {
-            branches.push_back(
-                pool_branch(branch, form.cache->instances[branch.instance], portrait.form));
+    for (std::uint32_t t = 0; t < portrait.trees.size(); ++t) {
+        expander.expand(portrait.trees[t], [&](const BranchInstance& branch) {
+            branches.push_back(pool_branch(branch, form.cache->instances[branch.instance], t));
         });
     }
-    buffers.set_form_trees(static_cast<std::uint32_t>(model.forms.size()));
+    buffers.set_trees(portrait.trees, portrait.form);
     buffers.set_branches(branches);
     buffers.command(lists_of(form, portrait.form, portrait.level, branches));
 }

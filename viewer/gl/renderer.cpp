@@ -149,7 +149,7 @@ public:
             forest_.prepare(frame);
         }
         if (block.to_sun.w != 0.0F && shadow_.is_stale(shadow_from_world)) {
-            draw_shadows(shadow_from_world, lit, stats);
+            draw_shadows(shadow_from_world, stats);
         }
         target_.begin(area.width, area.height, frame.samples);
         glDepthFunc(GL_GEQUAL); // nearer is larger
@@ -195,14 +195,14 @@ public:
     const std::vector<std::string>& errors() const override { return device_.errors(); }
 
 private:
-    void draw_shadows(const glm::mat4& matrix, const Bounds& lit, FrameStats& stats) {
+    void draw_shadows(const glm::mat4& matrix, FrameStats& stats) {
         shadow_.begin(matrix);
         glDepthFunc(GL_LEQUAL);
         glEnable(GL_POLYGON_OFFSET_FILL);
         glPolygonOffset(1.5F, 2.0F);
         glEnable(GL_DEPTH_CLAMP);
         if (is_forest_) {
-            forest_.draw_shadows(lit, forest_stats_);
+            forest_.draw_shadows(matrix, forest_stats_);
         } else {
             glUseProgram(programs_.shadow.name());
             stats.draws += plant_.draw(textures_, false);

@@ -15,13 +15,15 @@ in vec3 place;
 // Seen from outside, for impostors: what light does is not known yet.
 layout(location = 2) uniform vec4 middle; // of the picture, m; its depth
 layout(location = 3) uniform vec3 to_eye;
+layout(location = 4) uniform vec3 right;
+layout(location = 5) uniform vec3 up;
 layout(location = 0) out vec4 albedo_out; // square roots; opacity
-layout(location = 1) out vec4 normal_out; // octahedral normal, depth, of light through it
-vec2 folded(vec3 n) {
-    n /= abs(n.x) + abs(n.y) + abs(n.z);
-    vec2 e = n.z >= 0.0 ? n.xy
-                        : (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
-    return 0.5 * e + 0.5;
+layout(location = 1) out vec4 normal_out; // seen from the eye: to the right, up; depth; of light
+                                          // through it
+// What is averaged in smaller pictures has to change steadily, so all face the eye.
+vec2 facing(vec3 normal) {
+    vec2 side = vec2(dot(normal, right), dot(normal, up));
+    return dot(normal, to_eye) < 0.0 ? side / max(length(side), 1e-6) : side;
 }
 #else
 in vec3 sun_map;
@@ -49,14 +51,14 @@ void main() {
     if (!gl_FrontFacing) {
         normal = -normal;
     }
-#ifdef PORTRAIT
-    albedo_out = vec4(sqrt(albedo), 1.0);
-    float depth = dot(place - middle.xyz, to_eye) / middle.w;
-    normal_out = vec4(folded(normal), 0.5 + 0.5 * depth, is_through ? 1.0 : 0.0);
-#else
     if (is_through) {
         normal = leaf_normal(normal, part);
     }
+#ifdef PORTRAIT
+    albedo_out = vec4(sqrt(albedo), 1.0);
+    float depth = dot(place - middle.xyz, to_eye) / middle.w;
+    normal_out = vec4(0.5 + 0.5 * facing(normal), 0.5 + 0.5 * depth, is_through ? 1.0 : 0.0);
+#else
     float lit = sunlight_at(sun_map, sun_within(part));
     float through = is_through ? 0.5 : 0.0;
     colour =

@@ -6,7 +6,7 @@ struct Branch {
 };
 struct Form {
     vec4 cylinder; // of trees of scale 1: radius, low, high; size of a vertex of 1, m
-    vec4 pictures; // first layer of its portraits
+    vec4 pictures; // first layer of its portraits; 1: of a cell of trees
 };
 layout(std430, binding = 0) readonly buffer Branches { Branch branches[]; };
 layout(std430, binding = 1) readonly buffer Trees { uvec2 trees[]; }; // three each

@@ -3,6 +3,7 @@
 layout(location = 0) in uint index; // of the tree
 layout(location = 1) in float part;
 flat out float shown;
+flat out int of_cell;
 invariant gl_Position; // depths are drawn first, and compared
 out vec3 corner;      // in its layer, which goes along
 out vec3 sun_map;     // of the picture's middle plane
@@ -11,7 +12,7 @@ flat out vec3 nearer; // what the depth of the picture adds to it
 out vec2 air;
 out vec3 within;      // from the middle, as parts of the crown's axes
 flat out vec3 deeper; // what the depth of the picture adds to it
-flat out vec2 yaw;    // cosine and sine
+flat out mat3 turn;   // of what is seen in the picture
 #endif
 void main() {
     shown = part;
@@ -25,7 +26,10 @@ void main() {
     float upwards = asin(clamp(eye.y, 0.0, 1.0));
     int elevation = upwards < 0.3054 ? 0 : upwards < 0.9599 ? 1 : 2;
     float turns = (atan(eye.x, eye.z) - tree.yaw) / 6.2831853;
-    int view = int(floor(fract(turns) * float(kYaws) + 0.5)) % kYaws;
+    of_cell = int(forms[tree.form].pictures.y);
+    // Cells stand side by side: the next view does not take over of all of them along one line.
+    float early = of_cell != 0 ? 0.8 * (tree.phase - 0.5) : 0.0;
+    int view = int(floor(fract(turns) * float(kYaws) + 0.5 + early + float(kYaws))) % kYaws;
     vec3 right = normalize(vec3(eye.z, 0.0, -eye.x) + vec3(1e-6, 0.0, 0.0));
     vec3 up = cross(eye, right);
     vec2 at = vec2(gl_VertexID & 1, gl_VertexID >> 1);
@@ -45,7 +49,10 @@ void main() {
     deeper = eye * size.z / axes;
     sun_map = in_sun_map(place, frame.to_sun.xyz);
     air = air_to(place);
-    yaw = vec2(cos(tree.yaw), sin(tree.yaw));
+    float across = tree.yaw + float(view) * (6.2831853 / float(kYaws));
+    vec3 from = about_up(across, vec3(0.0, sin(kElevations[elevation]), cos(kElevations[elevation])));
+    vec3 aside = about_up(across, vec3(1.0, 0.0, 0.0));
+    turn = mat3(aside, cross(from, aside), from);
     gl_Position = frame.view_projection * vec4(place, 1.0);
 #endif
 }

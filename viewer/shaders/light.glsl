@@ -84,9 +84,10 @@ vec3 shade_within(vec3 albedo, vec3 normal, float lit, float through, float open
 }
 
 // The part of the sun that comes to a place of a crown through the rest of it. `part`: from the
-// middle, as parts of the crown's axes.
+// middle, as parts of the crown's axes. About the mean of what the sun's map has at such places of
+// a wood, seen from the ground (where it is less) and from above.
 float sun_within(vec3 part) {
-    return 0.12 + 0.78 * smoothstep(-0.25, 0.95, dot(part, frame.to_sun.xyz));
+    return clamp(0.58 + 0.45 * dot(part, frame.to_sun.xyz), 0.12, 0.97);
 }
 
 // The air between eye and place: how much of the sun's glow it has, and what comes through it.
