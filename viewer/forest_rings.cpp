@@ -49,7 +49,8 @@ Sway sway_in(const Wind& wind) {
             std::min(push, kMostFlutter) * std::numbers::sqrt3_v<float>};
 }
 
-const ForestLists& ForestView::select(const ViewVolume& volume, const RingOptions& options) {
+const ForestLists&
+ForestView::select(const ViewVolume& volume, const RingOptions& options, GroundHorizon* ground) {
     lists_.branches.clear();
     lists_.runs.clear();
     lists_.trees.clear();
@@ -58,10 +59,12 @@ const ForestLists& ForestView::select(const ViewVolume& volume, const RingOption
     lists_.far_trees = 0;
     lists_.clumped_trees = 0;
     lists_.blended = 0;
+    lists_.hidden = 0;
     lists_.triangles = 0;
     lists_.expanded = 0;
     lists_.waiting = 0;
     sway_ = sway_in(options.wind);
+    ground_ = ground;
     candidates_.clear();
     far_.clear();
     seen_cells_.clear();
@@ -77,6 +80,13 @@ const ForestLists& ForestView::select(const ViewVolume& volume, const RingOption
     }
     std::sort(seen_cells_.begin(), seen_cells_.end());
     for (const auto& [distance, c] : seen_cells_) {
+        const ForestCell& cell = cells_[c];
+        const glm::vec3 size = cell.high - cell.low;
+        if (is_behind_ground({cell.low, cell.high, false},
+                             sway_.of(size.y, std::max(size.x, size.z)))) {
+            lists_.hidden += cell.count;
+            continue;
+        }
         visit_cell(c, distance, volume, options);
     }
     added_.visit(
@@ -92,10 +102,32 @@ const ForestLists& ForestView::select(const ViewVolume& volume, const RingOption
     return lists_;
 }
 
-Ball ForestView::swaying(const Ball& ball, const ViewTree& tree) const {
+float ForestView::sway_of(const ViewTree& tree) const {
     const TreeForm& form = model_.forms[tree.form];
     const float width = glm::length(form.reach.centre) + form.reach.radius;
-    return {ball.centre, ball.radius + sway_.of(tree.scale * form.height(), tree.scale * width)};
+    return sway_.of(tree.scale * form.height(), tree.scale * width);
+}
+
+Ball ForestView::swaying(const Ball& ball, const ViewTree& tree) const {
+    return {ball.centre, ball.radius + sway_of(tree)};
+}
+
+Bounds ForestView::portrait_box(const ViewTree& tree, const glm::vec3& eye) const {
+    // Pictures have a margin, and those from above lean back: shaders/impostor.glsl.
+    constexpr float kMargin = 1.04F;
+    constexpr float kLevel = 0.3F; // sine, below which they are seen from the side
+    const Ball ball = portrait_ball(tree);
+    const float wide = kMargin * ball.radius;
+    const bool is_level =
+        std::abs(eye.y - ball.centre.y) < kLevel * glm::distance(eye, ball.centre);
+    const float high =
+        is_level ? kMargin * 0.5F * tree.scale * model_.forms[tree.form].height() : wide;
+    const glm::vec3 half(wide, high, wide);
+    return {ball.centre - half, ball.centre + half, false};
+}
+
+bool ForestView::is_behind_ground(const Bounds& box, float sway) const {
+    return ground_ != nullptr && ground_->hides(box.low - sway, box.high + sway);
 }
 
 void ForestView::visit_cell(std::uint32_t index,
@@ -138,6 +170,10 @@ void ForestView::visit_tree(std::uint32_t number,
             candidates_.push_back({number, pixels});
         }
     } else if (volume.meets(swaying(portrait, tree))) {
+        if (is_behind_ground(portrait_box(tree, volume.eye), sway_of(tree))) {
+            ++lists_.hidden;
+            return;
+        }
         far_.push_back({number, part});
     }
 }

@@ -12,6 +12,7 @@
 #include "viewer/added_trees.h"
 #include "viewer/branch_pool.h"
 #include "viewer/forest_model.h"
+#include "viewer/ground_horizon.h"
 #include "viewer/view_volume.h"
 
 #include <array>
@@ -104,6 +105,7 @@ struct ForestLists {
     std::uint64_t far_trees = 0;     // of `trees`, without those that have branches too
     std::uint64_t clumped_trees = 0; // of `clumps`, without those of `trees`
     std::uint64_t blended = 0;       // trees that are drawn as two things
+    std::uint64_t hidden = 0;        // of cells behind the ground
     std::uint64_t triangles = 0;     // of branches
     std::uint32_t expanded = 0;      // trees whose branches were made for this
     std::uint32_t waiting = 0;       // that should have branches but are far for now
@@ -141,7 +143,9 @@ public:
     /// replaced. Returns its number here.
     std::uint32_t change_tree(std::uint32_t index, const Tree& tree, bool alive);
 
-    [[nodiscard]] const ForestLists& select(const ViewVolume& volume, const RingOptions& options);
+    /// `ground`: of which cells that it hides are left out.
+    [[nodiscard]] const ForestLists&
+    select(const ViewVolume& volume, const RingOptions& options, GroundHorizon* ground = nullptr);
 
     [[nodiscard]] const ForestModel& model() const { return model_; }
     /// Those of the forest. Numbers of trees go on behind them: of trees that were added.
@@ -203,6 +207,10 @@ private:
     [[nodiscard]] PoolSpan branches_of(std::uint32_t number, const RingOptions& options);
     /// The branches that are seen, sorted into runs.
     void list_runs();
+    [[nodiscard]] float sway_of(const ViewTree& tree) const; // m
+    /// Around its impostor as it is seen from `eye`.
+    [[nodiscard]] Bounds portrait_box(const ViewTree& tree, const glm::vec3& eye) const;
+    [[nodiscard]] bool is_behind_ground(const Bounds& box, float sway) const;
     /// What a ball around a part of a tree becomes in the wind.
     [[nodiscard]] Ball swaying(const Ball& ball, const ViewTree& tree) const;
     /// Lists the branches of a tree that are in view in seen_branches_.
@@ -236,6 +244,7 @@ private:
     std::vector<PoolBranch> made_branches_;
     std::vector<SeenTree> seen_trees_; // whose branches those are
     Sway sway_;
+    GroundHorizon* ground_ = nullptr;                         // of the select() that runs
     std::vector<std::pair<float, std::uint32_t>> seen_cells_; // by distance
     std::vector<std::uint32_t> mesh_counts_;
 };

@@ -10,7 +10,7 @@ namespace {
 
 /// The finest level that portraits are drawn of, while a tree has at most so many triangles.
 constexpr std::uint32_t kFinestLevel = 1;
-constexpr double kMostTriangles = 14'000.0;
+constexpr double kMostTriangles = 70'000.0;
 constexpr std::uint32_t kRow = 4; // trees of a cell along a side
 
 /// Part of 1, the same for the same numbers.

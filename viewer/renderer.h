@@ -83,6 +83,7 @@ struct ForestFrameStats {
     std::uint64_t horizon_trees = 0;                         // with others of their cell
     std::uint64_t horizon_cells = 0;
     std::uint64_t blended_trees = 0; // of those, drawn as what comes next too
+    std::uint64_t hidden_trees = 0;  // in view, but behind the ground
     std::uint64_t drawn_branches = 0;
     std::uint32_t expanded_trees = 0;
     std::uint32_t waiting_trees = 0;

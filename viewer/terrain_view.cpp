@@ -178,10 +178,6 @@ float TerrainView::drawn_height(float x, float z) const {
     const HeightGrid& grid = grids_[level];
     const float size = cell(level);
     const auto corner = [&](std::int32_t cx, std::int32_t cz) {
-        const auto at = [&](std::int32_t px, std::int32_t pz) {
-            return grid.heights[static_cast<std::size_t>(pz - grid.origin.y) * kHeightTexels +
-                                static_cast<std::size_t>(px - grid.origin.x)];
-        };
         const glm::vec2 place(static_cast<float>(cx) * size, static_cast<float>(cz) * size);
         const float distance =
             glm::length(glm::vec3(place - glm::vec2(eye_.x, eye_.z), eye_height_));
@@ -190,7 +186,7 @@ float TerrainView::drawn_height(float x, float z) const {
         const std::int32_t even_z = cz - (cz & 1);
         const glm::vec2 even(static_cast<float>(even_x) * size, static_cast<float>(even_z) * size);
         const glm::vec2 moved = glm::mix(place, even, morph);
-        const float height = at(cx, cz) + morph * (at(even_x, even_z) - at(cx, cz));
+        const float height = glm::mix(grid.at(cx, cz), grid.at(even_x, even_z), morph);
         return glm::vec3(moved.x, height, moved.y);
     };
     const auto cx = static_cast<std::int32_t>(std::floor(x / size));

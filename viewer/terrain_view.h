@@ -6,7 +6,7 @@
 #pragma once
 
 #include "runtime/terrain.h"
-#include "viewer/forest_view.h"
+#include "viewer/view_volume.h"
 
 #include <glm/vec2.hpp>
 
@@ -37,6 +37,12 @@ struct HeightGrid {
     float lowest = 0.0F;
     float highest = 0.0F;
     std::vector<float> heights; // rows along X
+
+    /// `x`, `z` in cells of the level.
+    [[nodiscard]] float at(std::int32_t x, std::int32_t z) const {
+        return heights[static_cast<std::size_t>(z - origin.y) * kHeightTexels +
+                       static_cast<std::size_t>(x - origin.x)];
+    }
 };
 
 class TerrainView {

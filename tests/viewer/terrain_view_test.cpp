@@ -1,4 +1,5 @@
 // Patches and heights of the ground that is drawn, beside the terrain itself.
+#include "tests/viewer/wood.h"
 #include "viewer/gl/headless.h"
 #include "viewer/gl/terrain_pass.h"
 #include "viewer/terrain_view.h"
@@ -14,18 +15,10 @@
 #include <vector>
 
 using namespace lsys;
+using namespace lsys::tests;
 using namespace lsys::view;
 
 namespace {
-
-Terrain hills() {
-    NoiseOptions options;
-    options.octaves = 5;
-    options.feature = 120.0;
-    options.height = 30.0;
-    options.seed = 3;
-    return Terrain::noise({0.0, 0.0, 240.0, 240.0}, options).value();
-}
 
 std::vector<Camera> cameras() {
     return {{{120, 22, 120}, {60, 20, 60}, 60.0F},
@@ -36,7 +29,7 @@ std::vector<Camera> cameras() {
 } // namespace
 
 TEST_CASE("corners lie on the terrain") {
-    const Terrain terrain = hills();
+    const Terrain terrain = hills(240.0F);
     TerrainView view(terrain, 3000.0F);
     for (const Camera& camera : cameras()) {
         view.select(view_volume(camera, 1280, 720));
@@ -58,7 +51,7 @@ TEST_CASE("corners lie on the terrain") {
 }
 
 TEST_CASE("patches cover the ground once, and their heights are there") {
-    const Terrain terrain = hills();
+    const Terrain terrain = hills(240.0F);
     TerrainView view(terrain, 3000.0F);
     for (const Camera& camera : cameras()) {
         ViewVolume everywhere = view_volume(camera, 1280, 720);
@@ -96,7 +89,7 @@ TEST_CASE("patches cover the ground once, and their heights are there") {
 }
 
 TEST_CASE("nothing in view is left out") {
-    const Terrain terrain = hills();
+    const Terrain terrain = hills(240.0F);
     TerrainView view(terrain, 3000.0F);
     for (const Camera& camera : cameras()) {
         const ViewVolume volume = view_volume(camera, 1280, 720);
@@ -132,7 +125,7 @@ TEST_CASE("nothing in view is left out") {
 // The surface between corners: a cell of 0.5 m near the eye leaves millimetres, and what is left
 // farther away stays within 0.25 % of the distance, a pixel or two.
 TEST_CASE("the surface that is drawn is near the terrain") {
-    const Terrain terrain = hills();
+    const Terrain terrain = hills(240.0F);
     TerrainView view(terrain, 3000.0F);
     view.select(view_volume(cameras()[0], 1280, 720));
     std::mt19937 draws(2);
@@ -153,7 +146,7 @@ TEST_CASE("the surface that is drawn is near the terrain") {
 }
 
 TEST_CASE("the ground is the same wherever the camera was before") {
-    const Terrain terrain = hills();
+    const Terrain terrain = hills(240.0F);
     TerrainView fresh(terrain, 3000.0F);
     TerrainView used(terrain, 3000.0F);
     const ViewVolume volume = view_volume(cameras()[0], 1280, 720);
@@ -175,7 +168,7 @@ TEST_CASE("the ground is the same wherever the camera was before") {
 }
 
 TEST_CASE("the device has the heights of the terrain") {
-    const Terrain terrain = hills();
+    const Terrain terrain = hills(240.0F);
     const auto context = Headless::make();
     REQUIRE(context);
     Device device;

@@ -17,6 +17,10 @@ struct Wood {
 
 /// `side` in metres.
 [[nodiscard]] std::unique_ptr<Wood> make_wood(std::uint32_t count, float side);
+/// On a square of hills.
+[[nodiscard]] std::unique_ptr<Wood> make_wood_on_hills(std::uint32_t count, float side);
+/// 30 m high, 120 m apart, on a square at the origin.
+[[nodiscard]] Terrain hills(float side);
 /// With rings that are met in pictures of 640 by 480 pixels.
 [[nodiscard]] view::RingOptions wood_rings();
 

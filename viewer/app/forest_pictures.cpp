@@ -49,6 +49,7 @@ std::string stats_text(const ViewOptions& options,
     rings["impostors"] = frame.far_trees;
     rings["in_cells"] = frame.horizon_trees;
     rings["blended"] = frame.blended_trees;
+    rings["behind_ground"] = frame.hidden_trees;
     stats["cells_drawn"] = frame.horizon_cells;
     stats["branches_drawn"] = frame.drawn_branches;
     stats["trees_expanded"] = frame.expanded_trees;

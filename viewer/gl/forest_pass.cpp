@@ -211,11 +211,14 @@ void ForestPass::prepare(const Frame& frame) {
     rings.most_expansions = frame.most_expansions;
     rings.wind = frame.wind;
     rings.horizon_pixels = has_cells_ ? rings.horizon_pixels : 0.0F;
-    lists_ = &view_->select(volume_, rings);
+    terrain_.prepare(volume_);
+    // Edges of triangles hide nothing.
+    const bool hides = frame.style != PlantStyle::Wireframe;
+    horizon_.look(*terrain_.view(), volume_.eye);
+    lists_ = &view_->select(volume_, rings, hides ? &horizon_ : nullptr);
     cull_seconds_ = seconds_since(start);
     buffers_.upload_branches(view_->pool());
     buffers_.command(*lists_);
-    terrain_.prepare(volume_);
 }
 
 void ForestPass::draw_impostors(std::span<const Listed> trees, FrameStats& stats) {
@@ -297,6 +300,7 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     stats.trees_of_level = lists_->trees_of_level;
     stats.far_trees = lists_->far_trees;
     stats.blended_trees = lists_->blended;
+    stats.hidden_trees = lists_->hidden;
     stats.horizon_trees = lists_->clumped_trees;
     stats.horizon_cells = lists_->clumps.size();
     stats.drawn_branches = lists_->branches.size();

@@ -8,6 +8,7 @@
 #include "viewer/gl/material_textures.h"
 #include "viewer/gl/portraits.h"
 #include "viewer/gl/terrain_pass.h"
+#include "viewer/ground_horizon.h"
 #include "viewer/renderer.h"
 
 #include <glm/mat4x4.hpp>
@@ -78,6 +79,7 @@ private:
     VertexArray quads_;
     Buffer quad_trees_;
     ViewVolume volume_;
+    GroundHorizon horizon_;
     const ForestLists* lists_ = nullptr;
     bool has_cells_ = false; // as pictures of their own, for the horizon
     double bake_seconds_ = 0.0;
