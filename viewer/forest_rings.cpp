@@ -99,6 +99,10 @@ ForestView::select(const ViewVolume& volume, const RingOptions& options, GroundH
     list_branches(volume, options);
     lists_.far_trees += far_.size();
     lists_.trees.insert(lists_.trees.end(), far_.begin(), far_.end());
+    for (std::vector<Listed>* list : {&lists_.trees, &lists_.clumps}) {
+        std::stable_partition(list->begin(), list->end(),
+                              [](const Listed& each) { return each.part == kWhole; });
+    }
     return lists_;
 }
 

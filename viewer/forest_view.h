@@ -99,8 +99,9 @@ struct BranchRun {
 struct ForestLists {
     std::vector<ListedBranch> branches; // by run
     std::vector<BranchRun> runs;
-    std::vector<Listed> trees;  // far: numbers of ForestView::trees(), near cells first
-    std::vector<Listed> clumps; // horizon: cells, near ones first
+    // Whole ones first, of those near ones first.
+    std::vector<Listed> trees;                               // far: numbers of ForestView::trees()
+    std::vector<Listed> clumps;                              // horizon: cells
     std::array<std::uint32_t, kTreeLevels> trees_of_level{}; // with branches in view
     std::uint64_t far_trees = 0;     // of `trees`, without those that have branches too
     std::uint64_t clumped_trees = 0; // of `clumps`, without those of `trees`

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kTurn = 2.0F * std::numbers::pi_v<float>;
 constexpr float kFirst = 2.0F; // m, of the first step; what is nearer hides nothing
-constexpr float kRatio = 1.04F;
+constexpr float kRatio = 1.06F;
 /// Rise a metre by which what is hidden lies lower: the arc between two directions is taken for a
 /// line, and distances are those of its ends.
 constexpr float kMargin = 5e-4F;
@@ -71,8 +71,8 @@ const std::vector<float>& GroundHorizon::slopes_of(std::uint32_t index) {
         sector.known = true;
         sector.slopes.resize(steps_);
         float steepest = -std::numeric_limits<float>::infinity();
-        for (std::uint32_t step = 0; step < steps_; ++step) {
-            const float distance = distance_of(step);
+        float distance = kFirst;
+        for (std::uint32_t step = 0; step < steps_; ++step, distance *= kRatio) {
             steepest = std::max(steepest, (lowest_between(index, distance) - eye_.y) / distance);
             sector.slopes[step] = steepest;
         }

@@ -1,7 +1,5 @@
 #include "viewer/gl/forest_pass.h"
 
-#include "viewer/gl/program.h"
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -12,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -71,58 +68,14 @@ ForestPass::ForestPass(Device& device)
     glVertexArrayBindingDivisor(quads_.name(), 0, 1);
 }
 
-Result<ForestPass::BranchPrograms> ForestPass::make_branch_programs(const ShaderSource& shaders,
-                                                                    const std::string& defines) {
-    struct Wanted {
-        ProgramObject BranchPrograms::*program;
-        const char* fragment;
-        const char* defines;
-    };
-    constexpr std::array<Wanted, 3> kWanted = {
-        {{&BranchPrograms::solid, "branch.frag.glsl", "#define ONE_TAP\n"},
-         {&BranchPrograms::plain, "leaf.frag.glsl", "#define ONE_TAP\n#define LIT_AT_CORNERS\n"},
-         {&BranchPrograms::cut_out, "leaf.frag.glsl",
-          "#define ONE_TAP\n#define CUT_OUT\n#define LIT_AT_CORNERS\n"}}};
-    BranchPrograms programs;
-    for (const Wanted& one : kWanted) {
-        Result<ProgramObject> made = make_program(*device_, shaders, "branch.vert.glsl",
-                                                  one.fragment, defines + one.defines);
-        if (!made) {
-            return made.error();
-        }
-        programs.*one.program = std::move(made.value());
-    }
-    return programs;
-}
-
 Result<Done> ForestPass::reload(const ShaderSource& shaders) {
-    struct Wanted {
-        ProgramObject Programs::*program;
-        const char* vertex;
-        const char* fragment;
-        const char* defines;
-    };
-    constexpr std::array<Wanted, 3> kWanted = {
-        {{&Programs::impostor, "impostor.vert.glsl", "impostor.frag.glsl", "#define ONE_TAP\n"},
-         {&Programs::impostor_depth, "impostor.vert.glsl", "impostor.frag.glsl", "#define DEPTH\n"},
-         {&Programs::impostor_shadow, "impostor.vert.glsl", "impostor.frag.glsl",
-          "#define SHADOW\n"}}};
-    Programs programs;
-    for (const bool blends : {false, true}) {
-        Result<BranchPrograms> made =
-            make_branch_programs(shaders, blends ? "#define BLENDS\n" : "");
+    std::array<ForestPrograms, 2> programs;
+    for (const bool windy : {false, true}) {
+        Result<ForestPrograms> made = make_forest_programs(*device_, shaders, windy);
         if (!made) {
             return made.error();
         }
-        (blends ? programs.blending : programs.branches) = std::move(made.value());
-    }
-    for (const Wanted& one : kWanted) {
-        Result<ProgramObject> made =
-            make_program(*device_, shaders, one.vertex, one.fragment, one.defines);
-        if (!made) {
-            return made.error();
-        }
-        programs.*one.program = std::move(made.value());
+        programs[windy ? 1 : 0] = std::move(made.value());
     }
     if (Result<Done> done = portraits_.reload(shaders); !done) {
         return done;
@@ -210,6 +163,8 @@ void ForestPass::prepare(const Frame& frame) {
     rings.most_triangles = frame.most_triangles;
     rings.most_expansions = frame.most_expansions;
     rings.wind = frame.wind;
+    constexpr float kStill = 1e-4F; // m/s
+    is_windy_ = glm::length(frame.wind.velocity) >= kStill;
     rings.horizon_pixels = has_cells_ ? rings.horizon_pixels : 0.0F;
     terrain_.prepare(volume_);
     // Edges of triangles hide nothing.
@@ -229,26 +184,34 @@ void ForestPass::draw_impostors(std::span<const Listed> trees, FrameStats& stats
     // Most of a quad is empty, and light is the dear part: it is looked for only where a tree is
     // seen. A software renderer does not skip what comes after a texel was discarded.
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    draw_quads(programs_.impostor_depth, trees.size());
-    device_->end_pass();
+    const auto whole = static_cast<std::size_t>(
+        std::partition_point(trees.begin(), trees.end(),
+                             [](const Listed& tree) { return tree.part == kWhole; }) -
+        trees.begin());
+    stats.draws += draw_quads(programs().impostor_depth, 0, whole);
+    stats.draws += draw_quads(programs().blending_impostor_depth, whole, trees.size() - whole);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_EQUAL);
     glDepthMask(GL_FALSE);
-    draw_quads(programs_.impostor, trees.size());
+    stats.draws += draw_quads(programs().impostor, 0, trees.size());
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_GEQUAL);
-    device_->end_pass();
-    stats.draws += 2;
     stats.triangles += 4 * trees.size();
 }
 
-void ForestPass::draw_quads(const ProgramObject& program, std::size_t count) {
+std::uint64_t
+ForestPass::draw_quads(const ProgramObject& program, std::size_t first, std::size_t count) {
+    if (count == 0) {
+        return 0;
+    }
     glVertexArrayVertexBuffer(quads_.name(), 0, quad_trees_.name(), 0, sizeof(Listed));
     glUseProgram(program.name());
     glBindTextureUnit(kAlbedos, portraits_.albedos());
     glBindTextureUnit(kNormals, portraits_.normals());
     glBindVertexArray(quads_.name());
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count));
+    glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count),
+                                      static_cast<GLuint>(first));
+    return 1;
 }
 
 void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats) {
@@ -262,8 +225,7 @@ void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameSta
     glDisable(GL_CULL_FACE);
     if (!trees.empty()) {
         quad_trees_.fill(std::span<const Listed>(trees));
-        draw_quads(programs_.impostor_shadow, trees.size());
-        ++stats.shadow.draws;
+        stats.shadow.draws += draw_quads(programs().impostor_shadow, 0, trees.size());
         stats.shadow.triangles += 2 * trees.size();
     }
 }
@@ -272,20 +234,19 @@ void ForestPass::draw_branches(const BranchPrograms& programs, bool blends, Fram
     glUseProgram(programs.solid.name());
     stats.draws += buffers_.draw(BranchClass::OneSided, blends);
     stats.draws += buffers_.draw(BranchClass::TwoSided, blends);
-    device_->end_pass();
     glUseProgram(programs.plain.name());
     stats.draws += buffers_.draw(BranchClass::Plain, blends);
     glUseProgram(programs.cut_out.name());
     stats.draws += buffers_.draw(BranchClass::CutOut, blends);
-    device_->end_pass();
 }
 
 void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     buffers_.bind_storage();
     glBindTextureUnit(kBarkTexture, textures.base(MaterialKind::Bark));
     glBindTextureUnit(kLeafTexture, textures.base(MaterialKind::Leaf));
-    draw_branches(programs_.branches, false, stats.branches);
-    draw_branches(programs_.blending, true, stats.branches);
+    draw_branches(programs().branches, false, stats.branches);
+    draw_branches(programs().blending_branches, true, stats.branches);
+    device_->end_pass();
     stats.branches.triangles += lists_->triangles;
     glDisable(GL_CULL_FACE);
     draw_impostors(lists_->trees, stats.impostors);

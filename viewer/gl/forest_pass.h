@@ -1,10 +1,11 @@
 // ForestPass: draws a forest: branches of trees that are near, pictures of those that are far, the
-// ground, and the shadows of all of them. At most 14 draws for any number of trees.
+// ground, and the shadows of all of them. At most 16 draws for any number of trees.
 #pragma once
 
 #include "grammar/result.h"
 #include "viewer/forest_view.h"
 #include "viewer/gl/forest_buffers.h"
+#include "viewer/gl/forest_programs.h"
 #include "viewer/gl/material_textures.h"
 #include "viewer/gl/portraits.h"
 #include "viewer/gl/terrain_pass.h"
@@ -13,10 +14,11 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 
 namespace lsys::view {
 
@@ -48,29 +50,16 @@ public:
     [[nodiscard]] ForestSizes sizes() const;
 
 private:
-    struct BranchPrograms {
-        ProgramObject solid;
-        ProgramObject plain;
-        ProgramObject cut_out;
-    };
-    struct Programs {
-        BranchPrograms branches;
-        BranchPrograms blending;
-        ProgramObject impostor;
-        ProgramObject impostor_depth;
-        ProgramObject impostor_shadow;
-    };
-
-    [[nodiscard]] Result<BranchPrograms> make_branch_programs(const ShaderSource& shaders,
-                                                              const std::string& defines);
+    [[nodiscard]] const ForestPrograms& programs() const { return programs_[is_windy_ ? 1 : 0]; }
     void draw_branches(const BranchPrograms& programs, bool blends, FrameStats& stats);
     /// The pictures of trees, or of cells.
     void draw_impostors(std::span<const Listed> trees, FrameStats& stats);
-    /// Quads of what quad_trees_ holds.
-    void draw_quads(const ProgramObject& program, std::size_t count);
+    /// Quads of what quad_trees_ holds; returns draws.
+    std::uint64_t draw_quads(const ProgramObject& program, std::size_t first, std::size_t count);
 
     Device* device_;
-    Programs programs_;
+    std::array<ForestPrograms, 2> programs_; // still, and windy
+    bool is_windy_ = false;
     ForestModel model_;
     std::unique_ptr<ForestView> view_;
     ForestBuffers buffers_;

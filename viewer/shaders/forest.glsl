@@ -61,10 +61,8 @@ vec3 middle_of(TreeAt tree) {
 // Where the wind moves a place of a tree. A function of the place and the tree alone, so that
 // branches that meet stay together. `loose`: 1 for leaves.
 vec3 in_wind(vec3 place, TreeAt tree, float loose) {
+#ifdef WIND
     float speed = length(frame.wind.xyz);
-    if (speed < 1e-4) {
-        return place;
-    }
     vec3 way = frame.wind.xyz / speed;
     float time = frame.eye_time.w;
     float height = tree.scale * (forms[tree.form].cylinder.z - forms[tree.form].cylinder.y);
@@ -88,4 +86,7 @@ vec3 in_wind(vec3 place, TreeAt tree, float loose) {
                  sin(vec3(7.0, 9.0, 8.0) * time + cell.yzx + cell.zxy);
     }
     return moved;
+#else
+    return place;
+#endif
 }

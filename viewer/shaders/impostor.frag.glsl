@@ -1,8 +1,10 @@
 #include "light.glsl"
-#include "blend.glsl"
 layout(binding = 3) uniform sampler2DArray albedos; // square roots; opacity
 layout(binding = 4) uniform sampler2DArray normals; // normal to the right and up, depth, of light through it
+#ifdef BLENDS
+#include "blend.glsl"
 flat in float shown; // the part of it that is drawn
+#endif
 in vec3 corner;
 in vec3 sun_map;     // of the picture's middle plane
 flat in vec3 nearer; // what the depth of the picture adds to it
@@ -24,7 +26,7 @@ void main() {
         discard;
     }
 #endif
-#ifdef DEPTH
+#ifdef BLENDS
     keep_part(shown);
 #endif
 #ifndef DEPTH

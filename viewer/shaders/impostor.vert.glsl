@@ -2,7 +2,9 @@
 #include "impostor.glsl"
 layout(location = 0) in uint index; // of the tree
 layout(location = 1) in float part;
+#ifdef BLENDS
 flat out float shown;
+#endif
 flat out int of_cell;
 invariant gl_Position; // depths are drawn first, and compared
 out vec3 corner;      // in its layer, which goes along
@@ -15,7 +17,9 @@ flat out vec3 deeper; // what the depth of the picture adds to it
 flat out mat3 turn;   // of what is seen in the picture
 #endif
 void main() {
+#ifdef BLENDS
     shown = part;
+#endif
     TreeAt tree = tree_at(index);
     vec3 middle = middle_of(tree);
 #ifdef SHADOW
