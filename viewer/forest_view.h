@@ -106,7 +106,7 @@ struct ForestLists {
     std::uint64_t far_trees = 0;     // of `trees`, without those that have branches too
     std::uint64_t clumped_trees = 0; // of `clumps`, without those of `trees`
     std::uint64_t blended = 0;       // trees that are drawn as two things
-    std::uint64_t hidden = 0;        // of cells behind the ground
+    std::uint64_t hidden = 0;        // behind the ground
     std::uint64_t triangles = 0;     // of branches
     std::uint32_t expanded = 0;      // trees whose branches were made for this
     std::uint32_t waiting = 0;       // that should have branches but are far for now
@@ -144,7 +144,7 @@ public:
     /// replaced. Returns its number here.
     std::uint32_t change_tree(std::uint32_t index, const Tree& tree, bool alive);
 
-    /// `ground`: of which cells that it hides are left out.
+    /// What `ground` hides is left out.
     [[nodiscard]] const ForestLists&
     select(const ViewVolume& volume, const RingOptions& options, GroundHorizon* ground = nullptr);
 

@@ -12,7 +12,7 @@ struct PortraitPicture {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::vector<std::uint8_t> albedos; // square roots of linear RGB; opacity
-    std::vector<std::uint8_t> normals; // to the right, up, depth, of light through it
+    std::vector<std::uint8_t> normals; // normal, depth, of light through it
 };
 
 /// Half the size. What is there counts by its opacity.

@@ -18,12 +18,12 @@ layout(location = 3) uniform vec3 to_eye;
 layout(location = 4) uniform vec3 right;
 layout(location = 5) uniform vec3 up;
 layout(location = 0) out vec4 albedo_out; // square roots; opacity
-layout(location = 1) out vec4 normal_out; // seen from the eye: to the right, up; depth; of light
-                                          // through it
-// What is averaged in smaller pictures has to change steadily, so all face the eye.
-vec2 facing(vec3 normal) {
-    vec2 side = vec2(dot(normal, right), dot(normal, up));
-    return dot(normal, to_eye) < 0.0 ? side / max(length(side), 1e-6) : side;
+layout(location = 1) out vec4 normal_out; // seen from the eye; depth; of light through it
+// A normal as two parts of 1: projected from what faces away from the eye, so that normals side by
+// side stay so, and smaller pictures may have their mean. impostor.frag.glsl has the inverse.
+vec2 projected(vec3 normal) {
+    vec2 at = vec2(dot(normal, right), dot(normal, up)) / max(1.0 + dot(normal, to_eye), 1e-3);
+    return 0.5 + 0.25 * at * min(1.0, 2.0 / max(length(at), 1e-6));
 }
 #else
 in vec3 sun_map;
@@ -57,7 +57,7 @@ void main() {
 #ifdef PORTRAIT
     albedo_out = vec4(sqrt(albedo), 1.0);
     float depth = dot(place - middle.xyz, to_eye) / middle.w;
-    normal_out = vec4(0.5 + 0.5 * facing(normal), 0.5 + 0.5 * depth, is_through ? 1.0 : 0.0);
+    normal_out = vec4(projected(normal), 0.5 + 0.5 * depth, is_through ? 1.0 : 0.0);
 #else
     float lit = sunlight_at(sun_map, sun_within(part));
     float through = is_through ? 0.5 : 0.0;

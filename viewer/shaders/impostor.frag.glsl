@@ -1,6 +1,6 @@
 #include "light.glsl"
 layout(binding = 3) uniform sampler2DArray albedos; // square roots; opacity
-layout(binding = 4) uniform sampler2DArray normals; // normal to the right and up, depth, of light through it
+layout(binding = 4) uniform sampler2DArray normals; // normal, depth, of light through it
 #ifdef BLENDS
 #include "blend.glsl"
 flat in float shown; // the part of it that is drawn
@@ -35,8 +35,9 @@ void main() {
 #ifdef SHADOW
     gl_FragDepth = sun_map.z + nearer.z * depth + 0.0004;
 #else
-    vec2 e = 2.0 * shape.xy - 1.0;
-    vec3 n = turn * vec3(e, sqrt(max(1.0 - dot(e, e), 0.0)));
+    vec2 at = 4.0 * shape.xy - 2.0;
+    float away = dot(at, at);
+    vec3 n = turn * (vec3(2.0 * at, 1.0 - away) / (1.0 + away));
     vec3 part = within + deeper * depth;
     if (of_cell != 0) {
         // Within the crown of one of its trees, whose leaves face outwards.
