@@ -1,5 +1,8 @@
 #include "viewer/portrait_picture.h"
 
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -112,6 +115,28 @@ double coverage_of(const PortraitPicture& picture) {
         sum += static_cast<double>(picture.albedos[i]) / 255.0;
     }
     return 4.0 * sum / static_cast<double>(picture.albedos.size());
+}
+
+glm::vec4
+box_of(std::span<const std::uint8_t> picture, std::uint32_t width, const Tile& tile, float margin) {
+    const auto side = static_cast<float>(tile.side);
+    glm::vec2 low(side);
+    glm::vec2 high(0.0F);
+    for (std::uint32_t y = 0; y < tile.side; ++y) {
+        for (std::uint32_t x = 0; x < tile.side; ++x) {
+            const std::size_t texel = std::size_t{tile.y + y} * width + tile.x + x;
+            if (picture[4 * texel + 3] >= kOpaque) {
+                const glm::vec2 at(static_cast<float>(x), static_cast<float>(y));
+                low = glm::min(low, at);
+                high = glm::max(high, at + 1.0F);
+            }
+        }
+    }
+    if (low.x > high.x) {
+        return glm::vec4(0.0F);
+    }
+    return {glm::max(low - margin, glm::vec2(0.0F)) / side,
+            glm::min(high + margin, glm::vec2(side)) / side};
 }
 
 } // namespace lsys::view

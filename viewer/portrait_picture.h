@@ -2,7 +2,10 @@
 // empty in them.
 #pragma once
 
+#include <glm/vec4.hpp>
+
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace lsys::view {
@@ -28,5 +31,18 @@ void spread(PortraitPicture& picture, std::uint32_t rounds);
 /// trees would thin out with the distance (Castano 2010, "Computing Alpha Mipmaps").
 [[nodiscard]] std::vector<std::uint8_t> with_coverage(const PortraitPicture& picture,
                                                       double wanted);
+
+/// A square of texels.
+struct Tile {
+    std::uint32_t x = 0; // of its first texel
+    std::uint32_t y = 0;
+    std::uint32_t side = 0;
+};
+
+/// The box around the texels of a tile that are opaque and `margin` texels about them, within the
+/// tile: lowest x and y, highest x and y, as parts of its side. All 0 where nothing is opaque.
+/// `picture`: RGBA texels, `width` in a row.
+[[nodiscard]] glm::vec4
+box_of(std::span<const std::uint8_t> picture, std::uint32_t width, const Tile& tile, float margin);
 
 } // namespace lsys::view

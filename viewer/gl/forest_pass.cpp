@@ -23,6 +23,7 @@ constexpr GLuint kBarkTexture = 1;
 constexpr GLuint kLeafTexture = 2;
 constexpr GLuint kAlbedos = 3;
 constexpr GLuint kNormals = 4;
+constexpr GLuint kBoxes = 4; // binding of impostor.vert.glsl
 // The sun's map: half its side where the eye is near the ground, and at most (m).
 constexpr float kNearestLit = 45.0F;
 constexpr float kFarthestLit = 400.0F;
@@ -208,6 +209,7 @@ ForestPass::draw_quads(const ProgramObject& program, std::size_t first, std::siz
     glUseProgram(program.name());
     glBindTextureUnit(kAlbedos, portraits_.albedos());
     glBindTextureUnit(kNormals, portraits_.normals());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBoxes, portraits_.boxes());
     glBindVertexArray(quads_.name());
     glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count),
                                       static_cast<GLuint>(first));

@@ -24,6 +24,8 @@ constexpr std::uint32_t kHeight = Portraits::kElevations * Portraits::kTile;
 constexpr GLsizei kLevels = 6; // the last tile has 4 texels a side
 constexpr float kMargin = 1.04F;
 constexpr std::array<float, Portraits::kElevations> kElevation = {0.0F, 0.6108652F, 1.3089969F};
+/// Texels about what is opaque in a tile: in coarser levels it reaches over edges of fine texels.
+constexpr float kBoxMargin = 2.5F;
 constexpr GLint kMiddle = 2;
 constexpr GLint kToEye = 3;
 constexpr GLint kRight = 4;
@@ -166,6 +168,9 @@ void Portraits::upload_layer(std::uint32_t layer, PortraitPicture picture) {
     for (GLint level = 0; level < kLevels; ++level) {
         spread(picture, 2);
         const std::vector<std::uint8_t> scaled = with_coverage(picture, wanted);
+        if (level == 0) {
+            find_boxes(layer, scaled);
+        }
         const auto width = static_cast<GLsizei>(picture.width);
         const auto height = static_cast<GLsizei>(picture.height);
         glTextureSubImage3D(albedos_.name(), level, 0, 0, static_cast<GLint>(layer), width, height,
@@ -177,6 +182,16 @@ void Portraits::upload_layer(std::uint32_t layer, PortraitPicture picture) {
     }
 }
 
+void Portraits::find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos) {
+    for (std::uint32_t e = 0; e < kElevations; ++e) {
+        for (std::uint32_t y = 0; y < kYaws; ++y) {
+            boxes_[layer][std::size_t{e} * kYaws + y] =
+                box_of(albedos, kWidth, {y * kTile, e * kTile, kTile}, kBoxMargin);
+        }
+    }
+    box_buffer_.write(std::span<const LayerBoxes>(&boxes_[layer], 1), layer * sizeof(LayerBoxes));
+}
+
 void Portraits::make_layers(const std::vector<std::uint64_t>& keys) {
     const auto count = static_cast<std::uint32_t>(keys.size());
     if (count == layers_ && albedos_) {
@@ -184,7 +199,9 @@ void Portraits::make_layers(const std::vector<std::uint64_t>& keys) {
     }
     const std::array<TextureObject, 2> before = {std::move(albedos_), std::move(normals_)};
     const std::vector<std::uint64_t> keys_before = std::exchange(keys_, {});
+    const std::vector<LayerBoxes> boxes_before = std::exchange(boxes_, {});
     keys_.assign(count, 0);
+    boxes_.resize(count);
     layers_ = count;
     texture_bytes_ = 0;
     for (std::size_t i = 0; i < before.size(); ++i) {
@@ -206,6 +223,7 @@ void Portraits::make_layers(const std::vector<std::uint64_t>& keys) {
                 continue;
             }
             keys_[layer] = keys[layer];
+            boxes_[layer] = boxes_before[static_cast<std::size_t>(same - keys_before.begin())];
             for (GLint level = 0; level < kLevels; ++level) {
                 glCopyImageSubData(before[i].name(), GL_TEXTURE_2D_ARRAY, level, 0, 0,
                                    static_cast<GLint>(same - keys_before.begin()), texture.name(),
@@ -215,6 +233,7 @@ void Portraits::make_layers(const std::vector<std::uint64_t>& keys) {
             }
         }
     }
+    box_buffer_.fill(std::span<const LayerBoxes>(boxes_));
 }
 
 void Portraits::begin(const ForestModel& model, PortraitPlan plan, const ForestBuffers& buffers) {

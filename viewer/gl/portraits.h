@@ -11,9 +11,12 @@
 #include "viewer/portrait_plan.h"
 #include "viewer/renderer.h"
 
+#include <glm/vec4.hpp>
+
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace lsys::view {
@@ -24,7 +27,7 @@ public:
     static constexpr std::uint32_t kElevations = 3;
     static constexpr std::uint32_t kTile = 128; // texels
 
-    explicit Portraits(Device& device) : device_(&device) {}
+    explicit Portraits(Device& device) : device_(&device), box_buffer_(device) {}
 
     /// Portraits that are there stay until they are drawn anew.
     [[nodiscard]] Result<Done> reload(const ShaderSource& shaders);
@@ -38,6 +41,8 @@ public:
 
     [[nodiscard]] GLuint albedos() const { return albedos_.name(); }
     [[nodiscard]] GLuint normals() const { return normals_.name(); }
+    /// What is there of each tile: box_of(), by layer, elevation and yaw.
+    [[nodiscard]] GLuint boxes() const { return box_buffer_.name(); }
     [[nodiscard]] std::uint64_t texture_bytes() const { return texture_bytes_; }
     [[nodiscard]] std::uint32_t layers() const { return layers_; }
 
@@ -52,6 +57,8 @@ private:
         std::uint32_t elevation = 0;
     };
 
+    using LayerBoxes = std::array<glm::vec4, std::size_t{kYaws} * kElevations>;
+
     void look_for_missing();
     void make_layers(const std::vector<std::uint64_t>& keys);
     [[nodiscard]] Work make_work() const;
@@ -63,12 +70,15 @@ private:
                   const ForestBuffers& buffers,
                   Buffer& frame) const;
     void upload_layer(std::uint32_t layer, PortraitPicture picture);
+    void find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos);
 
     Device* device_;
     ProgramObject solid_;
     ProgramObject cut_out_;
     TextureObject albedos_;
     TextureObject normals_;
+    std::vector<LayerBoxes> boxes_; // by layer
+    Buffer box_buffer_;
     PortraitPlan plan_;
     std::vector<std::uint64_t> keys_;    // of what is in each layer; 0: nothing
     std::vector<std::uint64_t> wanted_;  // of what is to be in it

@@ -1,5 +1,6 @@
 #include "light.glsl"
 #include "impostor.glsl"
+layout(std430, binding = 4) readonly buffer Boxes { vec4 boxes[]; }; // what is there of each tile
 layout(location = 0) in uint index; // of the tree
 layout(location = 1) in float part;
 #ifdef BLENDS
@@ -36,7 +37,9 @@ void main() {
     int view = int(floor(fract(turns) * float(kYaws) + 0.5 + early + float(kYaws))) % kYaws;
     vec3 right = normalize(vec3(eye.z, 0.0, -eye.x) + vec3(1e-6, 0.0, 0.0));
     vec3 up = cross(eye, right);
-    vec2 at = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+    uint tile = (uint(forms[tree.form].pictures.x) + tree.portrait) * uint(3 * kYaws) +
+                uint(elevation * kYaws + view);
+    vec2 at = mix(boxes[tile].xy, boxes[tile].zw, vec2(gl_VertexID & 1, gl_VertexID >> 1));
     vec3 size = tree.scale * picture_size(tree.form, elevation);
     vec3 place = middle + (2.0 * at.x - 1.0) * size.x * right + (2.0 * at.y - 1.0) * size.y * up;
     vec3 still = place;
