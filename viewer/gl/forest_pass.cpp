@@ -220,6 +220,7 @@ void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameSta
     std::vector<std::uint32_t> numbers;
     view_->find_within(casters_of(shadow_from_world, bounds().low.y, bounds().high.y), numbers);
     std::vector<Listed> trees;
+    trees.reserve(numbers.size());
     for (const std::uint32_t number : numbers) {
         trees.push_back({number, kWhole});
     }
