@@ -1,5 +1,6 @@
 // Which trees are in which ring of a picture: ForestView::select().
 #include "viewer/forest_view.h"
+#include "viewer/portrait_plan.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -28,11 +29,15 @@ float between_rings(float pixels, float ring, float blend) {
     return blend > 1.0F ? std::clamp((pixels / ring - 1.0F) / (blend - 1.0F), 0.0F, 1.0F) : 1.0F;
 }
 
-/// Around a box of trees in the wind; it is at least as high and wide as each of them.
-Ball swaying_box(const glm::vec3& low, const glm::vec3& high, const Sway& sway) {
+/// How far wind moves trees in a box, which is at least as high and wide as each of them; m.
+float sway_within(const glm::vec3& low, const glm::vec3& high, const Sway& sway) {
     const glm::vec3 size = high - low;
-    return {0.5F * (low + high),
-            0.5F * glm::length(size) + sway.of(size.y, std::max(size.x, size.z))};
+    return sway.of(size.y, std::max(size.x, size.z));
+}
+
+/// Around a box of trees in the wind.
+Ball swaying_box(const glm::vec3& low, const glm::vec3& high, const Sway& sway) {
+    return {0.5F * (low + high), 0.5F * glm::distance(low, high) + sway_within(low, high, sway)};
 }
 
 } // namespace
@@ -81,9 +86,8 @@ ForestView::select(const ViewVolume& volume, const RingOptions& options, GroundH
     std::sort(seen_cells_.begin(), seen_cells_.end());
     for (const auto& [distance, c] : seen_cells_) {
         const ForestCell& cell = cells_[c];
-        const glm::vec3 size = cell.high - cell.low;
         if (is_behind_ground({cell.low, cell.high, false},
-                             sway_.of(size.y, std::max(size.x, size.z)))) {
+                             sway_within(cell.low, cell.high, sway_))) {
             lists_.hidden += cell.count;
             continue;
         }
@@ -118,14 +122,13 @@ Ball ForestView::swaying(const Ball& ball, const ViewTree& tree) const {
 
 Bounds ForestView::portrait_box(const ViewTree& tree, const glm::vec3& eye) const {
     // Pictures have a margin, and those from above lean back: shaders/impostor.glsl.
-    constexpr float kMargin = 1.04F;
     constexpr float kLevel = 0.3F; // sine, below which they are seen from the side
     const Ball ball = portrait_ball(tree);
-    const float wide = kMargin * ball.radius;
+    const float wide = kPortraitMargin * ball.radius;
     const bool is_level =
         std::abs(eye.y - ball.centre.y) < kLevel * glm::distance(eye, ball.centre);
     const float high =
-        is_level ? kMargin * 0.5F * tree.scale * model_.forms[tree.form].height() : wide;
+        is_level ? kPortraitMargin * 0.5F * tree.scale * model_.forms[tree.form].height() : wide;
     const glm::vec3 half(wide, high, wide);
     return {ball.centre - half, ball.centre + half, false};
 }

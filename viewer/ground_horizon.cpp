@@ -19,8 +19,9 @@ constexpr float kRatio = 1.06F;
 /// line, and distances are those of its ends.
 constexpr float kMargin = 5e-4F;
 
-float distance_of(std::uint32_t step) {
-    return kFirst * std::pow(kRatio, static_cast<float>(step));
+/// Steps to a distance; whole steps lie no farther.
+float steps_to(float distance) {
+    return std::log(distance / kFirst) / std::log(kRatio);
 }
 
 } // namespace
@@ -30,7 +31,7 @@ void GroundHorizon::look(const TerrainView& ground, const glm::vec3& eye) {
     ground_ = ground.eye_height() > 0.0F ? &ground : nullptr;
     eye_ = eye;
     const float reach = TerrainView::range(ground.levels() - 1);
-    steps_ = static_cast<std::uint32_t>(std::log(reach / kFirst) / std::log(kRatio));
+    steps_ = static_cast<std::uint32_t>(steps_to(reach));
     for (Sector& sector : sectors_) {
         sector.known = false;
     }
@@ -88,7 +89,7 @@ bool GroundHorizon::hides(const glm::vec3& low, const glm::vec3& high) {
     const glm::vec2 near_corner =
         glm::clamp(eye, glm::vec2(low.x, low.z), glm::vec2(high.x, high.z)) - eye;
     const float nearest = glm::length(near_corner);
-    if (nearest <= distance_of(1)) {
+    if (nearest <= kFirst * kRatio) {
         return false;
     }
     const glm::vec2 middle = 0.5F * glm::vec2(low.x + high.x, low.z + high.z) - eye;
@@ -107,7 +108,7 @@ bool GroundHorizon::hides(const glm::vec3& low, const glm::vec3& high) {
     }
     const float rise = high.y - eye_.y;
     const float slope = rise / (rise > 0.0F ? nearest : farthest) + kMargin;
-    const auto step = static_cast<std::int64_t>(std::log(nearest / kFirst) / std::log(kRatio)) - 1;
+    const auto step = static_cast<std::int64_t>(steps_to(nearest)) - 1;
     const std::size_t last =
         static_cast<std::size_t>(std::clamp<std::int64_t>(step, 0, std::int64_t{steps_} - 1));
     const float ahead = std::atan2(middle.x, middle.y);

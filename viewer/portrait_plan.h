@@ -36,6 +36,9 @@ struct PortraitPlan {
     bool has_cells = false;
 };
 
+/// By which portraits are larger than what they show; shaders/impostor.glsl has the same.
+inline constexpr float kPortraitMargin = 1.04F;
+
 /// Cells are drawn only where a forest has so many trees.
 inline constexpr std::size_t kTreesForCells = 2000;
 

@@ -81,12 +81,15 @@ TEST_CASE("every pixel of a tree in view is of exactly one ring") {
         for (const Listed& tree : lists.trees) {
             parts[tree.number].push_back(tree.part);
         }
+        std::uint64_t clumped = 0;
         for (const Listed& clump : lists.clumps) {
             const ForestCell& cell = view.cells()[clump.number];
+            clumped += clump.part == kWhole ? cell.count : 0;
             for (std::uint32_t i = 0; i < cell.count; ++i) {
                 parts[cell.first + i].push_back(clump.part);
             }
         }
+        CHECK(clumped == lists.clumped_trees);
         std::uint64_t drawn = 0;
         for (const std::vector<Part>& of_tree : parts) {
             drawn += of_tree.empty() ? 0U : 1U;

@@ -109,12 +109,9 @@ TEST_CASE("nothing in view is left out") {
             for (std::int32_t z = 0; z <= static_cast<int>(kPatchCells); ++z) {
                 for (std::int32_t x = 0; x <= static_cast<int>(kPatchCells); ++x) {
                     const float size = TerrainView::cell(patch.level);
-                    const glm::vec3 at(
-                        static_cast<float>(patch.x + x) * size,
-                        grid.heights[static_cast<std::size_t>(patch.z + z - grid.origin.y) *
-                                         kHeightTexels +
-                                     static_cast<std::size_t>(patch.x + x - grid.origin.x)],
-                        static_cast<float>(patch.z + z) * size);
+                    const glm::vec3 at(static_cast<float>(patch.x + x) * size,
+                                       grid.at(patch.x + x, patch.z + z),
+                                       static_cast<float>(patch.z + z) * size);
                     REQUIRE(!volume.meets({at, 0.0F}));
                 }
             }

@@ -22,7 +22,6 @@ constexpr std::uint32_t kFiner = 2; // texels drawn for one that is kept, along 
 constexpr std::uint32_t kWidth = Portraits::kYaws * Portraits::kTile;
 constexpr std::uint32_t kHeight = Portraits::kElevations * Portraits::kTile;
 constexpr GLsizei kLevels = 6; // the last tile has 4 texels a side
-constexpr float kMargin = 1.04F;
 constexpr std::array<float, Portraits::kElevations> kElevation = {0.0F, 0.6108652F, 1.3089969F};
 /// Texels about what is opaque in a tile: in coarser levels it reaches over edges of fine texels.
 constexpr float kBoxMargin = 2.5F;
@@ -123,10 +122,10 @@ void Portraits::draw_row(const Cylinder& form,
                          Buffer& frame) const {
     const float half_height = 0.5F * (form.high - form.low);
     const glm::vec3 middle(0.0F, 0.5F * (form.low + form.high), 0.0F);
-    const float deep = kMargin * std::hypot(form.radius, half_height);
-    const float wide = kMargin * form.radius;
-    const float high =
-        kMargin * (half_height * std::cos(kElevation[e]) + form.radius * std::sin(kElevation[e]));
+    const float deep = kPortraitMargin * std::hypot(form.radius, half_height);
+    const float wide = kPortraitMargin * form.radius;
+    const float high = kPortraitMargin * (half_height * std::cos(kElevation[e]) +
+                                          form.radius * std::sin(kElevation[e]));
     for (std::uint32_t y = 0; y < kYaws; ++y) {
         const float yaw =
             2.0F * std::numbers::pi_v<float> * static_cast<float>(y) / static_cast<float>(kYaws);
