@@ -3,32 +3,18 @@
 #pragma once
 
 #include "compiler/bytecode.h"
+#include "compiler/compile_options.h"
 #include "compiler/program.h"
 #include "grammar/ast.h"
 #include "grammar/diagnostic.h"
 #include "grammar/names.h"
 #include "grammar/source.h"
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace lsys {
-
-/// `-D NAME=value`.
-struct Definition {
-    std::string name;
-    float value = 0.0F;
-};
-
-struct CompileOptions {
-    std::vector<Definition> definitions;
-    std::optional<std::uint32_t> generations; // -n: a missing #n is no longer worth a warning
-    std::uint64_t max_modules = std::uint64_t{1}
-                                << 32; // for the warning about words that grow past it
-    bool lower = true;                 // false: stop after the Program
-};
 
 struct CompileOutcome {
     std::optional<Program> program;               // without errors only

@@ -200,4 +200,17 @@ void for_each_symbol(const Program& program, const ProgramWord& word, Visit&& vi
     }
 }
 
+/// Calls visit(index in Program::modules, index of its first argument in Program::arguments,
+/// module) for each module of a word.
+template <typename Visit>
+void for_each_module(const Program& program, const ProgramWord& word, Visit&& visit) {
+    std::size_t argument = word.first_argument;
+    for (std::size_t i = word.first_module; i < std::size_t{word.first_module} + word.module_count;
+         ++i) {
+        const ProgramModule module = program.modules[i];
+        visit(i, argument, module);
+        argument += program.symbol(module.symbol).parameter_count;
+    }
+}
+
 } // namespace lsys

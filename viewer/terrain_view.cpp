@@ -1,6 +1,6 @@
 #include "viewer/terrain_view.h"
 
-#include "runtime/workers.h"
+#include "runtime/derive/workers.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "compiler/bytecode.h"
-#include "compiler/compile.h"
+#include "compiler/compile_options.h"
 #include "compiler/program.h"
 #include "grammar/diagnostic.h"
 #include "grammar/names.h"

@@ -2,11 +2,6 @@
 
 #include "compiler/check/module_text.h"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <charconv>
-
 namespace lsys {
 
 namespace {
@@ -77,22 +72,6 @@ argument_spans(const CheckInput& input, const ProgramWord& word, std::size_t ind
 
 SourceSpan item_span(const Production& production, const ProgramPatternItem& item) {
     return {production.predecessor.span.file, item.begin, item.end};
-}
-
-std::string parameters_text(std::uint32_t count) {
-    return count == 0   ? std::string("no parameters")
-           : count == 1 ? std::string("1 parameter")
-                        : fmt::format("{} parameters", count);
-}
-
-std::string quoted(std::string_view name) {
-    return fmt::format("`{}`", name);
-}
-
-std::string number_text(float value) {
-    std::array<char, 32> buffer{};
-    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-    return {buffer.data(), result.ptr};
 }
 
 } // namespace lsys

@@ -2,8 +2,8 @@
 // resolve().
 #pragma once
 
-#include "compiler/check/places.h"
-#include "compiler/compile.h"
+#include "compiler/check/message_words.h"
+#include "compiler/compile_options.h"
 #include "compiler/program.h"
 #include "grammar/ast.h"
 #include "grammar/diagnostic.h"

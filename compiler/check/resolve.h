@@ -2,7 +2,7 @@
 // productions is decided here; what a program means as a whole is for the checks (check.h).
 #pragma once
 
-#include "compiler/compile.h"
+#include "compiler/compile_options.h"
 #include "compiler/program.h"
 #include "grammar/ast.h"
 #include "grammar/diagnostic.h"

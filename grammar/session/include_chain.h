@@ -2,7 +2,7 @@
 // read before: decides whether one more may be entered.
 #pragma once
 
-#include "grammar/parse.h"
+#include "grammar/session/parse_context.h"
 
 #include <cstdint>
 #include <string>

@@ -3,7 +3,7 @@
 // quotes.
 #pragma once
 
-#include "grammar/parse.h"
+#include "grammar/session/parse_context.h"
 #include "grammar/translation.h"
 
 #include <functional>

@@ -1,7 +1,7 @@
 // The message of a syntax error of a dialect: what was expected, and what stands there.
 #pragma once
 
-#include "grammar/parse.h"
+#include "grammar/session/parse_context.h"
 
 #include <string>
 #include <string_view>

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -46,5 +47,22 @@ private:
     std::uint32_t busy_ = 0;                // helpers within the task
     bool stops_ = false;
 };
+
+/// Workers::for_each() for pieces that may run out of memory: throws std::bad_alloc where one did,
+/// once all are done.
+template <typename Visit>
+void for_each_piece(Workers& workers, std::uint64_t pieces, const Visit& visit) {
+    std::atomic<bool> no_memory{false};
+    workers.for_each(pieces, [&](std::uint64_t i) {
+        try {
+            visit(i);
+        } catch (const std::bad_alloc&) {
+            no_memory = true;
+        }
+    });
+    if (no_memory) {
+        throw std::bad_alloc();
+    }
+}
 
 } // namespace lsys

@@ -2,7 +2,7 @@
 
 #include "runtime/export/formats.h"
 #include "runtime/export/text.h"
-#include "runtime/workers.h"
+#include "runtime/derive/workers.h"
 
 #include <algorithm>
 #include <array>

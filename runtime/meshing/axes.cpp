@@ -1,6 +1,6 @@
 #include "runtime/meshing/axes.h"
 
-#include "runtime/workers.h"
+#include "runtime/derive/workers.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -4,7 +4,7 @@
 #include "runtime/meshing/axes.h"
 #include "runtime/meshing/axis_reader.h"
 #include "runtime/meshing/tube_writer.h"
-#include "runtime/workers.h"
+#include "runtime/derive/workers.h"
 
 #include <glm/geometric.hpp>
 

@@ -5,7 +5,7 @@
 #include "runtime/meshing/axis_reader.h"
 #include "runtime/meshing/tube_triangles.h"
 #include "runtime/meshing/tube_writer.h"
-#include "runtime/workers.h"
+#include "runtime/derive/workers.h"
 
 #include <algorithm>
 #include <atomic>
