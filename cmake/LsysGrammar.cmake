@@ -1,12 +1,14 @@
-# lsys_add_grammar(TARGET DIALECT): runs Bison and Flex on DIALECT/parser.yy and DIALECT/scanner.ll of
-# the current folder and adds the results to TARGET. Nothing is written beside the sources.
-function(lsys_add_grammar target dialect)
+# lsys_add_grammar(TARGET FOLDER): runs Bison and Flex on parser.yy and scanner.ll of FOLDER and adds the
+# results to TARGET, as `NAME/parser.h` of the last part of FOLDER. Nothing is written beside the sources.
+function(lsys_add_grammar target folder)
+  get_filename_component(dialect "${folder}" NAME)
+  set(source "${PROJECT_SOURCE_DIR}/${folder}")
   set(out "${CMAKE_CURRENT_BINARY_DIR}/${dialect}")
   file(MAKE_DIRECTORY "${out}")
-  bison_target(${dialect}_parser "${dialect}/parser.yy" "${out}/parser.cpp"
+  bison_target(${dialect}_parser "${source}/parser.yy" "${out}/parser.cpp"
     DEFINES_FILE "${out}/parser.h"
     COMPILE_FLAGS "-Wall -Wcounterexamples -Werror -M ${PROJECT_SOURCE_DIR}=. -M ${PROJECT_BINARY_DIR}=.")
-  flex_target(${dialect}_scanner "${dialect}/scanner.ll" "${out}/scanner.cpp"
+  flex_target(${dialect}_scanner "${source}/scanner.ll" "${out}/scanner.cpp"
     DEFINES_FILE "${out}/scanner.h")
   add_flex_bison_dependency(${dialect}_scanner ${dialect}_parser)
   target_sources(${target} PRIVATE
@@ -17,8 +19,8 @@ function(lsys_add_grammar target dialect)
   # sanitizers set up every variable of a function whenever it is called, which is for every token.
   set_source_files_properties("${out}/scanner.cpp" PROPERTIES
     COMPILE_OPTIONS "-fno-inline;-Wno-old-style-cast;-Wno-null-dereference;$<$<CXX_COMPILER_ID:GNU>:-Wno-useless-cast>"
-    SKIP_LINTING ON SKIP_UNITY_BUILD_INCLUSION ON)
+    SKIP_LINTING ON SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
   set_source_files_properties("${out}/parser.cpp" PROPERTIES
     COMPILE_OPTIONS "-Wno-conversion;-Wno-sign-conversion"
-    SKIP_LINTING ON SKIP_UNITY_BUILD_INCLUSION ON)
+    SKIP_LINTING ON SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 endfunction()

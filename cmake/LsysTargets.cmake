@@ -3,6 +3,7 @@
 # Numbers are portable: no contraction to fused multiply-add, no value-changing optimisation.
 add_library(lsys_options INTERFACE)
 target_include_directories(lsys_options INTERFACE "${PROJECT_SOURCE_DIR}")
+target_compile_definitions(lsys_options INTERFACE "LSYS_THREADS=$<BOOL:${LSYS_THREADS}>")
 target_compile_options(lsys_options INTERFACE
   -ffp-contract=off
   # What users get names no folder of the machine that built it.
@@ -32,8 +33,61 @@ if(LSYS_SANITIZE)
   target_compile_options(lsys_warnings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endif()
 
+# Standard headers that most sources include, compiled once for all libraries of ours and once for all
+# tests. A source still includes what it uses: the preset `clang` builds without this.
+option(LSYS_PRECOMPILED "Precompile common headers" ON)
+add_library(lsys_precompiled STATIC "${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp")
+target_link_libraries(lsys_precompiled PRIVATE lsys_options lsys_warnings)
+target_precompile_headers(lsys_precompiled PRIVATE
+  <algorithm> <array> <cmath> <cstddef> <cstdint> <cstring> <functional> <limits> <memory> <optional>
+  <span> <string> <string_view> <unordered_map> <utility> <vector>)
+function(lsys_precompile target)
+  if(LSYS_PRECOMPILED)
+    target_precompile_headers(${target} REUSE_FROM lsys_precompiled)
+  endif()
+endfunction()
+
 # lsys_library(NAME SOURCES... ) : a static library of ours.
 function(lsys_library name)
   add_library(${name} STATIC ${ARGN})
   target_link_libraries(${name} PUBLIC lsys_options PRIVATE lsys_warnings)
+  lsys_precompile(${name})
+endfunction()
+
+# lsys_target_name(FOLDER RESULT): the library of a folder, `lsys_runtime_derive` of runtime/derive.
+function(lsys_target_name folder result)
+  string(REPLACE "/" "_" name "lsys_${folder}")
+  set(${result} "${name}" PARENT_SCOPE)
+endfunction()
+
+# lsys_folder(FOLDER PACKAGES...): the library of a folder of cmake/Layers.cmake: all sources in it and
+# in its private sub-folders, linked to the libraries that the table names and to PACKAGES.
+function(lsys_folder folder)
+  lsys_target_name(${folder} name)
+  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.cpp")
+  file(GLOB_RECURSE private_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*/*.cpp")
+  foreach(source ${private_sources})
+    file(RELATIVE_PATH path "${PROJECT_SOURCE_DIR}" "${source}")
+    lsys_layer("${path}" owner)
+    if(owner STREQUAL folder)
+      list(APPEND sources "${source}")
+    endif()
+  endforeach()
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$|/sanitizers/")
+  lsys_library(${name} ${sources})
+  lsys_layer_includes(${folder} included)
+  foreach(other ${included})
+    lsys_target_name(${other} library)
+    target_link_libraries(${name} PUBLIC ${library})
+  endforeach()
+  target_link_libraries(${name} PRIVATE ${ARGN})
+endfunction()
+
+# lsys_group(NAME FOLDERS...): one name for the libraries of several folders.
+function(lsys_group name)
+  add_library(${name} INTERFACE)
+  foreach(folder ${ARGN})
+    lsys_target_name(${folder} library)
+    target_link_libraries(${name} INTERFACE ${library})
+  endforeach()
 endfunction()

@@ -1,10 +1,10 @@
 #include "compiler/compile.h"
 
-#include "compiler/check/check.h"
-#include "compiler/check/resolve.h"
+#include "compiler/bytecode/verify.h"
+#include "compiler/lint/checks.h"
 #include "compiler/lower/lower.h"
-#include "compiler/verify.h"
-#include "grammar/contract.h"
+#include "compiler/resolve/resolve.h"
+#include "grammar/base/contract.h"
 
 #include <utility>
 

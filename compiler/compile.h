@@ -2,13 +2,13 @@
 // here.
 #pragma once
 
-#include "compiler/bytecode.h"
-#include "compiler/compile_options.h"
-#include "compiler/program.h"
-#include "grammar/ast.h"
-#include "grammar/diagnostic.h"
-#include "grammar/names.h"
-#include "grammar/source.h"
+#include "compiler/bytecode/bytecode.h"
+#include "compiler/program/compile_options.h"
+#include "compiler/program/program.h"
+#include "grammar/ast/ast.h"
+#include "grammar/base/diagnostic.h"
+#include "grammar/base/names.h"
+#include "grammar/base/source.h"
 
 #include <optional>
 #include <string>

@@ -1,9 +1,9 @@
 #include "compiler/lower/lower.h"
 
-#include "compiler/lower/code_emitter.h"
-#include "compiler/lower/module_folder.h"
-#include "compiler/lower/place_writer.h"
-#include "grammar/contract.h"
+#include "compiler/lower/impl/code_emitter.h"
+#include "compiler/lower/impl/module_folder.h"
+#include "compiler/lower/impl/place_writer.h"
+#include "grammar/base/contract.h"
 
 #include <utility>
 

@@ -2,10 +2,10 @@
 // expressions become instructions. The order of the tables is the one that bytecode.h promises.
 #pragma once
 
-#include "compiler/bytecode.h"
-#include "compiler/program.h"
-#include "grammar/names.h"
-#include "grammar/source.h"
+#include "compiler/bytecode/bytecode.h"
+#include "compiler/program/program.h"
+#include "grammar/base/names.h"
+#include "grammar/base/source.h"
 
 #include <optional>
 

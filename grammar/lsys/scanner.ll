@@ -8,12 +8,12 @@
 %option prefix="lsys_yy" extra-type="lsys::ParseSession*"
 
 %{
-#include "grammar/lsys/expression_tokens.h"
-#include "grammar/lsys/lookahead.h"
-#include "grammar/lsys/module_tokens.h"
-#include "grammar/lsys/plain_text.h"
-#include "grammar/lsys/scanning.h"
-#include "grammar/lsys/statement_tokens.h"
+#include "grammar/lsys/impl/expression_tokens.h"
+#include "grammar/lsys/impl/lookahead.h"
+#include "grammar/lsys/impl/module_tokens.h"
+#include "grammar/lsys/impl/plain_text.h"
+#include "grammar/lsys/impl/scanning.h"
+#include "grammar/lsys/impl/statement_tokens.h"
 #include "lsys/parser.h"
 
 #define YY_DECL                                                                                    \

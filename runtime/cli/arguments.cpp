@@ -1,6 +1,6 @@
 #include "runtime/cli/arguments.h"
 
-#include "grammar/names.h"
+#include "grammar/base/names.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "compiler/compile.h"
-#include "grammar/result.h"
-#include "runtime/physics.h"
+#include "grammar/base/result.h"
+#include "runtime/physics/physics.h"
 
 #include <cstdint>
 #include <string>

@@ -1,4 +1,4 @@
-#include "compiler/module_file.h"
+#include "compiler/bytecode/module_file.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/fixes.h"

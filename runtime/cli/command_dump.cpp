@@ -1,15 +1,15 @@
-#include "compiler/disassemble.h"
-#include "compiler/instance.h"
-#include "compiler/program_dump.h"
-#include "grammar/ast_dump.h"
-#include "grammar/tokens.h"
+#include "compiler/bytecode/disassemble.h"
+#include "compiler/instancing/instance.h"
+#include "compiler/program/program_dump.h"
+#include "grammar/ast/ast_dump.h"
+#include "grammar/format/tokens.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/dump_word.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/grammar_file.h"
 #include "runtime/cli/plant.h"
 #include "runtime/cli/tell.h"
-#include "runtime/scene.h"
+#include "runtime/scene/scene.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "grammar/diagnostic.h"
+#include "grammar/base/diagnostic.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/explanations.h"
 

@@ -1,14 +1,14 @@
-#include "runtime/animation.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/export_stats.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/plant.h"
 #include "runtime/cli/stopwatch.h"
 #include "runtime/cli/tell.h"
-#include "runtime/export.h"
-#include "runtime/mesh.h"
-#include "runtime/runtime_diagnostic.h"
-#include "runtime/turtle_diagnostic.h"
+#include "runtime/derive/runtime_diagnostic.h"
+#include "runtime/export/export.h"
+#include "runtime/meshing/mesh.h"
+#include "runtime/physics/animation.h"
+#include "runtime/turtle/turtle_diagnostic.h"
 
 #include <fmt/format.h>
 

@@ -3,9 +3,9 @@
 #include "runtime/cli/forest_scene.h"
 #include "runtime/cli/grow_forest.h"
 #include "runtime/cli/tell.h"
-#include "runtime/domination.h"
-#include "runtime/export_forest.h"
-#include "runtime/turtle_diagnostic.h"
+#include "runtime/export/export_forest.h"
+#include "runtime/placement/domination.h"
+#include "runtime/turtle/turtle_diagnostic.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "grammar/format.h"
+#include "grammar/format/format.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/grammar_file.h"

@@ -1,10 +1,10 @@
 #include "runtime/cli/command_line.h"
 
-#include "grammar/diagnostic.h"
-#include "grammar/dialect.h"
+#include "grammar/base/diagnostic.h"
+#include "grammar/dialects/dialect.h"
 #include "runtime/cli/arguments.h"
 #include "runtime/cli/option_parsers.h"
-#include "runtime/turtle.h"
+#include "runtime/turtle/turtle.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

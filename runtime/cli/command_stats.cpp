@@ -1,10 +1,10 @@
-#include "compiler/growth.h"
+#include "compiler/growth/growth.h"
 #include "runtime/cli/arguments.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/grammar_file.h"
 #include "runtime/cli/tell.h"
-#include "runtime/derive.h"
+#include "runtime/derive/derive.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "runtime/cli/console.h"
 
-#include "grammar/render_diagnostic.h"
+#include "grammar/rendering/render_diagnostic.h"
 #include "runtime/cli/files.h"
 
 #include <nlohmann/json.hpp>

@@ -2,9 +2,9 @@
 // user asked for. The commands print through nothing else.
 #pragma once
 
-#include "grammar/diagnostic.h"
-#include "grammar/result.h"
-#include "grammar/source.h"
+#include "grammar/base/diagnostic.h"
+#include "grammar/base/result.h"
+#include "grammar/base/source.h"
 #include "runtime/cli/lsc.h"
 #include "runtime/cli/options.h"
 

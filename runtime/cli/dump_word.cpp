@@ -6,11 +6,11 @@
 #include "runtime/cli/plant.h"
 #include "runtime/cli/progress.h"
 #include "runtime/cli/tell.h"
-#include "runtime/derive.h"
-#include "runtime/runtime_diagnostic.h"
-#include "runtime/state_file.h"
-#include "runtime/stream.h"
-#include "runtime/word_text.h"
+#include "runtime/derive/derive.h"
+#include "runtime/derive/runtime_diagnostic.h"
+#include "runtime/derive/state_file.h"
+#include "runtime/derive/stream.h"
+#include "runtime/derive/word_text.h"
 
 #include <fmt/format.h>
 

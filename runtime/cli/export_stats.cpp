@@ -1,7 +1,7 @@
 #include "runtime/cli/export_stats.h"
 
-#include "runtime/runtime_diagnostic.h"
-#include "runtime/turtle_diagnostic.h"
+#include "runtime/derive/runtime_diagnostic.h"
+#include "runtime/turtle/turtle_diagnostic.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

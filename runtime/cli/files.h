@@ -2,7 +2,7 @@
 // input or output. Everything the environment refuses comes back as an Error that names the file.
 #pragma once
 
-#include "grammar/result.h"
+#include "grammar/base/result.h"
 #include "runtime/cli/console.h"
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // includes, in memory, until none is left.
 #pragma once
 
-#include "grammar/result.h"
+#include "grammar/base/result.h"
 #include "runtime/cli/console.h"
 #include "runtime/cli/grammar_file.h"
 #include "runtime/cli/options.h"

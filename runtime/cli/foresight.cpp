@@ -1,6 +1,6 @@
 #include "runtime/cli/foresight.h"
 
-#include "compiler/growth.h"
+#include "compiler/growth/growth.h"
 
 #include <algorithm>
 #include <cmath>

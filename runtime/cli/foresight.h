@@ -2,8 +2,8 @@
 // words have. Only where that is exact and quickly found; otherwise the run itself finds out.
 #pragma once
 
-#include "compiler/bytecode.h"
-#include "runtime/limits.h"
+#include "compiler/bytecode/bytecode.h"
+#include "runtime/base/limits.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,5 +1,5 @@
 #include "runtime/cli/option_parsers.h"
-#include "runtime/scene.h"
+#include "runtime/scene/scene.h"
 
 #include <charconv>
 #include <limits>

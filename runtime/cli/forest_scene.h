@@ -4,7 +4,7 @@
 
 #include "runtime/cli/console.h"
 #include "runtime/cli/options.h"
-#include "runtime/scene.h"
+#include "runtime/scene/scene.h"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "runtime/cli/grammar_file.h"
 
+#include "compiler/bytecode/module_file.h"
 #include "compiler/compile.h"
-#include "compiler/module_file.h"
 #include "runtime/cli/files.h"
 
 #include <fmt/format.h>

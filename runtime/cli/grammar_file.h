@@ -2,14 +2,14 @@
 // diagnostics. The front door of every command that takes a grammar.
 #pragma once
 
-#include "compiler/bytecode.h"
-#include "compiler/program.h"
-#include "grammar/ast.h"
-#include "grammar/diagnostic.h"
-#include "grammar/dialect.h"
-#include "grammar/names.h"
-#include "grammar/parse.h"
-#include "grammar/source.h"
+#include "compiler/bytecode/bytecode.h"
+#include "compiler/program/program.h"
+#include "grammar/ast/ast.h"
+#include "grammar/base/diagnostic.h"
+#include "grammar/base/names.h"
+#include "grammar/base/source.h"
+#include "grammar/dialects/dialect.h"
+#include "grammar/lsys/parse.h"
 #include "runtime/cli/console.h"
 #include "runtime/cli/options.h"
 

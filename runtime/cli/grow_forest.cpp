@@ -1,7 +1,7 @@
 #include "runtime/cli/grow_forest.h"
 
-#include "compiler/instance.h"
-#include "grammar/dialect.h"
+#include "compiler/instancing/instance.h"
+#include "grammar/dialects/dialect.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/grammar_file.h"
 #include "runtime/cli/plant.h"

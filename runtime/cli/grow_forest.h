@@ -4,11 +4,11 @@
 
 #include "runtime/cli/console.h"
 #include "runtime/cli/options.h"
-#include "runtime/forest.h"
-#include "runtime/mesh.h"
-#include "runtime/placement.h"
-#include "runtime/scene.h"
-#include "runtime/terrain.h"
+#include "runtime/forest/forest.h"
+#include "runtime/meshing/mesh.h"
+#include "runtime/placement/placement.h"
+#include "runtime/scene/scene.h"
+#include "runtime/terrain/terrain.h"
 
 #include <memory>
 #include <optional>

@@ -1,9 +1,9 @@
 #include "runtime/cli/mesh_pictures.h"
 
-#include "grammar/source.h"
+#include "grammar/base/source.h"
 #include "runtime/cli/files.h"
-#include "runtime/texture.h"
-#include "runtime/user_mesh.h"
+#include "runtime/meshing/texture.h"
+#include "runtime/meshing/user_mesh.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runtime/cli/console.h"
-#include "runtime/mesh.h"
+#include "runtime/meshing/mesh.h"
 
 #include <string>
 

@@ -1,11 +1,11 @@
 // A word as text with the origin of each module: one module a line.
 #pragma once
 
-#include "compiler/bytecode.h"
-#include "runtime/origin.h"
-#include "runtime/stream.h"
-#include "runtime/word.h"
-#include "runtime/word_text.h"
+#include "compiler/bytecode/bytecode.h"
+#include "runtime/derive/origin.h"
+#include "runtime/derive/stream.h"
+#include "runtime/derive/word.h"
+#include "runtime/derive/word_text.h"
 
 #include <functional>
 #include <string>

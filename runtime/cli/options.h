@@ -3,11 +3,11 @@
 #pragma once
 
 #include "compiler/compile.h"
-#include "grammar/render_diagnostic.h"
-#include "runtime/export.h"
-#include "runtime/mesh.h"
-#include "runtime/physics.h"
-#include "runtime/placement.h"
+#include "grammar/rendering/render_diagnostic.h"
+#include "runtime/export/export.h"
+#include "runtime/meshing/mesh.h"
+#include "runtime/physics/physics.h"
+#include "runtime/placement/placement.h"
 
 #include <cstdint>
 #include <optional>

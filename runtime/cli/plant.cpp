@@ -6,13 +6,13 @@
 #include "runtime/cli/progress.h"
 #include "runtime/cli/stopwatch.h"
 #include "runtime/cli/tell.h"
-#include "runtime/derive.h"
-#include "runtime/fold_reached.h"
-#include "runtime/runtime_diagnostic.h"
-#include "runtime/stream.h"
-#include "runtime/turtle.h"
-#include "runtime/turtle_diagnostic.h"
-#include "runtime/user_mesh.h"
+#include "runtime/derive/derive.h"
+#include "runtime/derive/fold_reached.h"
+#include "runtime/derive/runtime_diagnostic.h"
+#include "runtime/derive/stream.h"
+#include "runtime/meshing/user_mesh.h"
+#include "runtime/turtle/turtle.h"
+#include "runtime/turtle/turtle_diagnostic.h"
 
 #include <fmt/format.h>
 

@@ -4,10 +4,10 @@
 #include "runtime/cli/console.h"
 #include "runtime/cli/grammar_file.h"
 #include "runtime/cli/options.h"
-#include "runtime/derive.h"
-#include "runtime/mesh.h"
-#include "runtime/skeleton.h"
-#include "runtime/turtle.h"
+#include "runtime/derive/derive.h"
+#include "runtime/meshing/mesh.h"
+#include "runtime/turtle/skeleton.h"
+#include "runtime/turtle/turtle.h"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "runtime/cli/tell.h"
 
-#include "runtime/runtime_diagnostic.h"
+#include "runtime/derive/runtime_diagnostic.h"
 
 #include <utility>
 

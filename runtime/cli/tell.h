@@ -3,7 +3,7 @@
 
 #include "runtime/cli/console.h"
 #include "runtime/cli/grammar_file.h"
-#include "runtime/derive.h"
+#include "runtime/derive/derive.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "runtime/meshing/shapes.h"
 
-#include "runtime/meshing/surfaces.h"
-#include "runtime/texture.h"
+#include "runtime/meshing/impl/surfaces.h"
+#include "runtime/meshing/texture.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -11,8 +11,8 @@
 // At level k > 0 they have fewer triangles and the same bounding box.
 #pragma once
 
-#include "runtime/mesh.h"
-#include "runtime/meshing/mesh_builder.h"
+#include "runtime/meshing/impl/mesh_builder.h"
+#include "runtime/meshing/mesh.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "runtime/animation.h"
+#include "runtime/physics/animation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "runtime/domination.h"
+#include "runtime/placement/domination.h"
 
-#include "runtime/placement/check_options.h"
-#include "runtime/placement/crowding.h"
-#include "runtime/placement/draws.h"
-#include "runtime/placement/methods.h"
+#include "runtime/placement/impl/check_options.h"
+#include "runtime/placement/impl/crowding.h"
+#include "runtime/placement/impl/draws.h"
+#include "runtime/placement/impl/methods.h"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 //
 // "cold" is the first derivation of a process: memory comes fresh from the system. "warm" derives
 // again with the memory of the time before.
-#include "runtime/derive.h"
-#include "runtime/fold_reached.h"
+#include "runtime/derive/derive.h"
+#include "runtime/derive/fold_reached.h"
 #include "tests/bench/limits.h"
 #include "tests/bench/measure.h"
 

@@ -2,11 +2,11 @@
 // list expanded and consumed, for 10^4 to 10^7 trees; and files of 10,000 trees. `forest_bench
 // [THREADS]`. Says nothing of pass or fail.
 #include "compiler/compile.h"
-#include "compiler/instance.h"
-#include "grammar/parse.h"
-#include "runtime/export_forest.h"
-#include "runtime/forest.h"
-#include "runtime/random.h"
+#include "compiler/instancing/instance.h"
+#include "grammar/lsys/parse.h"
+#include "runtime/base/random.h"
+#include "runtime/export/export_forest.h"
+#include "runtime/forest/forest.h"
 #include "tests/bench/measure.h"
 
 #include <fmt/format.h>

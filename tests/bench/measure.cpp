@@ -1,7 +1,7 @@
 #include "tests/bench/measure.h"
 
 #include "compiler/compile.h"
-#include "grammar/parse.h"
+#include "grammar/lsys/parse.h"
 
 #include <fmt/format.h>
 

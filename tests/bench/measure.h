@@ -2,7 +2,7 @@
 // program.
 #pragma once
 
-#include "compiler/bytecode.h"
+#include "compiler/bytecode/bytecode.h"
 
 #include <functional>
 #include <string>

@@ -4,10 +4,10 @@
 // skeleton, two vertices each; `tubes` have eight sides, positions and normals, and their time is
 // that of skeleton and mesh, by one thread and with two at the mesh. GLB is of the same mesh into
 // memory that is thrown away. Asserts nothing.
-#include "runtime/derive.h"
-#include "runtime/export.h"
-#include "runtime/mesh.h"
-#include "runtime/turtle.h"
+#include "runtime/derive/derive.h"
+#include "runtime/export/export.h"
+#include "runtime/meshing/mesh.h"
+#include "runtime/turtle/turtle.h"
 #include "tests/bench/limits.h"
 #include "tests/bench/measure.h"
 

@@ -2,8 +2,8 @@
 // lists of instructions. What finish() returns is verified.
 #pragma once
 
-#include "compiler/bytecode.h"
-#include "compiler/verify.h"
+#include "compiler/bytecode/bytecode.h"
+#include "compiler/bytecode/verify.h"
 
 #include <catch2/catch.hpp>
 

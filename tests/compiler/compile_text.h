@@ -2,8 +2,8 @@
 #pragma once
 
 #include "compiler/compile.h"
-#include "compiler/program_dump.h"
-#include "grammar/parse.h"
+#include "compiler/program/program_dump.h"
+#include "grammar/lsys/parse.h"
 
 #include <algorithm>
 #include <map>

@@ -6,7 +6,7 @@
 //   #p2 : f(v) < A(x) > [ B ] : * ~ 0.5 : B;
 #pragma once
 
-#include "compiler/bytecode.h"
+#include "compiler/bytecode/bytecode.h"
 
 #include <bit>
 #include <cstdint>

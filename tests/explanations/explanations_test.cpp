@@ -1,7 +1,7 @@
 // Every diagnostic is explained, in order, and the examples do what they say.
-#include "grammar/diagnostic.h"
+#include "grammar/base/diagnostic.h"
 #include "runtime/cli/explanations.h"
-#include "runtime/scene.h"
+#include "runtime/scene/scene.h"
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>

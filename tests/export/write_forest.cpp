@@ -2,9 +2,9 @@
 // Two species, one of two stages, on a hilly ground. facts.json in the folder says what is in it,
 // found out from the same forest as one mesh (baked.ply); counts.txt has a line
 // `NAME VERTICES TRIANGLES PARTS` for each glTF file that needs no extension.
-#include "compiler/instance.h"
-#include "runtime/export_forest.h"
-#include "runtime/terrain.h"
+#include "compiler/instancing/instance.h"
+#include "runtime/export/export_forest.h"
+#include "runtime/terrain/terrain.h"
 #include "tests/compiler/compile_text.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Writes the meshes of tests/support and a drawing in every format. Usage: write_meshes FOLDER
 // counts.txt in it has a line `NAME VERTICES TRIANGLES PARTS` for each mesh.
-#include "runtime/export.h"
+#include "runtime/export/export.h"
 #include "tests/support/meshes.h"
 
 #include <array>

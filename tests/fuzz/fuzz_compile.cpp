@@ -1,9 +1,9 @@
 // Text to word: whatever the bytes are, the compiler ends with diagnostics or with bytecode that
 // verifies, and that bytecode derives under small limits.
+#include "compiler/bytecode/verify.h"
 #include "compiler/compile.h"
-#include "compiler/verify.h"
-#include "grammar/parse.h"
-#include "runtime/derive.h"
+#include "grammar/lsys/parse.h"
+#include "runtime/derive/derive.h"
 
 #include <algorithm>
 #include <cstdlib>

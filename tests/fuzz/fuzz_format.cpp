@@ -1,5 +1,5 @@
 // Text to text: formatting whatever parses is idempotent, and what it writes parses again.
-#include "grammar/format.h"
+#include "grammar/format/format.h"
 
 #include <cstdlib>
 #include <optional>

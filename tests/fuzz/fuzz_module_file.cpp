@@ -1,8 +1,8 @@
 // Bytes to word: a .lsb is refused, or it verifies and derives under small limits. The checksum is
 // set right first, so that the reader's and the verifier's own checks are reached.
-#include "compiler/disassemble.h"
-#include "compiler/module_file.h"
-#include "runtime/derive.h"
+#include "compiler/bytecode/disassemble.h"
+#include "compiler/bytecode/module_file.h"
+#include "runtime/derive/derive.h"
 
 #include <algorithm>
 #include <string>

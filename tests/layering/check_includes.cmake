@@ -1,18 +1,7 @@
-# Fails on an include that goes against the direction of the data: text, grammar, compiler, runtime, viewer.
-# Also fails where a library prints or ends the process. Usage: cmake -D ROOT=<folder> -P check_includes.cmake
-
-# What each folder may include, as regular expressions on the path after `#include "`.
-set(base "grammar/(source|diagnostic|diagnostics|result|contract|names|chunked_vector)\\.(h|def)")
-set(contract "compiler/(bytecode|settings|growth|verify|module_file|disassemble|arithmetic|opcodes|turtle_operations)\\.(h|def)")
-set(allowed_grammar "grammar/.*")
-set(allowed_compiler "compiler/.*" "grammar/[^/]+")
-set(allowed_runtime "runtime/([^/]+|(derive|expressions|turtle|meshing|physics|export|terrain|placement|scene)/[^/]+)" "${contract}" "${base}")
-set(allowed_cli "runtime/cli/.*" "(grammar|compiler|runtime)/[^/]+")
-set(allowed_viewer "viewer/[^/]+" "runtime/[^/]+" "${base}")
-set(allowed_viewer_gl "viewer/([^/]+|gl/[^/]+)" "runtime/[^/]+" "${base}")
-# The program: it reads, compiles and grows as `lsc` does.
-set(allowed_viewer_app "viewer/([^/]+|app/[^/]+|gl/(headless|window)\\.h)" "runtime/([^/]+|cli/[^/]+)"
-  "(compiler|grammar)/[^/]+")
+# Fails on an include that cmake/Layers.cmake does not allow, on OpenGL, GLFW and ImGui outside of the
+# viewer, and where a library prints or ends the process. Usage: cmake -D ROOT=<folder> -P check_includes.cmake
+cmake_minimum_required(VERSION 3.25)
+include("${CMAKE_CURRENT_LIST_DIR}/../../cmake/Layers.cmake")
 
 set(failures "")
 file(GLOB_RECURSE sources RELATIVE "${ROOT}"
@@ -21,38 +10,24 @@ foreach(path ${sources})
   if(NOT path MATCHES "\\.(h|cpp|def|ll|yy)$")
     continue()
   endif()
-  if(path MATCHES "^runtime/cli/")
-    set(folder cli)
-  elseif(path MATCHES "^viewer/(gl|app)/")
-    set(folder viewer_${CMAKE_MATCH_1})
-  else()
-    string(REGEX REPLACE "/.*" "" folder "${path}")
+  lsys_layer("${path}" folder)
+  if(folder STREQUAL "")
+    list(APPEND failures "${path}: its folder is not in cmake/Layers.cmake")
+    continue()
   endif()
-  file(STRINGS "${ROOT}/${path}" lines)
-  # file(STRINGS) drops empty lines, so the line is found again in the text for the message.
+  lsys_layer_includes("${folder}" allowed)
+  file(STRINGS "${ROOT}/${path}" lines REGEX "#[ \t]*include|std::|printf")
   foreach(line IN LISTS lines)
     if(line MATCHES "^[ \t]*#[ \t]*include[ \t]+\"([^\"]+)\"")
       set(included "${CMAKE_MATCH_1}")
-      if(included MATCHES "^[a-z0-9]+/(parser|scanner)\\.h$" AND folder STREQUAL "grammar")
+      if(included MATCHES "^[a-z0-9]+/(parser|scanner)\\.h$" AND folder MATCHES "^grammar/")
         continue() # written by Bison and Flex
       endif()
-      if(included MATCHES "^runtime/cli/" AND folder STREQUAL "cli")
-        continue()
-      endif()
-      set(fine FALSE)
-      foreach(pattern IN LISTS allowed_${folder})
-        if(included MATCHES "^${pattern}$")
-          set(fine TRUE)
-        endif()
-      endforeach()
-      # A header in a sub-folder belongs to the folder above it alone.
-      if(fine AND included MATCHES "^([^/]+)/[^/]+/")
-        set(owner "${CMAKE_MATCH_1}")
-        if(NOT path MATCHES "^${owner}/" AND NOT folder STREQUAL "viewer_app")
-          set(fine FALSE)
-        endif()
-      endif()
-      if(NOT fine)
+      lsys_layer("${included}" owner)
+      # Another folder's headers are public only where they lie directly in it.
+      string(REGEX REPLACE "/[^/]*$" "" place "${included}")
+      if(NOT owner STREQUAL folder AND NOT (owner IN_LIST allowed AND owner STREQUAL place))
+        # file(STRINGS) drops empty lines, so the line is found again in the text.
         file(READ "${ROOT}/${path}" text)
         string(FIND "${text}" "\"${included}\"" offset)
         string(SUBSTRING "${text}" 0 ${offset} before)
@@ -62,13 +37,17 @@ foreach(path ${sources})
         list(APPEND failures "${path}:${number}: ${folder}/ may not include ${included}")
       endif()
     endif()
-    if(line MATCHES "#include <(epoxy|GL|EGL|GLFW|backends)/" AND NOT folder STREQUAL "viewer_gl")
+    if(line MATCHES "#include <(epoxy|GL|EGL|GLFW|backends)/" AND NOT folder STREQUAL "viewer/gl")
       list(APPEND failures "${path}: only viewer/gl knows OpenGL and GLFW: ${line}")
     endif()
-    if(line MATCHES "#include <imgui" AND NOT folder MATCHES "^viewer_(gl|app)$")
+    if(line MATCHES "#include <imgui" AND NOT folder MATCHES "^viewer/(gl|app)$")
       list(APPEND failures "${path}: only viewer/gl and viewer/app know ImGui: ${line}")
     endif()
-    if(NOT folder MATCHES "^(cli|viewer_app)$" AND NOT path MATCHES "^grammar/contract\\.(h|cpp)$"
+    if(line MATCHES "#include <(thread|condition_variable)>" AND NOT folder MATCHES "^viewer/app$"
+        AND NOT path MATCHES "^runtime/base/workers\\.cpp$")
+      list(APPEND failures "${path}: threads are made in runtime/base/workers.cpp and in viewer/app: ${line}")
+    endif()
+    if(NOT folder MATCHES "^(runtime/cli|viewer/app)$" AND NOT path MATCHES "^grammar/base/contract\\.(h|cpp)$"
         AND line MATCHES "(std::(cout|cerr|exit|abort)|[^a-z_]f?printf\\()")
       list(APPEND failures "${path}: a library may not print or end the process: ${line}")
     endif()

@@ -1,5 +1,5 @@
 // Trees from instance caches beside plants that were derived and drawn whole.
-#include "runtime/word_text.h"
+#include "runtime/derive/word_text.h"
 #include "tests/support/forest.h"
 #include "tests/support/lsc_run.h"
 

@@ -1,9 +1,9 @@
 // What must hold for the layout of every grammar: the samples and random grammars, as they are and
 // with their layout destroyed. Formatting again changes nothing, and what is parsed is the same.
-#include "grammar/ast_dump.h"
-#include "grammar/format.h"
-#include "grammar/formatting/lexemes.h"
-#include "grammar/parse.h"
+#include "grammar/ast/ast_dump.h"
+#include "grammar/format/format.h"
+#include "grammar/format/impl/lexemes.h"
+#include "grammar/lsys/parse.h"
 #include "tests/reference/generate.h"
 #include "tests/reference/print.h"
 #include "tests/support/lsc_run.h"

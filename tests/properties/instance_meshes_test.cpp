@@ -1,6 +1,6 @@
 // Surfaces of trees that are put together from instances, beside those of plants that were derived,
 // drawn and meshed whole.
-#include "runtime/instance_meshes.h"
+#include "runtime/forest/instance_meshes.h"
 #include "tests/support/forest.h"
 #include "tests/support/mesh_checks.h"
 

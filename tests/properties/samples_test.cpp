@@ -1,5 +1,5 @@
 // What must hold for every grammar, tried on the samples of the gallery.
-#include "grammar/parse.h"
+#include "grammar/lsys/parse.h"
 #include "runtime/cli/console.h"
 #include "runtime/cli/grammar_file.h"
 #include "tests/support/lsc_run.h"

@@ -2,10 +2,10 @@
 // of a few modules, streaming. The words of the oracle are small, so `lsc` itself never cuts them.
 
 #include "compiler/compile.h"
-#include "grammar/parse.h"
-#include "grammar/render_diagnostic.h"
-#include "runtime/derive.h"
-#include "runtime/random.h"
+#include "grammar/lsys/parse.h"
+#include "grammar/rendering/render_diagnostic.h"
+#include "runtime/base/random.h"
+#include "runtime/derive/derive.h"
 #include "tests/reference/generate.h"
 #include "tests/reference/print.h"
 #include "tests/support/derived.h"

@@ -1,7 +1,7 @@
 // Skeletons for tests of the physics.
 #pragma once
 
-#include "runtime/skeleton.h"
+#include "runtime/turtle/skeleton.h"
 
 #include <glm/gtc/quaternion.hpp>
 

@@ -1,9 +1,9 @@
 // The sample scenes are without fault, and so are their grammars; each makes as many trees as fit
 // its text.
-#include "runtime/grey_map.h"
-#include "runtime/placement.h"
-#include "runtime/scene.h"
-#include "runtime/terrain.h"
+#include "runtime/base/grey_map.h"
+#include "runtime/placement/placement.h"
+#include "runtime/scene/scene.h"
+#include "runtime/terrain/terrain.h"
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>

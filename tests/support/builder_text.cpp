@@ -1,6 +1,6 @@
 #include "tests/support/builder_text.h"
 
-#include "compiler/arithmetic.h"
+#include "compiler/bytecode/arithmetic.h"
 
 #include <bit>
 #include <cctype>

@@ -2,7 +2,7 @@
 // instructions. A mistake in a text ends the test program.
 #pragma once
 
-#include "compiler/bytecode.h"
+#include "compiler/bytecode/bytecode.h"
 
 #include <cstdint>
 #include <map>

@@ -1,6 +1,6 @@
 #include "tests/support/bytecode_builder.h"
 
-#include "compiler/verify.h"
+#include "compiler/bytecode/verify.h"
 #include "tests/support/builder_text.h"
 
 #include <bit>

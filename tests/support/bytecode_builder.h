@@ -3,7 +3,7 @@
 // single characters, blanks separate, and only what tests need is understood.
 #pragma once
 
-#include "compiler/bytecode.h"
+#include "compiler/bytecode/bytecode.h"
 
 #include <cstdint>
 #include <string>

@@ -1,8 +1,8 @@
 #include "tests/support/derived.h"
 
-#include "runtime/fold_reached.h"
-#include "runtime/stream.h"
-#include "runtime/word_text.h"
+#include "runtime/derive/fold_reached.h"
+#include "runtime/derive/stream.h"
+#include "runtime/derive/word_text.h"
 
 #include <catch2/catch.hpp>
 

@@ -2,8 +2,8 @@
 // stored or streamed, modules that can be reached folded or not. All must agree.
 #pragma once
 
-#include "compiler/bytecode.h"
-#include "runtime/derive.h"
+#include "compiler/bytecode/bytecode.h"
+#include "runtime/derive/derive.h"
 
 #include <cstdint>
 #include <string>

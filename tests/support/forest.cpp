@@ -1,7 +1,7 @@
 #include "tests/support/forest.h"
 
-#include "runtime/derive.h"
-#include "runtime/turtle.h"
+#include "runtime/derive/derive.h"
+#include "runtime/turtle/turtle.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // Caches and trees from texts of grammars, for tests of the instanced system.
 #pragma once
 
-#include "compiler/instance.h"
-#include "runtime/instance_cache.h"
+#include "compiler/instancing/instance.h"
+#include "runtime/forest/instance_cache.h"
 #include "tests/compiler/compile_text.h"
 
 #include <cstdint>

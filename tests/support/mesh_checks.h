@@ -1,7 +1,7 @@
 // What is true of every mesh, and the sizes that tests compare.
 #pragma once
 
-#include "runtime/mesh.h"
+#include "runtime/meshing/mesh.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 // Small meshes made by hand, for what reads meshes.
 #pragma once
 
-#include "runtime/mesh.h"
+#include "runtime/meshing/mesh.h"
 
 #include <cstdint>
 

@@ -1,7 +1,7 @@
 // Skeletons for tests, and how much of a picture a mesh covers.
 #pragma once
 
-#include "runtime/mesh.h"
+#include "runtime/meshing/mesh.h"
 
 #include <cstdint>
 #include <random>

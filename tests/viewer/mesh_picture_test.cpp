@@ -1,5 +1,5 @@
 // The picture that a mesh of a file shows: found, shown, exported, waited for.
-#include "runtime/texture.h"
+#include "runtime/meshing/texture.h"
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
 #include "tests/viewer/picture.h"

@@ -1,11 +1,11 @@
 // What a painted tree costs, in a small forest and in a large one: bytes for the device, and
 // memory. Every allocation by `new` in this program is counted.
-#include "runtime/placement.h"
+#include "runtime/placement/placement.h"
 #include "tests/support/forest.h"
-#include "viewer/forest_view.h"
 #include "viewer/gl/headless.h"
-#include "viewer/painter.h"
-#include "viewer/renderer.h"
+#include "viewer/gl/renderer.h"
+#include "viewer/scene/forest_view.h"
+#include "viewer/scene/painter.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // Wood: a small forest, for tests of what is drawn of one.
 #pragma once
 
-#include "viewer/forest_view.h"
+#include "viewer/scene/forest_view.h"
 
 #include <cstdint>
 #include <memory>

@@ -3,7 +3,7 @@
 #include "runtime/cli/forest_scene.h"
 #include "runtime/cli/stopwatch.h"
 #include "runtime/cli/tell.h"
-#include "runtime/turtle_diagnostic.h"
+#include "runtime/turtle/turtle_diagnostic.h"
 
 #include <algorithm>
 #include <chrono>

@@ -6,7 +6,7 @@
 #include "runtime/cli/grow_forest.h"
 #include "viewer/app/forest_edits.h"
 #include "viewer/app/options.h"
-#include "viewer/forest_model.h"
+#include "viewer/scene/forest_model.h"
 
 namespace lsys::view {
 

@@ -1,7 +1,7 @@
 // ForestEdits: what a user has set in place of what a scene says, while it is shown.
 #pragma once
 
-#include "runtime/scene.h"
+#include "runtime/scene/scene.h"
 
 #include <cstdint>
 #include <optional>

@@ -4,9 +4,9 @@
 
 #include "runtime/cli/console.h"
 #include "viewer/app/forest_document.h"
-#include "viewer/height_field.h"
-#include "viewer/painter.h"
-#include "viewer/renderer.h"
+#include "viewer/gl/renderer.h"
+#include "viewer/scene/height_field.h"
+#include "viewer/scene/painter.h"
 
 #include <glm/vec2.hpp>
 

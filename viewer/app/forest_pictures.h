@@ -4,7 +4,7 @@
 #include "runtime/cli/console.h"
 #include "viewer/app/forest_document.h"
 #include "viewer/app/options.h"
-#include "viewer/renderer.h"
+#include "viewer/gl/renderer.h"
 
 namespace lsys::view {
 

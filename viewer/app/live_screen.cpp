@@ -1,7 +1,7 @@
 #include "viewer/app/live_screen.h"
 
 #include "runtime/cli/files.h"
-#include "runtime/texture.h"
+#include "runtime/meshing/texture.h"
 #include "viewer/app/shader_folder.h"
 
 #include <fmt/format.h>

@@ -7,7 +7,7 @@
 #include "viewer/app/live_screen.h"
 #include "viewer/app/plant_loader.h"
 #include "viewer/app/plant_motion.h"
-#include "viewer/renderer.h"
+#include "viewer/gl/renderer.h"
 
 #include <cstdint>
 #include <functional>

@@ -10,7 +10,7 @@
 #include "viewer/app/shader_folder.h"
 #include "viewer/app/window_run.h"
 #include "viewer/gl/headless.h"
-#include "viewer/renderer.h"
+#include "viewer/gl/renderer.h"
 
 #include <fmt/format.h>
 

@@ -3,10 +3,10 @@
 
 #include "runtime/cli/command_line.h"
 #include "runtime/cli/options.h"
-#include "runtime/mesh.h"
-#include "runtime/physics.h"
-#include "viewer/camera.h"
-#include "viewer/renderer.h"
+#include "runtime/meshing/mesh.h"
+#include "runtime/physics/physics.h"
+#include "viewer/gl/renderer.h"
+#include "viewer/scene/camera.h"
 
 #include <cstdint>
 #include <optional>

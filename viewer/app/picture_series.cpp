@@ -2,7 +2,7 @@
 
 #include "runtime/cli/files.h"
 #include "runtime/cli/tell.h"
-#include "runtime/texture.h"
+#include "runtime/meshing/texture.h"
 
 #include <fmt/format.h>
 

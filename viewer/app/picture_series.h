@@ -3,7 +3,7 @@
 
 #include "runtime/cli/console.h"
 #include "viewer/app/options.h"
-#include "viewer/renderer.h"
+#include "viewer/gl/renderer.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,6 +1,6 @@
 #include "viewer/app/pictures.h"
 
-#include "runtime/physics.h"
+#include "runtime/physics/physics.h"
 #include "viewer/app/picture_series.h"
 
 #include <fmt/format.h>

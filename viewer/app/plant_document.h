@@ -5,7 +5,7 @@
 #include "runtime/cli/console.h"
 #include "runtime/cli/grammar_file.h"
 #include "runtime/cli/plant.h"
-#include "runtime/mesh.h"
+#include "runtime/meshing/mesh.h"
 #include "viewer/app/options.h"
 
 #include <string>

@@ -2,7 +2,7 @@
 // clock and meshes the plant anew, as fast as what it makes is taken.
 #pragma once
 
-#include "runtime/physics.h"
+#include "runtime/physics/physics.h"
 #include "viewer/app/plant_document.h"
 
 #include <functional>

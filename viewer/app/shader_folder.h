@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runtime/cli/console.h"
-#include "viewer/renderer.h"
+#include "viewer/gl/renderer.h"
 
 #include <string>
 #include <vector>

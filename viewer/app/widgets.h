@@ -1,8 +1,8 @@
 // Parts of panels that several have.
 #pragma once
 
-#include "runtime/physics.h"
-#include "viewer/camera.h"
+#include "runtime/physics/physics.h"
+#include "viewer/scene/camera.h"
 
 #include <cstdint>
 #include <string>

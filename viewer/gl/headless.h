@@ -2,7 +2,7 @@
 // Tried in turn: EGL without a surface, EGL on a device, a hidden window.
 #pragma once
 
-#include "grammar/result.h"
+#include "grammar/base/result.h"
 
 #include <memory>
 #include <string>

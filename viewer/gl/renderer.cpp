@@ -1,13 +1,13 @@
-#include "viewer/renderer.h"
+#include "viewer/gl/renderer.h"
 
-#include "viewer/gl/forest_pass.h"
-#include "viewer/gl/frame_block.h"
-#include "viewer/gl/line_set.h"
-#include "viewer/gl/material_textures.h"
-#include "viewer/gl/plant_mesh.h"
-#include "viewer/gl/program.h"
-#include "viewer/gl/shadow_map.h"
-#include "viewer/gl/target.h"
+#include "viewer/gl/impl/forest_pass.h"
+#include "viewer/gl/impl/frame_block.h"
+#include "viewer/gl/impl/line_set.h"
+#include "viewer/gl/impl/material_textures.h"
+#include "viewer/gl/impl/plant_mesh.h"
+#include "viewer/gl/impl/program.h"
+#include "viewer/gl/impl/shadow_map.h"
+#include "viewer/gl/impl/target.h"
 
 #include <algorithm>
 #include <cmath>

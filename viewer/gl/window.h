@@ -2,8 +2,8 @@
 // panels of Dear ImGui over its picture. The only code that knows GLFW and what joins it to ImGui.
 #pragma once
 
-#include "grammar/result.h"
-#include "viewer/renderer.h"
+#include "grammar/base/result.h"
+#include "viewer/gl/renderer.h"
 
 #include <glm/vec2.hpp>
 

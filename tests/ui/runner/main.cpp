@@ -1,7 +1,7 @@
 // tests_ui [--bless] [-v] [--root FOLDER] [FILTER...]: runs the golden cases whose
 // `feature/fact.lsys` contains a FILTER. tests_ui --codes: lists the diagnostics that no case
 // shows, and fails if there are any.
-#include "grammar/diagnostic.h"
+#include "grammar/base/diagnostic.h"
 #include "tests/support/ui_runner.h"
 
 #include <cstdio>

@@ -1,0 +1,64 @@
+# Every library, its folder, and the folders it may include: the one table that the build links by
+# (LsysTargets.cmake) and that the test of include rules reads (tests/layering/check_includes.cmake).
+#
+# One folder is one library. Headers directly in it are public; those of its sub-folders (impl/,
+# engine/, a dialect's name) are its own. A line is `folder: folders it may include`; a folder stands
+# below all that it includes, so the table has no cycle.
+set(LSYS_LAYERS
+  "grammar/base:"
+  "grammar/rendering: grammar/base"
+  "grammar/ast: grammar/base"
+  "grammar/lsys: grammar/base grammar/ast"
+  "grammar/format: grammar/base grammar/lsys"
+  "grammar/dialects: grammar/base grammar/ast grammar/lsys"
+  "compiler/bytecode: grammar/base"
+  "compiler/growth: grammar/base compiler/bytecode"
+  "compiler/program: grammar/base grammar/ast compiler/bytecode"
+  "compiler/resolve: grammar/base grammar/ast compiler/bytecode compiler/program"
+  "compiler/lint: grammar/base compiler/bytecode compiler/growth compiler/program compiler/resolve"
+  "compiler/lower: grammar/base compiler/bytecode compiler/program"
+  "compiler: grammar/base grammar/ast compiler/bytecode compiler/program compiler/resolve compiler/lint compiler/lower"
+  "compiler/instancing: grammar/base compiler/bytecode compiler/program compiler/lower"
+  "runtime/base: grammar/base"
+  "runtime/derive: grammar/base compiler/bytecode runtime/base"
+  "runtime/turtle: grammar/base compiler/bytecode runtime/base runtime/derive"
+  "runtime/meshing: grammar/base runtime/base runtime/turtle"
+  "runtime/physics: runtime/base runtime/turtle"
+  "runtime/forest: grammar/base compiler/bytecode runtime/base runtime/derive runtime/turtle runtime/meshing"
+  "runtime/terrain: grammar/base runtime/base runtime/meshing"
+  "runtime/placement: grammar/base runtime/base runtime/forest runtime/terrain"
+  "runtime/scene: grammar/base runtime/base runtime/derive runtime/forest runtime/terrain runtime/placement"
+  "runtime/export: grammar/base runtime/base runtime/turtle runtime/meshing runtime/physics runtime/forest"
+  "runtime/cli: grammar/base grammar/rendering grammar/ast grammar/lsys grammar/format grammar/dialects compiler/bytecode compiler/growth compiler/program compiler compiler/instancing runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/forest runtime/terrain runtime/placement runtime/scene runtime/export"
+  "viewer/scene: grammar/base runtime/base runtime/turtle runtime/physics runtime/forest runtime/terrain runtime/scene"
+  "viewer/gl: grammar/base runtime/meshing runtime/physics viewer/scene"
+  "viewer/app: grammar/base runtime/turtle runtime/meshing runtime/physics runtime/scene runtime/cli viewer/scene viewer/gl")
+
+# lsys_layer(PATH RESULT): the folder of the table that PATH lies in, the longest that fits.
+function(lsys_layer path result)
+  set(found "")
+  set(longest 0)
+  foreach(line IN LISTS LSYS_LAYERS)
+    string(REGEX REPLACE ":.*" "" folder "${line}")
+    string(FIND "${path}" "${folder}/" position)
+    string(LENGTH "${folder}" length)
+    if(position EQUAL 0 AND length GREATER longest)
+      set(found "${folder}")
+      set(longest ${length})
+    endif()
+  endforeach()
+  set(${result} "${found}" PARENT_SCOPE)
+endfunction()
+
+# lsys_layer_includes(FOLDER RESULT): the folders that FOLDER may include.
+function(lsys_layer_includes folder result)
+  foreach(line IN LISTS LSYS_LAYERS)
+    if(line MATCHES "^${folder}:(.*)$")
+      string(STRIP "${CMAKE_MATCH_1}" included)
+      string(REPLACE " " ";" included "${included}")
+      set(${result} "${included}" PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+  message(FATAL_ERROR "${folder} is not in cmake/Layers.cmake")
+endfunction()

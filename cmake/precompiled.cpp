@@ -1,0 +1,1 @@
+// The precompiled headers of all libraries belong to this source (LsysTargets.cmake).

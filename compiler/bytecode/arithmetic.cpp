@@ -1,0 +1,183 @@
+#include "compiler/bytecode/arithmetic.h"
+
+#include "grammar/base/contract.h"
+
+#include <numbers>
+
+namespace lsys::arithmetic {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kRadian = 180.0 / std::numbers::pi;
+
+float rounded(double x) {
+    return static_cast<float>(x);
+}
+double wide(float x) {
+    return static_cast<double>(x);
+}
+
+/// The angle in (-360, 360), exactly.
+double reduced(float degrees) {
+    return std::fmod(wide(degrees), 360.0);
+}
+
+/// 0 to 3 for the angles 0, 90, 180, 270 and those a turn away from them; -1 for others.
+int quarter_turns(double angle) {
+    const double quarters = angle / 90.0;
+    if (quarters != std::floor(quarters)) {
+        return -1; // also where the angle is not a number
+    }
+    return static_cast<int>(quarters < 0.0 ? quarters + 4.0 : quarters);
+}
+
+} // namespace
+
+float power(float x, float y) {
+    return rounded(std::pow(wide(x), wide(y)));
+}
+
+float sine(float degrees) {
+    const double angle = reduced(degrees);
+    switch (quarter_turns(angle)) {
+    case 0:
+    case 2:
+        return 0.0F;
+    case 1:
+        return 1.0F;
+    case 3:
+        return -1.0F;
+    default:
+        return rounded(std::sin(angle * kDegree));
+    }
+}
+
+float cosine(float degrees) {
+    const double angle = reduced(degrees);
+    switch (quarter_turns(angle)) {
+    case 0:
+        return 1.0F;
+    case 1:
+    case 3:
+        return 0.0F;
+    case 2:
+        return -1.0F;
+    default:
+        return rounded(std::cos(angle * kDegree));
+    }
+}
+
+float tangent(float degrees) {
+    const double angle = reduced(degrees);
+    switch (quarter_turns(angle)) {
+    case 0:
+    case 2:
+        return 0.0F;
+    case 1:
+        return HUGE_VALF;
+    case 3:
+        return -HUGE_VALF;
+    default:
+        return rounded(std::tan(angle * kDegree));
+    }
+}
+
+float arc_sine(float x) {
+    return rounded(std::asin(wide(x)) * kRadian);
+}
+float arc_cosine(float x) {
+    return rounded(std::acos(wide(x)) * kRadian);
+}
+float arc_tangent(float x) {
+    return rounded(std::atan(wide(x)) * kRadian);
+}
+float arc_tangent2(float y, float x) {
+    return rounded(std::atan2(wide(y), wide(x)) * kRadian);
+}
+float exponential(float x) {
+    return rounded(std::exp(wide(x)));
+}
+float logarithm(float x) {
+    return rounded(std::log(wide(x)));
+}
+
+bool is_arithmetic(Opcode opcode) {
+    return opcode >= Opcode::Negate && opcode <= Opcode::Mod;
+}
+
+float apply(Opcode opcode, float x, float y) {
+    switch (opcode) {
+    case Opcode::Negate:
+        return -x;
+    case Opcode::Not:
+        return logical_not(x);
+    case Opcode::Power:
+        return power(x, y);
+    case Opcode::Multiply:
+        return x * y;
+    case Opcode::Divide:
+        return x / y;
+    case Opcode::Add:
+        return x + y;
+    case Opcode::Subtract:
+        return x - y;
+    case Opcode::Less:
+        return truth(x < y);
+    case Opcode::LessEqual:
+        return truth(x <= y);
+    case Opcode::Greater:
+        return truth(x > y);
+    case Opcode::GreaterEqual:
+        return truth(x >= y);
+    case Opcode::Equal:
+        return truth(x == y);
+    case Opcode::NotEqual:
+        return truth(x != y);
+    case Opcode::And:
+        return logical_and(x, y);
+    case Opcode::Or:
+        return logical_or(x, y);
+    case Opcode::Sin:
+        return sine(x);
+    case Opcode::Cos:
+        return cosine(x);
+    case Opcode::Tan:
+        return tangent(x);
+    case Opcode::Asin:
+        return arc_sine(x);
+    case Opcode::Acos:
+        return arc_cosine(x);
+    case Opcode::Atan:
+        return arc_tangent(x);
+    case Opcode::Atan2:
+        return arc_tangent2(x, y);
+    case Opcode::Sqrt:
+        return std::sqrt(x);
+    case Opcode::Exp:
+        return exponential(x);
+    case Opcode::Log:
+        return logarithm(x);
+    case Opcode::Abs:
+        return std::fabs(x);
+    case Opcode::Floor:
+        return std::floor(x);
+    case Opcode::Ceil:
+        return std::ceil(x);
+    case Opcode::Round:
+        return nearest(x);
+    case Opcode::Sign:
+        return sign(x);
+    case Opcode::Min:
+        return minimum(x, y);
+    case Opcode::Max:
+        return maximum(x, y);
+    case Opcode::Mod:
+        return remainder(x, y);
+    default:
+        LSYS_CHECK(is_arithmetic(opcode), static_cast<int>(opcode));
+        return x;
+    }
+}
+
+} // namespace lsys::arithmetic

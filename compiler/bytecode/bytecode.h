@@ -1,0 +1,255 @@
+// Bytecode: a compiled L-system, the contract of compiler and runtime. Made by lower/ or read from
+// a .lsb file; read by the runtime, which sees nothing else of the compiler. It is self-contained,
+// immutable and passes verify().
+//
+// A word is a sequence of codes. Code c < symbols.size() is a module of symbol c whose parameters
+// are stored beside the word as binary32. A higher code is a folded module: a symbol with constant
+// arguments that are known here (`&(22.5)`), so its word stores none. The number of codes decides
+// the width of a stored code: 1 byte up to 256, 2 up to 65,536, else 4. Modules are folded in order
+// of first appearance while the width does not grow.
+//
+// Each table is filled in one order without gaps, so that nothing is shared and a walk over the
+// productions is a walk over the tables:
+//   constants       of folded[0], folded[1], ...
+//   patterns        of each production its left context, predecessor and right context
+//   template_codes  of the axiom, then of each production's successor
+//   instructions    of each global, of the axiom's arguments, then of each production its condition
+//                   and its successor's arguments
+//   template_places of the modules of template_codes, or empty: then nobody knows where they stand
+#pragma once
+
+#include "compiler/bytecode/settings.h"
+#include "grammar/base/source.h"
+#include "grammar/base/stage.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+enum class Opcode : std::uint8_t {
+#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, meaning) identifier,
+#include "compiler/bytecode/opcodes.def"
+#undef LSYS_OPCODE
+};
+enum class OperandKind : std::uint8_t { None, Literal, Formal, Global, Draw, Branch };
+
+struct OpcodeInfo {
+    std::string_view mnemonic;
+    OperandKind operand;
+    std::uint8_t pops;
+    std::uint8_t pushes;
+    std::string_view meaning;
+};
+inline constexpr std::uint32_t kOpcodeCount = 0
+#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, meaning) +1
+#include "compiler/bytecode/opcodes.def"
+#undef LSYS_OPCODE
+    ;
+/// Precondition: opcode < kOpcodeCount.
+[[nodiscard]] const OpcodeInfo& info(Opcode opcode);
+inline constexpr std::uint32_t kMaxOperand = (1U << 24) - 1;
+/// Random ranges of one successor with `rewriting sequential`, where pass k adds 4096 k to their
+/// numbers.
+inline constexpr std::uint32_t kMaxSequentialDraws = 4095;
+[[nodiscard]] constexpr std::uint32_t encode(Opcode opcode, std::uint32_t operand) {
+    return static_cast<std::uint32_t>(opcode) | (operand << 8);
+}
+
+enum class TurtleOperation : std::uint8_t {
+#define LSYS_TURTLE(identifier, name, draws) identifier,
+#include "compiler/bytecode/turtle_operations.def"
+#undef LSYS_TURTLE
+};
+inline constexpr std::uint32_t kTurtleOperationCount = 0
+#define LSYS_TURTLE(identifier, name, draws) +1
+#include "compiler/bytecode/turtle_operations.def"
+#undef LSYS_TURTLE
+    ;
+[[nodiscard]] std::string_view name_of(TurtleOperation operation);
+/// Parameters of a SaveBranch before the formals that its branch uses: whether an instance is to be
+/// taken, the age of the word that holds it, its id.
+inline constexpr std::uint32_t kBranchArguments = 3;
+[[nodiscard]] bool draws(TurtleOperation operation);
+/// Whether it turns the turtle by an angle.
+[[nodiscard]] bool turns(TurtleOperation operation);
+
+enum class SymbolId : std::uint32_t {};
+inline constexpr SymbolId kNoSymbol{0xFFFFFFFFu};
+enum class ProductionId : std::uint32_t {};
+inline constexpr ProductionId kNoProduction{0xFFFFFFFFu};
+/// A code of a word; see the head of this file.
+using Code = std::uint32_t;
+inline constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+/// Bracket structure is a property of symbols, not of characters.
+enum class SymbolKind : std::uint8_t { Plain, BranchOpen, BranchClose, PolygonOpen, PolygonClose };
+
+struct BytecodeSymbol {
+    std::string name;
+    std::uint32_t parameter_count = 0;
+    SymbolKind kind = SymbolKind::Plain;
+    bool ignored = false; // by #ignore
+    TurtleOperation turtle = TurtleOperation::Nothing;
+    std::string mesh_file; // of TurtleOperation::MeshFile
+};
+
+/// A module whose arguments are constants: code = symbols.size() + its index.
+struct FoldedModule {
+    SymbolId symbol = kNoSymbol;
+    std::uint32_t first_constant = 0; // in constants; parameter_count of the symbol many
+};
+
+/// A place for messages that works without the source text.
+struct Site {
+    SourceSpan span; // FileId indexes Bytecode::files
+    std::uint32_t line = 0;
+    std::uint32_t column = 0;
+};
+
+/// instructions[instruction] and those that follow, up to the next mark, stem from site.
+struct SiteMark {
+    std::uint32_t instruction = 0;
+    std::uint32_t site = 0; // in sites
+};
+
+/// Where modules of template_codes stand in the text: one after the other at equal distances, in
+/// one line and without a character beyond ASCII, so that a long axiom takes few rows. The file is
+/// that of the axiom's or the production's site. The first module of each word begins a run.
+struct PlaceRun {
+    std::uint32_t first = 0;  // in template_codes; the run ends where the next begins
+    std::uint32_t begin = 0;  // offset of its first module
+    std::uint32_t length = 0; // bytes of each module, arguments included
+    std::uint32_t stride = 0; // bytes from one to the next; 0 if there is one only
+    std::uint32_t line = 0;
+    std::uint32_t column = 0; // of the first
+};
+
+enum class PatternKind : std::uint8_t { Module, Open, Close };
+
+/// One element of a context or predecessor. A module's parameters become formals first_formal, ...
+struct PatternItem {
+    PatternKind kind = PatternKind::Module;
+    SymbolId symbol = kNoSymbol;
+    std::uint32_t first_formal = 0;
+};
+
+struct TableRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+/// Codes [first, first + count) of template_codes, and the instructions that make their stored
+/// parameters, in order. `parameter_count` values are emitted.
+struct WordTemplate {
+    TableRange codes;
+    std::uint32_t arguments = kNone; // first instruction, or kNone if nothing is stored
+    std::uint32_t parameter_count = 0;
+    std::uint32_t draw_count = 0; // random ranges
+};
+
+struct BytecodeProduction {
+    std::string name;
+    std::uint32_t name_site = kNone;
+    std::uint32_t rule = 0;  // productions whose predecessors are equal, by first appearance
+    std::uint32_t group = 0; // ... and whose contexts are equal
+    Stage stage = Stage::Rewrite;
+    bool has_left = false;
+    bool has_right = false;
+    TableRange left;        // in patterns; modules only, in text order
+    TableRange predecessor; // in patterns; modules only, at least one
+    TableRange right;       // in patterns; Open and Close balance
+    std::uint32_t formal_count = 0;
+    std::uint32_t condition = kNone; // first instruction, or kNone for `*`
+    bool stochastic = false;
+    float weight = 0.0F; // p as written, if stochastic
+    WordTemplate successor;
+};
+
+/// A constant that is drawn when the derivation starts.
+struct BytecodeGlobal {
+    std::string name;
+    std::uint32_t instruction = 0;   // computes the value: Emit, End
+    std::uint32_t draw_position = 0; // number of its first range among #define, #param, #w
+    std::uint32_t draw_count = 0;
+    bool has_bounds = false; // of a #param
+    float minimum = 0.0F;
+    float maximum = 0.0F;
+    std::uint32_t site = kNone;
+};
+
+struct Bytecode {
+    Settings settings;
+    std::optional<std::uint32_t> generations; // of #n
+
+    std::vector<std::string> files; // paths; FileId of a Site indexes them
+    std::vector<BytecodeSymbol> symbols;
+    std::vector<FoldedModule> folded;
+    std::vector<float> constants;
+    std::vector<BytecodeGlobal> globals; // in source order; a global uses earlier ones only
+    std::vector<PatternItem> patterns;
+    std::vector<Code> template_codes;
+    std::vector<std::uint32_t> instructions;
+    std::vector<Site> sites;
+    std::vector<SiteMark> site_marks;            // ascending
+    std::vector<PlaceRun> template_places;       // ascending
+    std::vector<BytecodeProduction> productions; // by stage, then in file order
+    std::uint32_t rule_count = 0;
+    std::uint32_t group_count = 0;
+    WordTemplate axiom;
+    std::uint32_t axiom_site = kNone;
+    std::uint32_t axiom_draw_position = 0; // number of the axiom's first range
+    bool uses_steps = false; // steps() occurs: the word depends on the number asked for
+
+    /// The productions of a stage.
+    [[nodiscard]] TableRange of(Stage stage) const;
+    [[nodiscard]] bool has(Stage stage) const { return of(stage).count != 0; }
+    /// Rules of Stage::Rewrite: those up to this number.
+    [[nodiscard]] std::uint32_t rewriting_rules() const;
+    /// Whether some module cuts its branch off.
+    [[nodiscard]] bool cuts() const;
+
+    [[nodiscard]] Code code_count() const {
+        return static_cast<Code>(symbols.size() + folded.size());
+    }
+    /// Precondition: code < code_count().
+    [[nodiscard]] SymbolId symbol_of(Code code) const {
+        return code < symbols.size() ? static_cast<SymbolId>(code)
+                                     : folded[code - symbols.size()].symbol;
+    }
+    [[nodiscard]] const BytecodeSymbol& symbol(SymbolId id) const {
+        return symbols[static_cast<std::size_t>(id)];
+    }
+    /// Parameters that a word stores for each module of this code.
+    [[nodiscard]] std::uint32_t stored_parameters(Code code) const {
+        return code < symbols.size() ? symbols[code].parameter_count : 0;
+    }
+};
+
+/// Bytes of a stored code for `code_count` codes: 1, 2 or 4.
+[[nodiscard]] constexpr std::uint32_t code_width(std::uint64_t code_count) {
+    return code_count <= 256 ? 1 : code_count <= 65'536 ? 2 : 4;
+}
+
+/// The site of an instruction, or kNone.
+[[nodiscard]] std::uint32_t site_of(const Bytecode& bytecode, std::uint32_t instruction);
+
+/// The production whose successor holds template_codes[index]; kNoProduction: the axiom does.
+/// Precondition: index < template_codes.size().
+[[nodiscard]] ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index);
+/// Where the module of template_codes[index] stands, with its arguments, if that is known.
+/// Precondition: index < template_codes.size().
+[[nodiscard]] std::optional<Site> place_of(const Bytecode& bytecode, std::uint32_t index);
+
+/// A 64-bit checksum of bytes, for .lsb and state files: any change within one aligned group of
+/// eight bytes changes it.
+[[nodiscard]] std::uint64_t checksum(std::string_view bytes);
+
+/// A 64-bit digest of everything that decides the derived word; equal programs have equal digests,
+/// however their text is laid out.
+[[nodiscard]] std::uint64_t digest(const Bytecode& bytecode);
+
+} // namespace lsys

@@ -1,0 +1,211 @@
+#include "compiler/bytecode/disassemble.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <charconv>
+#include <iterator>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+class Listing {
+public:
+    explicit Listing(const Bytecode& bytecode) : bytecode_(bytecode) {}
+
+    std::string run() {
+        header();
+        symbols();
+        for (std::size_t i = 0; i < bytecode_.globals.size(); ++i) {
+            global(i);
+        }
+        line("\naxiom{}", at_site(bytecode_.axiom_site));
+        word(bytecode_.axiom);
+        for (std::size_t i = 0; i < bytecode_.productions.size(); ++i) {
+            production(i);
+        }
+        return std::move(out_);
+    }
+
+private:
+    template <typename... Values>
+    void line(fmt::format_string<Values...> format, Values&&... values) {
+        fmt::format_to(std::back_inserter(out_), format, std::forward<Values>(values)...);
+        out_ += '\n';
+    }
+
+    static std::string real(float value) {
+        char buffer[32];
+        const auto end = std::to_chars(std::begin(buffer), std::end(buffer), value).ptr;
+        return {buffer, end};
+    }
+
+    std::string at_site(std::uint32_t index) const {
+        if (index == kNone) {
+            return {};
+        }
+        const Site& site = bytecode_.sites[index];
+        return fmt::format("  ; {}:{}:{}",
+                           bytecode_.files[static_cast<std::size_t>(site.span.file)], site.line,
+                           site.column);
+    }
+
+    void header() {
+        const Settings& s = bytecode_.settings;
+        line("rewriting {}, choice {}, weights {}, turtle {}", name_of(s.rewriting),
+             name_of(s.choice), name_of(s.weights), name_of(s.turtle));
+        if (bytecode_.generations) {
+            line("generations {}", *bytecode_.generations);
+        }
+        line("{} rules, {} groups, {} codes of {} bytes", bytecode_.rule_count,
+             bytecode_.group_count, bytecode_.code_count(), code_width(bytecode_.code_count()));
+    }
+
+    void symbols() {
+        line("\nsymbols");
+        for (std::size_t i = 0; i < bytecode_.symbols.size(); ++i) {
+            const BytecodeSymbol& symbol = bytecode_.symbols[i];
+            line("{:5} {}/{}{} {}{}", i, symbol.name, symbol.parameter_count,
+                 symbol.ignored ? " ignored" : "", name_of(symbol.turtle),
+                 symbol.mesh_file.empty() ? "" : " \"" + symbol.mesh_file + '"');
+        }
+        for (std::size_t i = 0; i < bytecode_.folded.size(); ++i) {
+            line("{:5} {}", bytecode_.symbols.size() + i,
+                 code_text(static_cast<Code>(bytecode_.symbols.size() + i)));
+        }
+    }
+
+    std::string code_text(Code code) const {
+        const BytecodeSymbol& symbol = bytecode_.symbol(bytecode_.symbol_of(code));
+        std::string text = symbol.name;
+        if (code < bytecode_.symbols.size()) {
+            if (symbol.parameter_count != 0) {
+                text += fmt::format("/{}", symbol.parameter_count);
+            }
+            return text;
+        }
+        const FoldedModule& module = bytecode_.folded[code - bytecode_.symbols.size()];
+        for (std::uint32_t i = 0; i < symbol.parameter_count; ++i) {
+            text += i == 0 ? '(' : ',';
+            text += real(bytecode_.constants[module.first_constant + i]);
+        }
+        return text + ')';
+    }
+
+    void global(std::size_t index) {
+        const BytecodeGlobal& global = bytecode_.globals[index];
+        line("\nglobal {} {}{}{}", index, global.name,
+             global.has_bounds
+                 ? fmt::format(" {{{}, {}}}", real(global.minimum), real(global.maximum))
+                 : "",
+             at_site(global.site));
+        code(global.instruction);
+    }
+
+    void production(std::size_t index) {
+        const BytecodeProduction& p = bytecode_.productions[index];
+        std::string head;
+        if (p.has_left) {
+            head += pattern(p.left) + " < ";
+        }
+        head += pattern(p.predecessor);
+        if (p.has_right) {
+            head += " > " + pattern(p.right);
+        }
+        line("\nproduction {} {}: {}{}", index, p.name, head, at_site(p.name_site));
+        line("  {}rule {}, group {}{}",
+             p.stage == Stage::Rewrite ? "" : std::string(keyword_of(p.stage)) + ", ", p.rule,
+             p.group, p.stochastic ? ", probability " + real(p.weight) : "");
+        if (p.condition != kNone) {
+            line("  condition");
+            code(p.condition);
+        }
+        line("  successor");
+        word(p.successor);
+    }
+
+    std::string pattern(TableRange range) const {
+        std::string text;
+        for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+            const PatternItem& item = bytecode_.patterns[i];
+            if (!text.empty()) {
+                text += ' ';
+            }
+            if (item.kind != PatternKind::Module) {
+                text += item.kind == PatternKind::Open ? '[' : ']';
+                continue;
+            }
+            const BytecodeSymbol& symbol = bytecode_.symbol(item.symbol);
+            text += symbol.name;
+            for (std::uint32_t k = 0; k < symbol.parameter_count; ++k) {
+                text += fmt::format("{}${}", k == 0 ? "(" : ",", item.first_formal + k);
+            }
+            text += symbol.parameter_count != 0 ? ")" : "";
+        }
+        return text;
+    }
+
+    void word(const WordTemplate& word) {
+        std::string text = "    codes";
+        for (std::uint32_t i = word.codes.first; i < word.codes.first + word.codes.count; ++i) {
+            text += ' ';
+            text += code_text(bytecode_.template_codes[i]);
+        }
+        line("{}", text);
+        if (word.arguments != kNone) {
+            line("    {} parameters, {} draws", word.parameter_count, word.draw_count);
+            code(word.arguments);
+        }
+    }
+
+    void code(std::uint32_t at) {
+        std::uint32_t site = kNone;
+        while (true) {
+            const std::uint32_t word = bytecode_.instructions[at];
+            const auto opcode = static_cast<Opcode>(word & 0xFF);
+            const OpcodeInfo& row = info(opcode);
+            std::string text = fmt::format("{:8} {}", at, row.mnemonic);
+            const std::uint32_t here = site_of(bytecode_, at);
+            ++at;
+            switch (row.operand) {
+            case OperandKind::None:
+                break;
+            case OperandKind::Literal:
+                text += ' ' + real(std::bit_cast<float>(bytecode_.instructions[at]));
+                ++at;
+                break;
+            case OperandKind::Formal:
+                text += fmt::format(" ${}", word >> 8);
+                break;
+            case OperandKind::Global:
+                text += ' ' + bytecode_.globals[word >> 8].name;
+                break;
+            case OperandKind::Draw:
+            case OperandKind::Branch:
+                text += fmt::format(" {}", word >> 8);
+                break;
+            }
+            if (here != site) {
+                text = fmt::format("{:<30}{}", text, at_site(here));
+                site = here;
+            }
+            line("{}", text);
+            if (opcode == Opcode::End) {
+                return;
+            }
+        }
+    }
+
+    const Bytecode& bytecode_;
+    std::string out_;
+};
+
+} // namespace
+
+std::string disassemble(const Bytecode& bytecode) {
+    return Listing(bytecode).run();
+}
+
+} // namespace lsys

@@ -1,0 +1,512 @@
+#include "compiler/bytecode/verify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+template <typename Enum>
+bool within(Enum value, Enum last) {
+    using Number = std::underlying_type_t<Enum>;
+    return static_cast<Number>(value) <= static_cast<Number>(last);
+}
+
+std::uint32_t number(SymbolId id) {
+    return static_cast<std::uint32_t>(id);
+}
+
+/// What code may use where it stands.
+enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Successor };
+
+/// One walk over the tables in the order that bytecode.h promises. Every function returns false
+/// after it has said what is wrong in `problem`.
+class Verifier {
+public:
+    explicit Verifier(const Bytecode& bytecode) : bytecode_(bytecode) {}
+
+    std::optional<std::string> run() {
+        if (settings() && symbols() && folded() && sites() && places() && globals() && axiom() &&
+            productions() && ends()) {
+            return std::nullopt;
+        }
+        return std::move(problem_);
+    }
+
+private:
+    template <typename... Values>
+    bool fail(fmt::format_string<Values...> format, Values&&... values) {
+        problem_ = fmt::format(format, std::forward<Values>(values)...);
+        return false;
+    }
+
+    bool settings() {
+        const Settings& s = bytecode_.settings;
+        if (!within(s.turtle, kLastTurtleProfile) ||
+            !within(s.rewriting, RewritingMode::Leftmost) ||
+            !within(s.choice, ChoiceScope::Generation) || !within(s.random, RandomSource::Glibc) ||
+            !within(s.weights, WeightRule::Any) || !within(s.at_depth, AtDepth::Stop)) {
+            return fail("a setting has a value that does not exist");
+        }
+        for (const float value :
+             {s.angle, s.step, s.width, s.angle_scale, s.step_scale, s.width_scale, s.spring,
+              s.density, s.damping, s.tropism[0], s.tropism[1], s.tropism[2], s.tropism[3]}) {
+            if (!std::isfinite(value)) {
+                return fail("a setting is not finite");
+            }
+        }
+        if (s.sides < 3 || s.sides > 64) {
+            return fail("a branch of {} sides", s.sides);
+        }
+        if (s.decompose_depth == 0 || s.decompose_depth > kMaxDepth || s.interpret_depth == 0 ||
+            s.interpret_depth > kMaxDepth) {
+            return fail("a depth that cannot be");
+        }
+        if (bytecode_.generations && *bytecode_.generations == kNone) {
+            return fail("more generations than there can be");
+        }
+        return true;
+    }
+
+    bool symbols() {
+        for (std::size_t i = 0; i < bytecode_.symbols.size(); ++i) {
+            const BytecodeSymbol& symbol = bytecode_.symbols[i];
+            if (symbol.name.empty() || !printable(symbol.name)) {
+                return fail("symbol {} has no printable name", i);
+            }
+            if (!within(symbol.kind, SymbolKind::PolygonClose) ||
+                static_cast<std::uint32_t>(symbol.turtle) >= kTurtleOperationCount) {
+                return fail("symbol {} is of no known kind", i);
+            }
+            const bool saves_branch = symbol.turtle == TurtleOperation::SaveBranch;
+            if (saves_branch && (symbol.kind != SymbolKind::BranchOpen ||
+                                 symbol.parameter_count < kBranchArguments)) {
+                return fail("symbol {} is no branch", i);
+            }
+            const bool plain = symbol.kind == SymbolKind::Plain;
+            if (symbol.parameter_count > (plain || saves_branch ? kMaxOperand : 0)) {
+                return fail("symbol {} has {} parameters", i, symbol.parameter_count);
+            }
+            parameters_.push_back(symbol.parameter_count);
+        }
+        const std::uint64_t count =
+            std::uint64_t{bytecode_.symbols.size()} + bytecode_.folded.size();
+        return count < kNone || fail("{} codes", count);
+    }
+
+    static bool printable(const std::string& name) {
+        for (const char c : name) {
+            if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    bool folded() {
+        std::uint64_t next = 0;
+        for (std::size_t i = 0; i < bytecode_.folded.size(); ++i) {
+            const FoldedModule& module = bytecode_.folded[i];
+            if (number(module.symbol) >= bytecode_.symbols.size() ||
+                bytecode_.symbol(module.symbol).parameter_count == 0) {
+                return fail("folded module {} is of no symbol with parameters", i);
+            }
+            if (module.first_constant != next) {
+                return fail("folded module {} does not follow the one before it", i);
+            }
+            next += bytecode_.symbol(module.symbol).parameter_count;
+        }
+        if (next != bytecode_.constants.size()) {
+            return fail("{} constants, {} needed", bytecode_.constants.size(), next);
+        }
+        for (const float constant : bytecode_.constants) {
+            if (!std::isfinite(constant)) {
+                return fail("a folded argument is not finite");
+            }
+        }
+        return true;
+    }
+
+    bool sites() {
+        for (std::size_t i = 0; i < bytecode_.sites.size(); ++i) {
+            const SourceSpan span = bytecode_.sites[i].span;
+            if (static_cast<std::uint32_t>(span.file) >= bytecode_.files.size() ||
+                span.begin > span.end) {
+                return fail("site {} lies in no file", i);
+            }
+        }
+        std::uint64_t next = 0;
+        for (std::size_t i = 0; i < bytecode_.site_marks.size(); ++i) {
+            const SiteMark mark = bytecode_.site_marks[i];
+            if (mark.site >= bytecode_.sites.size() || mark.instruction < next ||
+                mark.instruction >= bytecode_.instructions.size()) {
+                return fail("site mark {} is out of place", i);
+            }
+            next = std::uint64_t{mark.instruction} + 1;
+        }
+        return true;
+    }
+
+    /// That the first module of each word begins a run is seen to by word().
+    bool places() {
+        const std::vector<PlaceRun>& runs = bytecode_.template_places;
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            const PlaceRun& run = runs[i];
+            const std::uint64_t end =
+                i + 1 < runs.size() ? runs[i + 1].first : bytecode_.template_codes.size();
+            if (run.first >= end) {
+                return fail("place run {} is empty", i);
+            }
+            const std::uint64_t count = end - run.first;
+            if (run.line == 0 || run.column == 0 || run.length == 0 ||
+                (run.stride < run.length && (count > 1 || run.stride != 0))) {
+                return fail("place run {} is malformed", i);
+            }
+            // of its last module
+            const std::uint64_t distance = (count - 1) * run.stride;
+            if (distance + run.begin + run.length > kNone || distance + run.column > kNone) {
+                return fail("place run {} ends beyond every file", i);
+            }
+        }
+        return true;
+    }
+
+    /// Whether a word's places begin with it, and its file is known.
+    bool has_places(const WordTemplate& word, std::uint32_t site) {
+        const std::vector<PlaceRun>& runs = bytecode_.template_places;
+        if (runs.empty() || word.codes.count == 0) {
+            return true;
+        }
+        const auto run = std::lower_bound(
+            runs.begin(), runs.end(), word.codes.first,
+            [](const PlaceRun& each, std::uint32_t first) { return each.first < first; });
+        return site != kNone && run != runs.end() && run->first == word.codes.first;
+    }
+
+    bool site(std::uint32_t index) const {
+        return index == kNone || index < bytecode_.sites.size();
+    }
+
+    bool globals() {
+        if (bytecode_.globals.size() > kMaxOperand) {
+            return fail("{} globals", bytecode_.globals.size());
+        }
+        for (std::size_t i = 0; i < bytecode_.globals.size(); ++i) {
+            const BytecodeGlobal& global = bytecode_.globals[i];
+            if (!site(global.site) || !printable(global.name)) {
+                return fail("global {} has no place", i);
+            }
+            if (!std::isfinite(global.minimum) || !std::isfinite(global.maximum) ||
+                global.minimum > global.maximum) {
+                return fail("global {} has bounds that hold nothing", i);
+            }
+            if (!code(CodePlace::Global, global.instruction,
+                      {.globals = static_cast<std::uint32_t>(i), .draws = global.draw_count})) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    bool axiom() {
+        if (!site(bytecode_.axiom_site)) {
+            return fail("the axiom has no place");
+        }
+        if (bytecode_.axiom.codes.count == 0) {
+            return fail("the axiom is empty");
+        }
+        if (!has_places(bytecode_.axiom, bytecode_.axiom_site)) {
+            return fail("the axiom's modules have no places");
+        }
+        return word(CodePlace::Axiom, bytecode_.axiom, 0);
+    }
+
+    bool productions() {
+        std::vector<std::uint32_t> rule_example;
+        std::vector<std::uint32_t> group_example;
+        for (std::size_t i = 0; i < bytecode_.productions.size(); ++i) {
+            const BytecodeProduction& p = bytecode_.productions[i];
+            if (p.name.empty() || !printable(p.name) || !site(p.name_site)) {
+                return fail("production {} has no name or no place", i);
+            }
+            if (!within(p.stage, Stage::Interpret) ||
+                (i > 0 && p.stage < bytecode_.productions[i - 1].stage)) {
+                return fail("production {} is out of its stage", i);
+            }
+            if (p.stage != Stage::Rewrite &&
+                (p.has_left || p.has_right || p.predecessor.count != 1)) {
+                return fail("production {} has more than one module", i);
+            }
+            const bool weight_fits =
+                p.stochastic
+                    ? std::isfinite(p.weight) && p.weight > 0.0F &&
+                          (p.weight <= 1.0F || bytecode_.settings.weights == WeightRule::Any)
+                    : p.weight == 0.0F;
+            if (!weight_fits) {
+                return fail("production {} has a probability of {}", i, p.weight);
+            }
+            if (!head(i, p) || !class_of(i, p.rule, rule_example, false) ||
+                !class_of(i, p.group, group_example, true)) {
+                return false;
+            }
+            if (p.condition != kNone &&
+                !code(CodePlace::Condition, p.condition, {.formals = p.formal_count})) {
+                return false;
+            }
+            if (!word(CodePlace::Successor, p.successor, p.formal_count)) {
+                return false;
+            }
+            if (!has_places(p.successor, p.name_site)) {
+                return fail("the modules of production {} have no places", i);
+            }
+        }
+        if (rule_example.size() != bytecode_.rule_count ||
+            group_example.size() != bytecode_.group_count) {
+            return fail("{} rules and {} groups are named, {} and {} found", bytecode_.rule_count,
+                        bytecode_.group_count, rule_example.size(), group_example.size());
+        }
+        return true;
+    }
+
+    /// Rules and groups are numbered by first appearance, and their members have equal heads.
+    bool class_of(std::size_t production,
+                  std::uint32_t index,
+                  std::vector<std::uint32_t>& examples,
+                  bool with_contexts) {
+        const char* kind = with_contexts ? "group" : "rule";
+        if (index > examples.size()) {
+            return fail("production {} is of {} {}, which nothing began", production, kind, index);
+        }
+        if (index == examples.size()) {
+            examples.push_back(static_cast<std::uint32_t>(production));
+            return true;
+        }
+        const BytecodeProduction& example = bytecode_.productions[examples[index]];
+        const BytecodeProduction& p = bytecode_.productions[production];
+        const bool same =
+            example.stage == p.stage && same_pattern(example.predecessor, p.predecessor) &&
+            (!with_contexts ||
+             (same_pattern(example.left, p.left) && same_pattern(example.right, p.right)));
+        return same || fail("production {} does not fit {} {}", production, kind, index);
+    }
+
+    bool same_pattern(TableRange a, TableRange b) const {
+        if (a.count != b.count) {
+            return false;
+        }
+        for (std::uint32_t i = 0; i < a.count; ++i) {
+            const PatternItem& x = bytecode_.patterns[a.first + i];
+            const PatternItem& y = bytecode_.patterns[b.first + i];
+            if (x.kind != y.kind || x.symbol != y.symbol) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    bool head(std::size_t index, const BytecodeProduction& p) {
+        std::uint64_t formals = 0;
+        if (!pattern(index, p.left, formals, false) ||
+            !pattern(index, p.predecessor, formals, false) ||
+            !pattern(index, p.right, formals, true)) {
+            return false;
+        }
+        if (p.has_left != (p.left.count != 0) || p.has_right != (p.right.count != 0)) {
+            return fail("production {} has an empty context", index);
+        }
+        const bool several = bytecode_.settings.rewriting != RewritingMode::Parallel;
+        if (p.predecessor.count == 0 || (p.predecessor.count > 1 && !several)) {
+            return fail("production {} has {} modules to rewrite", index, p.predecessor.count);
+        }
+        if (formals != p.formal_count || formals > kMaxOperand) {
+            return fail("production {} has {} formals, not {}", index, formals, p.formal_count);
+        }
+        return true;
+    }
+
+    bool pattern(std::size_t index, TableRange range, std::uint64_t& formals, bool brackets) {
+        if (!consecutive(range, next_pattern_, bytecode_.patterns.size())) {
+            return fail("production {} has a pattern out of place", index);
+        }
+        std::uint64_t depth = 0;
+        for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+            const PatternItem& item = bytecode_.patterns[i];
+            switch (item.kind) {
+            case PatternKind::Module:
+                if (number(item.symbol) >= bytecode_.symbols.size() ||
+                    item.first_formal != formals) {
+                    return fail("pattern item {} is malformed", i);
+                }
+                formals += bytecode_.symbol(item.symbol).parameter_count;
+                break;
+            case PatternKind::Open:
+                ++depth;
+                break;
+            case PatternKind::Close:
+                if (depth == 0) {
+                    return fail("pattern item {} closes what nothing opened", i);
+                }
+                --depth;
+                break;
+            default:
+                return fail("pattern item {} is of no known kind", i);
+            }
+            if (item.kind != PatternKind::Module && !brackets) {
+                return fail("pattern item {} is a bracket", i);
+            }
+        }
+        return depth == 0 || fail("production {} has an open bracket in its context", index);
+    }
+
+    /// Whether `range` begins at `next` and ends within a table of `size`; moves `next` to its end.
+    static bool consecutive(TableRange range, std::uint64_t& next, std::size_t size) {
+        if (range.first != next || range.count > size - next) {
+            return false;
+        }
+        next += range.count;
+        return true;
+    }
+
+    bool word(CodePlace place, const WordTemplate& word, std::uint32_t formals) {
+        if (!consecutive(word.codes, next_code_, bytecode_.template_codes.size())) {
+            return fail("a successor's codes are out of place");
+        }
+        std::uint64_t stored = 0;
+        const Code code_count = bytecode_.code_count();
+        for (const Code code :
+             std::span(bytecode_.template_codes).subspan(word.codes.first, word.codes.count)) {
+            if (code >= code_count) {
+                return fail("code {} does not exist", code);
+            }
+            stored += code < parameters_.size() ? parameters_[code] : 0;
+        }
+        if (stored != word.parameter_count || (stored == 0) != (word.arguments == kNone)) {
+            return fail("a successor stores {} parameters, not {}", stored, word.parameter_count);
+        }
+        if (word.arguments == kNone) {
+            return word.draw_count == 0 || fail("a successor without arguments draws");
+        }
+        return code(place, word.arguments,
+                    {.formals = formals, .draws = word.draw_count, .emits = word.parameter_count});
+    }
+
+    /// What a piece of code may refer to, and what it has to produce.
+    struct CodeBounds {
+        std::uint32_t formals = 0;
+        std::uint32_t globals = kNone; // kNone: all
+        std::uint32_t draws = 0;
+        std::uint32_t emits = 1;
+    };
+
+    bool code(CodePlace place, std::uint32_t first, const CodeBounds& bounds) {
+        const std::vector<std::uint32_t>& instructions = bytecode_.instructions;
+        if (first != next_instruction_) {
+            return fail("the code at {} does not follow the code before it", first);
+        }
+        const bool numbered_by_pass = place == CodePlace::Successor &&
+                                      bytecode_.settings.rewriting == RewritingMode::Sequential;
+        if (bounds.draws > (numbered_by_pass ? kMaxSequentialDraws : kMaxOperand)) {
+            return fail("the code at {} draws {} times", first, bounds.draws);
+        }
+        std::uint32_t depth = 0;
+        std::uint32_t next_draw = 0;
+        std::uint32_t taken = 0; // by Emit or Test
+        while (next_instruction_ < instructions.size()) {
+            const std::uint64_t at = next_instruction_++;
+            const std::uint32_t operand = instructions[at] >> 8;
+            if ((instructions[at] & 0xFF) >= kOpcodeCount) {
+                return fail("instruction {} does not exist", at);
+            }
+            const auto opcode = static_cast<Opcode>(instructions[at] & 0xFF);
+            const OpcodeInfo& row = info(opcode);
+            bool fits = false;
+            switch (row.operand) {
+            case OperandKind::None:
+                fits = operand == 0;
+                break;
+            case OperandKind::Literal:
+                fits = operand == 0 && next_instruction_++ < instructions.size();
+                break;
+            case OperandKind::Formal:
+                fits = operand < bounds.formals;
+                break;
+            case OperandKind::Global:
+                fits = operand < bytecode_.globals.size() && operand < bounds.globals;
+                break;
+            case OperandKind::Draw:
+                // A range that was folded away leaves its number unused.
+                fits = operand >= next_draw && operand < bounds.draws;
+                next_draw = operand + 1;
+                break;
+            case OperandKind::Branch:
+                fits = true;
+                break;
+            }
+            if (!fits || !allowed(place, opcode)) {
+                return fail("instruction {} ({}) may not stand there", at, row.mnemonic);
+            }
+            if (row.pops > depth) {
+                return fail("instruction {} ({}) lacks values", at, row.mnemonic);
+            }
+            depth = depth - row.pops + row.pushes;
+            if (depth > kMaxStack) {
+                return fail("instruction {} needs too deep a stack", at);
+            }
+            if (opcode == Opcode::Emit || opcode == Opcode::Test) {
+                ++taken;
+            }
+            if (opcode == Opcode::End) {
+                return (depth == 0 && taken == bounds.emits) ||
+                       fail("the code at {} leaves a wrong number of values", first);
+            }
+        }
+        return fail("the code at {} has no end", first);
+    }
+
+    bool allowed(CodePlace place, Opcode opcode) const {
+        switch (opcode) {
+        case Opcode::Step:
+            return place == CodePlace::Condition || place == CodePlace::Successor;
+        case Opcode::BranchDraw:
+            return place == CodePlace::Successor;
+        case Opcode::Steps:
+            return bytecode_.uses_steps &&
+                   (place == CodePlace::Condition || place == CodePlace::Successor);
+        case Opcode::Emit:
+            return place != CodePlace::Condition;
+        case Opcode::Test:
+            return place == CodePlace::Condition;
+        default:
+            return true;
+        }
+    }
+
+    bool ends() {
+        return (next_pattern_ == bytecode_.patterns.size() &&
+                next_code_ == bytecode_.template_codes.size() &&
+                next_instruction_ == bytecode_.instructions.size()) ||
+               fail("a table holds more than the productions use");
+    }
+
+    const Bytecode& bytecode_;
+    std::vector<std::uint32_t> parameters_; // by symbol
+    std::string problem_;
+    std::uint64_t next_pattern_ = 0;
+    std::uint64_t next_code_ = 0;
+    std::uint64_t next_instruction_ = 0;
+};
+
+} // namespace
+
+std::optional<std::string> verify(const Bytecode& bytecode) {
+    return Verifier(bytecode).run();
+}
+
+} // namespace lsys

@@ -1,0 +1,419 @@
+#include "compiler/growth/condition_grid.h"
+
+#include "compiler/bytecode/arithmetic.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace lsys::analysis {
+
+namespace {
+
+constexpr std::size_t kMaxAxes = 16;
+constexpr std::int32_t kLargest = 0x7F7FFFFF; // order index of the largest finite number
+
+/// What is known of a value on the stack.
+struct Node {
+    enum class Kind : std::uint8_t {
+        Constant,
+        Chain,  // a monotone function of one parameter
+        Pieces, // constant in every cell
+        Other,
+    };
+    Kind kind = Kind::Other;
+    float value = 0.0F;          // Constant
+    std::uint32_t parameter = 0; // Chain
+    bool plain = false;          // Chain: the parameter itself
+    TableRange part;             // Chain: its instructions
+};
+
+class GridBuilder {
+public:
+    GridBuilder(std::span<const std::uint32_t> instructions,
+                std::span<const KnownValue> parameters,
+                const Surroundings& surroundings)
+        : instructions_(instructions), parameters_(parameters), surroundings_(surroundings) {}
+
+    /// Notes the cuts of one condition; false if it has another form.
+    bool add(const ConditionView& condition);
+    [[nodiscard]] std::optional<ConditionGrid> finish(std::uint64_t max_points);
+
+private:
+    Node leaf(std::uint32_t at, const ConditionView& condition) const;
+    Node unary(Opcode opcode, const Node& x, std::uint32_t at);
+    Node binary(Opcode opcode, const Node& x, const Node& y, std::uint32_t at);
+    Node compare(Opcode opcode, const Node& x, const Node& y);
+    bool as_truth(Node& node);
+    void cut(const Node& chain, Opcode opcode, float constant);
+    float chain_at(const Node& chain, std::int32_t index);
+
+    std::span<const std::uint32_t> instructions_;
+    std::span<const KnownValue> parameters_;
+    const Surroundings& surroundings_;
+    ConditionView condition_;
+    std::vector<KnownValue> formals_;
+    Evaluator evaluator_;
+    std::map<std::uint32_t, std::vector<std::int32_t>>
+        cuts_; // by parameter: first indices of cells
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_; // parameters compared
+};
+
+bool is_comparison(Opcode opcode) {
+    return opcode >= Opcode::Less && opcode <= Opcode::NotEqual;
+}
+
+Node GridBuilder::leaf(std::uint32_t at, const ConditionView& condition) const {
+    const std::uint32_t word = instructions_[at];
+    Node node;
+    const auto constant = [&](float value) {
+        node.kind = std::isfinite(value) ? Node::Kind::Constant : Node::Kind::Other;
+        node.value = value;
+        return node;
+    };
+    switch (opcode_of(word)) {
+    case Opcode::Literal:
+        return constant(std::bit_cast<float>(instructions_[at + 1]));
+    case Opcode::Step:
+        return surroundings_.step ? constant(static_cast<float>(*surroundings_.step)) : node;
+    case Opcode::Steps:
+        return surroundings_.steps ? constant(static_cast<float>(*surroundings_.steps)) : node;
+    case Opcode::Formal: {
+        const std::uint32_t parameter = operand_of(word) - condition.first_formal;
+        if (operand_of(word) < condition.first_formal || parameter >= parameters_.size()) {
+            return node; // of a context
+        }
+        if (parameters_[parameter].known) {
+            return constant(parameters_[parameter].value);
+        }
+        node.kind = Node::Kind::Chain;
+        node.parameter = parameter;
+        node.plain = true;
+        node.part = {at, 1};
+        return node;
+    }
+    default:
+        return node;
+    }
+}
+
+/// The value of a chain where its parameter is number `index`.
+float GridBuilder::chain_at(const Node& chain, std::int32_t index) {
+    formals_[condition_.first_formal + chain.parameter] = {number_at(index), true};
+    const Surroundings here{formals_, surroundings_.step, surroundings_.steps};
+    const float value = evaluator_.run_part(instructions_, chain.part, here).value;
+    formals_[condition_.first_formal + chain.parameter] = {};
+    return value;
+}
+
+/// Cuts where the truth of `chain opcode constant` changes.
+void GridBuilder::cut(const Node& chain, Opcode opcode, float constant) {
+    std::vector<std::int32_t>& cuts = cuts_[chain.parameter];
+    const bool below = opcode != Opcode::LessEqual && opcode != Opcode::Greater;
+    const bool above = opcode != Opcode::Less && opcode != Opcode::GreaterEqual;
+    if (chain.plain) {
+        if (below) {
+            cuts.push_back(order_index(constant));
+        }
+        if (above) {
+            cuts.push_back(order_index(constant) + 1);
+        }
+        return;
+    }
+    const auto change = [&](auto&& holds) {
+        std::int32_t low = -kLargest;
+        std::int32_t high = kLargest;
+        const bool at_low = holds(chain_at(chain, low));
+        if (at_low == holds(chain_at(chain, high))) {
+            return;
+        }
+        while (high - std::int64_t{low} > 1) {
+            const auto middle = static_cast<std::int32_t>((std::int64_t{low} + high) / 2);
+            (holds(chain_at(chain, middle)) == at_low ? low : high) = middle;
+        }
+        cuts.push_back(high);
+    };
+    if (below) {
+        change([&](float value) { return value < constant; });
+    }
+    if (above) {
+        change([&](float value) { return value <= constant; });
+    }
+}
+
+/// Makes a value into one that is constant in every cell, as a truth value; false if it cannot be.
+bool GridBuilder::as_truth(Node& node) {
+    if (node.kind == Node::Kind::Chain) {
+        cut(node, Opcode::NotEqual, 0.0F);
+        node.kind = Node::Kind::Pieces;
+    }
+    return node.kind != Node::Kind::Other;
+}
+
+Node GridBuilder::unary(Opcode opcode, const Node& x, std::uint32_t at) {
+    Node node = x;
+    switch (x.kind) {
+    case Node::Kind::Constant:
+        node.value = arithmetic::apply(opcode, x.value, 0.0F);
+        node.kind = std::isfinite(node.value) ? Node::Kind::Constant : Node::Kind::Other;
+        return node;
+    case Node::Kind::Chain:
+        if (opcode == Opcode::Not) {
+            as_truth(node);
+            return node;
+        }
+        if (opcode == Opcode::Negate || opcode == Opcode::Floor || opcode == Opcode::Ceil ||
+            opcode == Opcode::Round) {
+            node.plain = false;
+            node.part.count = at + 1 - node.part.first;
+            return node;
+        }
+        return {};
+    case Node::Kind::Pieces:
+    case Node::Kind::Other:
+        return node;
+    }
+    return {};
+}
+
+Node GridBuilder::compare(Opcode opcode, const Node& x, const Node& y) {
+    Node node;
+    node.kind = Node::Kind::Pieces;
+    if (x.kind == Node::Kind::Chain && y.kind == Node::Kind::Constant) {
+        cut(x, opcode, y.value);
+        return node;
+    }
+    if (x.kind == Node::Kind::Constant && y.kind == Node::Kind::Chain) {
+        const Opcode mirrored = opcode == Opcode::Less           ? Opcode::Greater
+                                : opcode == Opcode::LessEqual    ? Opcode::GreaterEqual
+                                : opcode == Opcode::Greater      ? Opcode::Less
+                                : opcode == Opcode::GreaterEqual ? Opcode::LessEqual
+                                                                 : opcode;
+        cut(y, mirrored, x.value);
+        return node;
+    }
+    if (x.kind == Node::Kind::Chain && y.kind == Node::Kind::Chain && x.plain && y.plain) {
+        if (x.parameter != y.parameter) {
+            pairs_.emplace_back(x.parameter, y.parameter);
+            cuts_[x.parameter];
+            cuts_[y.parameter];
+        }
+        return node;
+    }
+    return {};
+}
+
+Node GridBuilder::binary(Opcode opcode, const Node& x, const Node& y, std::uint32_t at) {
+    using Kind = Node::Kind;
+    if (x.kind == Kind::Constant && y.kind == Kind::Constant) {
+        Node node = x;
+        node.value = arithmetic::apply(opcode, x.value, y.value);
+        node.kind = std::isfinite(node.value) ? Kind::Constant : Kind::Other;
+        return node;
+    }
+    if (opcode == Opcode::And || opcode == Opcode::Or) {
+        Node left = x;
+        Node right = y;
+        const bool both = as_truth(left) && as_truth(right);
+        Node node;
+        node.kind = both ? Kind::Pieces : Kind::Other;
+        return node;
+    }
+    const auto pieces = [](const Node& node) {
+        return node.kind == Kind::Constant || node.kind == Kind::Pieces;
+    };
+    if (pieces(x) && pieces(y)) {
+        Node node;
+        node.kind = Kind::Pieces;
+        return node;
+    }
+    if (is_comparison(opcode)) {
+        return compare(opcode, x, y);
+    }
+    const bool left = x.kind == Kind::Chain && y.kind == Kind::Constant;
+    const bool right = x.kind == Kind::Constant && y.kind == Kind::Chain;
+    if (!left && !right) {
+        return {};
+    }
+    // Rounding keeps order, so these stay monotone; a factor of 0 could meet an infinity.
+    const float constant = left ? y.value : x.value;
+    const bool sum = opcode == Opcode::Add || opcode == Opcode::Subtract;
+    const bool product = opcode == Opcode::Multiply || (opcode == Opcode::Divide && left);
+    if (!sum && !(product && constant != 0.0F)) {
+        return {};
+    }
+    // Both stand side by side in the instructions, the left one first.
+    Node node = left ? x : y;
+    node.plain = false;
+    node.part = {x.part.first, at + 1 - x.part.first};
+    return node;
+}
+
+bool GridBuilder::add(const ConditionView& condition) {
+    condition_ = condition;
+    formals_.assign(condition.formal_count, KnownValue{});
+    for (std::size_t i = 0; i < parameters_.size(); ++i) {
+        if (condition.first_formal + i < formals_.size()) {
+            formals_[condition.first_formal + i] = parameters_[i];
+        }
+    }
+    std::vector<Node> stack;
+    for (std::uint32_t at = condition.first_instruction;;) {
+        const Opcode opcode = opcode_of(instructions_[at]);
+        if (opcode == Opcode::Test || opcode == Opcode::End || opcode == Opcode::Emit) {
+            return !stack.empty() && as_truth(stack.back());
+        }
+        if (info(opcode).pops == 0) {
+            Node node = leaf(at, condition);
+            node.part.first = at;
+            stack.push_back(node);
+        } else if (info(opcode).pops == 1) {
+            const std::uint32_t first = stack.back().part.first;
+            stack.back() = unary(opcode, stack.back(), at);
+            stack.back().part.first = first;
+        } else {
+            const Node y = stack.back();
+            stack.pop_back();
+            const std::uint32_t first = stack.back().part.first;
+            stack.back() = opcode == Opcode::Range ? Node{} : binary(opcode, stack.back(), y, at);
+            stack.back().part.first = first;
+        }
+        at += instruction_length(opcode);
+    }
+}
+
+/// A short number of a cell, for people: a whole one near zero if there is one.
+float friendly(std::int32_t first, std::int32_t last) {
+    if (first <= 0 && last >= 0) {
+        return 0.0F;
+    }
+    const float nearest = number_at(first > 0 ? first : last);
+    const float whole = first > 0 ? std::ceil(nearest) : std::floor(nearest);
+    const float inside =
+        whole == nearest && first != last ? whole + (first > 0 ? 1.0F : -1.0F) : whole;
+    for (const float candidate : {inside, whole}) {
+        if (const std::int32_t index = order_index(candidate); index >= first && index <= last) {
+            return candidate;
+        }
+    }
+    return number_at(static_cast<std::int32_t>((std::int64_t{first} + last) / 2));
+}
+
+std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
+    std::sort(pairs_.begin(), pairs_.end());
+    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+    if (cuts_.size() > kMaxAxes || (!pairs_.empty() && cuts_.size() > 3)) {
+        return std::nullopt;
+    }
+    // Parameters that are compared share their cuts: within one interval all orders are tried.
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (const auto& [a, b] : pairs_) {
+            std::vector<std::int32_t> both = cuts_[a];
+            both.insert(both.end(), cuts_[b].begin(), cuts_[b].end());
+            std::sort(both.begin(), both.end());
+            both.erase(std::unique(both.begin(), both.end()), both.end());
+            changed = changed || both.size() != cuts_[a].size() || both.size() != cuts_[b].size();
+            cuts_[a] = both;
+            cuts_[b] = std::move(both);
+        }
+    }
+    ConditionGrid grid;
+    for (auto& [parameter, cuts] : cuts_) {
+        GridAxis axis;
+        axis.parameter = parameter;
+        axis.compared = std::any_of(pairs_.begin(), pairs_.end(), [&axis](const auto& pair) {
+            return pair.first == axis.parameter || pair.second == axis.parameter;
+        });
+        std::sort(cuts.begin(), cuts.end());
+        cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+        std::int32_t first = -kLargest;
+        const auto close = [&](std::int32_t last) {
+            const auto cell = static_cast<std::uint32_t>(axis.cells.size());
+            axis.cells.push_back({number_at(first), number_at(last)});
+            if (!axis.compared) {
+                axis.samples.push_back({friendly(first, last), cell});
+            } else {
+                // Three numbers of an interval realise every order of up to three parameters.
+                const auto middle = static_cast<std::int32_t>((std::int64_t{first} + last) / 2);
+                axis.samples.push_back({number_at(first), cell});
+                if (middle != first && middle != last) {
+                    axis.samples.push_back({number_at(middle), cell});
+                }
+                if (last != first) {
+                    axis.samples.push_back({number_at(last), cell});
+                }
+            }
+            first = last + 1;
+        };
+        for (const std::int32_t start : cuts) {
+            if (start > first && start <= kLargest) {
+                close(start - 1);
+            }
+        }
+        close(kLargest);
+        grid.axes.push_back(std::move(axis));
+        if (grid.point_count() > max_points) {
+            return std::nullopt;
+        }
+    }
+    return grid;
+}
+
+} // namespace
+
+std::uint64_t ConditionGrid::point_count() const {
+    std::uint64_t count = 1;
+    for (const GridAxis& axis : axes) {
+        if (axis.samples.size() > std::numeric_limits<std::uint64_t>::max() / count) {
+            return std::numeric_limits<std::uint64_t>::max();
+        }
+        count *= axis.samples.size();
+    }
+    return count;
+}
+
+std::size_t ConditionGrid::sample_of(std::uint64_t point, std::size_t axis) const {
+    for (std::size_t i = axes.size(); i-- > axis + 1;) {
+        point /= axes[i].samples.size();
+    }
+    return point % axes[axis].samples.size();
+}
+
+void ConditionGrid::place(std::uint64_t point, std::span<KnownValue> parameters) const {
+    for (std::size_t i = axes.size(); i-- > 0;) {
+        const std::size_t count = axes[i].samples.size();
+        parameters[axes[i].parameter] = {axes[i].samples[point % count].value, true};
+        point /= count;
+    }
+}
+
+std::optional<ConditionGrid> make_condition_grid(std::span<const std::uint32_t> instructions,
+                                                 std::span<const ConditionView> conditions,
+                                                 std::span<const KnownValue> parameters,
+                                                 const Surroundings& surroundings,
+                                                 std::uint64_t max_points) {
+    GridBuilder builder(instructions, parameters, surroundings);
+    for (const ConditionView& condition : conditions) {
+        if (!builder.add(condition)) {
+            return std::nullopt;
+        }
+    }
+    return builder.finish(max_points);
+}
+
+std::int32_t order_index(float value) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const auto magnitude = static_cast<std::int32_t>(bits & 0x7FFFFFFFU);
+    return (bits & 0x80000000U) != 0 ? -magnitude : magnitude;
+}
+
+float number_at(std::int32_t index) {
+    const auto magnitude = static_cast<std::uint32_t>(index < 0 ? -index : index);
+    return std::bit_cast<float>(index < 0 ? magnitude | 0x80000000U : magnitude);
+}
+
+} // namespace lsys::analysis

@@ -1,0 +1,78 @@
+#include "compiler/growth/growth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lsys {
+
+namespace {
+
+constexpr UnsignedInt128 kMost = ~UnsignedInt128{0};
+
+bool is_small(UnsignedInt128 value) {
+    return (value >> 64) == 0;
+}
+
+Count from_log2(double log2) {
+    return {0, true, log2};
+}
+
+/// log2(2^a + 2^b)
+double add_logs(double a, double b) {
+    const double greater = std::max(a, b);
+    return greater + std::log2(1.0 + std::exp2(std::min(a, b) - greater));
+}
+
+} // namespace
+
+double Count::approximate_log2() const {
+    if (exceeds) {
+        return log2;
+    }
+    return value == 0 ? -std::numeric_limits<double>::infinity()
+                      : std::log2(static_cast<double>(value));
+}
+
+Count operator+(const Count& a, const Count& b) {
+    if (!a.exceeds && !b.exceeds) {
+        if (const UnsignedInt128 sum = a.value + b.value; sum >= a.value) {
+            return {sum, false, 0.0};
+        }
+    }
+    return from_log2(add_logs(a.approximate_log2(), b.approximate_log2()));
+}
+
+Count operator*(const Count& a, const Count& b) {
+    const auto is_zero = [](const Count& count) { return !count.exceeds && count.value == 0; };
+    if (is_zero(a) || is_zero(b)) {
+        return {};
+    }
+    if (!a.exceeds && !b.exceeds) {
+        if ((is_small(a.value) && is_small(b.value)) || a.value <= kMost / b.value) {
+            return {a.value * b.value, false, 0.0};
+        }
+    }
+    return from_log2(a.approximate_log2() + b.approximate_log2());
+}
+
+std::string to_text(const Count& count) {
+    if (count.exceeds) {
+        return fmt::format("2^{:.0f}", count.log2);
+    }
+    std::string digits;
+    UnsignedInt128 rest = count.value;
+    for (int place = 0; rest != 0 || place == 0; ++place) {
+        if (place != 0 && place % 3 == 0) {
+            digits.push_back(',');
+        }
+        digits.push_back(static_cast<char>('0' + static_cast<int>(rest % 10)));
+        rest /= 10;
+    }
+    std::reverse(digits.begin(), digits.end());
+    return digits;
+}
+
+} // namespace lsys

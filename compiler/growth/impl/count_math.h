@@ -1,0 +1,31 @@
+// The inner step of the growth analysis, fast while counts are below 2^128.
+#pragma once
+
+#include "compiler/growth/growth.h"
+
+#include <cstdint>
+
+namespace lsys::analysis {
+
+[[nodiscard]] inline bool is_zero(const Count& count) {
+    return !count.exceeds && count.value == 0;
+}
+
+/// sum += value * times
+inline void add_times(Count& sum, const Count& value, std::uint64_t times) {
+    constexpr int kRoom = 60; // a value this small times 2^64, and the sum of two such, fit
+    if (!sum.exceeds && !value.exceeds && (value.value >> kRoom) == 0 && (sum.value >> 126) == 0) {
+        sum.value += value.value * times;
+        return;
+    }
+    sum = sum + value * Count{times, false, 0.0};
+}
+
+inline void add_times(GenerationSize& sum, const GenerationSize& size, std::uint64_t times) {
+    add_times(sum.modules, size.modules, times);
+    add_times(sum.parameters, size.parameters, times);
+    add_times(sum.segments, size.segments, times);
+    add_times(sum.bytes, size.bytes, times);
+}
+
+} // namespace lsys::analysis

@@ -1,0 +1,46 @@
+// Growth over very many generations: powers of the growth matrix by repeated squaring, for programs
+// of few classes.
+#pragma once
+
+#include "compiler/growth/impl/growth_walk.h"
+#include "compiler/growth/impl/module_classes.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace lsys::analysis {
+
+class GrowthPowers {
+public:
+    static constexpr std::size_t kMaxClasses = 48;
+
+    /// Nothing if the program has more classes, or a generation is not a linear map.
+    [[nodiscard]] static std::optional<GrowthPowers> make(ModuleClasses& classes);
+
+    /// Moves the walk ahead to generation `age`. Precondition: age >= walk.age().
+    void advance_to(GrowthWalk& walk, std::uint32_t age);
+    /// Moves the walk ahead as far as its lower bound is at most `max_modules`, at most to `age`;
+    /// the bound must not fall from one generation to the next, which never_shrinks() promises.
+    void advance_while_fitting(GrowthWalk& walk, std::uint32_t age, std::uint64_t max_modules);
+    [[nodiscard]] bool never_shrinks() const { return never_shrinks_; }
+
+private:
+    using Matrix = std::vector<Count>; // row-major, from class to class
+    struct Power {
+        Matrix low;
+        Matrix high;
+    };
+
+    GrowthPowers() = default;
+    const Power& power(std::size_t exponent); // of 2
+    [[nodiscard]] GrowthWalk
+    times(const GrowthWalk& walk, const Power& power, std::uint32_t generations);
+
+    std::size_t size_ = 0;
+    std::uint32_t period_ = 1; // generations that the first power stands for
+    bool never_shrinks_ = true;
+    std::vector<Power> powers_; // of exponents 1, 2, 4, ... in periods
+};
+
+} // namespace lsys::analysis

@@ -1,0 +1,94 @@
+// The growth of a word, generation by generation: how many modules of each class it holds at least
+// and at most, and how many are expected. One value is one word; advance() makes it the next.
+#pragma once
+
+#include "compiler/growth/growth.h"
+#include "compiler/growth/impl/module_classes.h"
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace lsys::analysis {
+
+/// Whether two counts are the same number, or the same logarithm.
+[[nodiscard]] bool same(const Count& a, const Count& b);
+[[nodiscard]] bool same(const GenerationSize& a, const GenerationSize& b);
+[[nodiscard]] bool less(const Count& a, const Count& b);
+/// What one module of a code takes.
+[[nodiscard]] GenerationSize size_of(const Bytecode& bytecode, Code code);
+
+class GrowthWalk {
+public:
+    /// The axiom of `classes`, which outlives the walk.
+    explicit GrowthWalk(ModuleClasses& classes);
+
+    [[nodiscard]] std::uint32_t age() const { return age_; }
+    void advance();
+
+    [[nodiscard]] GenerationSize low() const { return total(low_, true); }
+    [[nodiscard]] GenerationSize high() const { return total(high_, false); }
+    [[nodiscard]] double expected_modules() const;
+    /// Whether the expectation is known: every outcome so far had a known probability.
+    [[nodiscard]] bool decided() const { return decided_; }
+    /// Whether no production can change this word or a later one.
+    [[nodiscard]] bool is_final();
+    /// Whether a generation is a linear map of the counts that does not depend on the age, but for
+    /// the turn of rules in cyclic rewriting.
+    [[nodiscard]] bool is_linear() const;
+    /// The production that makes the most modules in the next generation.
+    [[nodiscard]] ProductionId dominant();
+    /// Terms handled so far.
+    [[nodiscard]] std::uint64_t work() const { return work_; }
+
+    [[nodiscard]] Count low(ClassId id) const { return at(low_, id); }
+    [[nodiscard]] Count high(ClassId id) const { return at(high_, id); }
+    [[nodiscard]] std::span<const ClassId> present() const { return present_; }
+    /// Replaces the word by these counts, by class, at age `age`.
+    void load(std::uint32_t age, std::span<const Count> low, std::span<const Count> high);
+
+private:
+    /// A rule with several predecessor modules.
+    struct SequenceRule {
+        std::vector<std::pair<SymbolId, std::uint32_t>> uses; // modules of one match
+        std::vector<ClassTerm> most;                          // that one match writes
+        ProductionId first = kNoProduction;
+    };
+    struct Rule {
+        SymbolId symbol = kNoSymbol;    // of one predecessor module
+        std::uint32_t sequence = kNone; // else: in sequences_
+    };
+
+    static Count at(const std::vector<Count>& counts, ClassId id) {
+        const auto i = static_cast<std::size_t>(id);
+        return i < counts.size() ? counts[i] : Count{};
+    }
+    void list_rules();
+    void pass(const Rule& rule);
+    void rewrite(std::span<const ClassId> ids);
+    void use_up(const SequenceRule& rule, const Count& matches);
+    void write(const SequenceRule& rule, const Count& matches);
+    [[nodiscard]] Count most_matches(const SequenceRule& rule) const;
+    void meet(ClassId id);
+    void reserve();
+    void index_by_symbol();
+    void drop_absent();
+    [[nodiscard]] GenerationSize total(const std::vector<Count>& counts, bool least) const;
+
+    ModuleClasses* classes_;
+    std::uint32_t age_ = 0;
+    bool decided_ = true;
+    std::vector<Count> low_; // by class
+    std::vector<Count> high_;
+    std::vector<double> expected_;
+    std::vector<bool> is_present_;
+    std::vector<ClassId> present_;
+    std::vector<Rule> rules_; // of the modes that work by rules
+    std::vector<SequenceRule> sequences_;
+    std::unordered_map<std::uint32_t, std::vector<ClassId>> by_symbol_;
+    std::uint64_t work_ = 0;
+};
+
+} // namespace lsys::analysis

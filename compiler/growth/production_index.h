@@ -1,0 +1,86 @@
+// Which productions rewrite a symbol, which belong to a stochastic group, and which parameters can
+// decide what is taken: those that a condition of their module reads, and those that such
+// parameters of successors are computed from.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "compiler/growth/impl/known_values.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lsys::analysis {
+
+class ProductionIndex {
+public:
+    /// `bytecode` is verified and outlives this.
+    explicit ProductionIndex(const Bytecode& bytecode);
+
+    /// The productions whose predecessor is one module of this symbol, in file order.
+    [[nodiscard]] std::span<const std::uint32_t> productions_of(SymbolId symbol) const {
+        const auto s = static_cast<std::size_t>(symbol);
+        return std::span(list_).subspan(first_[s], first_[s + 1] - first_[s]);
+    }
+    /// The stochastic productions of a group, in file order.
+    [[nodiscard]] std::span<const std::uint32_t> group(std::uint32_t group) const {
+        return std::span(group_list_)
+            .subspan(group_first_[group], group_first_[group + 1] - group_first_[group]);
+    }
+    /// The formal that is the first parameter of a production's predecessor.
+    [[nodiscard]] std::uint32_t first_formal(std::uint32_t production) const {
+        return bytecode_->patterns[bytecode_->productions[production].predecessor.first]
+            .first_formal;
+    }
+
+    [[nodiscard]] bool is_relevant(SymbolId symbol, std::uint32_t parameter) const {
+        return relevant_[parameter_base_[static_cast<std::size_t>(symbol)] + parameter];
+    }
+    [[nodiscard]] std::uint32_t relevant_count(SymbolId symbol) const;
+    [[nodiscard]] bool any_relevant() const { return any_relevant_; }
+    /// Whether a condition or a relevant argument asks for step().
+    [[nodiscard]] bool depends_on_age() const { return depends_on_age_; }
+
+private:
+    void list_productions();
+    void find_relevant();
+    void find_age();
+    /// Calls visit(parameter) for each formal of the predecessor that instructions [first, last)
+    /// read; tells whether they ask for step().
+    template <typename Visit>
+    bool
+    scan(std::uint32_t production, std::uint32_t first, std::uint32_t last, Visit&& visit) const;
+
+    const Bytecode* bytecode_;
+    std::vector<std::uint32_t> list_;  // by symbol
+    std::vector<std::uint32_t> first_; // symbol s: [first_[s], first_[s + 1])
+    std::vector<std::uint32_t> group_list_;
+    std::vector<std::uint32_t> group_first_;
+    std::vector<std::uint32_t> parameter_base_; // of a symbol in relevant_
+    std::vector<bool> relevant_;
+    bool any_relevant_ = false;
+    bool depends_on_age_ = false;
+};
+
+/// Calls `visit(code, argument, first instruction, one past the Emit)` for each stored parameter of
+/// a word; stops where it returns false.
+template <typename Visit>
+void for_each_argument(const Bytecode& bytecode, const WordTemplate& word, Visit&& visit) {
+    std::uint32_t at = word.arguments;
+    for (std::uint32_t i = 0; i < word.codes.count; ++i) {
+        const Code code = bytecode.template_codes[word.codes.first + i];
+        const std::uint32_t count = bytecode.stored_parameters(code);
+        for (std::uint32_t argument = 0; argument < count; ++argument) {
+            const std::uint32_t first = at;
+            while (opcode_of(bytecode.instructions[at]) != Opcode::Emit) {
+                at += instruction_length(opcode_of(bytecode.instructions[at]));
+            }
+            ++at;
+            if (!visit(code, argument, first, at)) {
+                return;
+            }
+        }
+    }
+}
+
+} // namespace lsys::analysis

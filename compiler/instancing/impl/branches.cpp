@@ -1,0 +1,389 @@
+#include "compiler/instancing/impl/branches.h"
+
+#include "grammar/base/contract.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+template <typename T>
+void append_bytes(std::string& key, const T& value) {
+    key.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+/// What a symbol can lead to by rewriting.
+struct Reach {
+    bool knows_up = false;
+    bool varies = false;
+
+    bool add(const Reach& other) {
+        const bool grows = (other.knows_up && !knows_up) || (other.varies && !varies);
+        knows_up = knows_up || other.knows_up;
+        varies = varies || other.varies;
+        return grows;
+    }
+};
+
+class BranchFinder {
+public:
+    BranchFinder(const Program& program, const Names& names, Diagnostics& diagnostics)
+        : program_(program), names_(names), diagnostics_(diagnostics),
+          rules_of_(program.symbols.size()), reach_(program.symbols.size()) {}
+
+    std::optional<Branches> run() {
+        refuse_system();
+        for (const Production& production : program_.productions) {
+            if (production.stage == Stage::Rewrite) {
+                rules_of_[first_of(production)].push_back(&production.predecessor);
+            }
+        }
+        find_reach();
+        walk(program_.axiom, "axiom", kNone);
+        branches_.sites.clear(); // the axiom has no choice
+        // Branches that a decomposition writes are not offered: how many passes are left for what
+        // is in them is no part of their key. What is drawn in place of a module, none rewrites.
+        for (std::uint32_t i = 0; i < program_.productions.size(); ++i) {
+            const Production& production = program_.productions[i];
+            walk(production.successor, "successor", production.stage == Stage::Rewrite ? i : kNone);
+        }
+        for_each_symbol(program_, program_.axiom, [&](std::size_t, SymbolId symbol) {
+            branches_.axiom_varies = branches_.axiom_varies || reach_of(symbol).varies;
+        });
+        branches_.axiom_varies =
+            branches_.axiom_varies || program_.axiom.draw_count != 0 || !program_.globals.empty();
+        return fine_ ? std::optional(std::move(branches_)) : std::nullopt;
+    }
+
+private:
+    /// A `[` whose `]` has not been met.
+    struct Open {
+        std::uint32_t index = 0;
+        std::uint32_t site = kNone; // in found_
+        std::uint32_t polygons = 0; // open at it
+        bool valid = false;
+        Reach reach;
+        std::string key; // of what has been read
+        std::vector<std::uint32_t> formals;
+    };
+    /// A branch that has been read, valid or not.
+    struct Found {
+        BranchSite site;
+        std::uint32_t kind = 0; // structural
+        bool valid = false;
+    };
+    struct Structure {
+        std::vector<std::uint32_t> formals;
+        Reach reach;
+        std::uint32_t id = 0; // once given
+    };
+
+    Diagnostic& refuse(SourceSpan span, std::string message) {
+        fine_ = false;
+        return diagnostics_.add(DiagnosticCode::NotInstanceable, span, std::move(message));
+    }
+
+    void refuse_system() {
+        if (program_.settings.choice == ChoiceScope::Generation) {
+            refuse(program_.axiom.span, "a system with `choice generation` cannot be instanced")
+                .notes.emplace_back("the branches of one generation all choose alike, which "
+                                    "branches that are put together from others would not");
+        }
+        if (std::any_of(program_.symbols.begin(), program_.symbols.end(),
+                        [](const auto& symbol) { return symbol.turtle == TurtleOperation::Aim; })) {
+            refuse(program_.axiom.span, "a system that aims at points cannot be instanced")
+                .notes.emplace_back("where a branch is put elsewhere, it would aim at another "
+                                    "point");
+        }
+        for (const Production& production : program_.productions) {
+            const std::string_view name = names_.text(production.name);
+            const bool rewrites_brackets = std::any_of(
+                production.predecessor.items.begin(), production.predecessor.items.end(),
+                [&](const ProgramPatternItem& item) {
+                    return program_.symbol(item.symbol).kind == SymbolKind::BranchOpen;
+                });
+            if (rewrites_brackets) {
+                refuse(production.predecessor.span,
+                       fmt::format("production `{}` rewrites a branch with what is around it, so "
+                                   "its system cannot be instanced",
+                                   name));
+            }
+            if (production.has_left || production.has_right) {
+                refuse(production.has_left ? production.left.span : production.right.span,
+                       fmt::format("production `{}` has a context, so its system cannot be "
+                                   "instanced",
+                                   name))
+                    .notes.emplace_back("a branch with a context depends on its neighbours, and "
+                                        "has others where it is put");
+            }
+        }
+    }
+
+    [[nodiscard]] static std::size_t first_of(const Production& production) {
+        return static_cast<std::size_t>(production.predecessor.items.front().symbol);
+    }
+
+    /// Whether the predecessor of a production that rewrites stands at module `index` of a word.
+    /// None of them has brackets, so that it never goes across the border of a branch.
+    [[nodiscard]] bool is_rewritten(const ProgramWord& word, std::uint32_t index) const {
+        const SymbolId symbol = program_.modules[word.first_module + index].symbol;
+        const auto& rules = rules_of_[static_cast<std::size_t>(symbol)];
+        return std::any_of(rules.begin(), rules.end(), [&](const ProgramPattern* pattern) {
+            if (pattern->items.size() > word.module_count - index) {
+                return false;
+            }
+            for (std::uint32_t i = 1; i < pattern->items.size(); ++i) {
+                if (program_.modules[word.first_module + index + i].symbol !=
+                    pattern->items[i].symbol) {
+                    return false;
+                }
+            }
+            return true;
+        });
+    }
+
+    [[nodiscard]] const Reach& reach_of(SymbolId symbol) const {
+        return reach_[static_cast<std::size_t>(symbol)];
+    }
+
+    /// The least solution: what the successors of a symbol's productions hold.
+    void find_reach() {
+        for (std::size_t i = 0; i < program_.symbols.size(); ++i) {
+            const TurtleOperation turtle = program_.symbols[i].turtle;
+            reach_[i].knows_up =
+                turtle == TurtleOperation::RollUpright || turtle == TurtleOperation::TurnMost ||
+                turtle == TurtleOperation::Bend || (program_.settings.has_tropism && draws(turtle));
+        }
+        std::vector<std::uint32_t> rule_sizes(program_.rule_count, 0);
+        for (const Production& production : program_.productions) {
+            ++rule_sizes[production.rule];
+        }
+        for (const Production& production : program_.productions) {
+            Reach& reach = reach_[first_of(production)];
+            reach.varies = reach.varies || production.successor.draw_count != 0 ||
+                           (production.stochastic && rule_sizes[production.rule] > 1);
+        }
+        // From each symbol to those whose successors hold it.
+        std::vector<std::vector<std::uint32_t>> makers(program_.symbols.size());
+        for (const Production& production : program_.productions) {
+            const auto maker = static_cast<std::uint32_t>(first_of(production));
+            for_each_symbol(program_, production.successor, [&](std::size_t, SymbolId written) {
+                std::vector<std::uint32_t>& known = makers[static_cast<std::size_t>(written)];
+                if (known.empty() || known.back() != maker) {
+                    known.push_back(maker);
+                }
+            });
+        }
+        std::vector<std::uint32_t> changed(program_.symbols.size());
+        std::iota(changed.begin(), changed.end(), 0U);
+        while (!changed.empty()) {
+            const std::uint32_t symbol = changed.back();
+            changed.pop_back();
+            for (const std::uint32_t maker : makers[symbol]) {
+                if (reach_[maker].add(reach_[symbol])) {
+                    changed.push_back(maker);
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] SourceSpan span_of(const ProgramWord& word, std::uint32_t index) const {
+        const std::uint32_t begin = program_.modules[word.first_module + index].begin;
+        return {word.file, begin, begin + 1};
+    }
+
+    void walk(const ProgramWord& word, const char* where, std::uint32_t production) {
+        open_.clear();
+        found_.clear();
+        std::uint32_t index = 0;
+        std::uint32_t polygons = 0;
+        std::size_t argument = word.first_argument;
+        for_each_symbol(program_, word, [&](std::size_t, SymbolId id) {
+            const Symbol& symbol = program_.symbol(id);
+            const std::size_t arguments = argument;
+            argument += symbol.parameter_count;
+            switch (symbol.kind) {
+            case SymbolKind::BranchOpen:
+                open_.push_back({});
+                open_.back().index = index;
+                open_.back().site = static_cast<std::uint32_t>(found_.size());
+                open_.back().polygons = polygons;
+                found_.push_back({});
+                break;
+            case SymbolKind::BranchClose:
+                if (open_.empty()) {
+                    refuse(span_of(word, index),
+                           fmt::format("`]` closes no branch of this {}, so the system cannot be "
+                                       "instanced",
+                                       where));
+                } else {
+                    close(word, index, production, polygons);
+                }
+                break;
+            case SymbolKind::PolygonOpen:
+                ++polygons;
+                add_module(word, index, arguments);
+                break;
+            case SymbolKind::PolygonClose:
+                polygons -= polygons > 0 ? 1U : 0U;
+                if (!open_.empty() && polygons < open_.back().polygons) {
+                    across_polygon(word, open_.back().index);
+                    open_.back().polygons = polygons;
+                }
+                add_module(word, index, arguments);
+                break;
+            case SymbolKind::Plain:
+                add_module(word, index, arguments);
+                break;
+            }
+            ++index;
+        });
+        if (!open_.empty()) {
+            refuse(span_of(word, open_.back().index),
+                   fmt::format("`[` is closed nowhere in this {}, so the system cannot be "
+                               "instanced",
+                               where));
+        }
+        if (production != kNone) {
+            give_ids();
+        }
+    }
+
+    void across_polygon(const ProgramWord& word, std::uint32_t index) {
+        refuse(span_of(word, index),
+               "a polygon goes across the border of this branch, so the system cannot be "
+               "instanced");
+    }
+
+    void add_module(const ProgramWord& word, std::uint32_t index, std::size_t first_argument) {
+        if (open_.empty()) {
+            return;
+        }
+        const SymbolId id = program_.modules[word.first_module + index].symbol;
+        Open& open = open_.back();
+        append_bytes(open.key, id);
+        for (std::uint32_t i = 0; i < program_.symbol(id).parameter_count; ++i) {
+            add_value(program_.arguments[first_argument + i], open);
+        }
+        open.valid = open.valid || is_rewritten(word, index);
+        open.reach.add(reach_of(id));
+    }
+
+    /// An expression from left to right, after its operation.
+    void add_value(ValueId root, Open& open) {
+        values_.assign(1, root);
+        while (!values_.empty()) {
+            const Value& value = program_.value(values_.back());
+            values_.pop_back();
+            append_bytes(open.key, value.opcode);
+            switch (value.opcode) {
+            case Opcode::Literal:
+                append_bytes(open.key, std::bit_cast<std::uint32_t>(value.literal));
+                break;
+            case Opcode::Formal:
+                open.formals.push_back(value.index);
+                append_bytes(open.key, value.index);
+                break;
+            case Opcode::Global:
+                append_bytes(open.key, value.index);
+                break;
+            case Opcode::Range:
+                open.reach.varies = true; // whose number is not part of its text
+                break;
+            default:
+                break;
+            }
+            if (value.right != kNoValue) {
+                values_.push_back(value.right);
+            }
+            if (value.left != kNoValue) {
+                values_.push_back(value.left);
+            }
+        }
+    }
+
+    void close(const ProgramWord& word,
+               std::uint32_t index,
+               std::uint32_t production,
+               std::uint32_t polygons) {
+        Open open = std::move(open_.back());
+        open_.pop_back();
+        if (open.valid && (open.polygons != 0 || polygons != 0)) {
+            across_polygon(word, open.index);
+        }
+        std::sort(open.formals.begin(), open.formals.end());
+        open.formals.erase(std::unique(open.formals.begin(), open.formals.end()),
+                           open.formals.end());
+        const auto [known, is_new] = structure_of_.emplace(
+            std::move(open.key), static_cast<std::uint32_t>(structures_.size()));
+        if (is_new) {
+            structures_.push_back({open.formals, open.reach, 0});
+        }
+        Found& found = found_[open.site];
+        found.site.production = production;
+        found.site.open = open.index;
+        found.site.close = index;
+        found.kind = known->second;
+        found.valid = open.valid;
+        if (open_.empty()) {
+            return;
+        }
+        Open& outer = open_.back();
+        constexpr SymbolId kBranch{0xFFFFFFFEu}; // no symbol has it
+        append_bytes(outer.key, kBranch);
+        append_bytes(outer.key, known->second);
+        outer.valid = outer.valid || open.valid;
+        outer.reach.add(open.reach);
+        outer.formals.insert(outer.formals.end(), open.formals.begin(), open.formals.end());
+    }
+
+    void give_ids() {
+        std::uint32_t number = 0;
+        for (Found& found : found_) {
+            if (!found.valid) {
+                continue;
+            }
+            Structure& structure = structures_[found.kind];
+            if (structure.id == 0) {
+                structure.id = static_cast<std::uint32_t>(branches_.kinds.size()) + 1;
+                branches_.kinds.push_back({static_cast<std::uint32_t>(branches_.sites.size()),
+                                           structure.formals, structure.reach.knows_up,
+                                           structure.reach.varies});
+            }
+            found.site.id = structure.id;
+            found.site.number = number++;
+            branches_.sites.push_back(found.site);
+        }
+    }
+
+    const Program& program_;
+    const Names& names_;
+    Diagnostics& diagnostics_;
+    std::vector<std::vector<const ProgramPattern*>> rules_of_; // by first symbol
+    std::vector<Reach> reach_;                                 // by symbol
+    std::vector<Open> open_;
+    std::vector<Found> found_; // of the word that is read, by `[`
+    std::vector<Structure> structures_;
+    std::unordered_map<std::string, std::uint32_t> structure_of_;
+    std::vector<ValueId> values_;
+    Branches branches_;
+    bool fine_ = true;
+};
+
+} // namespace
+
+std::optional<Branches>
+find_branches(const Program& program, const Names& names, Diagnostics& diagnostics) {
+    LSYS_CHECK(program.complete);
+    return BranchFinder(program, names, diagnostics).run();
+}
+
+} // namespace lsys

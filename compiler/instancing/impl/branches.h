@@ -1,0 +1,46 @@
+// The valid branches of a system: what the instancing of Kenwood, Gain and Marais 2014 ("Efficient
+// procedural generation of forests", J. WSCG 22(1)), as Carey 2019 implemented it, records once and
+// puts in place of other branches (LANGUAGE.md section 9).
+#pragma once
+
+#include "compiler/program/program.h"
+#include "grammar/base/diagnostic.h"
+#include "grammar/base/names.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace lsys {
+
+/// A `[...]` of a successor that holds a module with a production, at any depth.
+struct BranchSite {
+    std::uint32_t production = 0;
+    std::uint32_t number = 0; // within its successor, in text order
+    std::uint32_t open = 0;   // index of `[` among the modules of the successor
+    std::uint32_t close = 0;  // of its `]`
+    std::uint32_t id = 0;
+};
+
+/// Branches that are equal after names are resolved share one.
+struct BranchKind {
+    std::uint32_t first_site = 0;
+    std::vector<std::uint32_t> formals; // that its text uses, ascending
+    /// What is drawn depends on where up is: by `$` or tropism, at once or after rewriting.
+    bool knows_up = false;
+    /// Some production that its modules can reach is stochastic or draws a number.
+    bool varies = false;
+};
+
+struct Branches {
+    std::vector<BranchSite> sites; // in file order, an outer branch before its inner ones
+    std::vector<BranchKind> kinds; // of id - 1; id 0 is the axiom
+    bool axiom_varies = false;
+};
+
+/// Nothing if the system cannot be instanced; `diagnostics` then says why. Precondition: a complete
+/// program.
+[[nodiscard]] std::optional<Branches>
+find_branches(const Program& program, const Names& names, Diagnostics& diagnostics);
+
+} // namespace lsys

@@ -1,0 +1,93 @@
+#include "compiler/instancing/instance.h"
+
+#include "compiler/instancing/impl/branches.h"
+#include "compiler/instancing/impl/instancing_pass.h"
+#include "compiler/lower/lower.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+/// Says what instancing will not do.
+void note_variety(const Program& program, const Branches& branches, Diagnostics& diagnostics) {
+    const bool varies =
+        branches.axiom_varies || std::any_of(branches.kinds.begin(), branches.kinds.end(),
+                                             [](const BranchKind& kind) { return kind.varies; });
+    if (!varies) {
+        diagnostics
+            .add(DiagnosticCode::NoVariety, program.axiom.span,
+                 "nothing that this system derives is left to chance, so all its plants are equal")
+            .notes.emplace_back("instancing adds no variety to it");
+    } else if (branches.kinds.empty()) {
+        diagnostics
+            .add(DiagnosticCode::NoVariety, program.axiom.span,
+                 "no branch of this system holds a module with a production")
+            .notes.emplace_back("nothing can be put in place of anything, so its plants are "
+                                "copies of the heroes");
+    }
+}
+
+} // namespace
+
+std::optional<InstancedSystem> compile_instanced(Program program,
+                                                 const Names& names,
+                                                 const SourceMap& sources,
+                                                 float rho,
+                                                 Diagnostics& diagnostics) {
+    const std::optional<Branches> branches = find_branches(program, names, diagnostics);
+    if (!branches) {
+        return std::nullopt;
+    }
+    note_variety(program, *branches, diagnostics);
+    instance_branches(program, *branches, rho);
+    std::optional<Bytecode> bytecode = lower(program, names, sources);
+    if (!bytecode) {
+        diagnostics.add(DiagnosticCode::NotInstanceable, program.axiom.span,
+                        "the instanced system is too large for its bytecode");
+        return std::nullopt;
+    }
+    InstancedSystem system;
+    system.bytecode = std::move(*bytecode);
+    system.kind_count = branches->kinds.size();
+    system.knows_up.push_back(false); // of the axiom, which is never shared
+    for (const BranchKind& kind : branches->kinds) {
+        system.knows_up.push_back(kind.knows_up);
+    }
+    return system;
+}
+
+std::optional<std::string> list_instanced(const Program& program,
+                                          const Names& names,
+                                          const SourceMap& sources,
+                                          float rho,
+                                          Diagnostics& diagnostics) {
+    const std::optional<Branches> branches = find_branches(program, names, diagnostics);
+    if (!branches) {
+        return std::nullopt;
+    }
+    note_variety(program, *branches, diagnostics);
+    std::vector<std::uint32_t> counts(program.productions.size(), 0);
+    for (const BranchSite& site : branches->sites) {
+        ++counts[site.production];
+    }
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] > kMostListedBranches) {
+            const Production& production = program.productions[i];
+            Diagnostic& diagnostic = diagnostics.add(
+                DiagnosticCode::TooManyForms, production.name_span,
+                fmt::format("production `{}` has {} branches that can be taken, so 2^{} forms",
+                            names.text(production.name), counts[i], counts[i]));
+            diagnostic.notes.emplace_back(fmt::format(
+                "forms are listed up to 2^{}; deriving never lists them", kMostListedBranches));
+            return std::nullopt;
+        }
+    }
+    return list_branches(program, *branches, names, sources, rho);
+}
+
+} // namespace lsys

@@ -1,0 +1,54 @@
+#include "compiler/lint/checks.h"
+
+#include "compiler/lint/impl/lints.h"
+
+namespace lsys {
+
+namespace {
+
+struct ListedCheck {
+    Check check;
+    bool needs_complete; // keeps quiet about a program with errors
+};
+
+// The order is that of the messages about one place.
+constexpr ListedCheck kChecks[] = {
+    {check_probability_sums, false},
+    {check_formal_names, false},
+    {check_ignored_contexts, false},
+    {check_extra_parameters, false},
+    {check_cuts, false},
+    {check_branches, false},
+    {check_polygons, false},
+    {check_turtle_arguments, false},
+    {check_unused_names, true},
+    {check_module_use, true},
+    {check_reachable_productions, true},
+    {check_conditions, true},
+    {check_probabilities, true},
+    {check_computed_equality, true},
+    {check_branch_depth, true},
+    {check_drawing, true},
+    {check_growth, true},
+};
+
+} // namespace
+
+void run_checks(const CheckInput& input, Diagnostics& diagnostics) {
+    for (const ListedCheck& listed : kChecks) {
+        if (input.program.complete || !listed.needs_complete) {
+            listed.check(input, diagnostics);
+        }
+    }
+}
+
+SourceSpan module_name_span(const CheckInput& input, const ProgramWord& word, std::size_t index) {
+    const ProgramModule module = input.program.modules[index];
+    const std::string_view text = input.sources.file(word.file).text();
+    const std::string_view name = input.name(module.symbol);
+    const bool quoted = module.begin < text.size() && text[module.begin] == '`' && name != "`";
+    const auto length = static_cast<std::uint32_t>(name.size() + (quoted ? 2 : 0));
+    return {word.file, module.begin, module.begin + length};
+}
+
+} // namespace lsys

@@ -1,0 +1,120 @@
+// Modules used with a number of parameters with which nothing rewrites or draws them.
+#include "compiler/lint/impl/module_use.h"
+#include "compiler/lint/impl/places.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lsys {
+
+namespace {
+
+/// Two neighbouring constant arguments that would be one random range: R(0, 100) for R({0, 100}).
+std::optional<Fix> range_fix(const CheckInput& input,
+                             const ModuleMention& place,
+                             std::uint32_t wanted,
+                             std::uint32_t used) {
+    if (used != wanted + 1) {
+        return std::nullopt;
+    }
+    std::optional<std::size_t> first;
+    for_each_module(input.program, *place.word,
+                    [&](std::size_t index, std::size_t argument, const ProgramModule&) {
+                        if (index == place.index) {
+                            first = argument;
+                        }
+                    });
+    const std::vector<SourceSpan> spans = argument_spans(input, *place.word, place.index);
+    if (!first || spans.size() != used) {
+        return std::nullopt;
+    }
+    for (std::uint32_t i = 0; i + 1 < used; ++i) {
+        const Value& low = input.program.value(input.program.arguments[*first + i]);
+        const Value& high = input.program.value(input.program.arguments[*first + i + 1]);
+        if (low.opcode != Opcode::Literal || high.opcode != Opcode::Literal ||
+            !(low.literal < high.literal)) {
+            continue;
+        }
+        const SourceSpan both = join(spans[i], spans[i + 1]);
+        Fix fix;
+        fix.edits = {{both, fmt::format("{{{}}}", input.sources.text(both))}};
+        fix.machine_applicable = false;
+        const SourceSpan module = module_span(input, *place.word, place.index);
+        std::string text(input.sources.text(module));
+        text.insert(both.end - module.begin, "}");
+        text.insert(both.begin - module.begin, "{");
+        fix.title = fmt::format("did you mean the random range `{}`?", text);
+        return fix;
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+void check_arities(const CheckInput& input, ModuleUse& use, Diagnostics& diagnostics) {
+    const Program& program = input.program;
+    for (std::uint32_t s = 0; s < program.symbols.size(); ++s) {
+        const auto symbol = SymbolId{s};
+        const Symbol& row = program.symbols[s];
+        if (!use.reachable.occurs(symbol) || use.first_production[s] != kNone || use.declared[s] ||
+            row.kind != SymbolKind::Plain || row.ignored) {
+            continue;
+        }
+        // The rewritten module of this name whose number of parameters is nearest.
+        SymbolId nearest = kNoSymbol;
+        bool any_used = false;
+        for (const SymbolId other : use.same_name(program, symbol)) {
+            const auto o = static_cast<std::size_t>(other);
+            if (use.first_production[o] == kNone) {
+                continue;
+            }
+            any_used = any_used || use.reachable.occurs(other);
+            const auto distance = [&](SymbolId id) {
+                const std::int64_t count = program.symbol(id).parameter_count;
+                return std::abs(count - std::int64_t{row.parameter_count});
+            };
+            if (nearest == kNoSymbol || distance(other) < distance(nearest)) {
+                nearest = other;
+            }
+        }
+        // A command of the turtle may well be used in a second form that stays as it is.
+        if (nearest == kNoSymbol || (row.turtle != TurtleOperation::Nothing && any_used)) {
+            continue;
+        }
+        const ModuleMention place = use.first_place[s];
+        const std::uint32_t wanted = program.symbol(nearest).parameter_count;
+        const Production& production =
+            program.productions[use.first_production[static_cast<std::size_t>(nearest)]];
+        Diagnostic& diagnostic = diagnostics.add(
+            DiagnosticCode::ArityMismatch, module_span(input, *place.word, place.index),
+            fmt::format("module {} is used with {}, but rewritten with {}",
+                        quoted(input.name(symbol)), parameters_text(row.parameter_count),
+                        wanted == 0 ? std::string("none") : std::to_string(wanted)));
+        for (const ProgramPatternItem& item : production.predecessor.items) {
+            if (item.symbol == nearest) {
+                diagnostic.labels.push_back(
+                    {item_span(production, item),
+                     fmt::format("rewritten with {} here", parameters_text(wanted))});
+                break;
+            }
+        }
+        diagnostic.notes.emplace_back(
+            "a module is known by its name and its number of parameters; one that matches no "
+            "production stays as it is");
+        if (std::optional<Fix> fix = range_fix(input, place, wanted, row.parameter_count)) {
+            diagnostic.fixes.push_back(std::move(*fix));
+        } else if (row.parameter_count > wanted) {
+            diagnostic.help.push_back(fmt::format("leave out {}, or add a production for {}",
+                                                  parameters_text(row.parameter_count - wanted),
+                                                  parameters_text(row.parameter_count)));
+        } else {
+            diagnostic.help.push_back(
+                fmt::format("give it {}, or declare it with `#module`", parameters_text(wanted)));
+        }
+        use.settled[s] = true;
+        use.settled[static_cast<std::size_t>(nearest)] = true;
+    }
+}
+
+} // namespace lsys

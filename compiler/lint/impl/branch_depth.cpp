@@ -1,0 +1,152 @@
+// Brackets that balance only across productions: what one leaves open another closes. Bounds, for
+// every module and over all generations, of the brackets it opens in all and of the lowest depth
+// within it, by a fixed point over the productions; so it is known whether a `]` can ever lack its
+// `[`.
+#include "compiler/lint/impl/lints.h"
+#include "compiler/lint/impl/places.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::int64_t kFar = std::int64_t{1} << 40; // beyond any text; stands for no bound
+constexpr std::uint32_t kMaxRounds = 16; // of one module, before its bounds are given up
+
+/// What a module can become: the least and the greatest of its closing depth, its lowest depth.
+struct Depth {
+    std::int64_t low = 0;
+    std::int64_t high = 0;
+    std::int64_t lowest = 0;
+
+    friend bool operator==(const Depth&, const Depth&) = default;
+};
+
+std::int64_t bounded(std::int64_t value) {
+    return std::clamp(value, -kFar, kFar);
+}
+
+Depth after(const Depth& first, const Depth& second) {
+    return {bounded(first.low + second.low), bounded(first.high + second.high),
+            std::min(first.lowest, bounded(first.low + second.lowest))};
+}
+
+Depth either(const Depth& a, const Depth& b) {
+    return {std::min(a.low, b.low), std::max(a.high, b.high), std::min(a.lowest, b.lowest)};
+}
+
+class DepthAnalysis {
+public:
+    explicit DepthAnalysis(const Program& program)
+        : program_(program), depth_(program.symbols.size()), rounds_(program.symbols.size(), 0) {
+        for (std::size_t s = 0; s < depth_.size(); ++s) {
+            if (program.symbols[s].kind == SymbolKind::BranchOpen) {
+                depth_[s] = {1, 1, 0};
+            } else if (program.symbols[s].kind == SymbolKind::BranchClose) {
+                depth_[s] = {-1, -1, -1};
+            }
+        }
+    }
+
+    [[nodiscard]] Depth of(const ProgramWord& word) const {
+        Depth total;
+        for_each_symbol(program_, word, [&](std::size_t, SymbolId symbol) {
+            total = after(total, depth_[static_cast<std::size_t>(symbol)]);
+        });
+        return total;
+    }
+
+    void run() {
+        // By symbol: the productions whose successor holds it.
+        std::vector<std::vector<std::uint32_t>> users(program_.symbols.size());
+        std::deque<std::uint32_t> work;
+        std::vector<bool> queued(program_.productions.size(), true);
+        for (std::uint32_t p = 0; p < program_.productions.size(); ++p) {
+            const ProgramWord& word = program_.productions[p].successor;
+            for_each_symbol(program_, word, [&](std::size_t, SymbolId symbol) {
+                std::vector<std::uint32_t>& list = users[static_cast<std::size_t>(symbol)];
+                if (list.empty() || list.back() != p) {
+                    list.push_back(p);
+                }
+            });
+            work.push_back(p);
+        }
+        while (!work.empty()) {
+            const std::uint32_t p = work.front();
+            work.pop_front();
+            queued[p] = false;
+            const auto s =
+                static_cast<std::size_t>(program_.productions[p].predecessor.items.front().symbol);
+            Depth next = either(depth_[s], of(program_.productions[p].successor));
+            if (next == depth_[s]) {
+                continue;
+            }
+            if (++rounds_[s] > kMaxRounds) { // it grows without end
+                next.low = next.low < depth_[s].low ? -kFar : next.low;
+                next.high = next.high > depth_[s].high ? kFar : next.high;
+                next.lowest = next.lowest < depth_[s].lowest ? -kFar : next.lowest;
+            }
+            depth_[s] = next;
+            for (const std::uint32_t user : users[s]) {
+                if (!queued[user]) {
+                    queued[user] = true;
+                    work.push_back(user);
+                }
+            }
+        }
+    }
+
+private:
+    const Program& program_;
+    std::vector<Depth> depth_; // by symbol
+    std::vector<std::uint32_t> rounds_;
+};
+
+/// Brackets opened less brackets closed.
+std::int64_t balance(const Program& program, const ProgramWord& word) {
+    std::int64_t sum = 0;
+    for_each_symbol(program, word, [&](std::size_t, SymbolId symbol) {
+        const SymbolKind kind = program.symbol(symbol).kind;
+        sum += kind == SymbolKind::BranchOpen ? 1 : kind == SymbolKind::BranchClose ? -1 : 0;
+    });
+    return sum;
+}
+
+} // namespace
+
+void check_branch_depth(const CheckInput& input, Diagnostics& diagnostics) {
+    const Program& program = input.program;
+    // One that leaves a branch open and one that closes more than it opens.
+    const Production* opening = nullptr;
+    const Production* closing = nullptr;
+    for (const Production& production : program.productions) {
+        if (production.predecessor.items.size() != 1) {
+            return; // how often such a match can be made is not bounded here
+        }
+        const std::int64_t sum = balance(program, production.successor);
+        opening = sum > 0 && opening == nullptr ? &production : opening;
+        closing = sum < 0 && closing == nullptr ? &production : closing;
+    }
+    if (closing == nullptr || (opening == nullptr && balance(program, program.axiom) <= 0)) {
+        return;
+    }
+    DepthAnalysis analysis(program);
+    analysis.run();
+    if (analysis.of(program.axiom).lowest < 0) {
+        return;
+    }
+    Diagnostic& diagnostic = diagnostics.add(
+        DiagnosticCode::BalancedAcross, closing->name_span,
+        fmt::format(
+            "the brackets of {} balance only with those of {}", quoted(input.name(closing->name)),
+            opening != nullptr ? quoted(input.name(opening->name)) : std::string("the axiom")));
+    diagnostic.labels.push_back(
+        {opening != nullptr ? opening->name_span : program.axiom.span, "leaves branches open"});
+    diagnostic.notes.emplace_back("no word of this grammar has a `]` without its `[`");
+}
+
+} // namespace lsys

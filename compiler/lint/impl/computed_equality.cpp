@@ -1,0 +1,237 @@
+// `==` and `!=` on values that rounding may keep from being equal. A value is exact while it is
+// made of whole numbers (and halves, quarters, ...) by + - * and the like; a constant that is only
+// passed on is equal to itself; anything else is computed.
+#include "compiler/lint/impl/lints.h"
+#include "compiler/lint/impl/places.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsys {
+
+namespace {
+
+enum class Level : std::uint8_t { Exact, Literal, Computed };
+
+constexpr int kMaxRounds = 16;
+
+class EqualityCheck {
+public:
+    EqualityCheck(const CheckInput& input, Diagnostics& diagnostics)
+        : input_(input), program_(input.program), diagnostics_(diagnostics),
+          levels_(program_.values.size(), Level::Exact), source_(program_.values.size(), kNone) {}
+
+    void run() {
+        if (!any_equality()) {
+            return;
+        }
+        std::uint32_t parameters = 0;
+        for (const Symbol& symbol : program_.symbols) {
+            base_.push_back(parameters);
+            parameters += symbol.parameter_count;
+        }
+        parameter_levels_.assign(parameters, Level::Exact);
+        for (const Production& production : program_.productions) {
+            trace(production);
+        }
+        for (int round = 0; round < kMaxRounds && propagate(); ++round) {
+        }
+        for (const Production& production : program_.productions) {
+            if (production.condition != kNoValue) {
+                check(production);
+            }
+        }
+    }
+
+private:
+    bool any_equality() const {
+        for (std::size_t i = 0; i < program_.values.size(); ++i) {
+            const Opcode opcode = program_.values[i].opcode;
+            if (opcode == Opcode::Equal || opcode == Opcode::NotEqual) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /// Notes which parameter each formal of a production's expressions is.
+    void trace(const Production& production) {
+        std::vector<std::uint32_t> parameter(production.formals.size(), kNone);
+        for (const ProgramPattern* pattern :
+             {&production.left, &production.predecessor, &production.right}) {
+            for (const ProgramPatternItem& item : pattern->items) {
+                if (item.kind == PatternKind::Module) {
+                    const auto s = static_cast<std::size_t>(item.symbol);
+                    for (std::uint32_t i = 0; i < program_.symbols[s].parameter_count; ++i) {
+                        parameter[item.first_formal + i] = base_[s] + i;
+                    }
+                }
+            }
+        }
+        std::vector<ValueId> work;
+        if (production.condition != kNoValue) {
+            work.push_back(production.condition);
+        }
+        for_each_argument(production.successor,
+                          [&](ValueId argument, std::uint32_t) { work.push_back(argument); });
+        while (!work.empty()) {
+            const ValueId id = work.back();
+            work.pop_back();
+            const Value& value = program_.value(id);
+            if (value.opcode == Opcode::Formal && value.index < parameter.size()) {
+                source_[static_cast<std::size_t>(id)] = parameter[value.index];
+            }
+            for (const ValueId child : {value.left, value.right}) {
+                if (child != kNoValue) {
+                    work.push_back(child);
+                }
+            }
+        }
+    }
+
+    /// Calls visit(argument, parameter) for each argument of a word.
+    template <typename Visit>
+    void for_each_argument(const ProgramWord& word, Visit&& visit) const {
+        for_each_module(
+            program_, word, [&](std::size_t, std::size_t argument, const ProgramModule& module) {
+                const auto s = static_cast<std::size_t>(module.symbol);
+                for (std::uint32_t i = 0; i < program_.symbols[s].parameter_count; ++i) {
+                    visit(program_.arguments[argument + i], base_[s] + i);
+                }
+            });
+    }
+
+    Level level(ValueId id) const {
+        return id == kNoValue ? Level::Exact : levels_[static_cast<std::size_t>(id)];
+    }
+
+    Level level_of(std::size_t i) const {
+        const Value& value = program_.values[i];
+        const Level left = level(value.left);
+        const Level right = level(value.right);
+        switch (value.opcode) {
+        case Opcode::Literal: {
+            constexpr float kGrain = 64.0F;
+            constexpr float kLargest = 65'536.0F;
+            const bool exact = std::fabs(value.literal) <= kLargest &&
+                               std::floor(value.literal * kGrain) == value.literal * kGrain;
+            return exact ? Level::Exact : Level::Literal;
+        }
+        case Opcode::Formal:
+            return source_[i] == kNone ? Level::Exact : parameter_levels_[source_[i]];
+        case Opcode::Step:
+        case Opcode::Steps:
+        case Opcode::Floor:
+        case Opcode::Ceil:
+        case Opcode::Round:
+        case Opcode::Sign:
+        case Opcode::Not:
+        case Opcode::Less:
+        case Opcode::LessEqual:
+        case Opcode::Greater:
+        case Opcode::GreaterEqual:
+        case Opcode::Equal:
+        case Opcode::NotEqual:
+        case Opcode::And:
+        case Opcode::Or:
+            return Level::Exact;
+        case Opcode::Negate:
+        case Opcode::Abs:
+        case Opcode::Min:
+        case Opcode::Max:
+            return std::max(left, right);
+        case Opcode::Add:
+        case Opcode::Subtract:
+        case Opcode::Multiply:
+        case Opcode::Mod:
+            return left == Level::Exact && right == Level::Exact ? Level::Exact : Level::Computed;
+        case Opcode::Divide: {
+            const Value& divisor = program_.value(value.right);
+            int exponent = 0;
+            const bool halves = divisor.opcode == Opcode::Literal &&
+                                std::fabs(std::frexp(divisor.literal, &exponent)) == 0.5F;
+            return halves && left == Level::Exact ? Level::Exact : Level::Computed;
+        }
+        default:
+            return Level::Computed;
+        }
+    }
+
+    /// One round over all values and all arguments; whether something changed.
+    bool propagate() {
+        for (std::size_t i = 0; i < program_.values.size(); ++i) {
+            levels_[i] = level_of(i);
+        }
+        bool changed = false;
+        const auto pass = [&](ValueId argument, std::uint32_t parameter) {
+            const Level next = std::max(parameter_levels_[parameter], level(argument));
+            changed = changed || next != parameter_levels_[parameter];
+            parameter_levels_[parameter] = next;
+        };
+        for_each_argument(program_.axiom, pass);
+        for (const Production& production : program_.productions) {
+            for_each_argument(production.successor, pass);
+        }
+        return changed;
+    }
+
+    void check(const Production& production) {
+        std::vector<ValueId> work{production.condition};
+        while (!work.empty()) {
+            const ValueId id = work.back();
+            work.pop_back();
+            const Value& value = program_.value(id);
+            const bool equality = value.opcode == Opcode::Equal || value.opcode == Opcode::NotEqual;
+            if (equality &&
+                (level(value.left) == Level::Computed || level(value.right) == Level::Computed)) {
+                report(value);
+                continue;
+            }
+            for (const ValueId child : {value.right, value.left}) {
+                if (child != kNoValue) {
+                    work.push_back(child);
+                }
+            }
+        }
+    }
+
+    void report(const Value& value) {
+        const std::string_view text = input_.sources.text(value.span);
+        const char* sign = value.opcode == Opcode::Equal ? "==" : "!=";
+        Diagnostic& diagnostic = diagnostics_.add(
+            DiagnosticCode::ComputedEquality, value.span,
+            fmt::format("`{}` compares a computed value, which rounding may keep from being equal",
+                        sign));
+        const std::size_t at = text.find(sign);
+        if (at == std::string_view::npos || text.find(sign, at + 2) != std::string_view::npos) {
+            return;
+        }
+        const auto trim = [](std::string_view side) {
+            const std::size_t first = side.find_first_not_of(" \t\r\n");
+            const std::size_t last = side.find_last_not_of(" \t\r\n");
+            return first == std::string_view::npos ? std::string_view()
+                                                   : side.substr(first, last - first + 1);
+        };
+        diagnostic.help.push_back(fmt::format(
+            "allow for a small difference: `abs({} - {}) {} 0.001`", trim(text.substr(0, at)),
+            trim(text.substr(at + 2)), value.opcode == Opcode::Equal ? "<" : ">="));
+    }
+
+    const CheckInput& input_;
+    const Program& program_;
+    Diagnostics& diagnostics_;
+    std::vector<Level> levels_;         // by value
+    std::vector<std::uint32_t> source_; // by value: the parameter that a formal is
+    std::vector<std::uint32_t> base_;   // by symbol: its first parameter
+    std::vector<Level> parameter_levels_;
+};
+
+} // namespace
+
+void check_computed_equality(const CheckInput& input, Diagnostics& diagnostics) {
+    EqualityCheck(input, diagnostics).run();
+}
+
+} // namespace lsys

@@ -1,0 +1,202 @@
+// Productions whose predecessor or context never occurs in any word.
+#include "compiler/lint/impl/module_use.h"
+#include "compiler/lint/impl/places.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace lsys {
+
+namespace {
+
+/// The first module of a pattern that never occurs.
+const ProgramPatternItem* missing_item(const ModuleUse& use, const ProgramPattern& pattern) {
+    for (const ProgramPatternItem& item : pattern.items) {
+        if (item.kind == PatternKind::Module && !use.reachable.occurs(item.symbol)) {
+            return &item;
+        }
+    }
+    return nullptr;
+}
+
+class DeadProductions {
+public:
+    DeadProductions(const CheckInput& input, ModuleUse& use, Diagnostics& diagnostics)
+        : input_(input), program_(input.program), use_(use), diagnostics_(diagnostics),
+          explained_(program_.symbols.size(), false) {}
+
+    void run() {
+        // A module that only dead productions write is missing because those are dead: the message
+        // belongs to the first of such a chain, or of a circle.
+        std::vector<bool> written(program_.symbols.size(), false);
+        for (std::size_t p = 0; p < program_.productions.size(); ++p) {
+            const Production& production = program_.productions[p];
+            if (use_.reachable.usable[p] || missing_item(use_, production.predecessor) == nullptr) {
+                continue;
+            }
+            const SymbolId own = production.predecessor.items.front().symbol;
+            for (std::size_t i = 0; i < production.successor.module_count; ++i) {
+                const SymbolId symbol =
+                    program_.modules[production.successor.first_module + i].symbol;
+                if (symbol != own) {
+                    written[static_cast<std::size_t>(symbol)] = true;
+                }
+            }
+        }
+        for (const bool circles : {false, true}) {
+            for (std::size_t p = 0; p < program_.productions.size(); ++p) {
+                const ProgramPatternItem* item =
+                    use_.reachable.usable[p]
+                        ? nullptr
+                        : missing_item(use_, program_.productions[p].predecessor);
+                if (item == nullptr || explained_[static_cast<std::size_t>(item->symbol)] ||
+                    (!circles && written[static_cast<std::size_t>(item->symbol)])) {
+                    continue;
+                }
+                report(program_.productions[p], *item);
+                explain(item->symbol);
+            }
+        }
+        for (std::size_t p = 0; p < program_.productions.size(); ++p) {
+            report_context(program_.productions[p]);
+        }
+    }
+
+private:
+    /// Marks what would occur if `symbol` did.
+    void explain(SymbolId symbol) {
+        if (by_symbol_.empty()) {
+            by_symbol_.resize(program_.symbols.size());
+            for (std::uint32_t p = 0; p < program_.productions.size(); ++p) {
+                for (const ProgramPatternItem& item : program_.productions[p].predecessor.items) {
+                    by_symbol_[static_cast<std::size_t>(item.symbol)].push_back(p);
+                }
+            }
+        }
+        std::vector<SymbolId> work{symbol};
+        explained_[static_cast<std::size_t>(symbol)] = true;
+        while (!work.empty()) {
+            const SymbolId at = work.back();
+            work.pop_back();
+            for (const std::uint32_t p : by_symbol_[static_cast<std::size_t>(at)]) {
+                const ProgramWord& word = program_.productions[p].successor;
+                for (std::size_t i = 0; i < word.module_count; ++i) {
+                    const SymbolId next = program_.modules[word.first_module + i].symbol;
+                    if (!explained_[static_cast<std::size_t>(next)]) {
+                        explained_[static_cast<std::size_t>(next)] = true;
+                        work.push_back(next);
+                    }
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] bool quiet(const Production& production, SymbolId symbol) const {
+        const auto s = static_cast<std::size_t>(symbol);
+        // A library may rewrite more than is used; a declaration says that it is meant so.
+        return production.span.file != program_.axiom.file || use_.settled[s] || use_.declared[s];
+    }
+
+    /// Where the name occurs with another number of parameters.
+    bool note_other_counts(Diagnostic& diagnostic, SymbolId symbol) const {
+        for (const SymbolId other : use_.same_name(program_, symbol)) {
+            if (use_.reachable.occurs(other)) {
+                const ModuleMention place = use_.first_place[static_cast<std::size_t>(other)];
+                diagnostic.labels.push_back(
+                    {module_span(input_, *place.word, place.index),
+                     fmt::format("it occurs with {} here",
+                                 parameters_text(program_.symbol(other).parameter_count))});
+                return true;
+            }
+        }
+        return false;
+    }
+
+    void suggest(Diagnostic& diagnostic, SymbolId symbol, SourceSpan span) {
+        if (candidates_.empty()) {
+            for (std::uint32_t s = 0; s < program_.symbols.size(); ++s) {
+                if (use_.reachable.occurs(SymbolId{s}) &&
+                    program_.symbols[s].kind == SymbolKind::Plain) {
+                    candidates_.push_back(input_.name(SymbolId{s}));
+                }
+            }
+        }
+        const std::string_view name = input_.name(symbol);
+        if (const auto nearest = nearest_name(name, candidates_)) {
+            span.end = span.begin + static_cast<std::uint32_t>(name.size());
+            Fix fix;
+            fix.title = fmt::format("did you mean {}?", quoted(*nearest));
+            fix.machine_applicable = false;
+            if (input_.sources.text(span) == name) {
+                fix.edits = {{span, std::string(*nearest)}};
+                diagnostic.fixes.push_back(std::move(fix));
+            } else {
+                diagnostic.help.push_back(std::move(fix.title));
+            }
+        }
+    }
+
+    [[nodiscard]] std::string with_count(SymbolId symbol) const {
+        const std::uint32_t count = program_.symbol(symbol).parameter_count;
+        return use_.same_name(program_, symbol).size() == 1
+                   ? quoted(input_.name(symbol))
+                   : fmt::format("{} with {}", quoted(input_.name(symbol)), parameters_text(count));
+    }
+
+    void report(const Production& production, const ProgramPatternItem& item) {
+        if (quiet(production, item.symbol)) {
+            return;
+        }
+        const SourceSpan span = item_span(production, item);
+        Diagnostic diagnostic = make_diagnostic(
+            DiagnosticCode::NeverProduced, span,
+            fmt::format("module {} never occurs, so {} is never used", with_count(item.symbol),
+                        quoted(input_.name(production.name))));
+        if (!note_other_counts(diagnostic, item.symbol)) {
+            suggest(diagnostic, item.symbol, span);
+        }
+        diagnostic.notes.emplace_back("the axiom does not lead to it through any production");
+        diagnostics_.add(std::move(diagnostic));
+    }
+
+    void report_context(const Production& production) {
+        if (missing_item(use_, production.predecessor) != nullptr) {
+            return;
+        }
+        for (const ProgramPattern* context : {&production.left, &production.right}) {
+            const ProgramPatternItem* item = missing_item(use_, *context);
+            if (item == nullptr || explained_[static_cast<std::size_t>(item->symbol)] ||
+                program_.symbol(item->symbol).ignored || quiet(production, item->symbol)) {
+                continue;
+            }
+            explained_[static_cast<std::size_t>(item->symbol)] = true;
+            const SourceSpan span = item_span(production, *item);
+            Diagnostic diagnostic = make_diagnostic(
+                DiagnosticCode::NeverProduced, span,
+                fmt::format("module {} never occurs, so {} never meets this context",
+                            with_count(item->symbol), quoted(input_.name(production.name))));
+            if (!note_other_counts(diagnostic, item->symbol)) {
+                suggest(diagnostic, item->symbol, span);
+            }
+            diagnostics_.add(std::move(diagnostic));
+            return;
+        }
+    }
+
+    const CheckInput& input_;
+    const Program& program_;
+    ModuleUse& use_;
+    Diagnostics& diagnostics_;
+    std::vector<bool> explained_;                       // by symbol
+    std::vector<std::vector<std::uint32_t>> by_symbol_; // productions by predecessor
+    std::vector<std::string_view> candidates_;
+};
+
+} // namespace
+
+void check_dead_productions(const CheckInput& input, ModuleUse& use, Diagnostics& diagnostics) {
+    DeadProductions(input, use, diagnostics).run();
+}
+
+} // namespace lsys

@@ -1,0 +1,79 @@
+// Grammars that mean to draw, and draw nothing in the generations asked for.
+#include "compiler/lint/impl/lints.h"
+#include "compiler/lint/impl/places.h"
+#include "compiler/lint/impl/reachable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lsys {
+
+namespace {
+
+/// Commands that have a purpose only beside a drawing.
+bool prepares_drawing(TurtleOperation operation) {
+    switch (operation) {
+    case TurtleOperation::Move:
+    case TurtleOperation::HalfMove:
+    case TurtleOperation::SetWidth:
+    case TurtleOperation::ScaleWidth:
+    case TurtleOperation::ScaleStep:
+    case TurtleOperation::SetColour:
+    case TurtleOperation::PolygonBegin:
+    case TurtleOperation::PolygonVertex:
+        return true;
+    default:
+        return false;
+    }
+}
+
+} // namespace
+
+void check_drawing(const CheckInput& input, Diagnostics& diagnostics) {
+    const Program& program = input.program;
+    const Reachable reachable = find_reachable(program);
+    bool prepared = false;
+    bool out_of_reach = false;  // something would draw, but never occurs
+    SymbolId drawn = kNoSymbol; // the first to appear
+    for (std::uint32_t s = 0; s < program.symbols.size(); ++s) {
+        const auto symbol = SymbolId{s};
+        const TurtleOperation operation = program.symbols[s].turtle;
+        if (draws(operation)) {
+            out_of_reach = out_of_reach || !reachable.occurs(symbol);
+            if (reachable.occurs(symbol) &&
+                (drawn == kNoSymbol ||
+                 reachable.generation[s] < reachable.generation[static_cast<std::size_t>(drawn)])) {
+                drawn = symbol;
+            }
+        }
+        prepared = prepared || (reachable.occurs(symbol) && prepares_drawing(operation));
+    }
+    if (drawn == kNoSymbol) {
+        // Why a module never occurs is said where its production is; and words may be all that is
+        // meant.
+        if (out_of_reach || !prepared) {
+            return;
+        }
+        Diagnostic& diagnostic =
+            diagnostics.add(DiagnosticCode::NothingDrawn, program.axiom.span,
+                            "nothing is drawn: the axiom leads to no module that draws");
+        diagnostic.help.emplace_back(
+            "`F` draws a segment, and `#object NAME SPHERE;` draws an object for a module");
+        return;
+    }
+    const std::uint32_t generations =
+        input.options.generations.value_or(program.generations.value_or(0));
+    const std::uint32_t first = reachable.generation[static_cast<std::size_t>(drawn)];
+    const bool known_generations = input.options.generations || program.generations;
+    if (known_generations && generations < first) {
+        const bool written = !input.options.generations;
+        Diagnostic& diagnostic = diagnostics.add(
+            DiagnosticCode::NothingDrawn, written ? program.generations_span : program.axiom.span,
+            fmt::format("nothing is drawn yet in generation {}: {} first appears in generation {}",
+                        generations, quoted(input.name(drawn)), first));
+        diagnostic.help.push_back(fmt::format("ask for {} generations or more", first));
+    }
+}
+
+} // namespace lsys

@@ -1,0 +1,80 @@
+// A turtle command with more parameters than it reads: `+(1, 2)`. A module that productions rewrite
+// may carry what it likes.
+#include "compiler/lint/checks.h"
+#include "compiler/lint/impl/places.h"
+#include "compiler/resolve/profiles.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+void report(const CheckInput& input,
+            const ProgramWord& word,
+            std::size_t index,
+            const TurtleCommand& command,
+            Diagnostics& diagnostics) {
+    const std::vector<SourceSpan> arguments = argument_spans(input, word, index);
+    const SourceSpan extra = command.max_parameters < arguments.size()
+                                 ? join(arguments[command.max_parameters], arguments.back())
+                                 : module_name_span(input, word, index);
+    Diagnostic& warning =
+        diagnostics.add(DiagnosticCode::ExtraParameters, extra,
+                        fmt::format("{} reads {}; more have no effect", quoted(command.name),
+                                    parameters_text(command.max_parameters)));
+    if (!command.parameters.empty()) {
+        warning.notes.push_back(
+            fmt::format("the parameters of {}: {}", quoted(command.name), command.parameters));
+    }
+}
+
+} // namespace
+
+void check_extra_parameters(const CheckInput& input, Diagnostics& diagnostics) {
+    const Program& program = input.program;
+    if (!program.has_all_statements) {
+        return;
+    }
+    // What each symbol lacks: a command that takes fewer parameters, and is not rewritten.
+    std::vector<const TurtleCommand*> exceeded(program.symbols.size(), nullptr);
+    bool any = false;
+    for (std::size_t i = 0; i < program.symbols.size(); ++i) {
+        const Symbol& symbol = program.symbols[i];
+        const TurtleCommand* command =
+            symbol.parameter_count == 0 || symbol.turtle == TurtleOperation::Nothing
+                ? nullptr
+                : find_turtle_command(program.settings.turtle, input.name(symbol.name));
+        if (command != nullptr && command->operation == symbol.turtle &&
+            symbol.parameter_count > command->max_parameters) {
+            exceeded[i] = command;
+            any = true;
+        }
+    }
+    if (!any) {
+        return;
+    }
+    for (const Production& production : program.productions) {
+        for (const ProgramPatternItem& item : production.predecessor.items) {
+            exceeded[static_cast<std::size_t>(item.symbol)] = nullptr;
+        }
+    }
+    const auto check_word = [&](const ProgramWord& word) {
+        for_each_module(
+            program, word, [&](std::size_t index, std::size_t, const ProgramModule& module) {
+                const TurtleCommand*& command = exceeded[static_cast<std::size_t>(module.symbol)];
+                if (command != nullptr) {
+                    report(input, word, index, *command, diagnostics);
+                    command = nullptr; // once is enough
+                }
+            });
+    };
+    check_word(program.axiom);
+    for (const Production& production : program.productions) {
+        check_word(production.successor);
+    }
+}
+
+} // namespace lsys

@@ -1,0 +1,76 @@
+// Words that outgrow the limit before the generation asked for, and words that stop changing before
+// it.
+#include "compiler/growth/growth.h"
+#include "compiler/lint/impl/lints.h"
+#include "compiler/lint/impl/places.h"
+
+#include <fmt/format.h>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::size_t kMaxProductions = 10'000;
+
+} // namespace
+
+void check_growth(const CheckInput& input, Diagnostics& diagnostics) {
+    const Program& program = input.program;
+    const std::uint32_t generations =
+        input.options.generations.value_or(program.generations.value_or(0));
+    if (input.bytecode == nullptr || program.productions.empty()) {
+        return;
+    }
+    const bool written = !input.options.generations && program.generations;
+    const SourceSpan place = written ? program.generations_span : program.axiom.span;
+    const std::optional<GrowthLimit> limit =
+        find_growth_limit(*input.bytecode, generations, input.options.max_modules);
+    if (limit) {
+        const Count most{input.options.max_modules, false, 0.0};
+        const char* least = limit->exact ? "" : "at least ";
+        const bool axiom = !limit->at_largest.modules.at_most(input.options.max_modules);
+        const std::uint32_t next = axiom ? 0 : limit->largest_fitting + 1;
+        Diagnostic& diagnostic = diagnostics.add(
+            DiagnosticCode::WordTooLarge, place,
+            fmt::format("the word of generation {} has {}{} modules, more than the limit of {}",
+                        next, least, to_text(limit->at_next.modules), to_text(most)));
+        if (!axiom) {
+            diagnostic.notes.push_back(fmt::format("generation {} has {}{}", limit->largest_fitting,
+                                                   least, to_text(limit->at_largest.modules)));
+        }
+        if (limit->has_wanted && generations != next) {
+            diagnostic.notes.push_back(fmt::format("generation {} would have {}{}", generations,
+                                                   least, to_text(limit->at_wanted.modules)));
+        }
+        if (limit->dominant != kNoProduction) {
+            const Production& production =
+                program.productions[static_cast<std::size_t>(limit->dominant)];
+            diagnostic.labels.push_back({production.name_span, "makes the most modules"});
+        }
+        if (!axiom) {
+            diagnostic.help.push_back(fmt::format(
+                "the largest number of generations that fits is {}; `--max-modules` raises "
+                "the limit",
+                limit->largest_fitting));
+        } else {
+            diagnostic.help.emplace_back("`--max-modules` raises the limit");
+        }
+        return;
+    }
+    // Not worth a second look at a very large program.
+    if (!written || program.productions.size() > kMaxProductions) {
+        return;
+    }
+    const GrowthPrediction prediction = predict_growth(*input.bytecode, generations);
+    // A last generation that changes nothing shows that the word is complete.
+    if (prediction.unchanged_from && *prediction.unchanged_from + 1 < generations) {
+        Diagnostic& diagnostic =
+            diagnostics.add(DiagnosticCode::FixedPoint, place,
+                            fmt::format("from generation {} on the word stays the same",
+                                        *prediction.unchanged_from));
+        diagnostic.help.push_back(
+            fmt::format("`#n = {};` gives the same word", *prediction.unchanged_from));
+    }
+}
+
+} // namespace lsys

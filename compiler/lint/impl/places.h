@@ -1,0 +1,24 @@
+// Places in the text that a Program does not keep, found again in the source when a message needs
+// them.
+#pragma once
+
+#include "compiler/lint/checks.h"
+#include "compiler/program/message_words.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+/// Module `index` of Program::modules, which stands in `word`, with its arguments.
+[[nodiscard]] SourceSpan
+module_span(const CheckInput& input, const ProgramWord& word, std::size_t index);
+
+/// The arguments of that module.
+[[nodiscard]] std::vector<SourceSpan>
+argument_spans(const CheckInput& input, const ProgramWord& word, std::size_t index);
+
+[[nodiscard]] SourceSpan item_span(const Production& production, const ProgramPatternItem& item);
+
+} // namespace lsys

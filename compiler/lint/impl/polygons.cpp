@@ -1,0 +1,200 @@
+// Polygons: `{` and `}` balance in the axiom and in every successor and do not nest; a `.` makes
+// sense within them, and three vertices make a polygon.
+#include "compiler/lint/impl/lints.h"
+#include "compiler/lint/impl/places.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+class PolygonCheck {
+public:
+    PolygonCheck(const CheckInput& input, Diagnostics& diagnostics)
+        : input_(input), program_(input.program), diagnostics_(diagnostics),
+          inside_(program_.symbols.size(), false), rewritten_(program_.symbols.size(), false) {}
+
+    void run() {
+        bool any = false;
+        for (const Symbol& symbol : program_.symbols) {
+            any = any || symbol.kind == SymbolKind::PolygonOpen ||
+                  symbol.kind == SymbolKind::PolygonClose ||
+                  symbol.turtle == TurtleOperation::PolygonVertex;
+        }
+        if (!any) {
+            return;
+        }
+        find_inside();
+        check_word(program_.axiom, "axiom", false);
+        for (const Production& production : program_.productions) {
+            bool may_be_inside = false;
+            for (const ProgramPatternItem& item : production.predecessor.items) {
+                may_be_inside = may_be_inside || inside_[static_cast<std::size_t>(item.symbol)];
+            }
+            check_word(production.successor, "successor", may_be_inside);
+        }
+    }
+
+private:
+    SymbolKind kind(std::size_t index) const {
+        return program_.symbol(program_.modules[index].symbol).kind;
+    }
+
+    /// Calls visit(symbol) for the modules of a word that stand in a polygon of it.
+    template <typename Visit>
+    void for_each_inside(const ProgramWord& word, bool all, Visit&& visit) const {
+        bool open = all;
+        for (std::size_t i = word.first_module;
+             i < std::size_t{word.first_module} + word.module_count; ++i) {
+            if (kind(i) == SymbolKind::PolygonOpen) {
+                open = true;
+            } else if (kind(i) == SymbolKind::PolygonClose) {
+                open = all;
+            } else if (open) {
+                visit(program_.modules[i].symbol);
+            }
+        }
+    }
+
+    /// Which modules can stand in a polygon, directly or as a part of what does.
+    void find_inside() {
+        std::vector<std::vector<std::uint32_t>> productions(program_.symbols.size());
+        for (std::uint32_t p = 0; p < program_.productions.size(); ++p) {
+            for (const ProgramPatternItem& item : program_.productions[p].predecessor.items) {
+                productions[static_cast<std::size_t>(item.symbol)].push_back(p);
+                rewritten_[static_cast<std::size_t>(item.symbol)] = true;
+            }
+        }
+        std::vector<SymbolId> work;
+        const auto mark = [&](SymbolId symbol) {
+            if (!inside_[static_cast<std::size_t>(symbol)]) {
+                inside_[static_cast<std::size_t>(symbol)] = true;
+                work.push_back(symbol);
+            }
+        };
+        for_each_inside(program_.axiom, false, mark);
+        for (const Production& production : program_.productions) {
+            for_each_inside(production.successor, false, mark);
+        }
+        while (!work.empty()) {
+            const SymbolId symbol = work.back();
+            work.pop_back();
+            for (const std::uint32_t p : productions[static_cast<std::size_t>(symbol)]) {
+                for_each_inside(program_.productions[p].successor, true, mark);
+            }
+        }
+    }
+
+    void check_word(const ProgramWord& word, const char* where, bool may_be_inside) {
+        std::optional<std::size_t> open;
+        bool broken = false;        // one message a word
+        std::uint32_t vertices = 0; // of the open polygon
+        std::uint32_t moves = 0;
+        bool may_grow = false; // what stands in it may become more
+        for (std::size_t i = word.first_module;
+             i < std::size_t{word.first_module} + word.module_count; ++i) {
+            const SymbolId id = program_.modules[i].symbol;
+            const Symbol& symbol = program_.symbol(id);
+            if (symbol.kind == SymbolKind::PolygonOpen) {
+                if (open && !broken) {
+                    broken = true;
+                    Diagnostic& diagnostic = add(DiagnosticCode::NestedPolygon, word, i,
+                                                 "a polygon begins within a polygon");
+                    diagnostic.labels.push_back(
+                        {module_name_span(input_, word, *open), "this one is still open"});
+                    diagnostic.help.emplace_back(
+                        "close the first with `}` before the second begins");
+                } else if (!open && may_be_inside && !broken) {
+                    broken = true;
+                    Diagnostic diagnostic = make_diagnostic(
+                        DiagnosticCode::NestedPolygon, module_name_span(input_, word, i),
+                        "this polygon can begin within another one: the module that becomes it "
+                        "also stands in one");
+                    diagnostic.severity = Severity::Warning; // before it is counted
+                    diagnostics_.add(std::move(diagnostic));
+                }
+                open = i;
+                vertices = moves = 0;
+                may_grow = false;
+            } else if (symbol.kind == SymbolKind::PolygonClose) {
+                if (!open && !broken) {
+                    broken = true;
+                    Diagnostic& diagnostic =
+                        add(DiagnosticCode::UnbalancedPolygon, word, i,
+                            fmt::format("`}}` ends no polygon of this {}", where));
+                    diagnostic.help.push_back(
+                        fmt::format("`{{` and `}}` balance in every {}", where));
+                } else if (open && !broken && !may_grow) {
+                    check_size(word, *open, i, vertices, moves);
+                }
+                open.reset();
+            } else if (open) {
+                vertices += symbol.turtle == TurtleOperation::PolygonVertex ? 1U : 0U;
+                moves += symbol.turtle == TurtleOperation::Forward ||
+                                 symbol.turtle == TurtleOperation::Move ||
+                                 symbol.turtle == TurtleOperation::HalfForward ||
+                                 symbol.turtle == TurtleOperation::HalfMove ||
+                                 symbol.turtle == TurtleOperation::TaperedForward
+                             ? 1U
+                             : 0U;
+                may_grow = may_grow || rewritten_[static_cast<std::size_t>(id)];
+            } else if (symbol.turtle == TurtleOperation::PolygonVertex && !may_be_inside &&
+                       !std::exchange(stray_reported_, true)) {
+                Diagnostic& diagnostic =
+                    add(DiagnosticCode::StrayVertex, word, i, "a vertex outside of any polygon");
+                diagnostic.help.emplace_back(
+                    "`.` adds the position to the polygon between `{` and `}`");
+            }
+        }
+        if (open && !broken) {
+            Diagnostic& diagnostic = add(DiagnosticCode::UnbalancedPolygon, word, *open,
+                                         fmt::format("`{{` is closed nowhere in this {}", where));
+            diagnostic.help.push_back(fmt::format("`{{` and `}}` balance in every {}", where));
+        }
+    }
+
+    /// ABOP 1.25: without any `.`, the start and end of every move are vertices.
+    void check_size(const ProgramWord& word,
+                    std::size_t open,
+                    std::size_t close,
+                    std::uint32_t vertices,
+                    std::uint32_t moves) {
+        const std::uint32_t count = vertices != 0 ? vertices : moves == 0 ? 0 : moves + 1;
+        if (count >= 3) {
+            return;
+        }
+        Diagnostic& diagnostic = add(DiagnosticCode::SmallPolygon, word, open,
+                                     count == 0 ? std::string("a polygon without vertices")
+                                                : fmt::format("a polygon of {} {}", count,
+                                                              count == 1 ? "vertex" : "vertices"));
+        diagnostic.span = join(diagnostic.span, module_name_span(input_, word, close));
+        diagnostic.help.emplace_back(
+            vertices != 0
+                ? "add vertices with `.`: a polygon has at least three"
+                : "add vertices with `.`, or moves with `F` or `f`: a polygon has at least three");
+    }
+
+    Diagnostic&
+    add(DiagnosticCode code, const ProgramWord& word, std::size_t index, std::string message) {
+        return diagnostics_.add(code, module_name_span(input_, word, index), std::move(message));
+    }
+
+    const CheckInput& input_;
+    const Program& program_;
+    Diagnostics& diagnostics_;
+    std::vector<bool> inside_;    // by symbol: can stand in a polygon
+    std::vector<bool> rewritten_; // by symbol
+    bool stray_reported_ = false;
+};
+
+} // namespace
+
+void check_polygons(const CheckInput& input, Diagnostics& diagnostics) {
+    PolygonCheck(input, diagnostics).run();
+}
+
+} // namespace lsys

@@ -1,0 +1,81 @@
+// The probabilities of a choice without conditions sum to 1 (LANGUAGE.md section 5). With
+// conditions the sum depends on what matches, and weights are normalised at run time.
+#include "compiler/lint/checks.h"
+#include "compiler/lint/impl/places.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+/// Three times 0.33 is fine.
+constexpr double kTolerance = 0.011 + 1e-6;
+constexpr std::size_t kMaxLabels = 12;
+
+struct Group {
+    double sum = 0.0;
+    bool is_judged = true; // no conditions, no errors
+    std::vector<std::uint32_t> members;
+};
+
+void report(const CheckInput& input, const Group& group, Diagnostics& diagnostics) {
+    const std::vector<Production>& productions = input.program.productions;
+    // The message stands at the number that goes beyond 1, or at the last.
+    std::uint32_t culprit = group.members.back();
+    double running = 0.0;
+    for (const std::uint32_t member : group.members) {
+        running += static_cast<double>(productions[member].weight);
+        if (running > 1.0 + kTolerance) {
+            culprit = member;
+            break;
+        }
+    }
+    const auto normalised = [&](std::uint32_t member) {
+        return fmt::format("{:.4g}", static_cast<double>(productions[member].weight) / group.sum);
+    };
+    const SymbolId symbol = productions[culprit].predecessor.items.front().symbol;
+    Diagnostic& error =
+        diagnostics.add(DiagnosticCode::ProbabilitySum, productions[culprit].weight_span,
+                        fmt::format("the probabilities of {} sum to {:.6g}, not to 1",
+                                    quoted(input.name(symbol)), group.sum));
+    error.label = fmt::format("normalised, this would be {}", normalised(culprit));
+    for (const std::uint32_t member : group.members) {
+        if (member != culprit && error.labels.size() < kMaxLabels) {
+            error.labels.push_back({productions[member].weight_span,
+                                    fmt::format("normalised, {}", normalised(member))});
+        }
+    }
+    error.help.emplace_back(
+        "change the numbers, or let them be weights that are normalised: `#set weights any;`");
+}
+
+} // namespace
+
+void check_probability_sums(const CheckInput& input, Diagnostics& diagnostics) {
+    const Program& program = input.program;
+    if (program.settings.weights == WeightRule::Any || !program.has_all_statements) {
+        return;
+    }
+    std::vector<Group> groups(program.group_count);
+    for (std::uint32_t i = 0; i < program.productions.size(); ++i) {
+        const Production& production = program.productions[i];
+        if (production.stochastic) {
+            Group& group = groups[production.group];
+            group.sum += static_cast<double>(production.weight);
+            group.is_judged = group.is_judged && production.condition == kNoValue &&
+                              !std::isnan(production.weight);
+            group.members.push_back(i);
+        }
+    }
+    for (const Group& group : groups) {
+        if (!group.members.empty() && group.is_judged && std::fabs(group.sum - 1.0) > kTolerance) {
+            report(input, group, diagnostics);
+        }
+    }
+}
+
+} // namespace lsys

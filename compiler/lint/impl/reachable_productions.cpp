@@ -1,0 +1,234 @@
+// Productions that earlier ones always precede, and conditions that stand twice.
+#include "compiler/lint/impl/lints.h"
+#include "compiler/lint/impl/places.h"
+#include "compiler/lint/impl/rule_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::size_t kMaxTogether = 1'000; // productions of one module that are compared
+
+class PrecedenceCheck {
+public:
+    PrecedenceCheck(const CheckInput& input, Diagnostics& diagnostics)
+        : input_(input), bytecode_(*input.bytecode), index_(bytecode_), diagnostics_(diagnostics) {}
+
+    void run() {
+        for (std::uint32_t s = 0; s < bytecode_.symbols.size(); ++s) {
+            const std::span<const std::uint32_t> productions = index_.productions_of(SymbolId{s});
+            if (productions.size() >= 2) {
+                reported_.clear();
+                check_equal_conditions(productions);
+                check_unconditional(productions);
+                check_covered(SymbolId{s}, productions);
+            }
+        }
+        // Rules of several modules: all productions of a rule compete in the same way.
+        std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> sequences;
+        for (std::uint32_t p = 0; p < bytecode_.productions.size(); ++p) {
+            if (bytecode_.productions[p].predecessor.count > 1) {
+                sequences[bytecode_.productions[p].rule].push_back(p);
+            }
+        }
+        for (std::uint32_t rule = 0; rule < bytecode_.rule_count && !sequences.empty(); ++rule) {
+            if (const auto found = sequences.find(rule); found != sequences.end()) {
+                reported_.clear();
+                check_equal_conditions(found->second);
+                check_unconditional(found->second);
+            }
+        }
+    }
+
+private:
+    const BytecodeProduction& code(std::uint32_t p) const { return bytecode_.productions[p]; }
+    const Production& production(std::uint32_t p) const { return input_.program.productions[p]; }
+    bool is_free(std::uint32_t p) const { return !code(p).has_left && !code(p).has_right; }
+    bool is_reported(std::uint32_t p) const { return reported_.contains(p); }
+
+    /// The instructions of a condition; equal ones are equal conditions within a group.
+    std::string key(std::uint32_t p) const {
+        std::uint32_t at = code(p).condition;
+        const std::uint32_t first = at;
+        while (analysis::opcode_of(bytecode_.instructions[at]) != Opcode::Test) {
+            at += analysis::instruction_length(analysis::opcode_of(bytecode_.instructions[at]));
+        }
+        std::string text = std::to_string(code(p).group) + ":";
+        for (std::uint32_t i = first; i < at; ++i) {
+            text += std::to_string(bytecode_.instructions[i]) + ",";
+        }
+        return text;
+    }
+
+    void check_equal_conditions(std::span<const std::uint32_t> productions) {
+        std::unordered_map<std::string, std::uint32_t> met;
+        for (const std::uint32_t p : productions) {
+            if (code(p).condition == kNone || code(p).stochastic) {
+                continue;
+            }
+            const auto [place, is_new] = met.emplace(key(p), p);
+            const Production& earlier = production(place->second);
+            // Two constants may well have one value.
+            const bool by_chance =
+                (names_constant(input_, production(p)) || names_constant(input_, earlier)) &&
+                input_.sources.text(production(p).condition_span) !=
+                    input_.sources.text(earlier.condition_span);
+            if (is_new || by_chance) {
+                continue;
+            }
+            Diagnostic& diagnostic =
+                diagnostics_.add(DiagnosticCode::DuplicateCondition, production(p).condition_span,
+                                 fmt::format("{} has the condition of {}, which always precedes it",
+                                             quoted(input_.name(production(p).name)),
+                                             quoted(input_.name(earlier.name))));
+            diagnostic.labels.push_back({earlier.condition_span, "the first in the file is taken"});
+            diagnostic.help.emplace_back(
+                "change one of the conditions, or give both a probability with `~`");
+            reported_.insert(p);
+        }
+    }
+
+    /// Those after a production that always matches where they could.
+    void check_unconditional(std::span<const std::uint32_t> productions) {
+        std::uint32_t free = kNone; // the first that matches everywhere
+        std::unordered_map<std::uint32_t, std::uint32_t> in_group; // the first of each group
+        std::unordered_map<std::uint32_t, std::uint32_t>
+            members; // first stochastic one of each group
+        for (const std::uint32_t p : productions) {
+            const std::uint32_t group = code(p).group;
+            if (code(p).stochastic) {
+                members.emplace(group, p);
+            }
+            // A stochastic production is chosen from its group, so what counts is the group's
+            // first.
+            const std::uint32_t from = code(p).stochastic ? members.at(group) : p;
+            const auto own = in_group.find(group);
+            std::uint32_t earlier = free != kNone && free < from ? free : kNone;
+            if (own != in_group.end() && own->second < from) {
+                earlier = std::min(earlier, own->second);
+            }
+            if (earlier != kNone && !same_choice(earlier, p)) {
+                report(p, earlier);
+            }
+            if (code(p).condition == kNone) {
+                in_group.emplace(group, p);
+                if (is_free(p) && free == kNone) {
+                    free = p;
+                }
+            }
+        }
+    }
+
+    bool same_choice(std::uint32_t a, std::uint32_t b) const {
+        return code(a).stochastic && code(b).stochastic && code(a).group == code(b).group;
+    }
+
+    /// Those whose condition holds only where earlier conditions do.
+    void check_covered(SymbolId symbol, std::span<const std::uint32_t> productions) {
+        const bool plain = std::all_of(productions.begin(), productions.end(),
+                                       [&](std::uint32_t p) { return is_free(p); });
+        if (!plain || productions.size() > kMaxTogether) {
+            return;
+        }
+        const std::optional<RuleTable> table =
+            make_rule_table(bytecode_, index_, symbol, {productions.begin(), productions.end()});
+        if (!table) {
+            return;
+        }
+        std::vector<bool> turned; // by row: a constant decides
+        for (const std::uint32_t p : productions) {
+            turned.push_back(code(p).condition != kNone && names_constant(input_, production(p)));
+        }
+        for (std::size_t row = 1; row < productions.size(); ++row) {
+            const std::uint32_t p = productions[row];
+            bool ever = false;   // it holds somewhere
+            bool usable = false; // and nothing precedes it there
+            std::vector<std::uint32_t> before;
+            for (std::uint64_t point = 0; point < table->points && !usable; ++point) {
+                if (!table->holds(row, point)) {
+                    continue;
+                }
+                ever = true;
+                std::size_t first = 0;
+                while (!table->holds(first, point)) {
+                    ++first;
+                }
+                usable = first == row || turned[first] || same_choice(productions[first], p);
+                if (std::find(before.begin(), before.end(), productions[first]) == before.end()) {
+                    before.push_back(productions[first]);
+                }
+            }
+            if (ever && !usable && !turned[row] && !is_reported(p)) {
+                report_covered(p, before);
+            }
+        }
+    }
+
+    void report(std::uint32_t p, std::uint32_t earlier) {
+        if (is_reported(p)) {
+            return;
+        }
+        reported_.insert(p);
+        const Production& late = production(p);
+        const Production& early = production(earlier);
+        const bool mixed = late.stochastic != early.stochastic;
+        Diagnostic& diagnostic = diagnostics_.add(
+            mixed ? DiagnosticCode::MixedProbability : DiagnosticCode::UnreachableProduction,
+            mixed && late.stochastic ? late.weight_span : late.name_span,
+            fmt::format("{} is never used: {} always matches first", quoted(input_.name(late.name)),
+                        quoted(input_.name(early.name))));
+        diagnostic.labels.push_back({early.name_span, "has no condition"});
+        if (mixed) {
+            diagnostic.notes.emplace_back(
+                "a choice is made only among productions that have a probability");
+            diagnostic.help.push_back(
+                fmt::format("give {} a probability with `~`, or a condition",
+                            quoted(input_.name(late.stochastic ? early.name : late.name))));
+        } else if (early.stochastic || late.condition == kNoValue) {
+            diagnostic.help.emplace_back(
+                early.stochastic ? "productions are tried in the order of the file"
+                                 : "remove one of them, or give both a probability with `~`");
+        } else {
+            diagnostic.help.push_back(
+                fmt::format("productions are tried in the order of the file: move {} above {}",
+                            quoted(input_.name(late.name)), quoted(input_.name(early.name))));
+        }
+    }
+
+    void report_covered(std::uint32_t p, const std::vector<std::uint32_t>& before) {
+        constexpr std::size_t kMaxLabels = 4;
+        reported_.insert(p);
+        Diagnostic& diagnostic = diagnostics_.add(
+            DiagnosticCode::UnreachableProduction, production(p).name_span,
+            fmt::format("{} is never used: earlier conditions hold wherever its own does",
+                        quoted(input_.name(production(p).name))));
+        for (std::size_t i = 0; i < std::min(before.size(), kMaxLabels); ++i) {
+            diagnostic.labels.push_back({production(before[i]).condition_span, "holds first"});
+        }
+        diagnostic.help.emplace_back(
+            "productions are tried in the order of the file: move the more special one up");
+    }
+
+    const CheckInput& input_;
+    const Bytecode& bytecode_;
+    analysis::ProductionIndex index_;
+    Diagnostics& diagnostics_;
+    std::unordered_set<std::uint32_t> reported_; // of the rule at hand
+};
+
+} // namespace
+
+void check_reachable_productions(const CheckInput& input, Diagnostics& diagnostics) {
+    if (input.bytecode != nullptr) {
+        PrecedenceCheck(input, diagnostics).run();
+    }
+}
+
+} // namespace lsys

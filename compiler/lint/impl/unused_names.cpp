@@ -1,0 +1,118 @@
+// Constants that nothing uses, and parameters that no production of a module reads.
+#include "compiler/lint/impl/lints.h"
+#include "compiler/lint/impl/places.h"
+
+#include <fmt/format.h>
+
+namespace lsys {
+
+namespace {
+
+void check_constants(const CheckInput& input, Diagnostics& diagnostics) {
+    for (const Constant& constant : input.program.constants) {
+        // An included file may define more than this grammar needs.
+        if (constant.is_used || constant.span.file != input.program.axiom.file) {
+            continue;
+        }
+        Diagnostic& diagnostic = diagnostics.add(
+            DiagnosticCode::UnusedConstant, constant.span,
+            fmt::format("constant {} is never used", quoted(input.name(constant.name))));
+        diagnostic.help.emplace_back("remove the statement, or use the name in an expression");
+    }
+}
+
+/// The formals that a production reads.
+std::vector<bool> used_formals(const Program& program, const Production& production) {
+    std::vector<bool> used(production.formals.size(), false);
+    std::vector<ValueId> work;
+    if (production.condition != kNoValue) {
+        work.push_back(production.condition);
+    }
+    for_each_module(program, production.successor,
+                    [&](std::size_t, std::size_t argument, const ProgramModule& module) {
+                        const std::uint32_t count = program.symbol(module.symbol).parameter_count;
+                        for (std::uint32_t i = 0; i < count; ++i) {
+                            work.push_back(program.arguments[argument + i]);
+                        }
+                    });
+    while (!work.empty()) {
+        const Value& value = program.value(work.back());
+        work.pop_back();
+        if (value.opcode == Opcode::Formal && value.index < used.size()) {
+            used[value.index] = true;
+        }
+        for (const ValueId child : {value.left, value.right}) {
+            if (child != kNoValue) {
+                work.push_back(child);
+            }
+        }
+    }
+    return used;
+}
+
+/// Parameters of predecessors that no production of the module reads. Those of contexts only count,
+/// and those of a module that draws are read by the turtle.
+void check_formals(const CheckInput& input, Diagnostics& diagnostics) {
+    const Program& program = input.program;
+    std::vector<std::vector<bool>> used(program.symbols.size());
+    std::vector<std::uint32_t> first(program.symbols.size(), kNone);
+    for (std::uint32_t p = 0; p < program.productions.size(); ++p) {
+        const Production& production = program.productions[p];
+        if (production.formals.empty()) {
+            continue;
+        }
+        const std::vector<bool> here = used_formals(program, production);
+        for (const ProgramPattern* pattern :
+             {&production.left, &production.predecessor, &production.right}) {
+            const bool rewritten = pattern == &production.predecessor;
+            for (const ProgramPatternItem& item : pattern->items) {
+                if (item.kind != PatternKind::Module) {
+                    continue;
+                }
+                const auto s = static_cast<std::size_t>(item.symbol);
+                const std::uint32_t count = program.symbol(item.symbol).parameter_count;
+                used[s].resize(count, false);
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    used[s][i] = used[s][i] || here[item.first_formal + i];
+                }
+                if (rewritten && first[s] == kNone) {
+                    first[s] = p;
+                }
+            }
+        }
+    }
+    for (std::uint32_t s = 0; s < program.symbols.size(); ++s) {
+        if (first[s] == kNone || program.symbols[s].turtle != TurtleOperation::Nothing) {
+            continue;
+        }
+        const Production& production = program.productions[first[s]];
+        for (const ProgramPatternItem& item : production.predecessor.items) {
+            if (item.symbol != SymbolId{s}) {
+                continue;
+            }
+            for (std::uint32_t i = 0; i < used[s].size(); ++i) {
+                const std::uint32_t formal = item.first_formal + i;
+                const std::string_view name = input.name(production.formals[formal]);
+                if (used[s][i] || name.starts_with('_')) {
+                    continue;
+                }
+                Diagnostic& diagnostic =
+                    diagnostics.add(DiagnosticCode::UnusedFormal, production.formal_spans[formal],
+                                    fmt::format("no production reads parameter {} of {}",
+                                                quoted(name), quoted(input.name(SymbolId{s}))));
+                diagnostic.help.push_back(fmt::format(
+                    "leave the parameter out, or call it `_{}` if that is meant", name));
+            }
+            break;
+        }
+    }
+}
+
+} // namespace
+
+void check_unused_names(const CheckInput& input, Diagnostics& diagnostics) {
+    check_constants(input, diagnostics);
+    check_formals(input, diagnostics);
+}
+
+} // namespace lsys

@@ -1,0 +1,51 @@
+// Expressions to instructions. Writes Bytecode::instructions, sites and site_marks; used by
+// lower().
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "compiler/program/program.h"
+#include "grammar/base/source.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+class CodeEmitter {
+public:
+    CodeEmitter(const Program& program, const SourceMap& sources, Bytecode& bytecode);
+
+    /// A place for messages.
+    std::uint32_t add_site(SourceSpan span);
+
+    /// Emits code for `value` that ends with Test, End; returns its first instruction.
+    std::uint32_t condition(ValueId value, SourceSpan span);
+    /// Emits code that computes `values` and emits each, ending with End.
+    std::uint32_t arguments(std::span<const ValueId> values);
+
+    /// An operand did not fit its 24 bits; what was emitted is of no use then.
+    [[nodiscard]] bool overflowed() const { return overflowed_; }
+
+private:
+    void instruction(Opcode opcode, std::uint32_t operand = 0);
+    void mark(std::uint32_t site);
+    void expression(ValueId root, std::uint32_t site);
+    void leaf_or_operation(const Value& value, bool swapped, std::uint32_t site);
+    [[nodiscard]] bool right_first(const Value& value) const;
+
+    const Program& program_;
+    const SourceMap& sources_;
+    Bytecode& bytecode_;
+    std::vector<std::uint8_t> stack_need_; // by ValueId
+    std::uint32_t marked_ = kNone;         // the site in force
+    bool overflowed_ = false;
+
+    struct Frame {
+        ValueId value;
+        bool operands_done;
+    };
+    std::vector<Frame> frames_;
+};
+
+} // namespace lsys

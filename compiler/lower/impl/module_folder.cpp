@@ -1,0 +1,63 @@
+#include "compiler/lower/impl/module_folder.h"
+
+#include <cmath>
+
+namespace lsys {
+
+namespace {
+
+std::uint64_t code_capacity(std::size_t symbol_count) {
+    switch (code_width(symbol_count)) {
+    case 1:
+        return 256;
+    case 2:
+        return 65'536;
+    default:
+        return kNone;
+    }
+}
+
+template <typename T>
+void append_bytes(std::string& key, const T& value) {
+    key.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+} // namespace
+
+ModuleFolder::ModuleFolder(const Program& program, Bytecode& bytecode)
+    : program_(program), bytecode_(bytecode), capacity_(code_capacity(program.symbols.size())) {}
+
+Code ModuleFolder::code(SymbolId symbol, std::size_t first_argument) {
+    const auto own = static_cast<Code>(symbol);
+    const std::uint32_t count = program_.symbol(symbol).parameter_count;
+    key_.clear();
+    append_bytes(key_, own);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Value& value = program_.value(program_.arguments[first_argument + i]);
+        if (value.opcode != Opcode::Literal || !std::isfinite(value.literal)) {
+            return own;
+        }
+        append_bytes(key_, value.literal);
+    }
+    if (key_ == last_key_) {
+        return last_code_;
+    }
+    Code code = own;
+    if (const auto found = codes_.find(key_); found != codes_.end()) {
+        code = found->second;
+    } else if (program_.symbols.size() + bytecode_.folded.size() < capacity_) {
+        code = static_cast<Code>(program_.symbols.size() + bytecode_.folded.size());
+        bytecode_.folded.push_back(
+            {symbol, static_cast<std::uint32_t>(bytecode_.constants.size())});
+        for (std::uint32_t i = 0; i < count; ++i) {
+            bytecode_.constants.push_back(
+                program_.value(program_.arguments[first_argument + i]).literal);
+        }
+        codes_.emplace(key_, code);
+    }
+    last_key_ = key_;
+    last_code_ = code;
+    return code;
+}
+
+} // namespace lsys

@@ -1,0 +1,92 @@
+#include "compiler/lower/impl/place_writer.h"
+
+#include "compiler/program/module_text.h"
+
+#include <span>
+
+namespace lsys {
+
+PlaceWriter::PlaceWriter(const Program& program,
+                         const Names& names,
+                         const SourceMap& sources,
+                         Bytecode& bytecode)
+    : program_(program), sources_(sources), runs_(bytecode.template_places) {
+    spellings_.reserve(program.symbols.size());
+    for (const Symbol& symbol : program.symbols) {
+        const std::string_view name = names.text(symbol.name);
+        spellings_.push_back(
+            {static_cast<std::uint32_t>(name.size()),
+             symbol.parameter_count != 0 && symbol.turtle != TurtleOperation::SaveBranch,
+             name != "`"});
+    }
+}
+
+void PlaceWriter::start(const SourceFile& file, std::uint32_t offset) {
+    file_ = &file;
+    text_ = file.text();
+    offset_ = offset;
+    place_ = file.line_column(offset);
+}
+
+/// Goes on to a module; whether all before it, from the last one on, is ASCII of its line.
+bool PlaceWriter::move_to(std::uint32_t offset) {
+    bool plain = true;
+    bool ascii = true;
+    for (; offset_ < offset; ++offset_) {
+        const auto c = static_cast<unsigned char>(text_[offset_]);
+        ascii = ascii && c < 0x80;
+        ++place_.column;
+        if (c == '\n') {
+            ++place_.line;
+            place_.column = 1;
+            plain = false;
+        }
+    }
+    if (!ascii) {
+        place_ = file_->line_column(offset);
+    }
+    return plain && ascii;
+}
+
+std::uint32_t PlaceWriter::length_of(const ProgramModule& module) const {
+    constexpr std::uint32_t kQuotes = 2;
+    const Spelling& spelling = spellings_[static_cast<std::size_t>(module.symbol)];
+    const std::uint32_t name =
+        spelling.length + (spelling.may_be_quoted && text_[module.begin] == '`' ? kQuotes : 0);
+    if (!spelling.has_arguments) {
+        return name;
+    }
+    return static_cast<std::uint32_t>(end_of_arguments(text_, module.begin + name)) - module.begin;
+}
+
+void PlaceWriter::word(const ProgramWord& word, std::uint32_t first) {
+    std::uint32_t code = first;
+    PlaceRun run; // the last one
+    std::size_t index = word.first_module;
+    for (const std::size_t end = index + word.module_count; index < end;) {
+        const std::span<const ProgramModule> row = program_.modules.row(index, end - index);
+        index += row.size();
+        for (const ProgramModule module : row) {
+            if (code == first) {
+                start(sources_.file(word.file), module.begin);
+            }
+            const std::uint32_t stride = module.begin - offset_;
+            const bool plain = move_to(module.begin);
+            const std::uint32_t length = length_of(module);
+            if (plain && length == run.length && (run.stride == stride || run.first + 1 == code)) {
+                run.stride = stride;
+            } else {
+                if (code != first) {
+                    runs_.push_back(run);
+                }
+                run = {code, module.begin, length, 0, place_.line, place_.column};
+            }
+            ++code;
+        }
+    }
+    if (code != first) {
+        runs_.push_back(run);
+    }
+}
+
+} // namespace lsys

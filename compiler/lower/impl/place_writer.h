@@ -1,0 +1,47 @@
+// Where the modules of the axiom and of the successors stand: Bytecode::template_places. Used by
+// lower().
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "compiler/program/program.h"
+#include "grammar/base/names.h"
+#include "grammar/base/source.h"
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+class PlaceWriter {
+public:
+    PlaceWriter(const Program& program,
+                const Names& names,
+                const SourceMap& sources,
+                Bytecode& bytecode);
+
+    /// Appends the places of a word whose codes begin at template_codes[first].
+    void word(const ProgramWord& word, std::uint32_t first);
+
+private:
+    void start(const SourceFile& file, std::uint32_t offset);
+    [[nodiscard]] bool move_to(std::uint32_t offset);
+    [[nodiscard]] std::uint32_t length_of(const ProgramModule& module) const;
+
+    struct Spelling {
+        std::uint32_t length = 0; // of the name
+        bool has_arguments = false;
+        bool may_be_quoted = true; // no back quote itself
+    };
+
+    const Program& program_;
+    const SourceMap& sources_;
+    std::vector<PlaceRun>& runs_;
+    std::vector<Spelling> spellings_; // by symbol
+    const SourceFile* file_ = nullptr;
+    std::string_view text_;
+    std::uint32_t offset_ = 0; // of the last module, and its place
+    LineColumn place_;
+};
+
+} // namespace lsys

@@ -1,0 +1,26 @@
+#include "compiler/program/message_words.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+
+namespace lsys {
+
+std::string parameters_text(std::uint32_t count) {
+    return count == 0   ? std::string("no parameters")
+           : count == 1 ? std::string("1 parameter")
+                        : fmt::format("{} parameters", count);
+}
+
+std::string quoted(std::string_view name) {
+    return fmt::format("`{}`", name);
+}
+
+std::string number_text(float value) {
+    std::array<char, 32> buffer{};
+    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+    return {buffer.data(), result.ptr};
+}
+
+} // namespace lsys

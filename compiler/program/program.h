@@ -1,0 +1,216 @@
+// Program: the checked system. Names are resolved to symbols, constants are values, conditions and
+// probabilities are apart, name splitting is done. Made by check/ from an Ast, changed by passes/,
+// lowered to Bytecode by lower/. Holds no text but names and no pointer into the Ast.
+//
+// A Program of a grammar with errors serves further checks only (`complete` is false). What it
+// holds is well-formed: productions whose head or names could not be resolved are left out, and an
+// expression in error is kPoison.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "compiler/bytecode/settings.h"
+#include "grammar/ast/ast.h"
+#include "grammar/base/chunked_vector.h"
+#include "grammar/base/names.h"
+#include "grammar/base/source.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+enum class ValueId : std::uint32_t {};
+inline constexpr ValueId kNoValue{0xFFFFFFFFu};
+/// Program::values[0]: a literal that is not a number, in place of an expression in error. Checks
+/// keep quiet about it. No other literal of a complete program has this id.
+inline constexpr ValueId kPoison{0};
+
+/// A node of an expression: an instruction and the values it takes. Constants are folded: a node
+/// whose children are literals is a literal. Literals are shared, and `span` is the place of one of
+/// them; every other node is a place of its own. Children come before parents.
+struct Value {
+    Opcode opcode = Opcode::Literal;
+    SourceSpan span;
+    union {
+        float literal;           // Literal
+        std::uint32_t index = 0; // Formal, Global, Range (draw number), BranchDraw
+    };
+    ValueId left = kNoValue;
+    ValueId right = kNoValue;
+};
+
+struct Symbol {
+    NameId name = kNoName;
+    std::uint32_t parameter_count = 0;
+    SymbolKind kind = SymbolKind::Plain;
+    bool ignored = false;
+    TurtleOperation turtle = TurtleOperation::Nothing;
+    std::string mesh_file;
+};
+
+/// A module of an axiom or successor; its arguments are the next parameter_count values of the
+/// list.
+struct ProgramModule {
+    SymbolId symbol = kNoSymbol;
+    std::uint32_t begin = 0; // byte offset in the list's file
+};
+
+struct ProgramWord {
+    FileId file = kNoFile;
+    std::uint32_t first_module = 0; // in Program::modules
+    std::uint32_t module_count = 0;
+    std::uint32_t first_argument = 0; // in Program::arguments
+    std::uint32_t draw_count = 0;
+    SourceSpan span;
+};
+
+/// One element of a context or predecessor, as PatternItem, with its bytes in the production's
+/// file.
+struct ProgramPatternItem {
+    PatternKind kind = PatternKind::Module;
+    SymbolId symbol = kNoSymbol;
+    std::uint32_t first_formal = 0;
+    std::uint32_t begin = 0; // with the arguments
+    std::uint32_t end = 0;
+};
+
+/// A context or predecessor.
+struct ProgramPattern {
+    std::vector<ProgramPatternItem> items;
+    SourceSpan span;
+};
+
+struct Production {
+    NameId name = kNoName;
+    SourceSpan name_span;
+    SourceSpan span;
+    std::uint32_t rule = 0;
+    std::uint32_t group = 0;
+    bool has_left = false;
+    bool has_right = false;
+    ProgramPattern left;
+    ProgramPattern predecessor;
+    ProgramPattern right;
+    std::vector<NameId> formals; // left, predecessor, right
+    std::vector<SourceSpan> formal_spans;
+    ValueId condition = kNoValue;
+    SourceSpan condition_span;
+    Stage stage = Stage::Rewrite;
+    bool stochastic = false;
+    float weight = 0.0F; // not a number if the probability is in error
+    SourceSpan weight_span;
+    ProgramWord successor;
+};
+
+/// A constant drawn when the derivation starts; others are folded into the values that use them.
+struct Global {
+    NameId name = kNoName;
+    SourceSpan span;
+    ValueId value = kNoValue;
+    std::uint32_t draw_position = 0;
+    std::uint32_t draw_count = 0;
+    bool has_bounds = false;
+    float minimum = 0.0F;
+    float maximum = 0.0F;
+};
+
+/// A constant as the author sees it, for dumps and for sliders.
+struct Constant {
+    NameId name = kNoName;
+    SourceSpan span;
+    bool is_param = false;
+    bool is_drawn = false; // then `global` names it, else `value` is it
+    bool is_used = false;
+    float value = 0.0F;
+    std::uint32_t global = kNone;
+    float minimum = 0.0F;
+    float maximum = 0.0F;
+};
+
+/// `#module NAME(formals);`
+struct ModuleDeclaration {
+    SymbolId symbol = kNoSymbol;
+    SourceSpan span; // of the module
+};
+
+/// `#object NAME OBJECT;`: modules NAME of any count draw it.
+struct ObjectBinding {
+    NameId name = kNoName;
+    SourceSpan name_span;
+    SourceSpan object_span;
+    TurtleOperation object = TurtleOperation::Nothing;
+    std::string mesh_file;
+};
+
+/// A name of an `#ignore` or of a `#consider`.
+struct IgnoredName {
+    NameId name = kNoName;
+    SourceSpan span;
+};
+
+struct Program {
+    /// No error was found while the program was made. Else something may be missing, and checks
+    /// that need the whole keep quiet.
+    bool complete = false;
+    /// No statement was left out: what is missing here is missing in the grammar, errors or not.
+    bool has_all_statements = false;
+    Settings settings;
+    std::optional<std::uint32_t> generations;
+    SourceSpan generations_span;    // of the number
+    std::vector<std::string> files; // paths by FileId
+
+    std::vector<Symbol> symbols;
+    std::vector<ModuleDeclaration> declarations;
+    std::vector<ObjectBinding> objects;
+    std::vector<IgnoredName> ignored;
+    std::vector<IgnoredName> considered; // where there are any, all others are ignored
+    std::vector<Constant> constants;
+    std::vector<Global> globals;
+    std::vector<Production> productions; // those of Stage::Rewrite first, of Interpret last
+    std::uint32_t rule_count = 0;
+    std::uint32_t group_count = 0;
+    ProgramWord axiom;
+    std::uint32_t axiom_draw_position = 0;
+
+    ChunkedVector<ProgramModule> modules;
+    ChunkedVector<ValueId> arguments;
+    ChunkedVector<Value> values;
+
+    [[nodiscard]] const Value& value(ValueId id) const {
+        return values[static_cast<std::size_t>(id)];
+    }
+    [[nodiscard]] const Symbol& symbol(SymbolId id) const {
+        return symbols[static_cast<std::size_t>(id)];
+    }
+};
+
+/// Calls visit(index in Program::modules, symbol) for each module of a word, in order. Words may
+/// have a hundred million modules: what is asked of each of them should be a look into one flat
+/// table.
+template <typename Visit>
+void for_each_symbol(const Program& program, const ProgramWord& word, Visit&& visit) {
+    std::size_t index = word.first_module;
+    for (const std::size_t end = index + word.module_count; index < end;) {
+        for (const ProgramModule module : program.modules.row(index, end - index)) {
+            visit(index++, module.symbol);
+        }
+    }
+}
+
+/// Calls visit(index in Program::modules, index of its first argument in Program::arguments,
+/// module) for each module of a word.
+template <typename Visit>
+void for_each_module(const Program& program, const ProgramWord& word, Visit&& visit) {
+    std::size_t argument = word.first_argument;
+    for (std::size_t i = word.first_module; i < std::size_t{word.first_module} + word.module_count;
+         ++i) {
+        const ProgramModule module = program.modules[i];
+        visit(i, argument, module);
+        argument += program.symbol(module.symbol).parameter_count;
+    }
+}
+
+} // namespace lsys

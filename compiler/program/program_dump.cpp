@@ -1,0 +1,259 @@
+#include "compiler/program/program_dump.h"
+
+#include "grammar/base/contract.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+void append_number(std::string& out, float value) {
+    char buffer[32];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+    out.append(buffer, end);
+}
+
+class Dumper {
+public:
+    Dumper(const Program& program, const Names& names) : program_(program), names_(names) {}
+
+    std::string run() {
+        settings();
+        symbols();
+        constants();
+        out_ += "axiom\n  ";
+        word(program_.axiom, nullptr);
+        out_ += '\n';
+        out_ += fmt::format("productions: {} rules, {} groups\n", program_.rule_count,
+                            program_.group_count);
+        for (const Production& each : program_.productions) {
+            production(each);
+        }
+        return std::move(out_);
+    }
+
+private:
+    void settings() {
+        const Settings& s = program_.settings;
+        out_ += fmt::format("settings\n  turtle {}, rewriting {}, choice {}, weights {}\n",
+                            name_of(s.turtle), name_of(s.rewriting), name_of(s.choice),
+                            name_of(s.weights));
+        if (s.random != RandomSource::Philox) {
+            out_ += fmt::format("  random {}\n", name_of(s.random));
+        }
+        out_ += fmt::format("  angle {}, step {}, width {}, sides {}\n", s.angle, s.step, s.width,
+                            s.sides);
+        out_ += fmt::format("  angle_scale {}, step_scale {}, width_scale {}\n", s.angle_scale,
+                            s.step_scale, s.width_scale);
+        out_ +=
+            fmt::format("  spring {}, density {}, damping {}\n", s.spring, s.density, s.damping);
+        if (!program_.productions.empty() && program_.productions.back().stage != Stage::Rewrite) {
+            out_ += fmt::format("  decompose_depth {}, interpret_depth {}, at_depth {}\n",
+                                s.decompose_depth, s.interpret_depth, name_of(s.at_depth));
+        }
+        if (s.has_tropism) {
+            out_ += fmt::format("  tropism {} {} {} {}\n", s.tropism[0], s.tropism[1], s.tropism[2],
+                                s.tropism[3]);
+        }
+        if (s.has_seed) {
+            out_ += fmt::format("  seed {}\n", s.seed);
+        }
+        if (program_.generations) {
+            out_ += fmt::format("generations {}\n", *program_.generations);
+        }
+    }
+
+    void symbols() {
+        out_ += "symbols\n";
+        for (std::size_t i = 0; i < program_.symbols.size(); ++i) {
+            const Symbol& symbol = program_.symbols[i];
+            out_ += fmt::format("  {} ", i);
+            name(symbol.name);
+            if (symbol.parameter_count != 0) {
+                out_ += fmt::format("/{}", symbol.parameter_count);
+            }
+            if (symbol.turtle != TurtleOperation::Nothing) {
+                out_ += fmt::format(" {}", name_of(symbol.turtle));
+            }
+            if (!symbol.mesh_file.empty()) {
+                out_ += fmt::format(" \"{}\"", symbol.mesh_file);
+            }
+            out_ += symbol.ignored ? " ignored\n" : "\n";
+        }
+    }
+
+    void constants() {
+        if (program_.constants.empty()) {
+            return;
+        }
+        out_ += "constants\n";
+        for (const Constant& constant : program_.constants) {
+            out_ += constant.is_param ? "  param " : "  define ";
+            out_ += names_.text(constant.name);
+            out_ += " = ";
+            if (constant.is_drawn) {
+                const Global& global = program_.globals[constant.global];
+                value(global.value, nullptr);
+                out_ += fmt::format(", drawn at {}", global.draw_position);
+            } else {
+                append_number(out_, constant.value);
+            }
+            if (constant.is_param) {
+                out_ += " in [";
+                append_number(out_, constant.minimum);
+                out_ += ", ";
+                append_number(out_, constant.maximum);
+                out_ += "]";
+            }
+            out_ += '\n';
+        }
+    }
+
+    /// A name as a grammar can hold it: identifiers and one-character symbols plain, others quoted.
+    void name(NameId id) {
+        const std::string_view text = names_.text(id);
+        const bool plain =
+            is_identifier(text) ||
+            (text.size() == 1 && std::string_view("+-/\\^&|$!\"'.[]{}%").find(text) != text.npos);
+        out_ += plain ? std::string(text) : fmt::format("`{}`", text);
+    }
+
+    void production(const Production& production) {
+        out_ += "  ";
+        if (production.stage != Stage::Rewrite) {
+            out_ += keyword_of(production.stage);
+            out_ += ' ';
+        }
+        out_ += names_.text(production.name);
+        out_ += fmt::format(" (rule {}, group {})\n    ", production.rule, production.group);
+        if (production.has_left) {
+            pattern(production.left, production);
+            out_ += " < ";
+        }
+        pattern(production.predecessor, production);
+        if (production.has_right) {
+            out_ += " > ";
+            pattern(production.right, production);
+        }
+        out_ += " : ";
+        if (production.condition == kNoValue) {
+            out_ += '*';
+        } else {
+            value(production.condition, &production);
+        }
+        if (production.stochastic) {
+            out_ += " ~ ";
+            append_number(out_, production.weight);
+        }
+        out_ += " : ";
+        word(production.successor, &production);
+        if (production.successor.draw_count != 0) {
+            out_ += fmt::format("  ({} draws)", production.successor.draw_count);
+        }
+        out_ += '\n';
+    }
+
+    void pattern(const ProgramPattern& pattern, const Production& production) {
+        const char* separator = "";
+        for (const ProgramPatternItem& item : pattern.items) {
+            out_ += separator;
+            separator = " ";
+            if (item.kind != PatternKind::Module) {
+                out_ += item.kind == PatternKind::Open ? '[' : ']';
+                continue;
+            }
+            const Symbol& symbol = program_.symbol(item.symbol);
+            name(symbol.name);
+            for (std::uint32_t i = 0; i < symbol.parameter_count; ++i) {
+                out_ += i == 0 ? "(" : ", ";
+                out_ += names_.text(production.formals[item.first_formal + i]);
+            }
+            out_ += symbol.parameter_count != 0 ? ")" : "";
+        }
+    }
+
+    void word(const ProgramWord& word, const Production* production) {
+        std::size_t argument = word.first_argument;
+        for (std::uint32_t i = 0; i < word.module_count; ++i) {
+            const Symbol& symbol = program_.symbol(program_.modules[word.first_module + i].symbol);
+            out_ += i == 0 ? "" : " ";
+            name(symbol.name);
+            for (std::uint32_t k = 0; k < symbol.parameter_count; ++k, ++argument) {
+                out_ += k == 0 ? "(" : ", ";
+                value(program_.arguments[argument], production);
+            }
+            out_ += symbol.parameter_count != 0 ? ")" : "";
+        }
+    }
+
+    /// Operations are written as functions of their operands, so that no precedence has to be
+    /// known. Iterative: expressions may be as deep as a file is long.
+    void value(ValueId root, const Production* production) {
+        struct Step {
+            ValueId value;
+            const char* text; // written instead, if not null
+        };
+        std::vector<Step> steps{{root, nullptr}};
+        while (!steps.empty()) {
+            const Step step = steps.back();
+            steps.pop_back();
+            if (step.text != nullptr) {
+                out_ += step.text;
+                continue;
+            }
+            const Value& value = program_.value(step.value);
+            if (value.left == kNoValue) {
+                leaf(value, production);
+                continue;
+            }
+            out_ += info(value.opcode).mnemonic;
+            if (value.opcode == Opcode::Range) {
+                out_ += fmt::format("#{}", value.index);
+            }
+            out_ += '(';
+            steps.push_back({kNoValue, ")"});
+            if (value.right != kNoValue) {
+                steps.push_back({value.right, nullptr});
+                steps.push_back({kNoValue, ", "});
+            }
+            steps.push_back({value.left, nullptr});
+        }
+    }
+
+    void leaf(const Value& value, const Production* production) {
+        switch (value.opcode) {
+        case Opcode::Literal:
+            append_number(out_, value.literal);
+            return;
+        case Opcode::Formal:
+            LSYS_CHECK(production != nullptr);
+            out_ += names_.text(production->formals[value.index]);
+            return;
+        case Opcode::Global:
+            out_ += names_.text(program_.globals[value.index].name);
+            return;
+        default:
+            out_ += info(value.opcode).mnemonic;
+            out_ += "()";
+            return;
+        }
+    }
+
+    const Program& program_;
+    const Names& names_;
+    std::string out_;
+};
+
+} // namespace
+
+std::string dump_program(const Program& program, const Names& names) {
+    return Dumper(program, names).run();
+}
+
+} // namespace lsys

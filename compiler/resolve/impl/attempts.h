@@ -1,0 +1,30 @@
+// What the statements that did not parse seem to have been: a second look at the text, so that a
+// damaged `#define a 2 2;` does not make every use of `a` one more error. Only read when the Ast is
+// incomplete.
+#pragma once
+
+#include "compiler/resolve/impl/resolution.h"
+
+#include <string>
+#include <string_view>
+#include <unordered_set>
+
+namespace lsys {
+
+class AttemptedStatements {
+public:
+    explicit AttemptedStatements(const Resolution& resolution);
+
+    /// Whether `#keyword` stands anywhere in the text.
+    [[nodiscard]] bool has(std::string_view keyword) const;
+    /// Whether `#define NAME` or `#param NAME` stands anywhere in the text.
+    [[nodiscard]] bool defines(std::string_view name) const;
+
+private:
+    void read(std::string_view text);
+
+    std::unordered_set<std::string> keywords_; // those of interest
+    std::unordered_set<std::string> constants_;
+};
+
+} // namespace lsys

@@ -1,0 +1,213 @@
+#include "compiler/resolve/impl/declarations.h"
+
+#include "compiler/resolve/impl/definitions.h"
+#include "compiler/resolve/profiles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace lsys {
+
+void DeclarationResolver::bad(SourceSpan span, std::string message) {
+    resolution_.diagnostics.add(DiagnosticCode::BadDeclaration, span, std::move(message));
+}
+
+/// With `names letters` the letters of one word are modules of their own; else one is wanted.
+bool DeclarationResolver::is_one_name(ModuleList list, SourceSpan statement, const char* keyword) {
+    if (list.count == 0) {
+        bad(statement, fmt::format("`{}` names no module", keyword));
+        return false;
+    }
+    const auto& letters = resolution_.letter_files;
+    const bool is_letters =
+        std::find(letters.begin(), letters.end(), list.span.file) != letters.end();
+    if (list.count > 1 && !is_letters) {
+        bad(list.span, fmt::format("`{}` takes one module, not {}", keyword, list.count));
+        return false;
+    }
+    return true;
+}
+
+bool DeclarationResolver::check_bare(const ModuleView& module, const char* statement) {
+    if (!module.has_parentheses) {
+        return true;
+    }
+    const SourceSpan parentheses{module.span.file, module.name_span.end, module.span.end};
+    Diagnostic& error = resolution_.diagnostics.add(
+        DiagnosticCode::BadDeclaration, parentheses,
+        fmt::format("`{}` is about modules with any number of parameters", statement));
+    error.fixes.push_back({"leave the parentheses out", {{parentheses, ""}}, true});
+    return false;
+}
+
+void DeclarationResolver::object(const ObjectNode& node) {
+    std::optional<ObjectBinding> binding = object_of(node);
+    if (!is_one_name(node.name, node.object_span, "#object")) {
+        return;
+    }
+    ModuleCursor cursor(resolution_.ast, resolution_.names, resolution_.sources, node.name);
+    for (; !cursor.done(); cursor.next()) {
+        const ModuleView module = cursor.view();
+        const std::string_view name = resolution_.text(module.name);
+        if (!check_bare(module, "#object")) {
+            continue;
+        }
+        if (is_structural(resolution_.program.settings.turtle, name)) {
+            bad(module.name_span, fmt::format("`{}` cannot draw an object", name));
+        } else if (binding) {
+            bind(module, *binding);
+        }
+    }
+}
+
+std::optional<ObjectBinding> DeclarationResolver::object_of(const ObjectNode& node) {
+    ObjectBinding binding;
+    binding.object_span = node.object_span;
+    if (node.is_file) {
+        if (node.object.empty()) {
+            resolution_.diagnostics.add(DiagnosticCode::UnknownObject, node.object_span,
+                                        "a file without a name");
+            return std::nullopt;
+        }
+        binding.object = TurtleOperation::MeshFile;
+        binding.mesh_file = node.object;
+        return binding;
+    }
+    if (const auto object = find_turtle_object(node.object)) {
+        binding.object = *object;
+        return binding;
+    }
+    std::vector<std::string_view> objects;
+    for (const TurtleObject& object : turtle_objects()) {
+        objects.push_back(object.name);
+    }
+    Diagnostic& error =
+        resolution_.diagnostics.add(DiagnosticCode::UnknownObject, node.object_span,
+                                    fmt::format("there is no object {}", quoted(node.object)));
+    const std::string nearest = suggestions_.nearest(node.object, objects);
+    if (!nearest.empty()) {
+        suggest(error, node.object_span, nearest);
+    }
+    error.notes.push_back(fmt::format("the objects are `{}` and names of files in quotes",
+                                      fmt::join(objects, "`, `")));
+    return std::nullopt;
+}
+
+void DeclarationResolver::bind(const ModuleView& module, ObjectBinding binding) {
+    std::vector<ObjectBinding>& objects = resolution_.program.objects;
+    const auto [at, is_new] = bindings_.try_emplace(module.name, objects.size());
+    if (!is_new) {
+        const ObjectBinding& first = objects[at->second];
+        if (first.object != binding.object || first.mesh_file != binding.mesh_file) {
+            report_duplicate(resolution_, module.name_span, first.name_span,
+                             fmt::format("object for {}", quoted(resolution_.text(module.name))));
+        }
+        return;
+    }
+    binding.name = module.name;
+    binding.name_span = module.name_span;
+    symbols_.bind(binding.name, binding.object, binding.mesh_file);
+    objects.push_back(std::move(binding));
+}
+
+void DeclarationResolver::ignore(const IgnoreNode& node, NameSplitter& splitter) {
+    SplitReport splits(resolution_);
+    ModuleCursor cursor(resolution_.ast, resolution_.names, resolution_.sources, node.modules);
+    for (; !cursor.done(); cursor.next()) {
+        ignore_module(cursor.view(), node.considers, splitter, splits);
+    }
+    splits.finish();
+    SourceSpan& first = node.considers ? first_consider_ : first_ignore_;
+    first = first.file == kNoFile ? node.keyword_span : first;
+    if (first_ignore_.file != kNoFile && first_consider_.file != kNoFile) {
+        Diagnostic& error =
+            resolution_.diagnostics.add(DiagnosticCode::BadDeclaration, node.keyword_span,
+                                        "`#ignore` and `#consider` cannot stand in one grammar");
+        error.labels.push_back(
+            {node.considers ? first_ignore_ : first_consider_,
+             node.considers ? "modules are ignored here" : "all but these are ignored already"});
+    }
+}
+
+void DeclarationResolver::finish_ignores() {
+    if (first_consider_.file != kNoFile) {
+        symbols_.ignore_all_but_considered();
+    }
+}
+
+void DeclarationResolver::ignore_module(const ModuleView& module,
+                                        bool considers,
+                                        NameSplitter& splitter,
+                                        SplitReport& splits) {
+    if (!check_bare(module, considers ? "#consider" : "#ignore")) {
+        return;
+    }
+    const SymbolKind kind =
+        kind_of(resolution_.program.settings.turtle, resolution_.text(module.name));
+    if (kind == SymbolKind::BranchOpen || kind == SymbolKind::BranchClose) {
+        bad(module.name_span, considers
+                                  ? "brackets count in any case: contexts follow the branches"
+                                  : "brackets cannot be ignored: contexts follow the branches");
+        return;
+    }
+    const auto add = [&](NameId name, SourceSpan span) {
+        if (considers) {
+            symbols_.consider(name);
+            resolution_.program.considered.push_back({name, span});
+        } else {
+            symbols_.ignore(name);
+            resolution_.program.ignored.push_back({name, span});
+        }
+    };
+    const std::span<const NamePart> parts = module.quoted
+                                                ? std::span<const NamePart>{}
+                                                : splitter.parts(module.name, 0, module.span.file);
+    if (parts.empty()) {
+        add(module.name, module.name_span);
+        return;
+    }
+    splits.add(module.name_span, module.name_span, parts);
+    for (const NamePart& part : parts) {
+        const std::uint32_t begin = module.name_span.begin + part.offset;
+        const auto size = static_cast<std::uint32_t>(resolution_.text(part.name).size());
+        add(part.name, {module.span.file, begin, begin + size});
+    }
+}
+
+void DeclarationResolver::module(const ModuleDeclarationNode& node,
+                                 SourceSpan statement,
+                                 ModuleReading& reading) {
+    if (!is_one_name(node.modules, statement, "#module")) {
+        return;
+    }
+    reading.expressions.begin_statement();
+    ModuleCursor cursor(resolution_.ast, resolution_.names, resolution_.sources, node.modules);
+    for (; !cursor.done(); cursor.next()) {
+        const ModuleView module = cursor.view();
+        if (!check_module(reading, module)) {
+            continue;
+        }
+        for (std::uint32_t i = 0; i < module.arguments.count; ++i) {
+            const Expression& formal = resolution_.ast.expression(
+                resolution_.ast.expression_lists[module.arguments.first + i]);
+            if (formal.kind == ExpressionKind::Name) {
+                if (!reading.expressions.add_formal(formal.name, formal.span())) {
+                    Diagnostic& error = resolution_.diagnostics.add(
+                        DiagnosticCode::DuplicateFormal, formal.span(),
+                        fmt::format("a second parameter `{}`", resolution_.text(formal.name)));
+                    error.labels.push_back(
+                        {reading.expressions.formal_span(formal.name), "the first is here"});
+                }
+            } else if (formal.kind != ExpressionKind::Error) {
+                resolution_.diagnostics.add(DiagnosticCode::ExpressionInHead, formal.span(),
+                                            "a parameter is a name here, not a value");
+            }
+        }
+        resolution_.program.declarations.push_back(
+            {symbols_.get(module.name, module.arguments.count), module.span});
+    }
+}
+
+} // namespace lsys

@@ -1,0 +1,41 @@
+// #module, #object, #ignore and #consider: what is said about modules by name.
+#pragma once
+
+#include "compiler/resolve/impl/words.h"
+
+#include <unordered_map>
+
+namespace lsys {
+
+class DeclarationResolver {
+public:
+    DeclarationResolver(Resolution& resolution, SymbolTable& symbols)
+        : resolution_(resolution), symbols_(symbols) {}
+
+    /// Before any symbol is made; `splitter` may be made after the objects are bound.
+    void object(const ObjectNode& node);
+    void ignore(const IgnoreNode& node, NameSplitter& splitter);
+    /// After all of them.
+    void finish_ignores();
+    void module(const ModuleDeclarationNode& node, SourceSpan statement, ModuleReading& reading);
+
+private:
+    [[nodiscard]] std::optional<ObjectBinding> object_of(const ObjectNode& node);
+    void bind(const ModuleView& module, ObjectBinding binding);
+    void ignore_module(const ModuleView& module,
+                       bool considers,
+                       NameSplitter& splitter,
+                       SplitReport& splits);
+    [[nodiscard]] bool check_bare(const ModuleView& module, const char* statement);
+    void bad(SourceSpan span, std::string message);
+    [[nodiscard]] bool is_one_name(ModuleList list, SourceSpan statement, const char* keyword);
+
+    Resolution& resolution_;
+    SymbolTable& symbols_;
+    Suggestions suggestions_;
+    SourceSpan first_ignore_; // of kNoFile: none
+    SourceSpan first_consider_;
+    std::unordered_map<NameId, std::size_t> bindings_; // in Program::objects
+};
+
+} // namespace lsys

@@ -1,0 +1,199 @@
+#include "compiler/resolve/impl/definitions.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace lsys {
+
+void report_duplicate(Resolution& resolution,
+                      SourceSpan second,
+                      SourceSpan first,
+                      const std::string& what) {
+    Diagnostic& error = resolution.diagnostics.add(DiagnosticCode::DuplicateStatement, second,
+                                                   fmt::format("a second {}", what));
+    error.labels.push_back({first, "the first is here"});
+}
+
+std::optional<std::uint64_t> exact_whole_number(const Resolution& resolution,
+                                                ExpressionId expression) {
+    const Expression& node = resolution.ast.expression(expression);
+    if (node.kind != ExpressionKind::Number) {
+        return std::nullopt;
+    }
+    const std::string_view text = resolution.sources.text(node.span());
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+DefinitionResolver::DefinitionResolver(Resolution& resolution,
+                                       ConstantTable& constants,
+                                       ExpressionResolver& expressions)
+    : resolution_(resolution), constants_(constants), expressions_(expressions) {
+    for (const Definition& definition : resolution.options.definitions) {
+        replacements_[definition.name] = definition.value; // the last one counts
+    }
+}
+
+void DefinitionResolver::generations(const GenerationsNode& node, SourceSpan statement) {
+    if (first_generations_) {
+        report_duplicate(resolution_, statement, *first_generations_, "`#n`");
+        return;
+    }
+    first_generations_ = statement;
+    expressions_.begin_statement();
+    const ValueId value = expressions_.resolve(node.value, ExpressionPlace::Generations);
+    if (value == kPoison) {
+        return;
+    }
+    constexpr std::uint64_t kMost = 0xFFFFFFFE;
+    const SourceSpan span = resolution_.ast.expression(node.value).span();
+    const float number = expressions_.constant_value(value).value_or(-1.0F);
+    std::optional<std::uint64_t> count = exact_whole_number(resolution_, node.value);
+    if (!count && number == std::floor(number) && number >= 0.0F && number < 0x1p32F) {
+        count = static_cast<std::uint64_t>(number);
+    }
+    if (!count || *count > kMost) {
+        Diagnostic& error = resolution_.diagnostics.add(
+            DiagnosticCode::BadGenerations, span,
+            count || number >= 0x1p32F
+                ? fmt::format("more than {} generations cannot be counted", kMost)
+                : fmt::format("{} is not a number of generations", number));
+        error.help.emplace_back("generations are a whole number from 0 on");
+        return;
+    }
+    if (*count == 0) {
+        resolution_.diagnostics.add(DiagnosticCode::ZeroGenerations, span,
+                                    "no generation is derived: the word is the axiom");
+    }
+    resolution_.program.generations = static_cast<std::uint32_t>(*count);
+    resolution_.program.generations_span = span;
+}
+
+bool DefinitionResolver::is_first(NameId name, SourceSpan span) {
+    const SourceSpan first = constants_.definition_span(name);
+    if (first == span) {
+        return true;
+    }
+    report_duplicate(resolution_, span, first,
+                     fmt::format("definition of {}", quoted(resolution_.text(name))));
+    return false;
+}
+
+void DefinitionResolver::define(const DefineNode& node) {
+    expressions_.begin_statement();
+    const ValueId value = expressions_.resolve(node.value, ExpressionPlace::Define);
+    if (is_first(node.name, node.name_span)) {
+        Constant constant;
+        constant.name = node.name;
+        constant.span = node.name_span;
+        add(constant, value, expressions_.is_drawn());
+    }
+    advance_draw_position(expressions_.draw_count());
+}
+
+void DefinitionResolver::param(const ParamNode& node) {
+    expressions_.begin_statement();
+    const ValueId value = expressions_.resolve(node.value, ExpressionPlace::Param);
+    const bool is_drawn = expressions_.is_drawn();
+    const std::uint32_t draws = expressions_.draw_count();
+    const ValueId minimum = expressions_.resolve(node.minimum, ExpressionPlace::Bound);
+    const ValueId maximum = expressions_.resolve(node.maximum, ExpressionPlace::Bound);
+    if (is_first(node.name, node.name_span)) {
+        if (minimum == kPoison || maximum == kPoison) {
+            constants_.fail(node.name);
+        } else {
+            Constant constant;
+            constant.name = node.name;
+            constant.span = node.name_span;
+            constant.is_param = true;
+            constant.minimum = *expressions_.constant_value(minimum);
+            constant.maximum = *expressions_.constant_value(maximum);
+            if (!std::isfinite(constant.minimum) || !std::isfinite(constant.maximum) ||
+                constant.minimum > constant.maximum) {
+                Diagnostic& error =
+                    resolution_.diagnostics.add(DiagnosticCode::BadParameterBounds,
+                                                node.bounds_span, "these bounds hold no value");
+                error.help.emplace_back("write the smaller number first: `{0, 1}`");
+                constants_.fail(node.name);
+            } else {
+                add(constant, value, is_drawn);
+                check_bounds(node, constant);
+            }
+        }
+    }
+    advance_draw_position(draws);
+}
+
+/// Makes the constant, drawn or not, with the value of -D if there is one.
+void DefinitionResolver::add(Constant constant, ValueId value, bool is_drawn) {
+    const auto replaced = replacements_.empty()
+                              ? replacements_.end()
+                              : replacements_.find(std::string(resolution_.text(constant.name)));
+    if (replaced != replacements_.end()) {
+        constant.value = replaced->second;
+        constants_.define(constant);
+        return;
+    }
+    if (value == kPoison) {
+        constants_.fail(constant.name);
+        return;
+    }
+    if (!is_drawn) {
+        constant.value = *expressions_.constant_value(value);
+        constants_.define(constant);
+        return;
+    }
+    Program& program = resolution_.program;
+    Global global;
+    global.name = constant.name;
+    global.span = constant.span;
+    global.value = value;
+    global.draw_position = draw_position_;
+    global.draw_count = expressions_.draw_count();
+    global.has_bounds = constant.is_param;
+    global.minimum = constant.minimum;
+    global.maximum = constant.maximum;
+    constant.is_drawn = true;
+    constant.global = static_cast<std::uint32_t>(program.globals.size());
+    program.globals.push_back(global);
+    constants_.define(constant);
+}
+
+void DefinitionResolver::check_bounds(const ParamNode& node, const Constant& constant) {
+    if (constants_.state(node.name) != ConstantState::Known) {
+        return;
+    }
+    const Constant& made = constants_.constant(node.name);
+    if (made.is_drawn || (made.value >= constant.minimum && made.value <= constant.maximum)) {
+        return;
+    }
+    const bool replaced = replacements_.contains(std::string(resolution_.text(constant.name)));
+    Diagnostic& error = resolution_.diagnostics.add(
+        DiagnosticCode::BadParameterBounds,
+        replaced ? node.name_span : resolution_.ast.expression(node.value).span(),
+        fmt::format("{}{} is outside the bounds {} to {} of `{}`", made.value,
+                    replaced ? ", given by -D," : "", constant.minimum, constant.maximum,
+                    resolution_.text(node.name)));
+    error.labels.push_back({node.bounds_span, "the bounds"});
+}
+
+std::vector<std::string> DefinitionResolver::unknown_definitions() const {
+    std::vector<std::string> unknown;
+    const AttemptedStatements attempted(resolution_);
+    for (const Definition& definition : resolution_.options.definitions) {
+        const NameId name = resolution_.names.find(definition.name);
+        const bool is_known = name != kNoName && constants_.state(name) != ConstantState::Unknown;
+        if (!is_known && !attempted.defines(definition.name)) {
+            unknown.push_back(definition.name);
+        }
+    }
+    return unknown;
+}
+
+} // namespace lsys

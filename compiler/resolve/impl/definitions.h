@@ -1,0 +1,56 @@
+// Resolves #n, #define and #param: one value each.
+#pragma once
+
+#include "compiler/resolve/impl/constants.h"
+#include "compiler/resolve/impl/expressions.h"
+#include "compiler/resolve/impl/resolution.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace lsys {
+
+/// A second statement of what may stand once.
+void report_duplicate(Resolution& resolution,
+                      SourceSpan second,
+                      SourceSpan first,
+                      const std::string& what);
+
+/// The value of a literal as it is written, if it is nothing but digits and fits: binary32 has no
+/// 16,777,217.
+[[nodiscard]] std::optional<std::uint64_t> exact_whole_number(const Resolution& resolution,
+                                                              ExpressionId expression);
+
+class DefinitionResolver {
+public:
+    DefinitionResolver(Resolution& resolution,
+                       ConstantTable& constants,
+                       ExpressionResolver& expressions);
+
+    void generations(const GenerationsNode& node, SourceSpan statement);
+    void define(const DefineNode& node);
+    void param(const ParamNode& node);
+    /// -D names that no #define or #param has.
+    [[nodiscard]] std::vector<std::string> unknown_definitions() const;
+
+    /// The number of the next range among #define, #param and #w.
+    [[nodiscard]] std::uint32_t draw_position() const { return draw_position_; }
+    void advance_draw_position(std::uint32_t count) { draw_position_ += count; }
+
+private:
+    [[nodiscard]] bool is_first(NameId name, SourceSpan span);
+    void add(Constant constant, ValueId value, bool is_drawn);
+    void check_bounds(const ParamNode& node, const Constant& constant);
+
+    Resolution& resolution_;
+    ConstantTable& constants_;
+    ExpressionResolver& expressions_;
+    std::unordered_map<std::string, float> replacements_; // by -D
+    std::optional<SourceSpan> first_generations_;
+    std::uint32_t draw_position_ = 0;
+};
+
+} // namespace lsys

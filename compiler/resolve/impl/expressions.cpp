@@ -1,0 +1,369 @@
+#include "compiler/resolve/impl/expressions.h"
+
+#include "compiler/resolve/impl/folding_faults.h"
+#include "grammar/base/contract.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lsys {
+
+namespace {
+
+struct FunctionRow {
+    std::string_view name;
+    Opcode opcode;
+};
+
+constexpr std::array kFunctions{
+    FunctionRow{"sin", Opcode::Sin},     FunctionRow{"cos", Opcode::Cos},
+    FunctionRow{"tan", Opcode::Tan},     FunctionRow{"asin", Opcode::Asin},
+    FunctionRow{"acos", Opcode::Acos},   FunctionRow{"atan", Opcode::Atan},
+    FunctionRow{"atan2", Opcode::Atan2}, FunctionRow{"sqrt", Opcode::Sqrt},
+    FunctionRow{"exp", Opcode::Exp},     FunctionRow{"log", Opcode::Log},
+    FunctionRow{"pow", Opcode::Power},   FunctionRow{"abs", Opcode::Abs},
+    FunctionRow{"floor", Opcode::Floor}, FunctionRow{"ceil", Opcode::Ceil},
+    FunctionRow{"round", Opcode::Round}, FunctionRow{"sign", Opcode::Sign},
+    FunctionRow{"min", Opcode::Min},     FunctionRow{"max", Opcode::Max},
+    FunctionRow{"mod", Opcode::Mod},     FunctionRow{"step", Opcode::Step},
+    FunctionRow{"steps", Opcode::Steps},
+};
+
+Opcode opcode_of(UnaryOperation operation) {
+    return operation == UnaryOperation::Negate ? Opcode::Negate : Opcode::Not;
+}
+
+Opcode opcode_of(BinaryOperation operation) {
+    switch (operation) {
+    case BinaryOperation::Power:
+        return Opcode::Power;
+    case BinaryOperation::Multiply:
+        return Opcode::Multiply;
+    case BinaryOperation::Divide:
+        return Opcode::Divide;
+    case BinaryOperation::Add:
+        return Opcode::Add;
+    case BinaryOperation::Subtract:
+        return Opcode::Subtract;
+    case BinaryOperation::Less:
+        return Opcode::Less;
+    case BinaryOperation::LessEqual:
+        return Opcode::LessEqual;
+    case BinaryOperation::Greater:
+        return Opcode::Greater;
+    case BinaryOperation::GreaterEqual:
+        return Opcode::GreaterEqual;
+    case BinaryOperation::Equal:
+        return Opcode::Equal;
+    case BinaryOperation::NotEqual:
+        return Opcode::NotEqual;
+    case BinaryOperation::And:
+        return Opcode::And;
+    case BinaryOperation::Or:
+        return Opcode::Or;
+    }
+    LSYS_CHECK(false, static_cast<int>(operation));
+    return Opcode::Add;
+}
+
+bool in_production(ExpressionPlace place) {
+    return place == ExpressionPlace::Condition || place == ExpressionPlace::Successor;
+}
+
+/// Where `{min, max}` may be written.
+bool ranges_allowed(ExpressionPlace place) {
+    return place == ExpressionPlace::Define || place == ExpressionPlace::Param ||
+           place == ExpressionPlace::Axiom || place == ExpressionPlace::Successor;
+}
+
+/// Where constants that are drawn when the derivation starts may be used.
+bool drawn_constants_allowed(ExpressionPlace place) {
+    return ranges_allowed(place) || place == ExpressionPlace::Condition;
+}
+
+} // namespace
+
+std::vector<std::string_view> function_names() {
+    std::vector<std::string_view> names;
+    names.reserve(kFunctions.size());
+    for (const FunctionRow& row : kFunctions) {
+        names.push_back(row.name);
+    }
+    return names;
+}
+
+ExpressionResolver::ExpressionResolver(Resolution& resolution,
+                                       ValueBuilder& values,
+                                       ConstantTable& constants)
+    : resolution_(resolution), values_(values), constants_(constants), attempted_(resolution),
+      step_(resolution.names.intern("step")), steps_(resolution.names.intern("steps")) {
+    for (const FunctionRow& row : kFunctions) {
+        functions_.emplace(resolution.names.intern(row.name),
+                           Function{row.opcode, info(row.opcode).pops});
+    }
+    for (const IncludeNode& include : resolution.ast.includes) {
+        files_missing_ = files_missing_ || include.file == kNoFile;
+    }
+    formal_of_.assign(resolution.names.count(), kNone);
+}
+
+void ExpressionResolver::begin_statement() {
+    // Children come before parents and statements follow each other, so all that comes before the
+    // last root has been resolved.
+    resolution_.ast.expressions.release_before(last_root_);
+    for (const NameId formal : formals_) {
+        formal_of_[index_of(formal)] = kNone;
+    }
+    formals_.clear();
+    formal_spans_.clear();
+    formals_incomplete_ = false;
+    reported_.clear();
+    drawn_once_noted_ = false;
+    draw_count_ = 0;
+}
+
+bool ExpressionResolver::add_formal(NameId name, SourceSpan where) {
+    std::uint32_t& number = formal_of_[index_of(name)];
+    if (number != kNone) {
+        return false;
+    }
+    number = static_cast<std::uint32_t>(formals_.size());
+    formals_.push_back(name);
+    formal_spans_.push_back(where);
+    return true;
+}
+
+SourceSpan ExpressionResolver::formal_span(NameId name) const {
+    return formal_spans_[formal_of_[index_of(name)]];
+}
+
+std::optional<float> ExpressionResolver::constant_value(ValueId id) const {
+    if (id == kNoValue || !values_.is_literal(id)) {
+        return std::nullopt;
+    }
+    return values_[id].literal;
+}
+
+ValueId ExpressionResolver::resolve(ExpressionId root, ExpressionPlace place) {
+    is_drawn_ = false;
+    culprit_.reset();
+    zero_divisors_.clear();
+    last_root_ = std::max(last_root_, static_cast<std::size_t>(root));
+    frames_.push_back({root, 0});
+    while (!frames_.empty()) {
+        visit(place);
+    }
+    const ValueId value = pop();
+    LSYS_CHECK(operands_.empty(), operands_.size());
+    check_finite(value, root, place);
+    return value;
+}
+
+ValueId ExpressionResolver::resolve_name(NameId name, SourceSpan span, ExpressionPlace place) {
+    Expression expression;
+    expression.kind = ExpressionKind::Name;
+    expression.file = span.file;
+    expression.begin = span.begin;
+    expression.end = span.end;
+    expression.name = name;
+    is_drawn_ = false;
+    culprit_.reset();
+    return name_value(expression, place);
+}
+
+/// Looks at the expression on top: goes down to its next operand, or takes their values.
+void ExpressionResolver::visit(ExpressionPlace place) {
+    Frame& frame = frames_.back();
+    const Expression& expression = resolution_.ast.expression(frame.expression);
+    if (frame.next < operand_count(expression)) {
+        frames_.push_back({operand(expression, frame.next++), 0});
+        return;
+    }
+    frames_.pop_back();
+    combine(expression, place);
+}
+
+std::uint32_t ExpressionResolver::operand_count(const Expression& expression) const {
+    switch (expression.kind) {
+    case ExpressionKind::Number:
+    case ExpressionKind::Name:
+    case ExpressionKind::Error:
+        return 0;
+    case ExpressionKind::Unary:
+    case ExpressionKind::Grouping:
+        return 1;
+    case ExpressionKind::Binary:
+    case ExpressionKind::Range:
+        return 2;
+    case ExpressionKind::Call:
+        return resolution_.ast.argument_lists[expression.arguments].count;
+    }
+    return 0;
+}
+
+ExpressionId ExpressionResolver::operand(const Expression& expression, std::uint32_t index) const {
+    if (expression.kind == ExpressionKind::Call) {
+        const ListRange list = resolution_.ast.argument_lists[expression.arguments];
+        return resolution_.ast.expression_lists[list.first + index];
+    }
+    return index == 0 ? expression.left : expression.right;
+}
+
+ValueId ExpressionResolver::pop() {
+    const ValueId value = operands_.back();
+    operands_.pop_back();
+    return value;
+}
+
+void ExpressionResolver::combine(const Expression& expression, ExpressionPlace place) {
+    switch (expression.kind) {
+    case ExpressionKind::Number:
+        operands_.push_back(values_.literal(expression.value, expression.span()));
+        return;
+    case ExpressionKind::Name:
+        operands_.push_back(name_value(expression, place));
+        return;
+    case ExpressionKind::Error:
+        operands_.push_back(kPoison);
+        return;
+    case ExpressionKind::Grouping:
+        return;
+    case ExpressionKind::Unary:
+        operands_.push_back(apply(opcode_of(expression.unary()), pop(), kNoValue, expression));
+        return;
+    case ExpressionKind::Binary: {
+        const ValueId right = pop();
+        const ValueId left = pop();
+        operands_.push_back(apply(opcode_of(expression.binary()), left, right, expression));
+        return;
+    }
+    case ExpressionKind::Range:
+        operands_.push_back(range_value(expression, place));
+        return;
+    case ExpressionKind::Call:
+        operands_.push_back(call_value(expression, place));
+        return;
+    }
+}
+
+ValueId ExpressionResolver::apply(Opcode opcode,
+                                  ValueId left,
+                                  ValueId right,
+                                  const Expression& expression) {
+    const auto x = constant_value(left);
+    const auto y = constant_value(right);
+    const ValueId result = values_.operation(opcode, left, right, expression.span());
+    if ((opcode == Opcode::Divide || opcode == Opcode::Mod) && y == 0.0F && result != kPoison) {
+        const SourceSpan divisor = resolution_.ast.expression(operand(expression, 1)).span();
+        zero_divisors_.push_back(divisor);
+    }
+    if (const auto folded = constant_value(result);
+        folded && !std::isfinite(*folded) && !culprit_) {
+        culprit_ =
+            Culprit{expression.span(), reason_for_fault(opcode, x.value_or(0.0F), y.value_or(0.0F)),
+                    std::nullopt};
+    }
+    return result;
+}
+
+ValueId ExpressionResolver::name_value(const Expression& expression, ExpressionPlace place) {
+    if (const std::uint32_t formal = formal_of_[index_of(expression.name)]; formal != kNone) {
+        if (place == ExpressionPlace::Probability) {
+            Diagnostic& error = resolution_.diagnostics.add(
+                DiagnosticCode::BadProbability, expression.span(),
+                fmt::format("a probability cannot depend on the parameter `{}`",
+                            resolution_.text(expression.name)));
+            error.help.emplace_back("write productions with conditions for the cases");
+            return kPoison;
+        }
+        return values_.leaf(Opcode::Formal, formal, expression.span());
+    }
+    if (constants_.state(expression.name) == ConstantState::Known) {
+        return constant_of(expression, place);
+    }
+    report_unknown_name(expression);
+    return kPoison;
+}
+
+ValueId ExpressionResolver::constant_of(const Expression& expression, ExpressionPlace place) {
+    Constant& constant = constants_.constant(expression.name);
+    constant.is_used = true;
+    if (constant.is_drawn) {
+        is_drawn_ = true;
+        if (!drawn_constants_allowed(place)) {
+            report_not_allowed(expression, place, false);
+            return kPoison;
+        }
+        return values_.leaf(Opcode::Global, constant.global, expression.span());
+    }
+    if (!std::isfinite(constant.value) && !culprit_) {
+        culprit_ = Culprit{expression.span(),
+                           std::isnan(constant.value) ? "this constant is not a number"
+                                                      : "this constant is infinite",
+                           constant.span};
+    }
+    return values_.literal(constant.value, expression.span());
+}
+
+ValueId ExpressionResolver::range_value(const Expression& expression, ExpressionPlace place) {
+    const ValueId maximum = pop();
+    const ValueId minimum = pop();
+    is_drawn_ = true;
+    if (!ranges_allowed(place)) {
+        report_not_allowed(expression, place, true);
+        return kPoison;
+    }
+    if (!check_range(expression, minimum, maximum)) {
+        return kPoison;
+    }
+    if (place != ExpressionPlace::Successor && !drawn_once_noted_) {
+        drawn_once_noted_ = true;
+        Diagnostic& note =
+            resolution_.diagnostics.add(DiagnosticCode::DrawnOnce, expression.span(),
+                                        "this range is drawn once, when the derivation starts");
+        note.notes.emplace_back("in a successor it would be drawn each time a module is rewritten");
+    }
+    return values_.range(minimum, maximum, draw_count_++, expression.span());
+}
+
+ValueId ExpressionResolver::call_value(const Expression& expression, ExpressionPlace place) {
+    const std::uint32_t count = operand_count(expression);
+    const auto arguments = operands_.end() - static_cast<std::ptrdiff_t>(count);
+    const ValueId first = count > 0 ? arguments[0] : kNoValue;
+    const ValueId second = count > 1 ? arguments[1] : kNoValue;
+    operands_.erase(arguments, operands_.end());
+
+    const auto found = functions_.find(expression.name);
+    if (found == functions_.end()) {
+        report_unknown_function(expression, expression.name);
+        return kPoison;
+    }
+    const Function function = found->second;
+    const std::string_view name = resolution_.text(expression.name);
+    if (count != function.argument_count) {
+        resolution_.diagnostics.add(DiagnosticCode::WrongArgumentCount, expression.span(),
+                                    fmt::format("`{}` takes {}, not {}", name,
+                                                function.argument_count == 0   ? "no arguments"
+                                                : function.argument_count == 1 ? "one argument"
+                                                                               : "two arguments",
+                                                count));
+        return kPoison;
+    }
+    if (count == 0) {
+        if (!in_production(place)) {
+            Diagnostic& error =
+                resolution_.diagnostics.add(DiagnosticCode::StepNotAllowed, expression.span(),
+                                            fmt::format("`{}()` has no value here", name));
+            error.notes.emplace_back("it changes while words are rewritten, so it may stand in the "
+                                     "conditions and successors of productions only");
+            return kPoison;
+        }
+        return values_.leaf(function.opcode, 0, expression.span());
+    }
+    return apply(function.opcode, first, second, expression);
+}
+
+} // namespace lsys

@@ -1,0 +1,18 @@
+// Words for what goes wrong when constants are folded.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+/// Why an instruction of these values yields something infinite or no number: "division by zero".
+[[nodiscard]] std::string reason_for_fault(Opcode opcode, float x, float y);
+
+/// The names of all functions of expressions.
+[[nodiscard]] std::vector<std::string_view> function_names();
+
+} // namespace lsys

@@ -1,0 +1,39 @@
+// Heads of productions: `left < predecessor > right` to patterns and formals.
+#pragma once
+
+#include "compiler/resolve/impl/constants.h"
+#include "compiler/resolve/impl/words.h"
+
+namespace lsys {
+
+class HeadResolver {
+public:
+    HeadResolver(ModuleReading& reading, ConstantTable& constants)
+        : reading_(reading), resolution_(reading.resolution), constants_(constants) {}
+
+    /// Fills contexts, predecessor and formals of `production`, and makes the formals known to the
+    /// expressions that follow. False: the head is in error, which has been reported.
+    [[nodiscard]] bool resolve(const ProductionNode& node, Production& production);
+
+private:
+    enum class Part : std::uint8_t { Left, Predecessor, Right };
+
+    [[nodiscard]] bool pattern(ModuleList list, Part part, ProgramPattern& out);
+    [[nodiscard]] bool bracket(const ModuleView& module, Part part, ProgramPattern& out);
+    [[nodiscard]] bool formals(const ModuleView& module);
+    [[nodiscard]] bool formal(const Expression& argument);
+    void append(const ModuleView& module, std::uint32_t first_formal, ProgramPattern& out);
+    void report_argument(const Expression& argument);
+    [[nodiscard]] std::optional<Edit> condition_edit(const std::string& test) const;
+    [[nodiscard]] bool check_shape(const ProductionNode& node);
+    [[nodiscard]] bool check_stage(const ProductionNode& node);
+
+    ModuleReading& reading_;
+    Resolution& resolution_;
+    ConstantTable& constants_;
+    const ProductionNode* node_ = nullptr;
+    Production* production_ = nullptr;
+    std::vector<SourceSpan> open_; // brackets of the right context
+};
+
+} // namespace lsys

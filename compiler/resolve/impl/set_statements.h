@@ -1,0 +1,43 @@
+// Resolves #set: keys and values to Settings. Modes and profiles decide how everything else is
+// read, so they are read first; numbers may use constants and are read in the order of the text.
+#pragma once
+
+#include "compiler/resolve/impl/expressions.h"
+#include "compiler/resolve/impl/resolution.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <unordered_map>
+
+namespace lsys {
+
+class SetResolver {
+public:
+    explicit SetResolver(Resolution& resolution) : resolution_(resolution) {}
+
+    /// Reads the modes and profiles of all statements, and reports unknown keys and duplicates.
+    void read_modes();
+    /// Reads a number; does nothing for other keys and for duplicates.
+    void read_number(const SetNode& node, ExpressionResolver& expressions);
+
+private:
+    [[nodiscard]] std::uint64_t scope_of(const SetNode& node) const;
+    [[nodiscard]] bool is_first(const SetNode& node);
+    void read_mode(const SetNode& node, std::string_view key);
+    void report_unknown_key(const SetNode& node);
+    void bad_value(const SetNode& node, SourceSpan span, const std::string& message);
+    [[nodiscard]] std::string_view word_of(const SetNode& node, const char* choices);
+    template <typename Enum, std::size_t size>
+    void choose(const SetNode& node, const std::array<Enum, size>& values, Enum& chosen);
+    [[nodiscard]] std::optional<float>
+    number_of(const SetNode& node, std::uint32_t index, ExpressionResolver& expressions);
+    void read_seed(const SetNode& node, ExpressionResolver& expressions);
+
+    Resolution& resolution_;
+    Suggestions suggestions_;
+    std::unordered_map<std::uint64_t, SourceSpan> first_; // by scope_of()
+};
+
+} // namespace lsys

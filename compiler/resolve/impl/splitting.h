@@ -1,0 +1,71 @@
+// Name splitting (LANGUAGE.md section 3): a module name that nobody knows, but that is a row of
+// known names in exactly one way, is read as that row: `AS(1)` as `A S(1)`. Decided once all
+// statements are read; the decision depends on the name, the number of parameters and the file.
+#pragma once
+
+#include "compiler/resolve/impl/resolution.h"
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+namespace lsys {
+
+/// A part of a name and where it begins in it.
+struct NamePart {
+    NameId name = kNoName;
+    std::uint32_t offset = 0;
+};
+
+class NameSplitter {
+public:
+    /// `known`, by name: predecessors, declared and bound modules, commands of the turtle profile.
+    /// Precondition: no module of the Ast is released yet.
+    NameSplitter(Resolution& resolution, const std::vector<bool>& known);
+
+    /// Whether parts() may have an answer for this name.
+    [[nodiscard]] bool may_split(NameId name) const { return unknown_[index_of(name)]; }
+    /// The parts of a name, or nothing if it is one module. Not for names in back quotes.
+    [[nodiscard]] std::span<const NamePart>
+    parts(NameId name, std::uint32_t parameter_count, FileId file);
+
+private:
+    /// A name as it is used in a file.
+    struct Use {
+        NameId name = kNoName;
+        std::uint32_t parameter_count = 0;
+        FileId file = kNoFile;
+
+        friend bool operator==(const Use&, const Use&) = default;
+    };
+    struct UseHash {
+        std::size_t operator()(const Use& use) const {
+            const auto name = static_cast<std::uint64_t>(use.name);
+            const auto file = static_cast<std::uint64_t>(use.file);
+            std::uint64_t hash = (name ^ (file << 40)) * 0x9E3779B97F4A7C15;
+            hash = (hash ^ (hash >> 32) ^ use.parameter_count) * 0x9E3779B97F4A7C15;
+            return hash ^ (hash >> 32);
+        }
+    };
+
+    void collect_uses();
+    void add_uses(ModuleList list);
+    [[nodiscard]] std::vector<NamePart> split(const Use& whole);
+    /// Calls `found` with the length of every known name that `text` begins with.
+    template <typename Function>
+    void for_each_known_prefix(std::string_view text, Function found);
+
+    Resolution& resolution_;
+    std::vector<bool> unknown_;                  // by name: unknown identifiers that occur
+    std::vector<std::string_view> known_sorted_; // known identifiers
+    std::unordered_set<Use, UseHash> uses_;      // of unknown identifiers
+    std::unordered_set<std::size_t> use_lengths_;
+    std::unordered_map<Use, std::vector<NamePart>, UseHash> decided_;
+    /// Steps left: names made to be costly to split are left as they are in the end.
+    std::uint64_t work_left_ = std::uint64_t{1} << 28;
+};
+
+} // namespace lsys

@@ -1,0 +1,50 @@
+// The symbols of a Program by name and number of parameters: made where they first appear, so that
+// their order is that of the text.
+#pragma once
+
+#include "compiler/resolve/impl/resolution.h"
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace lsys {
+
+class SymbolTable {
+public:
+    explicit SymbolTable(Resolution& resolution);
+
+    /// Modules of this name, of any count, draw `object` from now on.
+    void bind(NameId name, TurtleOperation object, std::string mesh_file);
+    /// Modules of this name, of any count, are skipped in contexts from now on.
+    void ignore(NameId name);
+    void consider(NameId name);
+    /// From now on only brackets and what consider() named count in contexts.
+    void ignore_all_but_considered() { others_ignored_ = true; }
+    [[nodiscard]] bool is_ignored(NameId name) const;
+
+    /// Precondition: all bind() and ignore() have been called.
+    [[nodiscard]] SymbolId get(NameId name, std::uint32_t parameter_count);
+
+private:
+    struct Latest {
+        std::uint32_t parameter_count = 0;
+        SymbolId symbol = kNoSymbol;
+    };
+    struct Binding {
+        TurtleOperation object = TurtleOperation::Nothing;
+        std::string mesh_file;
+    };
+    SymbolId make(NameId name, std::uint32_t parameter_count);
+
+    Resolution& resolution_;
+    std::vector<Latest> latest_; // by name: the count asked for last
+    std::unordered_map<std::uint64_t, SymbolId> symbols_;
+    std::unordered_map<std::uint32_t, Binding> bindings_;
+    std::vector<bool> ignored_; // by name
+    std::vector<bool> considered_;
+    bool others_ignored_ = false;
+};
+
+} // namespace lsys

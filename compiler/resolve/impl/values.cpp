@@ -1,0 +1,102 @@
+#include "compiler/resolve/impl/values.h"
+
+#include "compiler/bytecode/arithmetic.h"
+#include "grammar/base/contract.h"
+
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace lsys {
+
+ValueBuilder::ValueBuilder(ChunkedVector<Value>& values)
+    : values_(values), literals_(1024, kNoValue) {
+    LSYS_CHECK(values.empty(), values.size());
+    Value poison;
+    poison.literal = std::nanf("");
+    values_.push_back(poison);
+}
+
+ValueId ValueBuilder::add(const Value& value) {
+    LSYS_CHECK(values_.size() < static_cast<std::size_t>(kNoValue), values_.size());
+    values_.push_back(value);
+    return static_cast<ValueId>(values_.size() - 1);
+}
+
+std::size_t ValueBuilder::slot_of(std::uint32_t bits) const {
+    const std::size_t mask = literals_.size() - 1;
+    std::size_t slot = (bits * std::uint64_t{0x9E3779B97F4A7C15} >> 32) & mask;
+    while (literals_[slot] != kNoValue &&
+           std::bit_cast<std::uint32_t>((*this)[literals_[slot]].literal) != bits) {
+        slot = (slot + 1) & mask;
+    }
+    return slot;
+}
+
+void ValueBuilder::grow_table() {
+    const std::vector<ValueId> old =
+        std::exchange(literals_, std::vector<ValueId>(literals_.size() * 2, kNoValue));
+    for (const ValueId id : old) {
+        if (id != kNoValue) {
+            literals_[slot_of(std::bit_cast<std::uint32_t>((*this)[id].literal))] = id;
+        }
+    }
+}
+
+ValueId ValueBuilder::literal(float value, SourceSpan span) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    std::size_t slot = slot_of(bits);
+    if (literals_[slot] != kNoValue) {
+        return literals_[slot];
+    }
+    if (++literal_count_ * 2 > literals_.size()) {
+        grow_table();
+        slot = slot_of(bits);
+    }
+    Value node;
+    node.opcode = Opcode::Literal;
+    node.span = span;
+    node.literal = value;
+    literals_[slot] = add(node);
+    return literals_[slot];
+}
+
+ValueId ValueBuilder::leaf(Opcode opcode, std::uint32_t index, SourceSpan span) {
+    Value node;
+    node.opcode = opcode;
+    node.span = span;
+    node.index = index;
+    return add(node);
+}
+
+ValueId ValueBuilder::range(ValueId minimum, ValueId maximum, std::uint32_t draw, SourceSpan span) {
+    if (minimum == kPoison || maximum == kPoison) {
+        return kPoison;
+    }
+    Value node;
+    node.opcode = Opcode::Range;
+    node.span = span;
+    node.index = draw;
+    node.left = minimum;
+    node.right = maximum;
+    return add(node);
+}
+
+ValueId ValueBuilder::operation(Opcode opcode, ValueId left, ValueId right, SourceSpan span) {
+    if (left == kPoison || right == kPoison) {
+        return kPoison;
+    }
+    const bool binary = info(opcode).pops == 2;
+    if (is_literal(left) && (!binary || is_literal(right))) {
+        const float x = (*this)[left].literal;
+        return literal(arithmetic::apply(opcode, x, binary ? (*this)[right].literal : 0.0F), span);
+    }
+    Value node;
+    node.opcode = opcode;
+    node.span = span;
+    node.left = left;
+    node.right = binary ? right : kNoValue;
+    return add(node);
+}
+
+} // namespace lsys

@@ -1,0 +1,44 @@
+// Makes the values of a Program: shares literals and folds what depends on constants only, in the
+// arithmetic of the runtime.
+#pragma once
+
+#include "compiler/program/program.h"
+#include "grammar/base/chunked_vector.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+class ValueBuilder {
+public:
+    /// `values` is empty and becomes the builder's; its first element is made kPoison.
+    explicit ValueBuilder(ChunkedVector<Value>& values);
+
+    [[nodiscard]] ValueId literal(float value, SourceSpan span);
+    /// A value without operands: Formal, Global, Step, Steps.
+    [[nodiscard]] ValueId leaf(Opcode opcode, std::uint32_t index, SourceSpan span);
+    /// A range; its operands are never folded away, since it draws.
+    [[nodiscard]] ValueId
+    range(ValueId minimum, ValueId maximum, std::uint32_t draw, SourceSpan span);
+    /// An operation on one value or two: a literal if they are. kPoison if one of them is.
+    [[nodiscard]] ValueId operation(Opcode opcode, ValueId left, ValueId right, SourceSpan span);
+
+    [[nodiscard]] const Value& operator[](ValueId id) const {
+        return values_[static_cast<std::size_t>(id)];
+    }
+    [[nodiscard]] bool is_literal(ValueId id) const {
+        return id != kPoison && (*this)[id].opcode == Opcode::Literal;
+    }
+
+private:
+    ValueId add(const Value& value);
+    void grow_table();
+    [[nodiscard]] std::size_t slot_of(std::uint32_t bits) const;
+
+    ChunkedVector<Value>& values_;
+    std::vector<ValueId> literals_; // open addressing by the bits of the literal
+    std::size_t literal_count_ = 0;
+};
+
+} // namespace lsys

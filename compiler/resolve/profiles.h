@@ -1,0 +1,44 @@
+// The turtle profiles of LANGUAGE.md section 7 as data: which module does what. Read where symbols
+// are made and by the checks; the runtime sees operations only.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "compiler/bytecode/settings.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace lsys {
+
+/// A module that the turtle of a profile obeys, with up to `max_parameters` parameters.
+struct TurtleCommand {
+    std::string_view name;
+    TurtleOperation operation;
+    std::uint8_t max_parameters;
+    std::string_view parameters; // what they mean: "length, spring, mass"
+};
+
+/// The commands of a profile; of two rows with one name the first counts.
+[[nodiscard]] std::span<const TurtleCommand> turtle_commands(TurtleProfile profile);
+/// The command of that name, or null.
+[[nodiscard]] const TurtleCommand* find_turtle_command(TurtleProfile profile,
+                                                       std::string_view name);
+
+/// `[ ]` mean the same in every profile, `{ } .` in all but those of L3D, which has no polygons;
+/// they take no parameters and no #object binds them.
+[[nodiscard]] bool is_structural(TurtleProfile profile, std::string_view name);
+/// Those of which LANGUAGE.md section 3 says that they take no parameters.
+[[nodiscard]] bool takes_no_parameters(std::string_view name);
+[[nodiscard]] SymbolKind kind_of(TurtleProfile profile, std::string_view name);
+
+/// An object that #object can bind.
+struct TurtleObject {
+    std::string_view name;
+    TurtleOperation operation;
+};
+[[nodiscard]] std::span<const TurtleObject> turtle_objects();
+[[nodiscard]] std::optional<TurtleOperation> find_turtle_object(std::string_view name);
+
+} // namespace lsys

@@ -1,0 +1,212 @@
+#include "compiler/resolve/resolve.h"
+
+#include "compiler/resolve/impl/attempts.h"
+#include "compiler/resolve/impl/constants.h"
+#include "compiler/resolve/impl/declarations.h"
+#include "compiler/resolve/impl/definitions.h"
+#include "compiler/resolve/impl/expressions.h"
+#include "compiler/resolve/impl/folding_faults.h"
+#include "compiler/resolve/impl/productions.h"
+#include "compiler/resolve/impl/resolution.h"
+#include "compiler/resolve/impl/set_statements.h"
+#include "compiler/resolve/impl/splitting.h"
+#include "compiler/resolve/impl/symbols.h"
+#include "compiler/resolve/impl/values.h"
+#include "compiler/resolve/impl/words.h"
+#include "compiler/resolve/profiles.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+/// Which names are known (LANGUAGE.md section 3), by name.
+std::vector<bool> known_names(const Resolution& resolution) {
+    std::vector<bool> known(resolution.names.count());
+    const auto add = [&](ModuleList list) {
+        for (std::uint32_t i = list.first; i < list.first + list.count; ++i) {
+            known[resolution.ast.modules[i].name_and_call & 0x7FFFFFFF] = true;
+        }
+    };
+    for (const ProductionNode& production : resolution.ast.productions) {
+        add(production.predecessor);
+    }
+    for (const ModuleDeclarationNode& declaration : resolution.ast.module_declarations) {
+        add(declaration.modules);
+    }
+    for (const ObjectNode& object : resolution.ast.objects) {
+        add(object.name);
+    }
+    for (const TurtleCommand& command : turtle_commands(resolution.program.settings.turtle)) {
+        known[index_of(resolution.names.find(command.name))] = true;
+    }
+    return known;
+}
+
+/// The paths of all files, so that a FileId is an index.
+std::vector<std::string> paths_of(const Resolution& resolution) {
+    std::vector<std::string> paths;
+    for (const AstFile& file : resolution.ast.files) {
+        const auto index = static_cast<std::size_t>(file.file);
+        paths.resize(std::max(paths.size(), index + 1));
+        paths[index] = resolution.sources.file(file.file).path();
+    }
+    return paths;
+}
+
+class Resolver {
+public:
+    explicit Resolver(Resolution& resolution)
+        : resolution_(resolution), values_(resolution.program.values), constants_(resolution),
+          expressions_(resolution, values_, constants_), symbols_(resolution),
+          definitions_(resolution, constants_, expressions_), declarations_(resolution, symbols_) {}
+
+    void run(SetResolver& settings) {
+        const Ast& ast = resolution_.ast;
+        for (const ObjectNode& object : ast.objects) {
+            declarations_.object(object);
+        }
+        NameSplitter splitter(resolution_, known_names(resolution_));
+        for (const IgnoreNode& ignore : ast.ignores) {
+            declarations_.ignore(ignore, splitter);
+        }
+        declarations_.finish_ignores();
+        ModuleReading reading{resolution_,
+                              symbols_,
+                              splitter,
+                              expressions_,
+                              SplitReport(resolution_),
+                              std::vector<SymbolId>(resolution_.names.count(), kNoSymbol)};
+        ProductionResolver productions(reading, constants_);
+        for (const Statement& statement : ast.statements) {
+            switch (statement.kind) {
+            case StatementKind::Generations:
+                definitions_.generations(ast.generations[statement.index], statement.span);
+                break;
+            case StatementKind::Define:
+                definitions_.define(ast.defines[statement.index]);
+                break;
+            case StatementKind::Param:
+                definitions_.param(ast.params[statement.index]);
+                break;
+            case StatementKind::Set:
+                settings.read_number(ast.sets[statement.index], expressions_);
+                break;
+            case StatementKind::Module:
+                declarations_.module(ast.module_declarations[statement.index], statement.span,
+                                     reading);
+                break;
+            case StatementKind::Axiom:
+                axiom(ast.axioms[statement.index], statement.span, reading);
+                break;
+            case StatementKind::Production:
+                productions.resolve(ast.productions[statement.index], statement.span);
+                resolution_.ast.productions.release_before(statement.index);
+                break;
+            case StatementKind::Object:
+            case StatementKind::Ignore:
+            case StatementKind::Include:
+                break; // read before, or by the front end
+            }
+        }
+        productions.finish();
+        check_missing();
+    }
+
+    [[nodiscard]] std::vector<std::string> unknown_definitions() const {
+        return definitions_.unknown_definitions();
+    }
+
+private:
+    void axiom(const AxiomNode& node, SourceSpan statement, ModuleReading& reading) {
+        if (first_axiom_) {
+            report_duplicate(resolution_, statement, *first_axiom_, "`#w`");
+            return;
+        }
+        first_axiom_ = statement;
+        if (node.modules.count == 0) {
+            resolution_.diagnostics.add(DiagnosticCode::EmptyAxiom, statement,
+                                        "the axiom holds no module");
+            return;
+        }
+        expressions_.begin_statement();
+        resolution_.program.axiom = resolve_word(reading, node.modules, ExpressionPlace::Axiom);
+        resolution_.program.axiom_draw_position = definitions_.draw_position();
+        definitions_.advance_draw_position(resolution_.program.axiom.draw_count);
+        reading.splits.finish();
+    }
+
+    /// An empty place after the last character of the root file.
+    [[nodiscard]] SourceSpan end_of_text() const {
+        if (resolution_.ast.files.empty()) {
+            return {};
+        }
+        const FileId root = resolution_.ast.files[0].file;
+        const auto size = static_cast<std::uint32_t>(resolution_.sources.file(root).text().size());
+        return {root, size, size};
+    }
+
+    void check_missing() {
+        const AttemptedStatements attempted(resolution_);
+        for (const IncludeNode& include : resolution_.ast.includes) {
+            if (include.file == kNoFile) {
+                return;
+            }
+        }
+        if (!first_axiom_ && !attempted.has("w")) {
+            Diagnostic& error = resolution_.diagnostics.add(
+                DiagnosticCode::MissingAxiom, end_of_text(), "there is no axiom to begin with");
+            error.help.emplace_back("add one: `#w : F(1);`");
+        }
+        if (resolution_.ast.generations.empty() && !resolution_.options.generations &&
+            !attempted.has("n")) {
+            Diagnostic& warning = resolution_.diagnostics.add(
+                DiagnosticCode::MissingGenerations, end_of_text(),
+                "the grammar does not say how many generations to derive");
+            warning.notes.emplace_back("without it the word is the axiom");
+            warning.help.emplace_back("add `#n = 5;`, or give `-n 5` on the command line");
+        }
+    }
+
+    Resolution& resolution_;
+    ValueBuilder values_;
+    ConstantTable constants_;
+    ExpressionResolver expressions_;
+    SymbolTable symbols_;
+    DefinitionResolver definitions_;
+    DeclarationResolver declarations_;
+    std::optional<SourceSpan> first_axiom_;
+};
+
+} // namespace
+
+ResolveOutcome resolve(Ast ast,
+                       Names& names,
+                       const SourceMap& sources,
+                       const CompileOptions& options,
+                       Diagnostics& diagnostics) {
+    ResolveOutcome outcome;
+    Resolution resolution{ast, names, sources, options, diagnostics, outcome.program, {}};
+    outcome.program.files = paths_of(resolution);
+    outcome.program.has_all_statements = !ast.incomplete;
+    SetResolver settings(resolution);
+    settings.read_modes();
+    // Tables by name are as long as there are names, so all names are made before them.
+    for (const std::string_view function : function_names()) {
+        static_cast<void>(names.intern(function));
+    }
+    for (const TurtleCommand& command : turtle_commands(outcome.program.settings.turtle)) {
+        static_cast<void>(names.intern(command.name));
+    }
+    Resolver resolver(resolution);
+    resolver.run(settings);
+    outcome.unknown_definitions = resolver.unknown_definitions();
+    outcome.program.complete = !ast.incomplete && !diagnostics.has_errors();
+    return outcome;
+}
+
+} // namespace lsys

@@ -1,0 +1,29 @@
+// The resolution: Ast to Program. All that LANGUAGE.md decides about names, numbers and the form of
+// productions is decided here; what a program means as a whole is for the checks (check.h).
+#pragma once
+
+#include "compiler/program/compile_options.h"
+#include "compiler/program/program.h"
+#include "grammar/ast/ast.h"
+#include "grammar/base/diagnostic.h"
+#include "grammar/base/names.h"
+#include "grammar/base/source.h"
+
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+struct ResolveOutcome {
+    Program program;
+    std::vector<std::string> unknown_definitions; // -D names that no #define or #param has
+};
+
+/// Consumes the Ast; its memory is given back on the way.
+[[nodiscard]] ResolveOutcome resolve(Ast ast,
+                                     Names& names,
+                                     const SourceMap& sources,
+                                     const CompileOptions& options,
+                                     Diagnostics& diagnostics);
+
+} // namespace lsys

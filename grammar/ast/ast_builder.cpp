@@ -1,0 +1,384 @@
+#include "grammar/ast/ast_builder.h"
+
+#include "grammar/ast/reports.h"
+#include "grammar/base/contract.h"
+#include "grammar/base/utf8.h"
+
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+constexpr NameId kUnset{0xFFFFFFFFu};
+
+/// The level of a comparison; comparisons of one level do not chain. 0 for other operations.
+int comparison_level(BinaryOperation operation) {
+    switch (operation) {
+    case BinaryOperation::Less:
+    case BinaryOperation::LessEqual:
+    case BinaryOperation::Greater:
+    case BinaryOperation::GreaterEqual:
+        return 1;
+    case BinaryOperation::Equal:
+    case BinaryOperation::NotEqual:
+        return 2;
+    default:
+        return 0;
+    }
+}
+
+} // namespace
+
+AstBuilder::AstBuilder(const ScannedText& scanned, Ast& ast, Names& names, Diagnostics& diagnostics)
+    : scanned_(scanned), ast_(ast), names_(names), diagnostics_(diagnostics), words_(256) {
+    single_.fill(kUnset);
+    finish_statement({}, true); // takes the marks
+}
+
+// ------------------------------------------------------------------------------------- expressions
+
+ExpressionId AstBuilder::add(const Expression& expression) {
+    const auto id = static_cast<ExpressionId>(ast_.expressions.size());
+    ast_.expressions.push_back(expression);
+    return id;
+}
+
+ExpressionId AstBuilder::number(float value, SourceSpan span) {
+    Expression node;
+    node.kind = ExpressionKind::Number;
+    node.file = span.file;
+    node.begin = span.begin;
+    node.end = span.end;
+    node.value = value;
+    return add(node);
+}
+
+ExpressionId AstBuilder::name(NameId name, SourceSpan span) {
+    Expression node;
+    node.kind = ExpressionKind::Name;
+    node.file = span.file;
+    node.begin = span.begin;
+    node.end = span.end;
+    node.name = name;
+    return add(node);
+}
+
+ExpressionId AstBuilder::unary(UnaryOperation operation, ExpressionId operand, SourceSpan span) {
+    Expression node;
+    node.kind = ExpressionKind::Unary;
+    node.operation = static_cast<std::uint8_t>(operation);
+    node.file = span.file;
+    node.begin = span.begin;
+    node.end = span.end;
+    node.left = operand;
+    return add(node);
+}
+
+ExpressionId AstBuilder::binary(BinaryOperation operation,
+                                ExpressionId left,
+                                ExpressionId right,
+                                SourceSpan span) {
+    if (const int level = comparison_level(operation); level != 0) {
+        const auto chains = [&](ExpressionId id) {
+            const Expression& inner = ast_.expression(id);
+            return inner.kind == ExpressionKind::Binary &&
+                   comparison_level(inner.binary()) == level;
+        };
+        // One message for a chain, at its second comparison.
+        if (chains(left) && !chains(ast_.expression(left).left)) {
+            report_chained_comparison(diagnostics_, ast_, left, span);
+        }
+    }
+    Expression node;
+    node.kind = ExpressionKind::Binary;
+    node.operation = static_cast<std::uint8_t>(operation);
+    node.file = span.file;
+    node.begin = span.begin;
+    node.end = span.end;
+    node.left = left;
+    node.right = right;
+    return add(node);
+}
+
+ExpressionId AstBuilder::grouping(ExpressionId inner, SourceSpan span) {
+    Expression node;
+    node.kind = ExpressionKind::Grouping;
+    node.file = span.file;
+    node.begin = span.begin;
+    node.end = span.end;
+    node.left = inner;
+    return add(node);
+}
+
+ExpressionId AstBuilder::range(std::uint32_t count, SourceSpan span) {
+    if (count != 2) {
+        drop_arguments(count);
+        report_bad_range(diagnostics_, count, span);
+        return error(span);
+    }
+    Expression node;
+    node.kind = ExpressionKind::Range;
+    node.file = span.file;
+    node.begin = span.begin;
+    node.end = span.end;
+    node.left = arguments_[arguments_.size() - 2];
+    node.right = arguments_[arguments_.size() - 1];
+    drop_arguments(count);
+    return add(node);
+}
+
+ExpressionId AstBuilder::call(NameId function, std::uint32_t count, SourceSpan span) {
+    Expression node;
+    node.kind = ExpressionKind::Call;
+    node.file = span.file;
+    node.begin = span.begin;
+    node.end = span.end;
+    node.name = function;
+    node.arguments = static_cast<std::uint32_t>(ast_.argument_lists.size());
+    ast_.argument_lists.push_back(take_arguments(count));
+    return add(node);
+}
+
+ExpressionId AstBuilder::negated(float value, SourceSpan number_span, SourceSpan span) {
+    return unary(UnaryOperation::Negate, number(value, number_span), span);
+}
+
+ExpressionId AstBuilder::error(SourceSpan span) {
+    Expression node;
+    node.file = span.file;
+    node.begin = span.begin;
+    node.end = span.end;
+    return add(node);
+}
+
+std::uint32_t AstBuilder::argument(std::uint32_t count_before, ExpressionId value) {
+    arguments_.push_back(value);
+    return count_before + 1;
+}
+
+void AstBuilder::drop_arguments(std::uint32_t count) {
+    LSYS_CHECK(count <= arguments_.size(), count, arguments_.size());
+    arguments_.resize(arguments_.size() - count);
+}
+
+ListRange AstBuilder::take_arguments(std::uint32_t count) {
+    LSYS_CHECK(count <= arguments_.size(), count, arguments_.size());
+    const ListRange range{static_cast<std::uint32_t>(ast_.expression_lists.size()), count};
+    for (std::size_t i = arguments_.size() - count; i < arguments_.size(); ++i) {
+        ast_.expression_lists.push_back(arguments_[i]);
+    }
+    drop_arguments(count);
+    return range;
+}
+
+// -------------------------------------------------------------------------------------- statements
+
+void AstBuilder::begin_node(StatementKind kind, std::size_t index) {
+    statement_.kind = kind;
+    statement_.index = static_cast<std::uint32_t>(index);
+    has_node_ = true;
+}
+
+void AstBuilder::generations(ExpressionId value) {
+    begin_node(StatementKind::Generations, ast_.generations.size());
+    ast_.generations.push_back({value});
+}
+
+void AstBuilder::define(NameId name, SourceSpan name_span, ExpressionId value) {
+    begin_node(StatementKind::Define, ast_.defines.size());
+    ast_.defines.push_back({name, name_span, value});
+}
+
+void AstBuilder::param(NameId name,
+                       SourceSpan name_span,
+                       ExpressionId value,
+                       std::uint32_t bound_count,
+                       SourceSpan bounds) {
+    ParamNode node;
+    node.name = name;
+    node.name_span = name_span;
+    node.value = value;
+    node.bounds_span = bounds;
+    if (bound_count == 2) {
+        node.minimum = arguments_[arguments_.size() - 2];
+        node.maximum = arguments_[arguments_.size() - 1];
+    } else {
+        report_bad_range(diagnostics_, bound_count, bounds);
+        node.minimum = error(bounds);
+        node.maximum = error(bounds);
+    }
+    drop_arguments(bound_count);
+    begin_node(StatementKind::Param, ast_.params.size());
+    ast_.params.push_back(node);
+}
+
+void AstBuilder::module_declaration(ModuleList modules) {
+    begin_node(StatementKind::Module, ast_.module_declarations.size());
+    ast_.module_declarations.push_back({modules});
+}
+
+void AstBuilder::object(
+    SourceSpan keyword, ModuleList name, NameId object, SourceSpan span, bool is_file) {
+    begin_node(StatementKind::Object, ast_.objects.size());
+    ast_.objects.push_back({keyword, name, span, is_file, std::string(names_.text(object))});
+}
+
+void AstBuilder::include(NameId path, SourceSpan span) {
+    begin_node(StatementKind::Include, ast_.includes.size());
+    ast_.includes.push_back({span, std::string(names_.text(path)), kNoFile});
+}
+
+void AstBuilder::set_word(NameId word, SourceSpan span) {
+    ast_.set_values.push_back({span, true, word, kNoExpression});
+}
+
+void AstBuilder::set_number(ExpressionId value, SourceSpan span) {
+    ast_.set_values.push_back({span, false, kNoName, value});
+}
+
+void AstBuilder::set(NameId key, SourceSpan key_span) {
+    const auto first = static_cast<std::uint32_t>(mark_.set_values);
+    const auto count = static_cast<std::uint32_t>(ast_.set_values.size()) - first;
+    begin_node(StatementKind::Set, ast_.sets.size());
+    ast_.sets.push_back({key, key_span, {first, count}});
+}
+
+void AstBuilder::ignore(SourceSpan keyword, ModuleList modules, bool considers) {
+    begin_node(StatementKind::Ignore, ast_.ignores.size());
+    ast_.ignores.push_back({modules, considers, keyword});
+}
+
+void AstBuilder::axiom(ModuleList modules) {
+    begin_node(StatementKind::Axiom, ast_.axioms.size());
+    ast_.axioms.push_back({modules});
+}
+
+void AstBuilder::left_context(ModuleList left, SourceSpan less) {
+    production_.has_left = true;
+    production_.left = left;
+    production_.less_span = less;
+}
+
+void AstBuilder::predecessor(ModuleList modules) {
+    production_.predecessor = modules;
+}
+
+void AstBuilder::right_context(SourceSpan greater, ModuleList right) {
+    production_.has_right = true;
+    production_.greater_span = greater;
+    production_.right = right;
+}
+
+void AstBuilder::condition(ExpressionId condition) {
+    production_.condition.condition = condition;
+}
+
+void AstBuilder::probability(SourceSpan tilde, ExpressionId probability) {
+    production_.condition.probability = probability;
+    production_.condition.tilde_span = tilde;
+}
+
+void AstBuilder::production_front(NameId name,
+                                  SourceSpan label,
+                                  SourceSpan condition,
+                                  Stage stage) {
+    production_.stage = stage;
+    production_.name = name;
+    production_.name_span = name_without_hash(label);
+    production_.condition.span = condition;
+}
+
+void AstBuilder::production(ModuleList successor) {
+    production_.successor = successor;
+    begin_node(StatementKind::Production, ast_.productions.size());
+    ast_.productions.push_back(production_);
+}
+
+void AstBuilder::recover() {
+    spoilt_ = true;
+    arguments_.clear();
+}
+
+bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
+    const bool kept = keep && !spoilt_;
+    if (!kept) {
+        take_back_node();
+        ast_.incomplete = true;
+    } else if (has_node_) {
+        statement_.span = span;
+        ast_.statements.push_back(statement_);
+    }
+    take_marks();
+    has_node_ = false;
+    spoilt_ = false;
+    arguments_.clear();
+    production_ = ProductionNode{};
+    return kept;
+}
+
+void AstBuilder::take_marks() {
+    mark_ = {ast_.expressions.size(),    ast_.expression_lists.size(),
+             ast_.argument_lists.size(), ast_.modules.size(),
+             ast_.calls.size(),          ast_.set_values.size()};
+}
+
+void AstBuilder::take_back_node() {
+    if (has_node_) {
+        switch (statement_.kind) {
+        case StatementKind::Generations:
+            ast_.generations.pop_back();
+            break;
+        case StatementKind::Define:
+            ast_.defines.truncate(statement_.index);
+            break;
+        case StatementKind::Param:
+            ast_.params.pop_back();
+            break;
+        case StatementKind::Module:
+            ast_.module_declarations.pop_back();
+            break;
+        case StatementKind::Object:
+            ast_.objects.pop_back();
+            break;
+        case StatementKind::Include:
+            ast_.includes.pop_back();
+            break;
+        case StatementKind::Set:
+            ast_.sets.truncate(statement_.index);
+            break;
+        case StatementKind::Ignore:
+            ast_.ignores.pop_back();
+            break;
+        case StatementKind::Axiom:
+            ast_.axioms.pop_back();
+            break;
+        case StatementKind::Production:
+            ast_.productions.truncate(statement_.index);
+            break;
+        }
+    }
+    ast_.expressions.truncate(mark_.expressions);
+    ast_.expression_lists.truncate(mark_.expression_lists);
+    ast_.argument_lists.truncate(mark_.argument_lists);
+    ast_.modules.truncate(mark_.modules);
+    ast_.calls.truncate(mark_.calls);
+    ast_.set_values.truncate(mark_.set_values);
+}
+
+std::string_view AstBuilder::source_text(SourceSpan span) const {
+    return scanned_.source.substr(span.begin, span.end - span.begin);
+}
+
+SourceSpan AstBuilder::name_without_hash(SourceSpan label) const {
+    const std::string_view text = source_text(label);
+    if (text.starts_with('#')) {
+        const std::size_t name = text.find_first_not_of(" \t\r\n", 1);
+        label.begin += static_cast<std::uint32_t>(name == std::string_view::npos ? 1 : name);
+    } else if (text.starts_with("\xEF\xBC\x83")) { // the full-width number sign
+        label.begin += 3;
+    }
+    return label;
+}
+
+} // namespace lsys

@@ -1,0 +1,169 @@
+// Builds the Ast of one file, node by node, as the parser asks. It knows what nodes look like and
+// nothing of tokens; the mistakes it reports are those that only show when nodes are put together
+// (depth of brackets, chained comparisons, ranges that are not two values).
+// A statement's nodes are kept by finish_statement() or taken back, so the Ast holds whole
+// statements.
+#pragma once
+
+#include "grammar/ast/ast.h"
+#include "grammar/ast/text_map.h"
+#include "grammar/base/diagnostic.h"
+#include "grammar/base/names.h"
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+/// How deep parentheses and brackets may nest.
+inline constexpr std::uint32_t kMaxNesting = 10'000;
+
+/// Bytes [begin, end) of the scanned text.
+struct TextRange {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+};
+
+/// `#set names`: what a module name is.
+enum class ModuleNames : std::uint8_t {
+    Words,
+    Letters,    // every letter is a module
+    Characters, // and so is every character of a text in back quotes
+};
+
+class AstBuilder {
+public:
+    AstBuilder(const ScannedText& scanned, Ast& ast, Names& names, Diagnostics& diagnostics);
+
+    void set_names(ModuleNames names) { module_names_ = names; }
+    [[nodiscard]] ModuleNames module_names() const { return module_names_; }
+
+    NameId intern(std::string_view name) { return names_.intern(name); }
+
+    // --- expressions; spans are of the file
+    ExpressionId number(float value, SourceSpan span);
+    ExpressionId name(NameId name, SourceSpan span);
+    ExpressionId unary(UnaryOperation operation, ExpressionId operand, SourceSpan span);
+    ExpressionId
+    binary(BinaryOperation operation, ExpressionId left, ExpressionId right, SourceSpan span);
+    ExpressionId grouping(ExpressionId inner, SourceSpan span);
+    /// `{...}` around the last `count` arguments.
+    ExpressionId range(std::uint32_t count, SourceSpan span);
+    /// A function called with the last `count` arguments.
+    ExpressionId call(NameId function, std::uint32_t count, SourceSpan span);
+    ExpressionId negated(float value, SourceSpan number, SourceSpan span);
+    ExpressionId error(SourceSpan span);
+
+    /// Arguments are collected until range(), call() or module_arguments() takes them.
+    std::uint32_t argument(std::uint32_t count_before, ExpressionId value);
+    /// Forgets the last `count` arguments.
+    void drop_arguments(std::uint32_t count);
+
+    // --- module lists
+    [[nodiscard]] ModuleList empty_modules(SourceSpan where);
+    /// Appends all names of `run`, which holds names, blanks and arguments that are plain numbers.
+    [[nodiscard]] ModuleList modules(ModuleList list, TextRange run);
+    /// Appends one module of any name, as one in back quotes.
+    [[nodiscard]] ModuleList quoted_module(ModuleList list, NameId name, SourceSpan span);
+    /// Appends the characters of a text in back quotes, each a module. Two texts side by side have
+    /// a back quote between them.
+    [[nodiscard]] ModuleList quoted_text(ModuleList list, TextRange quoted);
+    /// Gives the last module of `list`, which ends with its name, the last `count` arguments;
+    /// `parentheses` goes from `(` to `)`.
+    [[nodiscard]] ModuleList
+    module_arguments(ModuleList list, std::uint32_t count, SourceSpan parentheses);
+
+    // --- statements
+    void generations(ExpressionId value);
+    void define(NameId name, SourceSpan name_span, ExpressionId value);
+    /// The last `bound_count` arguments are the bounds, which should be two.
+    void param(NameId name,
+               SourceSpan name_span,
+               ExpressionId value,
+               std::uint32_t bound_count,
+               SourceSpan bounds);
+    void module_declaration(ModuleList modules);
+    /// `object` names one of the library, or with `is_file` a file.
+    void object(SourceSpan keyword, ModuleList name, NameId object, SourceSpan span, bool is_file);
+    void include(NameId path, SourceSpan span);
+    void set_word(NameId word, SourceSpan span);
+    void set_number(ExpressionId value, SourceSpan span);
+    void set(NameId key, SourceSpan key_span);
+    void ignore(SourceSpan keyword, ModuleList modules, bool considers);
+    void axiom(ModuleList modules);
+    void left_context(ModuleList left, SourceSpan less);
+    void predecessor(ModuleList modules);
+    void right_context(SourceSpan greater, ModuleList right);
+    void condition(ExpressionId condition);
+    void probability(SourceSpan tilde, ExpressionId probability);
+    /// `label` may begin with the `#`.
+    void production_front(NameId name,
+                          SourceSpan label,
+                          SourceSpan condition,
+                          Stage stage = Stage::Rewrite);
+    void production(ModuleList successor);
+
+    /// The statement at hand will not be kept.
+    void spoil() { spoilt_ = true; }
+    /// The same, where the parser goes on within the statement after an error.
+    void recover();
+
+    /// Keeps the statement made since the last call, or takes all of it back. Returns whether it
+    /// was kept; what is taken back makes the Ast incomplete.
+    bool finish_statement(SourceSpan span, bool keep);
+    /// What stands in the Ast now belongs to finished statements, such as those of an included
+    /// file.
+    void take_marks();
+
+private:
+    /// How much of the Ast belongs to finished statements.
+    struct Mark {
+        std::size_t expressions = 0;
+        std::size_t expression_lists = 0;
+        std::size_t argument_lists = 0;
+        std::size_t modules = 0;
+        std::size_t calls = 0;
+        std::size_t set_values = 0;
+    };
+
+    [[nodiscard]] std::string_view source_text(SourceSpan span) const;
+    ExpressionId add(const Expression& expression);
+    ListRange take_arguments(std::uint32_t count);
+    void take_back_node();
+    void begin_node(StatementKind kind, std::size_t index);
+    void push_module(NameId name, std::uint32_t begin);
+    std::uint32_t read_plain_arguments(std::uint32_t open, std::uint32_t name_end);
+    ExpressionId plain_number(std::uint32_t begin, std::uint32_t end);
+    void push_letters(TextRange word);
+    void push_character(std::string_view character, std::uint32_t begin);
+    NameId intern_word(std::string_view word);
+    void count_bracket(char bracket, SourceSpan span);
+    void check_stray_comment(std::uint32_t slashes);
+    [[nodiscard]] SourceSpan name_without_hash(SourceSpan label) const;
+
+    const ScannedText& scanned_;
+    Ast& ast_;
+    Names& names_;
+    Diagnostics& diagnostics_;
+    ModuleNames module_names_ = ModuleNames::Words;
+    std::uint32_t text_end_ = 0; // of the last text in back quotes, in the scanned text
+
+    std::array<NameId, 128> single_; // names of one character, once met
+    struct CachedWord {
+        std::uint64_t key = 0;
+        NameId name = kNoName;
+    };
+    std::vector<CachedWord> words_; // names of up to eight characters, lately met
+
+    std::vector<ExpressionId> arguments_;
+    std::uint32_t open_brackets_ = 0; // `[` of the module list at hand
+    bool spoilt_ = false;             // the statement at hand is not to be kept
+    bool has_node_ = false;
+    Statement statement_;
+    ProductionNode production_; // parts as they come
+    Mark mark_;
+};
+
+} // namespace lsys

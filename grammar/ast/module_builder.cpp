@@ -1,0 +1,287 @@
+// The part of AstBuilder that makes module lists. An axiom may have a hundred million modules, so
+// this is the one hot loop of the front end: a run of names comes as one token and is split here.
+#include "grammar/ast/ast_builder.h"
+#include "grammar/ast/number.h"
+#include "grammar/ast/reports.h"
+#include "grammar/base/contract.h"
+#include "grammar/base/utf8.h"
+
+namespace lsys {
+
+namespace {
+
+enum class CharacterClass : std::uint8_t { Blank, Letter, Symbol, Bracket, Slash, Open };
+
+constexpr std::array<CharacterClass, 128> kClasses = [] {
+    std::array<CharacterClass, 128> classes{};
+    classes.fill(CharacterClass::Symbol);
+    for (const char c : {' ', '\t', '\r', '\n'}) {
+        classes[static_cast<std::size_t>(c)] = CharacterClass::Blank;
+    }
+    for (std::size_t c = 0; c < 128; ++c) {
+        if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_') {
+            classes[c] = CharacterClass::Letter;
+        }
+    }
+    classes['['] = CharacterClass::Bracket;
+    classes[']'] = CharacterClass::Bracket;
+    classes['/'] = CharacterClass::Slash;
+    classes['('] = CharacterClass::Open;
+    return classes;
+}();
+
+CharacterClass class_of(char c) {
+    return kClasses[static_cast<unsigned char>(c) & 0x7Fu];
+}
+
+bool is_word(char c) {
+    return class_of(c) == CharacterClass::Letter || (c >= '0' && c <= '9');
+}
+
+} // namespace
+
+ModuleList AstBuilder::empty_modules(SourceSpan where) {
+    open_brackets_ = 0;
+    return {static_cast<std::uint32_t>(ast_.modules.size()), 0, where};
+}
+
+void AstBuilder::push_module(NameId name, std::uint32_t begin) {
+    ast_.modules.push_back({static_cast<std::uint32_t>(name), scanned_.source_begin(begin)});
+}
+
+ModuleList AstBuilder::modules(ModuleList list, TextRange run) {
+    const std::string_view text = scanned_.text;
+    std::uint32_t at = run.begin;
+    std::uint32_t name_end = run.begin;
+    while (at < run.end) {
+        const char c = text[at];
+        switch (class_of(c)) {
+        case CharacterClass::Blank:
+            ++at;
+            continue;
+        case CharacterClass::Open:
+            at = read_plain_arguments(at, name_end);
+            continue;
+        case CharacterClass::Letter:
+            if ((at + 1 < run.end && is_word(text[at + 1])) ||
+                (module_names_ != ModuleNames::Words && c == '_')) {
+                std::uint32_t end = at + 1;
+                while (end < run.end && is_word(text[end])) {
+                    ++end;
+                }
+                if (module_names_ != ModuleNames::Words) {
+                    push_letters({at, end});
+                } else {
+                    push_module(intern_word(text.substr(at, end - at)), at);
+                }
+                at = name_end = end;
+                continue;
+            }
+            break;
+        case CharacterClass::Slash:
+            if (at + 1 < run.end && text[at + 1] == '/' &&
+                (at == run.begin || text[at - 1] != '/')) {
+                check_stray_comment(at);
+            }
+            break;
+        case CharacterClass::Bracket:
+            count_bracket(c, scanned_.span(at, at + 1));
+            break;
+        case CharacterClass::Symbol:
+            break;
+        }
+        NameId& name = single_[static_cast<unsigned char>(c) & 0x7Fu];
+        if (name > kNoName) {
+            name = names_.intern(text.substr(at, 1));
+        }
+        push_module(name, at);
+        name_end = ++at;
+    }
+    const SourceSpan span = scanned_.span(run.begin, run.end);
+    list.span = list.count == 0 ? span : join(list.span, span);
+    list.count = static_cast<std::uint32_t>(ast_.modules.size()) - list.first;
+    return list;
+}
+
+NameId AstBuilder::intern_word(std::string_view word) {
+    if (word.size() > sizeof(std::uint64_t)) {
+        return names_.intern(word);
+    }
+    std::uint64_t key = 0;
+    for (const char c : word) {
+        key = key << 8 | static_cast<unsigned char>(c);
+    }
+    CachedWord& cached = words_[(key * 0x9E3779B97F4A7C15u) >> 56];
+    if (cached.key != key) {
+        cached = {key, names_.intern(word)};
+    }
+    return cached.name;
+}
+
+void AstBuilder::push_letters(TextRange word) {
+    bool reported = false;
+    for (std::uint32_t at = word.begin; at < word.end; ++at) {
+        const char c = scanned_.text[at];
+        if ((c >= '0' && c <= '9') || c == '_') {
+            if (!reported) {
+                report_not_a_letter(diagnostics_, scanned_.span(at, at + 1), c);
+                reported = true;
+            }
+            continue;
+        }
+        push_module(intern_word(scanned_.text.substr(at, 1)), at);
+    }
+}
+
+ModuleList AstBuilder::quoted_module(ModuleList list, NameId name, SourceSpan span) {
+    const std::string_view text = names_.text(name);
+    if (text == "[" || text == "]") {
+        count_bracket(text[0], span);
+    }
+    ast_.modules.push_back({static_cast<std::uint32_t>(name), span.begin});
+    list.span = list.count == 0 ? span : join(list.span, span);
+    list.count = static_cast<std::uint32_t>(ast_.modules.size()) - list.first;
+    return list;
+}
+
+/// `character`: one, which stands for what is at `begin`.
+void AstBuilder::push_character(std::string_view character, std::uint32_t begin) {
+    if (character.size() > 1) {
+        push_module(names_.intern(character), begin);
+        return;
+    }
+    if (character == "[" || character == "]") {
+        count_bracket(character[0], scanned_.span(begin, begin + 1));
+    }
+    NameId& name = single_[static_cast<unsigned char>(character[0]) & 0x7Fu];
+    if (name > kNoName) {
+        name = names_.intern(character);
+    }
+    push_module(name, begin);
+}
+
+ModuleList AstBuilder::quoted_text(ModuleList list, TextRange quoted) {
+    if (list.count != 0 && quoted.begin == text_end_) {
+        push_character("`", quoted.begin);
+    }
+    for (std::uint32_t at = quoted.begin + 1; at + 1 < quoted.end;) {
+        const std::uint32_t length = decode_utf8(scanned_.text.substr(at)).length;
+        push_character(scanned_.text.substr(at, length), at);
+        at += length;
+    }
+    text_end_ = quoted.end;
+    const SourceSpan span = scanned_.span(quoted.begin, quoted.end);
+    list.span = list.count == 0 ? span : join(list.span, span);
+    list.count = static_cast<std::uint32_t>(ast_.modules.size()) - list.first;
+    return list;
+}
+
+ModuleList
+AstBuilder::module_arguments(ModuleList list, std::uint32_t count, SourceSpan parentheses) {
+    LSYS_CHECK(list.count != 0);
+    ModuleNode& module = ast_.modules.back();
+    module.name_and_call |= 0x80000000u;
+    CallNode call;
+    call.module = static_cast<std::uint32_t>(ast_.modules.size() - 1);
+    call.name_end = list.span.end;
+    call.open = parentheses.begin;
+    call.end = parentheses.end;
+    call.arguments = take_arguments(count);
+    ast_.calls.push_back(call);
+    list.span.end = parentheses.end;
+    return list;
+}
+
+/// Reads `(1, 2.5, -3)` from `open` on for the last module; returns where it ends. The scanner has
+/// matched it.
+std::uint32_t AstBuilder::read_plain_arguments(std::uint32_t open, std::uint32_t name_end) {
+    const std::string_view text = scanned_.text;
+    ast_.modules.back().name_and_call |= 0x80000000u;
+    CallNode call;
+    call.module = static_cast<std::uint32_t>(ast_.modules.size() - 1);
+    call.name_end = scanned_.source_end(name_end);
+    call.open = scanned_.source_begin(open);
+    call.arguments.first = static_cast<std::uint32_t>(ast_.expression_lists.size());
+    std::uint32_t at = open + 1;
+    while (text[at] != ')') {
+        if (class_of(text[at]) == CharacterClass::Blank || text[at] == ',') {
+            ++at;
+            continue;
+        }
+        const std::uint32_t begin = at;
+        at += text[at] == '-' ? 1u : 0u;
+        while (class_of(text[at]) == CharacterClass::Blank) {
+            ++at;
+        }
+        const std::uint32_t first = at;
+        while (is_word(text[at]) || text[at] == '.' ||
+               ((text[at] == '-' || text[at] == '+') &&
+                (text[at - 1] == 'e' || text[at - 1] == 'E'))) {
+            ++at;
+        }
+        ExpressionId value = plain_number(first, at);
+        if (begin != first) {
+            value = unary(UnaryOperation::Negate, value, scanned_.span(begin, at));
+        }
+        ast_.expression_lists.push_back(value);
+        ++call.arguments.count;
+    }
+    ++at;
+    call.end = scanned_.source_end(at);
+    ast_.calls.push_back(call);
+    return at;
+}
+
+ExpressionId AstBuilder::plain_number(std::uint32_t begin, std::uint32_t end) {
+    const std::string_view text = scanned_.text.substr(begin, end - begin);
+    const Literal literal = read_literal(text);
+    const SourceSpan span = scanned_.span(begin, end);
+    report_literal_range(diagnostics_, literal, text, span);
+    return literal.range == LiteralRange::Overflow ? error(span) : number(literal.value, span);
+}
+
+void AstBuilder::count_bracket(char bracket, SourceSpan span) {
+    if (bracket == ']') {
+        open_brackets_ -= open_brackets_ == 0 ? 0u : 1u;
+    } else if (++open_brackets_ > kMaxNesting && !spoilt_) {
+        report_too_deep(diagnostics_, span, "branches `[`");
+        spoilt_ = true;
+    }
+}
+
+/// `//` at `slashes` with words behind it is likely to be meant as a comment.
+void AstBuilder::check_stray_comment(std::uint32_t slashes) {
+    constexpr std::size_t kEnough = 80;
+    const std::string_view rest = scanned_.text.substr(slashes + 2, kEnough);
+    std::size_t at = 0;
+    int words = 0;
+    if (rest.empty() || rest[0] != ' ') {
+        return;
+    }
+    while (at < rest.size() && rest[at] == ' ') {
+        ++at;
+    }
+    while (at < rest.size() && words < 2) {
+        const std::size_t begin = at;
+        while (at < rest.size() && ((rest[at] >= 'a' && rest[at] <= 'z') ||
+                                    (at == begin && rest[at] >= 'A' && rest[at] <= 'Z'))) {
+            ++at;
+        }
+        if (at - begin < 2) {
+            return;
+        }
+        ++words;
+        const std::size_t end = at;
+        while (at < rest.size() && (rest[at] == ' ' || rest[at] == ',' || rest[at] == '.')) {
+            ++at;
+        }
+        if (at == end && words < 2) {
+            return;
+        }
+    }
+    if (words == 2) {
+        report_stray_comment(diagnostics_, scanned_.span(slashes, slashes + 2));
+    }
+}
+
+} // namespace lsys

@@ -1,0 +1,104 @@
+#include "grammar/ast/reports.h"
+
+#include <string>
+
+namespace lsys {
+
+std::string shown(std::string_view text) {
+    constexpr std::size_t kLongest = 40;
+    constexpr char kDigits[] = "0123456789ABCDEF";
+    std::string out;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        const auto byte = static_cast<unsigned char>(text[at]);
+        if (at >= kLongest && (byte & 0xC0u) != 0x80) {
+            return out + "...";
+        }
+        if (byte < 0x20 || byte == 0x7F) {
+            out += "\\x";
+            out += kDigits[byte >> 4];
+            out += kDigits[byte & 15u];
+        } else {
+            out += text[at];
+        }
+    }
+    return out;
+}
+
+void report_chained_comparison(Diagnostics& diagnostics,
+                               const Ast& ast,
+                               ExpressionId first,
+                               SourceSpan span) {
+    if (!diagnostics.admits(DiagnosticCode::ChainedComparison)) {
+        return;
+    }
+    const Expression& inner = ast.expression(first);
+    Diagnostic& diagnostic =
+        diagnostics.add(DiagnosticCode::ChainedComparison, span, "comparisons do not chain");
+    diagnostic.labels.push_back({inner.span(), "this is 1 or 0"});
+    diagnostic.help.emplace_back("write both comparisons, as in `a < b && b < c`, or parentheses "
+                                 "around the first if its result is to be compared");
+}
+
+void report_bad_range(Diagnostics& diagnostics, std::uint32_t count, SourceSpan span) {
+    if (!diagnostics.admits(DiagnosticCode::BadRange)) {
+        return;
+    }
+    const std::string found = count == 0   ? "nothing"
+                              : count == 1 ? "one value"
+                                           : std::to_string(count) + " values";
+    Diagnostic& diagnostic = diagnostics.add(
+        DiagnosticCode::BadRange, span, "a range has two values, `{min, max}`; this has " + found);
+    diagnostic.help.emplace_back(
+        "inside parentheses braces are a random range; around modules they are a polygon");
+}
+
+void report_not_a_letter(Diagnostics& diagnostics, SourceSpan span, char c) {
+    if (!diagnostics.admits(DiagnosticCode::LetterName)) {
+        return;
+    }
+    Diagnostic& diagnostic = diagnostics.add(
+        DiagnosticCode::LetterName, span,
+        std::string("`") + c + "` cannot stand in a module name with `#set names letters`");
+    diagnostic.help.emplace_back("there every letter is a module of its own; for names of several "
+                                 "characters leave out `#set names letters`");
+}
+
+void report_literal_range(Diagnostics& diagnostics,
+                          const Literal& literal,
+                          std::string_view text,
+                          SourceSpan span) {
+    if (literal.range == LiteralRange::Overflow &&
+        diagnostics.admits(DiagnosticCode::NumberOverflow)) {
+        Diagnostic& diagnostic =
+            diagnostics.add(DiagnosticCode::NumberOverflow, span,
+                            "`" + shown(text) + "` is too large for a binary32 number");
+        diagnostic.help.emplace_back("the largest is about 3.4e38");
+    }
+    if (literal.range == LiteralRange::Underflow &&
+        diagnostics.admits(DiagnosticCode::NumberUnderflow)) {
+        Diagnostic& diagnostic =
+            diagnostics.add(DiagnosticCode::NumberUnderflow, span,
+                            "`" + shown(text) + "` is too small for a normal binary32 number and " +
+                                (literal.value > 0.0F ? "loses digits" : "becomes 0"));
+        diagnostic.help.emplace_back("the smallest is about 1.2e-38");
+    }
+}
+
+void report_too_deep(Diagnostics& diagnostics, SourceSpan span, std::string_view what) {
+    if (diagnostics.admits(DiagnosticCode::NestingTooDeep)) {
+        diagnostics.add(DiagnosticCode::NestingTooDeep, span,
+                        std::string(what) + " are nested more than 10,000 deep");
+    }
+}
+
+void report_stray_comment(Diagnostics& diagnostics, SourceSpan slashes) {
+    if (!diagnostics.admits(DiagnosticCode::StrayComment)) {
+        return;
+    }
+    Diagnostic& diagnostic =
+        diagnostics.add(DiagnosticCode::StrayComment, slashes,
+                        "inside a statement `//` is two modules, not a comment");
+    diagnostic.help.emplace_back("write `/* ... */` here, or put the comment after the `;`");
+}
+
+} // namespace lsys

@@ -1,0 +1,65 @@
+#include "grammar/ast/text_map.h"
+
+namespace lsys {
+
+void TextMap::replace(std::uint32_t begin, std::uint32_t end, std::string_view replacement) {
+    LSYS_CHECK(begin >= taken_ && begin <= end && end <= source_.size(), begin, end, taken_);
+    text_.append(source_.substr(taken_, begin - taken_));
+    text_.append(replacement);
+    taken_ = end;
+    edits_.push_back({begin, end, static_cast<std::uint32_t>(text_.size())});
+}
+
+void TextMap::finish() {
+    text_.append(source_.substr(taken_));
+    taken_ = static_cast<std::uint32_t>(source_.size());
+}
+
+/// The number of edits whose replacement ends at or before `offset`.
+std::size_t TextMap::edits_ending_by(std::uint32_t offset) const {
+    const auto ends_by = [&](std::size_t index) { return edits_[index].text_end <= offset; };
+    // A few steps from the last answer, else a bisection.
+    for (int step = 0; step < 4; ++step) {
+        if (near_ > 0 && !ends_by(near_ - 1)) {
+            --near_;
+        } else if (near_ < edits_.size() && ends_by(near_)) {
+            ++near_;
+        } else {
+            return near_;
+        }
+    }
+    std::size_t low = 0;
+    std::size_t high = edits_.size();
+    while (low < high) {
+        const std::size_t middle = low + (high - low) / 2;
+        if (ends_by(middle)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return near_ = low;
+}
+
+std::uint32_t TextMap::source_begin(std::uint32_t offset) const {
+    const std::size_t before = edits_ending_by(offset);
+    const std::uint32_t source =
+        before == 0 ? offset : offset - edits_[before - 1].text_end + edits_[before - 1].source_end;
+    const bool inside = before < edits_.size() && source >= edits_[before].source_begin;
+    return inside ? edits_[before].source_begin : source;
+}
+
+std::uint32_t TextMap::source_end(std::uint32_t offset) const {
+    if (offset == 0) {
+        return 0;
+    }
+    // Past the character before: exact outside of replacements, the whole replacement inside one.
+    const std::uint32_t last = offset - 1;
+    const std::size_t before = edits_ending_by(last);
+    const std::uint32_t source =
+        before == 0 ? last : last - edits_[before - 1].text_end + edits_[before - 1].source_end;
+    const bool inside = before < edits_.size() && source >= edits_[before].source_begin;
+    return inside ? edits_[before].source_end : source + 1;
+}
+
+} // namespace lsys

@@ -1,0 +1,49 @@
+// Translation: a grammar of another dialect as .lsys text, with the place of the original that each
+// part stands for. The front ends of other dialects make one; the .lsys front end then parses it as
+// if it stood in the original file, so that every later stage, and every caret, is of that file.
+// `lsc import` writes the text itself: what it writes derives what the original derives.
+#pragma once
+
+#include "grammar/base/source.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+class Translation {
+public:
+    /// `file`: the original, where parts without a place of their own are shown.
+    explicit Translation(FileId file) : file_(file) {}
+
+    /// Appends the bytes of `span`, as they are: each stands for itself.
+    void copy(SourceSpan span, const SourceMap& sources);
+    /// Appends `text`, whose bytes stand for those of `span` one by one.
+    void copy_as(std::string_view text, SourceSpan span);
+    /// Appends `text`, which stands for `span` as a whole.
+    void put(std::string_view text, SourceSpan span);
+    /// Appends what nothing in the original says: it stands where the last part ended.
+    void put(std::string_view text);
+
+    [[nodiscard]] const std::string& text() const { return text_; }
+    [[nodiscard]] FileId file() const { return file_; }
+    /// Where the bytes [begin, end) of the text come from; of one file.
+    [[nodiscard]] SourceSpan origin(std::uint32_t begin, std::uint32_t end) const;
+
+private:
+    struct Part {
+        std::uint32_t end = 0; // in text_
+        bool verbatim = false; // byte for byte
+        SourceSpan span;
+    };
+    [[nodiscard]] const Part& part_at(std::uint32_t offset) const;
+
+    FileId file_;
+    std::string text_;
+    std::vector<Part> parts_;
+    mutable std::size_t near_ = 0; // the last answer; questions come in ascending order, nearly
+};
+
+} // namespace lsys

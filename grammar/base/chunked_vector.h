@@ -1,0 +1,119 @@
+// ChunkedVector<T>: an append-only sequence in blocks of fixed size. It never moves what it holds
+// and never needs twice its memory while it grows, which is what a file of a hundred million
+// modules asks for.
+#pragma once
+
+#include "grammar/base/contract.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace lsys {
+
+template <typename T>
+class ChunkedVector {
+    static_assert(std::is_trivially_copyable_v<T>);
+
+    template <typename Vector, typename Value>
+    class Cursor {
+    public:
+        using iterator_category = std::forward_iterator_tag;
+        using value_type = T;
+        using difference_type = std::ptrdiff_t;
+        using pointer = Value*;
+        using reference = Value&;
+
+        Cursor() = default;
+        Cursor(Vector* vector, std::size_t index) : vector_(vector), index_(index) {}
+        reference operator*() const { return (*vector_)[index_]; }
+        pointer operator->() const { return &(*vector_)[index_]; }
+        Cursor& operator++() {
+            ++index_;
+            return *this;
+        }
+        Cursor operator++(int) {
+            Cursor before = *this;
+            ++index_;
+            return before;
+        }
+        friend bool operator==(const Cursor&, const Cursor&) = default;
+
+    private:
+        Vector* vector_ = nullptr;
+        std::size_t index_ = 0;
+    };
+
+public:
+    using iterator = Cursor<ChunkedVector, T>;
+    using const_iterator = Cursor<const ChunkedVector, const T>;
+
+    void push_back(const T& value) {
+        if (size_ % kBlock == 0 && size_ / kBlock == blocks_.size()) {
+            blocks_.push_back(std::make_unique<T[]>(kBlock));
+        }
+        blocks_[size_ / kBlock][size_ % kBlock] = value;
+        ++size_;
+    }
+    [[nodiscard]] const T& operator[](std::size_t index) const {
+        LSYS_DCHECK(index < size_, index, size_);
+        return blocks_[index / kBlock][index % kBlock];
+    }
+    [[nodiscard]] T& operator[](std::size_t index) {
+        LSYS_DCHECK(index < size_, index, size_);
+        return blocks_[index / kBlock][index % kBlock];
+    }
+    [[nodiscard]] T& back() { return (*this)[size_ - 1]; }
+    [[nodiscard]] const T& back() const { return (*this)[size_ - 1]; }
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] bool empty() const { return size_ == 0; }
+    [[nodiscard]] iterator begin() { return {this, 0}; }
+    [[nodiscard]] iterator end() { return {this, size_}; }
+    [[nodiscard]] const_iterator begin() const { return {this, 0}; }
+    [[nodiscard]] const_iterator end() const { return {this, size_}; }
+    /// The elements from `index` to the end of their block, at most `count`: what a long walk goes
+    /// by. Precondition: index < size() and count is not 0.
+    [[nodiscard]] std::span<const T> row(std::size_t index, std::size_t count) const {
+        LSYS_CHECK(index < size_, index, size_);
+        const std::size_t at = index % kBlock;
+        return {blocks_[index / kBlock].get() + at, std::min({count, size_ - index, kBlock - at})};
+    }
+    /// Appends up to `count` elements that lie in one row, for the caller to set.
+    [[nodiscard]] std::span<T> extend(std::size_t count) {
+        if (size_ / kBlock == blocks_.size()) {
+            blocks_.push_back(std::make_unique<T[]>(kBlock));
+        }
+        const std::size_t at = size_ % kBlock;
+        const std::size_t made = std::min(count, kBlock - at);
+        T* const first = blocks_[size_ / kBlock].get() + at;
+        size_ += made;
+        return {first, made};
+    }
+    /// Forgets all elements from `size` on.
+    void truncate(std::size_t size) {
+        LSYS_CHECK(size <= size_, size, size_);
+        size_ = size;
+    }
+    /// Gives back memory of elements before `index`, which are not looked at any more.
+    void release_before(std::size_t index) {
+        for (; (released_ + 1) * kBlock <= index && released_ < blocks_.size(); ++released_) {
+            blocks_[released_].reset();
+        }
+    }
+
+private:
+    /// A power of two, at most 128 KiB of elements: small trees stay cheap.
+    static constexpr std::size_t kBlock =
+        std::bit_floor(std::max<std::size_t>(1, (std::size_t{1} << 17) / sizeof(T)));
+    std::vector<std::unique_ptr<T[]>> blocks_;
+    std::size_t size_ = 0;
+    std::size_t released_ = 0; // blocks
+};
+
+} // namespace lsys

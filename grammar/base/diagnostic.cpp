@@ -1,0 +1,167 @@
+#include "grammar/base/diagnostic.h"
+
+#include "grammar/base/contract.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+constexpr DiagnosticInfo kInfos[] = {
+#define LSYS_DIAGNOSTIC(identifier, severity, name, meaning) {Severity::severity, name, meaning},
+#include "grammar/base/diagnostics.def"
+#undef LSYS_DIAGNOSTIC
+};
+
+/// Damerau-Levenshtein distance (adjacent transpositions), letter case counting as half a step; the
+/// result is in half steps.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> before(b.size() + 1);
+    std::vector<std::size_t> previous(b.size() + 1);
+    std::vector<std::size_t> current(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+        previous[j] = 2 * j;
+    }
+    const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        current[0] = 2 * i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replace = a[i - 1] == b[j - 1]                 ? 0U
+                                        : lower(a[i - 1]) == lower(b[j - 1]) ? 1U
+                                                                             : 2U;
+            current[j] = std::min({previous[j] + 2, current[j - 1] + 2, previous[j - 1] + replace});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+                current[j] = std::min(current[j], before[j - 2] + 2);
+            }
+        }
+        std::swap(before, previous);
+        std::swap(previous, current);
+    }
+    return previous[b.size()];
+}
+
+} // namespace
+
+const DiagnosticInfo& info(DiagnosticCode code) {
+    const auto index = static_cast<std::size_t>(code);
+    LSYS_CHECK(index < std::size(kInfos), index);
+    return kInfos[index];
+}
+
+std::uint32_t diagnostic_code_count() {
+    return static_cast<std::uint32_t>(std::size(kInfos));
+}
+
+std::optional<DiagnosticCode> find_diagnostic_code(std::string_view name) {
+    for (std::size_t i = 0; i < std::size(kInfos); ++i) {
+        if (kInfos[i].name == name) {
+            return static_cast<DiagnosticCode>(i);
+        }
+    }
+    return std::nullopt;
+}
+
+std::string_view severity_name(Severity severity) {
+    switch (severity) {
+    case Severity::Note:
+        return "note";
+    case Severity::Warning:
+        return "warning";
+    case Severity::Error:
+        return "error";
+    }
+    return "error";
+}
+
+Diagnostic make_diagnostic(DiagnosticCode code, SourceSpan span, std::string message) {
+    Diagnostic diagnostic;
+    diagnostic.code = code;
+    diagnostic.severity = info(code).severity;
+    diagnostic.span = span;
+    diagnostic.message = std::move(message);
+    return diagnostic;
+}
+
+Diagnostic& Diagnostics::add(Diagnostic diagnostic) {
+    ++counts_[static_cast<std::size_t>(diagnostic.severity)];
+    if (all_.size() >= kMaxStored) {
+        return overflow_ = std::move(diagnostic);
+    }
+    return all_.emplace_back(std::move(diagnostic));
+}
+
+Diagnostic& Diagnostics::add(DiagnosticCode code, SourceSpan span, std::string message) {
+    return add(make_diagnostic(code, span, std::move(message)));
+}
+
+bool Diagnostics::admits(DiagnosticCode code) {
+    if (all_.size() < kMaxStored) {
+        return true;
+    }
+    ++counts_[static_cast<std::size_t>(info(code).severity)];
+    return false;
+}
+
+void Diagnostics::sort_by_place() {
+    const auto key = [](const Diagnostic& d) {
+        return std::array<std::uint64_t, 3>{static_cast<std::uint64_t>(d.span.file), d.span.begin,
+                                            2U - static_cast<std::uint64_t>(d.severity)};
+    };
+    std::stable_sort(all_.begin(), all_.end(),
+                     [&](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); });
+    const auto same = [](const Diagnostic& a, const Diagnostic& b) {
+        return a.code == b.code && a.span == b.span && a.message == b.message;
+    };
+    const auto kept = std::unique(all_.begin(), all_.end(), same);
+    for (auto dropped = kept; dropped != all_.end(); ++dropped) {
+        --counts_[static_cast<std::size_t>(dropped->severity)];
+    }
+    all_.erase(kept, all_.end());
+}
+
+void Diagnostics::drop_repairs(std::string_view language) {
+    for (Diagnostic& diagnostic : all_) {
+        diagnostic.fixes.clear();
+        std::erase_if(diagnostic.help, [language](const std::string& help) {
+            return help.find(language) != std::string::npos;
+        });
+    }
+}
+
+void Diagnostics::promote_warnings() {
+    for (Diagnostic& diagnostic : all_) {
+        if (diagnostic.severity == Severity::Warning) {
+            diagnostic.severity = Severity::Error;
+        }
+    }
+    counts_[static_cast<std::size_t>(Severity::Error)] +=
+        std::exchange(counts_[static_cast<std::size_t>(Severity::Warning)], 0);
+}
+
+std::optional<std::string_view> nearest_name(std::string_view wanted,
+                                             const std::vector<std::string_view>& candidates) {
+    // A third of the letters may be wrong; of a one-letter name only its case.
+    const std::size_t limit =
+        wanted.size() == 1 ? 1 : 2 * std::max<std::size_t>(1, wanted.size() / 3);
+    std::optional<std::string_view> best;
+    std::size_t best_distance = limit + 1;
+    for (const std::string_view candidate : candidates) {
+        const std::size_t longer = std::max(candidate.size(), wanted.size());
+        const std::size_t shorter = std::min(candidate.size(), wanted.size());
+        if (candidate == wanted || 2 * (longer - shorter) > limit) {
+            continue;
+        }
+        if (const std::size_t distance = edit_distance(wanted, candidate);
+            distance < best_distance) {
+            best = candidate;
+            best_distance = distance;
+        }
+    }
+    return best;
+}
+
+} // namespace lsys

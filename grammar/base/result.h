@@ -1,0 +1,48 @@
+// Result<T>: a value, or the failure of the environment (a missing file, a full disk, a damaged
+// module file). Mistakes of a grammar's author are Diagnostics, not Results.
+#pragma once
+
+#include "grammar/base/contract.h"
+
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace lsys {
+
+/// What failed, in words for the user: lower case, no final stop, with the file's name where one is
+/// concerned.
+struct Error {
+    std::string message;
+};
+
+template <typename T>
+class [[nodiscard]] Result {
+public:
+    Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
+    Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
+
+    [[nodiscard]] bool ok() const { return state_.index() == 0; }
+    explicit operator bool() const { return ok(); }
+
+    [[nodiscard]] T& value() {
+        LSYS_CHECK(ok());
+        return *std::get_if<0>(&state_);
+    }
+    [[nodiscard]] const T& value() const {
+        LSYS_CHECK(ok());
+        return *std::get_if<0>(&state_);
+    }
+    [[nodiscard]] const Error& error() const {
+        LSYS_CHECK(!ok());
+        return *std::get_if<1>(&state_);
+    }
+
+private:
+    std::variant<T, Error> state_;
+};
+
+/// The result of an action that yields nothing.
+struct Done {};
+
+} // namespace lsys

@@ -1,0 +1,135 @@
+#include "grammar/base/source.h"
+
+#include "grammar/base/contract.h"
+#include "grammar/base/utf8.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace lsys {
+
+SourceSpan join(SourceSpan first, SourceSpan last) {
+    if (first.file == kNoFile) {
+        return last;
+    }
+    if (last.file == kNoFile) {
+        return first;
+    }
+    return {first.file, std::min(first.begin, last.begin), std::max(first.end, last.end)};
+}
+
+SourceFile::SourceFile(std::string path, std::string bytes)
+    : path_(std::move(path)), text_(std::move(bytes)) {
+    if (text_.starts_with("\xEF\xBB\xBF")) {
+        has_byte_order_mark_ = true;
+        text_.erase(0, 3);
+    }
+    find_lines();
+    find_checkpoints();
+}
+
+void SourceFile::find_lines() {
+    line_begins_.push_back(0);
+    const char* const base = text_.data();
+    const char* cursor = base;
+    const char* const end = base + text_.size();
+    while (cursor != end) {
+        const void* found = std::memchr(cursor, '\n', static_cast<std::size_t>(end - cursor));
+        if (found == nullptr) {
+            break;
+        }
+        cursor = static_cast<const char*>(found) + 1;
+        line_begins_.push_back(static_cast<std::uint32_t>(cursor - base));
+    }
+}
+
+namespace {
+
+/// Bytes of a line after which its next column is remembered.
+constexpr std::uint32_t kStride = 4096;
+
+/// Moves on by one character.
+void step_over(std::string_view text, std::uint32_t& offset) {
+    const bool ascii = static_cast<unsigned char>(text[offset]) < 0x80;
+    offset += ascii ? 1 : decode_utf8(text.substr(offset)).length;
+}
+
+} // namespace
+
+void SourceFile::find_checkpoints() {
+    for (std::size_t i = 0; i < line_begins_.size(); ++i) {
+        const std::uint32_t end = i + 1 < line_begins_.size()
+                                      ? line_begins_[i + 1]
+                                      : static_cast<std::uint32_t>(text_.size());
+        if (end - line_begins_[i] <= kStride) {
+            continue;
+        }
+        Checkpoint place{line_begins_[i], 1};
+        std::uint32_t next = place.offset + kStride;
+        while (place.offset < end) {
+            step_over(text_, place.offset);
+            ++place.column;
+            if (place.offset >= next) {
+                checkpoints_.push_back(place);
+                next = place.offset + kStride;
+            }
+        }
+    }
+}
+
+LineColumn SourceFile::line_column(std::uint32_t offset) const {
+    LSYS_CHECK(offset <= text_.size(), offset, text_.size());
+    const auto after = std::upper_bound(line_begins_.begin(), line_begins_.end(), offset);
+    Checkpoint place{*(after - 1), 1};
+    const auto later = std::upper_bound(
+        checkpoints_.begin(), checkpoints_.end(), offset,
+        [](std::uint32_t wanted, const Checkpoint& known) { return wanted < known.offset; });
+    if (later != checkpoints_.begin() && (later - 1)->offset > place.offset) {
+        place = *(later - 1);
+    }
+    const std::string_view before = std::string_view(text_).substr(0, offset);
+    while (place.offset < offset) {
+        step_over(before, place.offset);
+        ++place.column;
+    }
+    return {static_cast<std::uint32_t>(after - line_begins_.begin()), place.column};
+}
+
+std::uint32_t SourceFile::line_count() const {
+    return static_cast<std::uint32_t>(line_begins_.size());
+}
+
+std::uint32_t SourceFile::line_begin(std::uint32_t line) const {
+    LSYS_CHECK(line >= 1 && line <= line_begins_.size(), line);
+    return line_begins_[line - 1];
+}
+
+std::string_view SourceFile::line_text(std::uint32_t line) const {
+    const std::uint32_t begin = line_begin(line);
+    std::size_t end = line < line_begins_.size() ? line_begins_[line] - 1 : text_.size();
+    if (end > begin && text_[end - 1] == '\r') {
+        --end;
+    }
+    return std::string_view(text_).substr(begin, end - begin);
+}
+
+FileId SourceMap::add(std::string path, std::string bytes) {
+    LSYS_CHECK(bytes.size() <= kMaxSourceBytes, bytes.size());
+    files_.emplace_back(std::move(path), std::move(bytes));
+    return static_cast<FileId>(files_.size() - 1);
+}
+
+const SourceFile& SourceMap::file(FileId id) const {
+    const auto index = static_cast<std::size_t>(id);
+    LSYS_CHECK(index < files_.size(), index, files_.size());
+    return files_[index];
+}
+
+std::string_view SourceMap::text(SourceSpan span) const {
+    const std::string_view text = file(span.file).text();
+    LSYS_CHECK(span.begin <= span.end && span.end <= text.size(), span.begin, span.end);
+    return text.substr(span.begin, span.end - span.begin);
+}
+
+} // namespace lsys

@@ -1,0 +1,37 @@
+// Writes the texts of a .rules file as .lsys modules, and says what is wrong in them.
+#pragma once
+
+#include "grammar/ast/translation.h"
+#include "grammar/dialects/carey/session.h"
+#include "grammar/dialects/impl/letter_modules.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+enum class CareyText : std::uint8_t { Axiom, Left, Right };
+
+/// A left side as it is matched.
+[[nodiscard]] std::string without_blanks(std::string_view text);
+
+class CareyWriter {
+public:
+    /// The rules of `session` are complete.
+    CareyWriter(const CareySession& session, Translation& translation);
+
+    void write(SourceSpan text, CareyText kind);
+
+private:
+    bool check_symbol(const LetterModule& module);
+    void write_arguments(const LetterModule& module, CareyText kind, const std::string& before);
+    void check_matches(const LetterModule& module, const std::string& before);
+
+    const CareySession& session_;
+    Translation& translation_;
+    std::vector<std::string> lefts_; // without blanks, each once
+};
+
+} // namespace lsys

@@ -1,0 +1,229 @@
+#include "grammar/dialects/cpfg/curves.h"
+
+#include "grammar/ast/number.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::size_t kSamples = 100; // as many as cpfg takes where a view file does not say
+constexpr double kTolerance = 1e-3;   // of the height
+constexpr std::size_t kMostPoints = 1000;
+constexpr std::size_t kMostCurves = 256;
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view kBlanks = " \t\r\n";
+    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+    while (!text.empty() && kBlanks.find(text.back()) != kBlanks.npos) {
+        text.remove_suffix(1);
+    }
+    return text;
+}
+
+/// The next line of `text`, which loses it.
+std::string_view next_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    return trimmed(line);
+}
+
+std::optional<std::string_view> value_of(std::string_view line, std::string_view key) {
+    if (!line.starts_with(key)) {
+        return std::nullopt;
+    }
+    return trimmed(line.substr(key.size()));
+}
+
+bool read_number(std::string_view& text, double& value) {
+    text = trimmed(text);
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    return error == std::errc() && std::isfinite(value);
+}
+
+/// Curves of a .func or .fset file: `name:` begins one, `points:` counts lines that follow.
+void read_curves(std::string_view text, std::vector<CpfgCurve>& curves) {
+    CpfgCurve curve;
+    while (!text.empty() && curves.size() < kMostCurves) {
+        const std::string_view line = next_line(text);
+        if (const auto name = value_of(line, "name:")) {
+            curve.name = *name;
+            continue;
+        }
+        auto count_text = value_of(line, "points:");
+        double count = 0.0;
+        if (!count_text || !read_number(*count_text, count) || count < 2.0 ||
+            count > static_cast<double>(kMostPoints)) {
+            continue;
+        }
+        while (static_cast<double>(curve.points.size()) < count && !text.empty()) {
+            std::string_view pair = next_line(text);
+            CurvePoint point;
+            if (!read_number(pair, point.x) || !read_number(pair, point.y) ||
+                (!curve.points.empty() && point.x < curve.points.back().x)) {
+                break;
+            }
+            curve.points.push_back(point);
+        }
+        if (static_cast<double>(curve.points.size()) == count) {
+            curves.push_back(curve);
+        }
+        curve = {};
+    }
+}
+
+/// A uniform B-spline that begins and ends at its first and last point, by de Boor's recursion; `t`
+/// is from 0 to the number of its spans.
+CurvePoint spline(const std::vector<CurvePoint>& points, std::size_t degree, double t) {
+    const std::size_t spans = points.size() - degree;
+    const auto span = std::min(static_cast<std::size_t>(t), spans - 1);
+    const auto knot = [&](std::size_t i) {
+        return i <= degree ? 0.0 : static_cast<double>(std::min(i - degree, spans));
+    };
+    std::array<CurvePoint, 4> of{};
+    for (std::size_t i = 0; i <= degree; ++i) {
+        of[i] = points[span + i];
+    }
+    for (std::size_t level = 1; level <= degree; ++level) {
+        for (std::size_t i = degree; i >= level; --i) {
+            const double begin = knot(span + i);
+            const double end = knot(span + i + degree - level + 1);
+            const double part = end > begin ? (t - begin) / (end - begin) : 0.0;
+            of[i].x = of[i - 1].x * (1.0 - part) + of[i].x * part;
+            of[i].y = of[i - 1].y * (1.0 - part) + of[i].y * part;
+        }
+    }
+    return of[degree];
+}
+
+std::vector<CurvePoint> sampled(const std::vector<CurvePoint>& points) {
+    const std::size_t degree = std::min<std::size_t>(points.size() - 1, 3);
+    const auto spans = static_cast<double>(points.size() - degree);
+    std::vector<CurvePoint> samples;
+    const double begin = points.front().x;
+    const double width = points.back().x - begin;
+    for (std::size_t i = 0; i <= kSamples; ++i) {
+        const double x = begin + width * static_cast<double>(i) / kSamples;
+        double low = 0.0;
+        double high = spans;
+        for (int step = 0; step < 40; ++step) { // x ascends with t
+            const double middle = (low + high) / 2.0;
+            (spline(points, degree, middle).x < x ? low : high) = middle;
+        }
+        samples.push_back({x, spline(points, degree, high).y});
+    }
+    return samples;
+}
+
+/// The samples that are wanted for chords that keep to the tolerance (Douglas and Peucker).
+std::vector<CurvePoint> chords(const std::vector<CurvePoint>& samples) {
+    const auto [low, high] =
+        std::minmax_element(samples.begin(), samples.end(),
+                            [](const CurvePoint& a, const CurvePoint& b) { return a.y < b.y; });
+    const double allowed = (high->y - low->y) * kTolerance;
+    std::vector<bool> wanted(samples.size(), false);
+    wanted.front() = wanted.back() = true;
+    std::vector<std::pair<std::size_t, std::size_t>> spans{{0, samples.size() - 1}};
+    while (!spans.empty()) {
+        const auto [from, to] = spans.back();
+        spans.pop_back();
+        const double slope = (samples[to].y - samples[from].y) / (samples[to].x - samples[from].x);
+        double most = allowed;
+        std::size_t worst = from;
+        for (std::size_t i = from + 1; i < to; ++i) {
+            const double chord = samples[from].y + slope * (samples[i].x - samples[from].x);
+            if (std::abs(samples[i].y - chord) > most) {
+                most = std::abs(samples[i].y - chord);
+                worst = i;
+            }
+        }
+        if (worst != from) {
+            wanted[worst] = true;
+            spans.emplace_back(from, worst);
+            spans.emplace_back(worst, to);
+        }
+    }
+    std::vector<CurvePoint> left;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (wanted[i]) {
+            left.push_back(samples[i]);
+        }
+    }
+    return left;
+}
+
+/// With six digits after the point, as the files have them.
+std::string number(double value) {
+    const double rounded = std::round(value * 1e6) / 1e6;
+    std::array<char, 32> buffer{};
+    const auto [end, error] =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), rounded == 0.0 ? 0.0 : rounded,
+                      std::chars_format::fixed);
+    return error == std::errc() ? std::string(buffer.data(), end) : "0";
+}
+
+std::string in_parentheses(const std::string& text) {
+    return text.starts_with("-") ? "(" + text + ")" : text;
+}
+
+} // namespace
+
+CpfgView read_view(std::string_view text, const FileBeside& beside) {
+    CpfgView view;
+    while (!text.empty()) {
+        const std::string_view line = next_line(text);
+        if (const auto factor = value_of(line, "angle factor:"); factor && view.angle.empty()) {
+            const std::string_view value = factor->substr(0, literal_length(*factor));
+            view.angle = value.empty() ? "" : "(360 / " + std::string(value) + ")";
+        } else if (const auto angle = value_of(line, "angle increment:");
+                   angle && view.angle.empty()) {
+            view.angle = angle->substr(0, literal_length(*angle));
+        } else if (auto set = value_of(line, "function set:")) {
+            if (const auto curves = beside(*set)) {
+                read_curves(*curves, view.curves);
+            }
+        } else if (auto function = value_of(line, "function:")) {
+            const std::size_t before = view.curves.size();
+            if (const auto curve = beside(function->substr(0, function->find_first_of(" \t")))) {
+                read_curves(*curve, view.curves);
+            }
+            view.curves.resize(before + 1); // a missing file keeps the numbers of those behind it
+        }
+    }
+    return view;
+}
+
+std::string curve_at(const CpfgCurve& curve, const std::string& x) {
+    if (curve.points.back().x <= curve.points.front().x) {
+        return in_parentheses(number(curve.points.back().y));
+    }
+    const std::vector<CurvePoint> points = chords(sampled(curve.points));
+    std::string text = "(" + in_parentheses(number(points.front().y));
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const CurvePoint& from = points[i - 1];
+        const CurvePoint& to = points[i];
+        const std::string slope = number((to.y - from.y) / (to.x - from.x));
+        if (slope == "0") {
+            continue;
+        }
+        text += " + ";
+        text += in_parentheses(slope);
+        text += " * (min(max(" + x + ", ";
+        text += number(from.x);
+        text += "), ";
+        text += number(to.x);
+        text += ") - ";
+        text += in_parentheses(number(from.x));
+        text += ")";
+    }
+    return text + ")";
+}
+
+} // namespace lsys

@@ -1,0 +1,299 @@
+#include "grammar/dialects/cpfg/expressions.h"
+
+#include "grammar/ast/number.h"
+#include "grammar/ast/reports.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <string_view>
+
+namespace lsys {
+
+namespace {
+
+/// Functions of both, with one argument.
+struct Function {
+    std::string_view name;
+    std::string_view lsys;
+};
+constexpr std::array kFunctions{
+    Function{"sin", "sin"},   Function{"cos", "cos"},   Function{"tan", "tan"},
+    Function{"asin", "asin"}, Function{"acos", "acos"}, Function{"atan", "atan"},
+    Function{"exp", "exp"},   Function{"log", "log"},   Function{"floor", "floor"},
+    Function{"ceil", "ceil"}, Function{"sign", "sign"}, Function{"sqrt", "sqrt"},
+    Function{"fabs", "abs"},
+};
+
+} // namespace
+
+bool is_cpfg_number(std::string_view text) {
+    return !text.empty() && literal_length(text) == text.size();
+}
+
+bool is_cpfg_zero(std::string_view text) {
+    return text.find_first_of("123456789") == text.npos;
+}
+
+std::string in_cpfg_parentheses(const std::string& text) {
+    const bool plain = is_cpfg_number(text) ||
+                       text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                              "0123456789_") == std::string::npos;
+    return plain ? text : "(" + text + ")";
+}
+
+void CpfgExpressions::leave_out(SourceSpan span,
+                                const std::string& what,
+                                const std::string& message) {
+    if (!probes_ && left_out_.insert(what).second) {
+        session_.context.diagnostics.add(DiagnosticCode::ForeignIgnored, span, message);
+    }
+}
+
+CpfgTerm CpfgExpressions::choose(const CpfgTerm& test,
+                                 const CpfgTerm& yes,
+                                 const CpfgTerm& no,
+                                 SourceSpan span) {
+    if (test.drawn) {
+        return chosen_by_chance(span, "a choice by a random number");
+    }
+    const std::string condition = in_cpfg_parentheses(test.text);
+    CpfgTerm made{"(" + condition + " != 0) * " + in_cpfg_parentheses(yes.text) + " + (" +
+                      condition + " == 0) * " + in_cpfg_parentheses(no.text),
+                  yes.drawn || no.drawn, 0};
+    return made.text.size() > kLongestCpfgTerm ? unable(span, "a choice that is too long") : made;
+}
+
+CpfgTerm CpfgExpressions::element(const CpfgExpression& each) {
+    const auto found = arrays_.find(each.text);
+    if (found == arrays_.end()) {
+        return unable(each.span, "`" + shown(each.text) + "` is no array");
+    }
+    const Array& array = found->second;
+    if (array.sizes.size() != each.parts.size()) {
+        return unable(each.span, "`" + shown(each.text) + "` has " +
+                                     std::to_string(array.sizes.size()) + " dimensions");
+    }
+    std::string index = "0";
+    bool drawn = false;
+    for (std::size_t i = 0; i < each.parts.size(); ++i) {
+        const CpfgTerm part = term(each.parts[i]);
+        drawn = drawn || part.drawn;
+        const std::string floor = is_cpfg_number(part.text)
+                                      ? part.text
+                                      : "min(max(floor(" + part.text + "), 0), " +
+                                            std::to_string(array.sizes[i] - 1) + ")";
+        index = i == 0 ? floor
+                       : in_cpfg_parentheses(index) + " * " + std::to_string(array.sizes[i]) +
+                             " + " + floor;
+    }
+    if (drawn) {
+        return chosen_by_chance(each.span, "a random number as the index of an array");
+    }
+    if (is_cpfg_number(index)) {
+        std::size_t at = 0;
+        std::from_chars(index.data(), index.data() + index.size(), at);
+        return {array.values[std::min(at, array.values.size() - 1)], false, 0};
+    }
+    std::string text;
+    for (std::size_t i = 0; i < array.values.size(); ++i) {
+        if (!is_cpfg_number(array.values[i]) || !is_cpfg_zero(array.values[i])) {
+            text += (text.empty() ? "((" : " + ((") + index + ") == " + std::to_string(i) + ") * " +
+                    in_cpfg_parentheses(array.values[i]);
+        }
+    }
+    return {text.empty() ? "0" : text, false, 0};
+}
+
+CpfgTerm CpfgExpressions::name(const CpfgExpression& each) {
+    if (const auto found = variables_.find(each.text); found != variables_.end()) {
+        CpfgTerm& value = found->second;
+        if (value.drawn && ++value.uses > 1) {
+            return chosen_by_chance(each.span,
+                                    "`" + shown(each.text) +
+                                        "` is a random number that is used more than once");
+        }
+        return {in_cpfg_parentheses(value.text), value.drawn, 0};
+    }
+    if (formals_.count(each.text) != 0) {
+        return {each.text, false, 0};
+    }
+    if (each.text == "Q") { // the step, from 1
+        return {stage_ == Stage::Rewrite ? "(step() + 1)" : "step()", false, 0};
+    }
+    if (each.text == "Z") {
+        return {"steps()", false, 0};
+    }
+    if (const auto state = states_.find(stage_); state != states_.end()) {
+        if (const auto found = state->second.find(each.text); found != state->second.end()) {
+            return {in_cpfg_parentheses(found->second.text), false, 0};
+        }
+    }
+    if (changed_.count(each.text) != 0) {
+        return in_step_ ? CpfgTerm{"0", false, 0}
+                        : unable(each.span,
+                                 "`" + shown(each.text) +
+                                     "` is changed in every step, by more than the same number");
+    }
+    if (const auto found = globals_.find(each.text); found != globals_.end()) {
+        return {in_cpfg_parentheses(found->second.text), false, 0};
+    }
+    leave_out(each.span, "name " + each.text,
+              "`" + shown(each.text) + "` has no value before this; it is 0");
+    return {"0", false, 0};
+}
+
+/// A random number from 0 to 1.
+CpfgTerm CpfgExpressions::draw() {
+    const int index = needs_.draws++;
+    return draws_ == CpfgDraws::Bound ? CpfgTerm{draw_name(index), false, 0}
+                                      : CpfgTerm{"{0, 1}", true, 0};
+}
+
+CpfgTerm CpfgExpressions::chosen_by_chance(SourceSpan span, const std::string& message) {
+    needs_.bound_draws = true;
+    if (draws_ == CpfgDraws::Inline) {
+        static_cast<void>(unable(span, message));
+    }
+    return {"0", true, 0};
+}
+
+/// `func(which, x)`; which is a number, or a name in the set of functions.
+CpfgTerm CpfgExpressions::curve(const CpfgExpression& each) {
+    const CpfgExpression& which = node(each.parts[0]);
+    std::size_t index = curves_.size();
+    for (std::size_t i = 0; i < curves_.size() && which.kind == CpfgKind::Name; ++i) {
+        index = curves_[i].name == which.text && index == curves_.size() ? i : index;
+    }
+    std::string shown_name = shown(which.text);
+    const bool unnamed = which.kind == CpfgKind::Name && formals_.count(which.text) == 0 &&
+                         variables_.count(which.text) == 0 && globals_.count(which.text) == 0;
+    if (index == curves_.size() && !unnamed) {
+        const CpfgTerm number = term(each.parts[0]);
+        std::size_t from_one = 0;
+        std::from_chars(number.text.data(), number.text.data() + number.text.size(), from_one);
+        if (!is_cpfg_number(number.text) || from_one == 0) {
+            return unable(each.span, "a function that is chosen while the word is derived");
+        }
+        index = std::min(from_one - 1, curves_.size());
+        shown_name = number.text;
+    }
+    CpfgTerm x = term(each.parts[1]);
+    if (index < curves_.size() && !curves_[index].points.empty()) {
+        if (x.drawn) { // it stands in each chord
+            return chosen_by_chance(each.span, "a function of a random number");
+        }
+        return {curve_at(curves_[index], x.text), false, 0};
+    }
+    if (stage_ == Stage::Interpret && !in_header_) {
+        leave_out(each.span, "func " + shown_name,
+                  "no view file beside this one has function `" + shown_name + "`: it is 1");
+        return {"1", false, 0};
+    }
+    return unable(each.span, "no view file beside this one has function `" + shown_name + "`");
+}
+
+CpfgTerm CpfgExpressions::call(const CpfgExpression& each) {
+    if (each.text == "func" && each.parts.size() == 2) {
+        return curve(each);
+    }
+    std::vector<CpfgTerm> arguments;
+    bool drawn = false;
+    for (const int part : each.parts) {
+        if (node(part).kind == CpfgKind::String) {
+            return unable(each.span, "`" + shown(each.text) + "`");
+        }
+        arguments.push_back(term(part));
+        drawn = drawn || arguments.back().drawn;
+    }
+    const auto wants = [&](std::size_t count) { return arguments.size() == count; };
+    for (const Function& function : kFunctions) {
+        if (function.name == each.text && wants(1)) {
+            return {std::string(function.lsys) + "(" + arguments[0].text + ")", drawn, 0};
+        }
+    }
+    if (each.text == "atan2" && wants(2)) { // x first
+        return {"atan2(" + arguments[1].text + ", " + arguments[0].text + ")", drawn, 0};
+    }
+    if (each.text == "trunc" && wants(1)) {
+        return {"floor(" + in_cpfg_parentheses(arguments[0].text) + " + 0.5)", drawn, 0};
+    }
+    if (each.text == "ran" && wants(1)) {
+        const CpfgTerm u = draw();
+        return {u.text + " * " + in_cpfg_parentheses(arguments[0].text), drawn || u.drawn, 0};
+    }
+    if (each.text == "nran" && wants(2)) { // by Box and Muller
+        const CpfgTerm u = draw();
+        const CpfgTerm v = draw();
+        return {in_cpfg_parentheses(arguments[0].text) + " + " +
+                    in_cpfg_parentheses(arguments[1].text) + " * sqrt(-2 * log(1 - " + u.text +
+                    ")) * cos(360 * " + v.text + ")",
+                drawn || u.drawn, 0};
+    }
+    if (each.text == "GetDerivationLength") {
+        return {"steps()", false, 0};
+    }
+    return unable(each.span, "the function `" + shown(each.text) + "`");
+}
+
+CpfgTerm CpfgExpressions::binary(const CpfgExpression& each) {
+    const CpfgTerm a = term(each.parts[0]);
+    const CpfgTerm b = term(each.parts[1]);
+    const bool drawn = a.drawn || b.drawn;
+    if (each.text == "%") { // of whole numbers
+        if (drawn) {
+            return chosen_by_chance(each.span, "the remainder of a random number");
+        }
+        const auto whole = [](const std::string& text) {
+            return "sign(" + text + ") * floor(abs(" + text + "))";
+        };
+        return {"mod(" + whole(a.text) + ", " + whole(b.text) + ")", false, 0};
+    }
+    const std::string operation = each.text == "<>" ? "!=" : each.text;
+    return {in_cpfg_parentheses(a.text) + " " + operation + " " + in_cpfg_parentheses(b.text),
+            drawn, 0};
+}
+
+CpfgTerm CpfgExpressions::term(int index) {
+    const CpfgExpression each = node(index); // the vector may not grow, but terms are long
+    CpfgTerm made;
+    switch (each.kind) {
+    case CpfgKind::Number:
+        made.text = each.text;
+        break;
+    case CpfgKind::Name:
+        made = name(each);
+        break;
+    case CpfgKind::String:
+    case CpfgKind::Address:
+        made = unable(each.span, "a value that is no number");
+        break;
+    case CpfgKind::Unary: {
+        const CpfgTerm inner = term(each.parts[0]);
+        made = {each.text + in_cpfg_parentheses(inner.text), inner.drawn, 0};
+        break;
+    }
+    case CpfgKind::Binary:
+        made = binary(each);
+        break;
+    case CpfgKind::Choose: {
+        const CpfgTerm test = term(each.parts[0]);
+        const CpfgTerm yes = term(each.parts[1]);
+        const CpfgTerm no = term(each.parts[2]);
+        made = choose(test, yes, no, each.span);
+        break;
+    }
+    case CpfgKind::Call:
+        made = call(each);
+        break;
+    case CpfgKind::Index:
+        made = element(each);
+        break;
+    }
+    if (made.text.size() > kLongestCpfgTerm) {
+        return unable(each.span, "an expression that is too long once its variables are replaced");
+    }
+    return made;
+}
+
+} // namespace lsys

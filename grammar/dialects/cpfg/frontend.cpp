@@ -1,0 +1,111 @@
+#include "grammar/dialects/cpfg/frontend.h"
+
+#include "cpfg/parser.h"
+#include "grammar/dialects/cpfg/preprocessor.h"
+#include "grammar/dialects/cpfg/session.h"
+#include "grammar/dialects/cpfg/writer.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+/// The stages behind the parser go through nodes by recursion.
+constexpr int kDeepest = 1000;
+
+} // namespace
+
+int CpfgSession::add(CpfgExpression expression) {
+    for (const int part : expression.parts) {
+        expression.depth =
+            std::max(expression.depth, expressions[static_cast<std::size_t>(part)].depth + 1);
+    }
+    if (expression.depth > kDeepest) {
+        if (expression.depth == kDeepest + 1) { // what it is part of is no other mistake
+            unable(expression.span, "an expression of more than 1000 operations in one another");
+        }
+        expression.parts.clear();
+        expression.kind = CpfgKind::Number;
+    }
+    expressions.push_back(std::move(expression));
+    return static_cast<int>(expressions.size()) - 1;
+}
+
+int CpfgSession::add(CpfgStatement statement) {
+    for (const std::vector<int>* const block : {&statement.block, &statement.otherwise}) {
+        for (const int index : *block) {
+            const bool nests = statement.kind == CpfgStatementKind::If;
+            const int depth = nests ? statements[static_cast<std::size_t>(index)].depth + 1 : 1;
+            statement.depth = std::max(statement.depth, depth);
+        }
+    }
+    if (statement.depth > kDeepest) {
+        if (statement.depth == kDeepest + 1) {
+            unable(statement.span, "more than 1000 blocks in one another");
+        }
+        statement.block.clear();
+        statement.otherwise.clear();
+    }
+    statements.push_back(std::move(statement));
+    return static_cast<int>(statements.size()) - 1;
+}
+
+void CpfgSession::production(CpfgProduction made) {
+    made.stage = stage;
+    productions.push_back(std::move(made));
+}
+
+void CpfgSession::begin_system(SourceSpan label_span) {
+    ++systems;
+    if (systems == 2) {
+        unable(label_span, "a second L-system of the file, which the first would call");
+    }
+    stage = Stage::Rewrite;
+}
+
+std::string_view recognise_cpfg(std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        std::string_view line = text.substr(at, end - at);
+        at = end + 1;
+        line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+        if (!line.starts_with("Lsystem") && !line.starts_with("lsystem")) {
+            continue;
+        }
+        line.remove_prefix(7);
+        line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+        if (line.starts_with(":")) {
+            return "a line `Lsystem:`";
+        }
+    }
+    return {};
+}
+
+Translation translate_cpfg(FileId root, const ParseContext& context) {
+    const Translation text = preprocess_cpfg(root, context);
+    CpfgSession session(text, context);
+    Translation translation(root);
+    if (!context.diagnostics.has_errors()) {
+        const CpfgScanning scanning(session, text.text());
+        cpfg_grammar::Parser parser(session, scanning.scanner());
+        static_cast<void>(parser.parse()); // what is wrong has been reported
+    }
+    if (context.diagnostics.has_errors()) {
+        return translation;
+    }
+    const auto size = static_cast<std::uint32_t>(context.sources.file(root).text().size());
+    if (session.systems == 0 || !session.axiom_span) {
+        context.diagnostics.add(DiagnosticCode::ForeignSyntax, {root, size, size},
+                                session.systems == 0 ? "the file has no line `Lsystem: 1`"
+                                                     : "the file has no line `Axiom: ...`");
+        return translation;
+    }
+    CpfgWriter(session, translation).run();
+    return translation;
+}
+
+} // namespace lsys

@@ -1,0 +1,292 @@
+// Names of modules and the statements before the axiom.
+#include "grammar/ast/number.h"
+#include "grammar/ast/reports.h"
+#include "grammar/dialects/cpfg/writer.h"
+#include "grammar/dialects/impl/letter_modules.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+bool is_letter(const std::string& name) {
+    return name.size() == 1 &&
+           ((name[0] >= 'a' && name[0] <= 'z') || (name[0] >= 'A' && name[0] <= 'Z'));
+}
+
+} // namespace
+
+/// Names of all modules, and of those that productions look at.
+void CpfgWriter::find_names() {
+    const auto note = [&](std::vector<CpfgModule>& list, bool matched) {
+        for (CpfgModule& module : list) {
+            used_.insert(module.name);
+            if (matched) {
+                matched_.insert(module.name);
+            }
+            check_module(module);
+            if (!matched && &module != &list.front() && (&module - 1)->name == "~") {
+                surface(module);
+            }
+        }
+    };
+    note(session_.axiom, false);
+    for (CpfgProduction& each : session_.productions) {
+        keep_tilde(each);
+        note(each.left, true);
+        note(each.predecessor, true);
+        note(each.right, true);
+        note(each.successor, false);
+        if (each.stage == Stage::Rewrite && !each.predecessor.empty()) {
+            ++alternatives_[key_of(each)];
+        }
+    }
+}
+
+/// `~s(x) --> ~s(y)` rewrites the `s` after a `~`, which stays.
+void CpfgWriter::keep_tilde(CpfgProduction& each) const {
+    const auto begins = [](const std::vector<CpfgModule>& list) {
+        return list.size() > 1 && list.front().name == "~" && !list.front().has_arguments;
+    };
+    if (each.predecessor.size() == 2 && begins(each.predecessor) && begins(each.successor)) {
+        const auto& named = session_.considers ? session_.considered : session_.ignored;
+        const bool is_named = std::any_of(named.begin(), named.end(),
+                                          [](const auto& module) { return module.name == "~"; });
+        if (is_named == session_.considers) { // else contexts do not see it
+            each.left.push_back(each.predecessor.front());
+        }
+        each.predecessor.erase(each.predecessor.begin());
+        each.successor.erase(each.successor.begin());
+    }
+}
+
+std::string CpfgWriter::key_of(const CpfgProduction& each) {
+    std::string key;
+    for (const CpfgModule& module : each.predecessor) {
+        key += module.name + "/" + std::to_string(module.arguments.size()) + " ";
+    }
+    return key;
+}
+
+void CpfgWriter::check_module(CpfgModule& module) {
+    const std::string& name = module.name;
+    if (name == "?") {
+        session_.unable(module.span, "`?` asks an environment process, or the turtle, for values");
+    } else if (name == "$") {
+        session_.unable(module.span, "`$` ends a sub-L-system");
+    } else if (name == "%" && module.has_arguments) {
+        session_.unable(module.span, "`%` with a parameter keeps what it cuts off for an "
+                                     "environment process");
+    } else if (name.size() >= 2 && name[0] == '@' && name != "@v") {
+        expressions_.leave_out(module.span, name, "`" + shown(name) + "` is not drawn");
+    } else if ((name == "{" || name == "}") && module.has_arguments) {
+        expressions_.leave_out(module.span, "{(", "parameters of `" + name + "` are left out");
+    }
+    // what a label says
+    std::erase_if(module.arguments, [&](int argument) {
+        return name.starts_with("@") && expression(argument).kind == CpfgKind::String;
+    });
+    module.has_arguments = !module.arguments.empty();
+}
+
+/// The symbol after a `~`.
+void CpfgWriter::surface(const CpfgModule& module) {
+    surfaces_.insert(module.name);
+    expressions_.leave_out(module.span, "surface " + module.name,
+                           "the surface `" + shown(module.name) +
+                               "` is drawn as a leaf: its file is not read");
+}
+
+/// The module of .lsys that a symbol is.
+std::string CpfgWriter::spelled(const std::string& name, bool has_arguments) const {
+    if (name == ";" && used_.count("'") == 0) {
+        return "'";
+    }
+    if (name == "@v") {
+        return "$";
+    }
+    if (name == "#" && matched_.count("#") == 0 && matched_.count("!") == 0) {
+        return has_arguments ? "!" : "`#`";
+    }
+    if (name == "," && has_arguments && matched_.count(",") == 0 && matched_.count(";") == 0 &&
+        used_.count("'") == 0) {
+        return "'";
+    }
+    return name.size() == 1 ? spelled_letter(static_cast<unsigned char>(name[0]))
+                            : "`" + name + "`";
+}
+
+void CpfgWriter::setting(const char* begin, int expression, const char* fallback) {
+    if (expression < 0) {
+        if (fallback != nullptr) {
+            out_.put(std::string(begin) + fallback + ";\n", header_);
+        }
+        return;
+    }
+    const SourceSpan span = this->expression(expression).span;
+    const CpfgTerm value = expressions_.term(expression);
+    if (value.drawn) {
+        session_.unable(span, "a random number in the header");
+    }
+    const bool number = literal_length(value.text) == value.text.size();
+    out_.put(begin, span);
+    out_.put(number ? value.text : "(" + value.text + ")", span);
+    out_.put(";\n", span);
+}
+
+/// A stage whose random numbers are bound takes one pass more; in a stage of several passes, up to
+/// twice as many.
+void CpfgWriter::depth(const char* begin, int expression, Stage stage) {
+    const bool own = bound_.count(stage) != 0;
+    const bool first = stage == Stage::Decompose && bound_.count(Stage::Rewrite) != 0;
+    if (!own && !first) {
+        setting(begin, expression, "1");
+        return;
+    }
+    if (!has(stage)) {
+        out_.put(std::string(begin) + "1;\n", header_);
+        return;
+    }
+    std::string text =
+        expression < 0 ? "1" : in_cpfg_parentheses(expressions_.term(expression).text);
+    text += own ? " * 2" : "";
+    text += first ? " + 1" : "";
+    out_.put(begin + ("(" + text + ")") + ";\n", header_);
+}
+
+/// The view file of the object lies beside the L-system, under its name.
+void CpfgWriter::view() {
+    const std::string_view path = context_.sources.file(out_.file()).path();
+    const std::size_t dot = path.rfind('.');
+    if (dot == path.npos || path.find('/', dot) != path.npos) {
+        return;
+    }
+    const Result<std::string> text = context_.load(std::string(path.substr(0, dot)) + ".v");
+    if (!text) {
+        return;
+    }
+    const std::string folder(path.substr(0, path.rfind('/') + 1));
+    view_ = read_view(text.value(), [&](std::string_view name) -> std::optional<std::string> {
+        Result<std::string> file = context_.load(folder + std::string(name));
+        return file ? std::optional(std::move(file).value()) : std::nullopt;
+    });
+}
+
+void CpfgWriter::settings() {
+    out_.put("#set turtle abop;\n#set names letters;\n", header_);
+    const auto several = [](const CpfgProduction& each) {
+        return each.stage == Stage::Rewrite && each.predecessor.size() > 1;
+    };
+    if (std::any_of(session_.productions.begin(), session_.productions.end(), several)) {
+        out_.put("#set rewriting leftmost;\n", header_);
+    }
+    if (!view_.angle.empty()) {
+        out_.put("#set angle " + view_.angle + ";\n", header_);
+    }
+    const bool decomposes = has(Stage::Decompose) || bound_.count(Stage::Rewrite) != 0;
+    if (decomposes) {
+        depth("#set decompose_depth ", session_.decompose_depth, Stage::Decompose);
+    }
+    if (has(Stage::Interpret)) {
+        depth("#set interpret_depth ", session_.interpret_depth, Stage::Interpret);
+    }
+    if (decomposes || has(Stage::Interpret)) {
+        out_.put("#set at_depth stop;\n", header_);
+    }
+    if (session_.seed >= 0) {
+        out_.put("#set weights any;\n", header_);
+        setting("#set seed ", session_.seed, nullptr);
+    }
+    setting("#n = ", session_.derivation_length, "0");
+    if (used_.count("G") != 0) {
+        out_.put("#object G BRANCH;\n", header_);
+    }
+    for (const std::string& name : surfaces_) {
+        if (is_letter(name)) {
+            out_.put("#object " + name + " LEAF;\n", header_);
+        }
+    }
+    for (const CpfgConstant& each : expressions_.constants()) {
+        out_.put("#define " + each.name + " " + each.value + ";\n", each.span);
+    }
+    declare();
+    if (session_.considers) {
+        names("#consider : ", session_.considered);
+    } else if (session_.ignores) {
+        names("#ignore : ", session_.ignored);
+    }
+}
+
+/// Symbols that stand for themselves.
+void CpfgWriter::declare() {
+    std::set<std::string> rewritten;
+    for (const CpfgProduction& each : session_.productions) {
+        for (const CpfgModule& module : each.predecessor) {
+            rewritten.insert(module.name);
+        }
+    }
+    std::set<std::pair<std::string, std::size_t>> declared;
+    const auto visit = [&](const std::vector<CpfgModule>& list) {
+        for (const CpfgModule& module : list) {
+            const std::string name = spelled(module.name, module.has_arguments);
+            const bool draws =
+                name.size() == 1 &&
+                std::string_view("FfG+-&^\\/|$!\"'[]{}.%").find(name[0]) != std::string_view::npos;
+            if (!draws && rewritten.count(module.name) == 0 && surfaces_.count(module.name) == 0 &&
+                declared.insert({name, module.arguments.size()}).second) {
+                out_.put("#module " + name, header_);
+                for (std::size_t i = 0; i < module.arguments.size(); ++i) {
+                    out_.put((i == 0 ? "(x" : ", x") + std::to_string(i + 1), header_);
+                }
+                out_.put(module.has_arguments ? ");\n" : ";\n", header_);
+            }
+        }
+    };
+    visit(session_.axiom);
+    for (const CpfgProduction& each : session_.productions) {
+        visit(each.successor);
+    }
+}
+
+bool CpfgWriter::has(Stage stage) const {
+    return std::any_of(session_.productions.begin(), session_.productions.end(),
+                       [&](const CpfgProduction& each) { return each.stage == stage; });
+}
+
+void CpfgWriter::names(const char* begin, const std::vector<CpfgModule>& list) {
+    std::set<std::string> wanted;
+    for (const CpfgModule& module : list) {
+        for (const char c : module.name) {
+            wanted.insert(std::string(1, c));
+        }
+    }
+    for (const CpfgModule& module : list) {
+        if (!session_.considers && (module.name == "[" || module.name == "]")) {
+            expressions_.leave_out(module.span, "ignored bracket",
+                                   "brackets always count in contexts: that they are ignored is "
+                                   "left out");
+        }
+    }
+    std::set<std::string> spelled_names;
+    for (const std::string& name : used_) {
+        if (wanted.count(name.substr(0, 1)) != 0 && name != "[" && name != "]") {
+            spelled_names.insert(spelled(name, true));
+        }
+    }
+    if (spelled_names.empty() && !session_.considers) {
+        return;
+    }
+    out_.put(begin, header_);
+    for (const std::string& name : spelled_names) {
+        out_.put(name, header_);
+    }
+    if (spelled_names.empty()) {
+        out_.put("`none`", header_); // nothing of the word counts
+    }
+    out_.put(";\n", header_);
+}
+
+} // namespace lsys

@@ -1,0 +1,360 @@
+#include "grammar/ast/reports.h"
+#include "grammar/dialects/cpfg/expressions.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+/// Procedures that do nothing to the word.
+constexpr std::array<std::string_view, 10> kProcedures{
+    "printf", "fprintf", "fopen", "fclose", "fflush", "stop", "play", "Display", "srand", "fputs"};
+
+} // namespace
+
+void CpfgExpressions::find_changed(const std::vector<int>& statements) {
+    for (const int index : statements) {
+        const CpfgStatement& each = statement(index);
+        if (each.kind == CpfgStatementKind::Assign) {
+            changed_.insert(node(each.target).text);
+        }
+        find_changed(each.block);
+        find_changed(each.otherwise);
+    }
+}
+
+void CpfgExpressions::read_header() {
+    in_header_ = true;
+    for (const int index : session_.definitions) {
+        define_array(statement(index));
+    }
+    run(session_.start);
+    globals_ = std::exchange(variables_, {});
+    read_each_step();
+    for (const int index : session_.end) {
+        leave_out(statement(index).span, "End", "`End:` is left out: it cannot change the word");
+    }
+    in_header_ = false;
+}
+
+/// Of what the blocks of a step assign: what is added to in each step, and what is made anew.
+void CpfgExpressions::read_each_step() {
+    find_changed(session_.start_each);
+    find_changed(session_.end_each);
+    for (const std::string& variable : changed_) {
+        const int added = step_of(variable);
+        if (added >= 0) {
+            count_[variable] = added;
+        } else if (gives(session_.start_each, variable).value_or(false)) {
+            anew_.insert(variable);
+        }
+    }
+    std::set<std::string> unknown; // nor is what depends on one of these known
+    for (std::size_t before = changed_.size() + 1; before != unknown.size();) {
+        before = unknown.size();
+        for (const std::string& variable : changed_) {
+            const bool known = count_.count(variable) != 0 || anew_.count(variable) != 0;
+            if (!known || depends(session_.start_each, variable, unknown) ||
+                depends(session_.end_each, variable, unknown)) {
+                anew_.erase(variable);
+                unknown.insert(variable);
+            }
+        }
+    }
+    for (const std::vector<int>* block : {&session_.start_each, &session_.end_each}) {
+        for (const int index : *block) {
+            if (statement(index).kind == CpfgStatementKind::Call) {
+                call_statement(statement(index));
+            }
+        }
+    }
+}
+
+int CpfgExpressions::assignments(const std::vector<int>& statements, const std::string& to) const {
+    int count = 0;
+    for (const int index : statements) {
+        const CpfgStatement& each = statement(index);
+        count += each.kind == CpfgStatementKind::Assign && node(each.target).text == to ? 1 : 0;
+        count += assignments(each.block, to) + assignments(each.otherwise, to);
+    }
+    return count;
+}
+
+bool CpfgExpressions::uses(int expression, const std::set<std::string>& names) const {
+    if (expression < 0) {
+        return false;
+    }
+    const CpfgExpression& each = node(expression);
+    return (each.kind == CpfgKind::Name && names.count(each.text) != 0) ||
+           (each.kind == CpfgKind::Call && (each.text == "ran" || each.text == "nran")) ||
+           std::any_of(each.parts.begin(), each.parts.end(),
+                       [&](int part) { return uses(part, names); });
+}
+
+/// Whether a statement gives `to` a value with a random number or one of the names in it.
+bool CpfgExpressions::depends(const std::vector<int>& statements,
+                              const std::string& to,
+                              const std::set<std::string>& names) const {
+    return std::any_of(statements.begin(), statements.end(), [&](int index) {
+        const CpfgStatement& each = statement(index);
+        const bool assigns = assignments({index}, to) != 0;
+        return assigns && (uses(each.value, names) || depends(each.block, to, names) ||
+                           depends(each.otherwise, to, names));
+    });
+}
+
+/// What each step adds to the variable, as an expression; -1: it is changed otherwise. The only
+/// statement that assigns it is `v = v + e;`, not within an `if`, and no step changes `e`.
+int CpfgExpressions::step_of(const std::string& variable) const {
+    if (assignments(session_.start_each, variable) + assignments(session_.end_each, variable) !=
+        1) {
+        return -1;
+    }
+    for (const std::vector<int>* block : {&session_.start_each, &session_.end_each}) {
+        for (const int index : *block) {
+            const CpfgStatement& each = statement(index);
+            if (each.kind != CpfgStatementKind::Assign || node(each.target).text != variable) {
+                continue;
+            }
+            const CpfgExpression& value = node(each.value);
+            const bool sum = value.kind == CpfgKind::Binary && value.text == "+" &&
+                             node(value.parts[0]).kind == CpfgKind::Name &&
+                             node(value.parts[0]).text == variable;
+            return sum && !uses(value.parts[1], changed_) ? value.parts[1] : -1;
+        }
+    }
+    return -1;
+}
+
+/// Whether statements give the variable a value before anything asks for it; nothing: they do not
+/// name it.
+std::optional<bool> CpfgExpressions::gives(const std::vector<int>& statements,
+                                           const std::string& variable) const {
+    for (const int index : statements) {
+        const CpfgStatement& each = statement(index);
+        if (uses(each.value, {variable})) {
+            return false;
+        }
+        if (each.kind == CpfgStatementKind::Assign && node(each.target).text == variable) {
+            return true;
+        }
+        const std::optional<bool> yes = gives(each.block, variable);
+        const std::optional<bool> no = gives(each.otherwise, variable);
+        if (yes || no) {
+            return yes.value_or(false) && no.value_or(false);
+        }
+    }
+    return std::nullopt;
+}
+
+/// The variables of the whole system as a production of the stage sees them.
+void CpfgExpressions::enter_step() {
+    const auto [known, is_new] = states_.try_emplace(stage_);
+    if (!is_new) {
+        return;
+    }
+    const std::string done = stage_ == Stage::Rewrite ? "step()" : "(step() - 1)";
+    in_header_ = true;
+    in_step_ = true;
+    variables_.clear();
+    for (const auto& [variable, added] : count_) {
+        const auto start = globals_.find(variable);
+        const std::string from = start == globals_.end() ? "0" : start->second.text;
+        variables_[variable] = {in_cpfg_parentheses(from) + " + " +
+                                    in_cpfg_parentheses(term(added).text) + " * " + done,
+                                false, 0};
+    }
+    run(session_.start_each);
+    if (stage_ == Stage::Interpret) {
+        run(session_.end_each);
+    }
+    in_header_ = false;
+    in_step_ = false;
+    for (auto& [variable, value] : variables_) {
+        if (count_.count(variable) != 0 || anew_.count(variable) != 0) {
+            const auto start = globals_.find(variable);
+            const CpfgTerm first =
+                start == globals_.end() ? CpfgTerm{"0", false, 0} : start->second;
+            // the axiom is decomposed before any step
+            known->second[variable] = stage_ == Stage::Decompose && first.text != value.text
+                                          ? choose({"step() == 0", false, 0}, first, value, {})
+                                          : value;
+        }
+    }
+    variables_.clear();
+}
+
+CpfgExpressions CpfgExpressions::probe() const {
+    CpfgExpressions copy = *this;
+    copy.probes_ = true;
+    return copy;
+}
+
+std::string CpfgExpressions::draw_name(int index) const {
+    std::string name = "random" + std::to_string(index + 1);
+    while (formals_.count(name) != 0) {
+        name += "x";
+    }
+    return name;
+}
+
+void CpfgExpressions::begin(std::set<std::string> formals, Stage stage, CpfgDraws draws) {
+    formals_.clear();
+    stage_ = stage;
+    draws_ = CpfgDraws::Inline;
+    if (!changed_.empty()) {
+        enter_step();
+    }
+    formals_ = std::move(formals);
+    variables_.clear();
+    draws_ = draws;
+    needs_ = {};
+}
+
+void CpfgExpressions::let(const std::string& name, const std::string& value) {
+    variables_[name] = {value, false, 0};
+}
+
+void CpfgExpressions::run(const std::vector<int>& statements) {
+    for (const int index : statements) {
+        run(statement(index));
+    }
+}
+
+void CpfgExpressions::run(const CpfgStatement& each) {
+    switch (each.kind) {
+    case CpfgStatementKind::Assign: {
+        const CpfgExpression& target = node(each.target);
+        if (target.kind == CpfgKind::Index) {
+            static_cast<void>(unable(
+                each.span, "an element of an array that is changed while the word is derived"));
+            return;
+        }
+        const bool global = globals_.count(target.text) != 0 || changed_.count(target.text) != 0;
+        if (!in_header_ && global && formals_.count(target.text) == 0) {
+            static_cast<void>(
+                unable(each.span, "`" + shown(target.text) +
+                                      "` belongs to the whole system and is changed by a "
+                                      "production"));
+            return;
+        }
+        CpfgTerm value = term(each.value);
+        if (value.text.size() > kLongestCpfgTerm) {
+            value = unable(each.span, "the value of `" + shown(target.text) +
+                                          "` is too long for one expression");
+        }
+        if (value.drawn && in_header_ && !in_step_) { // drawn once, before the derivation begins
+            constants_.push_back(
+                {"start_" + std::to_string(constants_.size() + 1), value.text, each.span});
+            value = {constants_.back().name, false, 0};
+        }
+        value.uses = 0;
+        variables_[target.text] = std::move(value);
+        break;
+    }
+    case CpfgStatementKind::Call:
+        call_statement(each);
+        break;
+    case CpfgStatementKind::If:
+        branch(each);
+        break;
+    case CpfgStatementKind::Loop:
+        static_cast<void>(unable(each.span, "a loop"));
+        break;
+    case CpfgStatementKind::Array:
+        define_array(each);
+        break;
+    }
+}
+
+void CpfgExpressions::call_statement(const CpfgStatement& each) {
+    const CpfgExpression& called = node(each.value);
+    if (called.kind != CpfgKind::Call) {
+        return; // a value that nobody uses
+    }
+    const bool known =
+        std::find(kProcedures.begin(), kProcedures.end(), called.text) != kProcedures.end();
+    if (called.text == "srand") {
+        leave_out(called.span, "srand",
+                  "`srand` is left out: random numbers are those of lsc, by its own seed");
+    } else if (known) {
+        leave_out(called.span, called.text,
+                  "`" + shown(called.text) + "` is left out: it cannot change the word");
+    } else {
+        static_cast<void>(term(each.value));
+    }
+}
+
+void CpfgExpressions::branch(const CpfgStatement& each) {
+    const CpfgTerm test = term(each.value);
+    if (is_cpfg_number(test.text)) {
+        run(is_cpfg_zero(test.text) ? each.otherwise : each.block);
+        return;
+    }
+    const bool chance = test.drawn;
+    if (chance) {
+        static_cast<void>(chosen_by_chance(node(each.value).span, "a random number in an `if`"));
+    }
+    const Variables before = variables_;
+    run(each.block);
+    Variables yes = std::exchange(variables_, before);
+    run(each.otherwise);
+    Variables no = std::exchange(variables_, before);
+    const auto value_in = [&](const Variables& values, const std::string& name) {
+        const auto found = values.find(name);
+        if (found != values.end()) {
+            return found->second;
+        }
+        return CpfgTerm{formals_.count(name) != 0 ? name : "0", false, 0};
+    };
+    std::set<std::string> names;
+    for (const Variables* values : {&yes, &no}) {
+        for (const auto& [name, value] : *values) {
+            names.insert(name);
+        }
+    }
+    for (const std::string& name : names) {
+        const CpfgTerm a = value_in(yes, name);
+        const CpfgTerm b = value_in(no, name);
+        variables_[name] = a.text == b.text ? a
+                           : chance         ? CpfgTerm{"0", true, 0}
+                                            : choose(test, a, b, each.span);
+    }
+}
+
+void CpfgExpressions::define_array(const CpfgStatement& each) {
+    constexpr int kMostElements = 256;
+    const CpfgExpression& target = node(each.target);
+    Array array;
+    int count = 1;
+    for (const int part : target.parts) {
+        const CpfgTerm size = term(part);
+        int value = 0;
+        std::from_chars(size.text.data(), size.text.data() + size.text.size(), value);
+        if (!is_cpfg_number(size.text) || value <= 0 || value > kMostElements / count) {
+            static_cast<void>(
+                unable(target.span, "an array whose size is no number from 1 to 256"));
+            return;
+        }
+        array.sizes.push_back(value);
+        count *= value;
+    }
+    for (const int value : each.block) {
+        const CpfgTerm made = term(value);
+        if (made.drawn) {
+            static_cast<void>(unable(each.span, "random numbers in an array"));
+            return;
+        }
+        array.values.push_back(made.text);
+    }
+    array.values.resize(static_cast<std::size_t>(count), "0");
+    arrays_[target.text] = std::move(array);
+}
+
+} // namespace lsys

@@ -1,0 +1,455 @@
+#include "grammar/dialects/cpfg/writer.h"
+
+#include "grammar/ast/number.h"
+#include "grammar/ast/reports.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+#include <utility>
+
+namespace lsys {
+
+CpfgWriter::CpfgWriter(CpfgSession& session, Translation& out)
+    : session_(session), context_(session.context), out_(out), header_{out.file(), 0, 1},
+      expressions_(session, view_.curves) {}
+
+void CpfgWriter::run() {
+    find_names();
+    view();
+    expressions_.read_header();
+    find_bindings();
+    expressions_.begin({}, Stage::Rewrite);
+    settings();
+    out_.put("\n#w : ", *session_.axiom_span);
+    modules(session_.axiom);
+    out_.put(";\n\n", header_);
+    for (std::size_t i = 0; i < session_.productions.size(); ++i) {
+        production(i);
+    }
+}
+
+bool CpfgWriter::is_always(const CpfgProduction& each) const {
+    if (each.condition < 0) {
+        return true;
+    }
+    const CpfgExpression& test = expression(each.condition);
+    return test.kind == CpfgKind::Number && !is_cpfg_zero(test.text);
+}
+
+/// Whether chance decides between this one and others.
+bool CpfgWriter::chosen(const CpfgProduction& each) const {
+    return session_.seed >= 0 && each.stage == Stage::Rewrite && !each.predecessor.empty() &&
+           alternatives_.at(key_of(each)) > 1;
+}
+
+/// Finds the productions whose random numbers are bound.
+void CpfgWriter::find_bindings() {
+    bindings_.resize(session_.productions.size());
+    std::map<std::pair<Stage, std::string>, std::vector<std::size_t>> by_module;
+    std::set<std::pair<Stage, std::string>> grouped;
+    for (std::size_t i = 0; i < session_.productions.size(); ++i) {
+        const CpfgProduction& each = session_.productions[i];
+        if (each.predecessor.empty()) {
+            continue;
+        }
+        const std::vector<std::string> names = formals_of(each);
+        CpfgExpressions probe = expressions_.probe();
+        probe.begin({names.begin(), names.end()}, each.stage);
+        probe.run(each.before);
+        const bool drawn_test = each.condition >= 0 && probe.term(each.condition).drawn;
+        bool weighted = false;
+        if (chosen(each) && each.weight >= 0) {
+            const std::string text = probe.term(each.weight).text;
+            weighted = !is_cpfg_number(text);
+        }
+        probe.run(each.after);
+        for (const CpfgModule& module : each.successor) {
+            for (const int argument : module.arguments) {
+                static_cast<void>(probe.term(argument));
+            }
+        }
+        const std::pair<Stage, std::string> module{each.stage, key_of(each)};
+        by_module[module].push_back(i);
+        bindings_[i] = {probe.needs().bound_draws ? Binding::Own : Binding::None, 0,
+                        probe.needs().draws};
+        if (drawn_test || weighted) {
+            grouped.insert(module);
+        }
+    }
+    for (const auto& module : grouped) {
+        bind_group(by_module[module]);
+    }
+    for (std::size_t i = 0; i < bindings_.size(); ++i) {
+        const CpfgProduction& each = session_.productions[i];
+        if (bindings_[i].binding != Binding::None && bound_.insert(each.stage).second &&
+            each.stage != Stage::Rewrite) {
+            expressions_.leave_out(each.span, "passes",
+                                   "random numbers that are used more than once take a pass of "
+                                   "their own: `maximum depth` counts twice");
+        }
+    }
+}
+
+void CpfgWriter::bind_group(const std::vector<std::size_t>& members) {
+    int draws = 0;
+    for (const std::size_t i : members) {
+        const CpfgProduction& each = session_.productions[i];
+        if (!each.left.empty() || !each.right.empty() || each.predecessor.size() != 1) {
+            session_.unable(each.span, "a choice by a random number, or by weights that depend on "
+                                       "parameters, among productions with contexts or of several "
+                                       "modules");
+            return;
+        }
+        draws += bindings_[i].draws;
+    }
+    draws += chosen(session_.productions[members.front()]) ? 1 : 0;
+    int first = 0;
+    for (const std::size_t i : members) {
+        const int own = bindings_[i].draws;
+        bindings_[i] = {Binding::Group, first, draws};
+        first += own;
+    }
+    groups_[members.front()] = members;
+}
+
+std::vector<std::string> CpfgWriter::formals_of(const CpfgProduction& each) const {
+    std::vector<std::string> names;
+    for (const auto* list : {&each.left, &each.predecessor, &each.right}) {
+        for (const CpfgModule& module : *list) {
+            for (const int argument : module.arguments) {
+                names.push_back(expression(argument).text);
+            }
+        }
+    }
+    return names;
+}
+
+void CpfgWriter::modules(const std::vector<CpfgModule>& list) {
+    for (const CpfgModule& module : list) {
+        const bool polygon = module.name == "{" || module.name == "}";
+        out_.put(spelled(module.name, module.has_arguments), module.span);
+        if (!module.has_arguments || polygon) {
+            continue;
+        }
+        for (std::size_t i = 0; i < module.arguments.size(); ++i) {
+            const SourceSpan span = expression(module.arguments[i]).span;
+            out_.put(i == 0 ? "(" : ", ", span);
+            out_.put(expressions_.term(module.arguments[i]).text, span);
+        }
+        out_.put(")", module.span);
+    }
+}
+
+/// Predecessor or context: its parameters are names.
+void CpfgWriter::pattern(const std::vector<CpfgModule>& list) {
+    for (const CpfgModule& module : list) {
+        const CpfgModule* const next = &module == &list.back() ? nullptr : &module + 1;
+        if (module.name == "=" && next != nullptr && next->name == "]") {
+            continue; // what follows in the branch does not matter, and so it is in .lsys
+        }
+        out_.put(spelled(module.name, module.has_arguments), module.span);
+        for (std::size_t i = 0; i < module.arguments.size(); ++i) {
+            const CpfgExpression& formal = expression(module.arguments[i]);
+            if (formal.kind != CpfgKind::Name) {
+                context_.diagnostics.add(DiagnosticCode::ForeignSyntax, formal.span,
+                                         "a parameter is a name here");
+            }
+            out_.put(i == 0 ? "(" : ", ", formal.span);
+            out_.put(formal.text, formal.span);
+        }
+        if (module.has_arguments) {
+            out_.put(")", module.span);
+        }
+    }
+}
+
+/// Whether the production can be written at all.
+bool CpfgWriter::check(const CpfgProduction& each) {
+    if (each.predecessor.empty()) {
+        session_.unable(each.span, "a production without a module");
+        return false;
+    }
+    if (each.predecessor.size() != 1 && each.stage != Stage::Rewrite) {
+        session_.unable(each.span, "a decomposition or a homomorphism of several modules as one");
+        return false;
+    }
+    const bool contexts = !each.left.empty() || !each.right.empty();
+    if (contexts && each.stage == Stage::Decompose) {
+        session_.unable(each.span, "contexts in a decomposition");
+        return false;
+    }
+    if (contexts && each.stage == Stage::Interpret) {
+        expressions_.leave_out(each.span, "context",
+                               "contexts in a homomorphism are left out, as cpfg does");
+    }
+    return true;
+}
+
+/// `#p1 : left < module > right : `
+void CpfgWriter::head(const CpfgProduction& each, const std::string& label) {
+    const bool rewrites = each.stage == Stage::Rewrite;
+    out_.put(label + " : ", each.span);
+    if (!each.left.empty() && rewrites) {
+        pattern(each.left);
+        out_.put(" < ", each.span);
+    }
+    pattern(each.predecessor);
+    if (!each.right.empty() && rewrites) {
+        out_.put(" > ", each.span);
+        pattern(each.right);
+    }
+    out_.put(" : ", each.span);
+}
+
+namespace {
+
+std::string label_of(Stage stage, std::size_t index) {
+    const std::string number = std::to_string(index + 1);
+    return stage == Stage::Rewrite     ? "#p" + number
+           : stage == Stage::Decompose ? "#decompose d" + number
+                                       : "#interpret i" + number;
+}
+
+/// Of what a module that holds random numbers becomes.
+std::string bound_label(Stage stage, const std::string& name) {
+    return (stage == Stage::Interpret ? "#interpret " : "#decompose ") + name;
+}
+Stage bound_stage(Stage stage) {
+    return stage == Stage::Rewrite ? Stage::Decompose : stage;
+}
+
+} // namespace
+
+std::string CpfgWriter::drawing_module(std::size_t index) const {
+    return "`random" + std::to_string(index + 1) + "`";
+}
+
+void CpfgWriter::formals(const std::vector<std::string>& names, int count, SourceSpan span) {
+    std::string text;
+    for (const std::string& name : names) {
+        text += (text.empty() ? "(" : ", ") + name;
+    }
+    for (int i = 0; i < count; ++i) {
+        text += (text.empty() ? "(" : ", ") + expressions_.draw_name(i);
+    }
+    out_.put(text.empty() ? text : text + ")", span);
+}
+
+void CpfgWriter::draws(const std::vector<std::string>& names, int count, SourceSpan span) {
+    std::string text;
+    for (const std::string& name : names) {
+        text += (text.empty() ? "(" : ", ") + name;
+    }
+    for (int i = 0; i < count; ++i) {
+        text += text.empty() ? "({0, 1}" : ", {0, 1}";
+    }
+    out_.put(text.empty() ? text : text + ")", span);
+}
+
+void CpfgWriter::production(std::size_t index) {
+    const CpfgProduction& each = session_.productions[index];
+    const Binds& binds = bindings_[index];
+    if (!check(each)) {
+        return;
+    }
+    if (binds.binding == Binding::Group) {
+        if (groups_.count(index) != 0) {
+            group(index);
+        }
+        return;
+    }
+    const std::vector<std::string> names = formals_of(each);
+    head(each, label_of(each.stage, index));
+    const bool own = binds.binding == Binding::Own;
+    expressions_.begin({names.begin(), names.end()}, each.stage,
+                       own ? CpfgDraws::Elsewhere : CpfgDraws::Inline);
+    expressions_.run(each.before);
+    condition(each);
+    weight(each);
+    if (own) {
+        bound(index);
+        return;
+    }
+    expressions_.run(each.after);
+    out_.put(" : ", each.arrow);
+    modules(each.successor);
+    out_.put(";\n", each.arrow);
+}
+
+void CpfgWriter::begin_bound(const CpfgProduction& each, int first_draw) {
+    const std::vector<std::string> names = formals_of(each);
+    expressions_.begin({names.begin(), names.end()}, bound_stage(each.stage), CpfgDraws::Bound);
+    expressions_.draw_from(first_draw);
+}
+
+/// The formals that the successor reads.
+std::vector<std::string> CpfgWriter::read_formals(const CpfgProduction& each) {
+    begin_bound(each, 0);
+    expressions_.run(each.before);
+    expressions_.run(each.after);
+    std::string text;
+    for (const CpfgModule& module : each.successor) {
+        for (const int argument : module.arguments) {
+            text += " " + expressions_.term(argument).text;
+        }
+    }
+    std::set<std::string> read;
+    const auto is_part = [&](std::size_t at) {
+        return std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_';
+    };
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t begin = at;
+        while (at < text.size() && is_part(at)) {
+            ++at;
+        }
+        read.insert(text.substr(begin, at - begin));
+        at += at == begin ? 1 : 0;
+    }
+    std::vector<std::string> names = formals_of(each);
+    std::erase_if(names, [&](const std::string& name) { return read.count(name) == 0; });
+    return names;
+}
+
+/// Draws the random numbers of a production that matches, and writes its successor with them.
+void CpfgWriter::bound(std::size_t index) {
+    const CpfgProduction& each = session_.productions[index];
+    const int count = bindings_[index].draws;
+    const std::vector<std::string> names = read_formals(each);
+    out_.put(" : " + drawing_module(index), each.arrow);
+    draws(names, count, each.arrow);
+    out_.put(";\n" + bound_label(each.stage, "b" + std::to_string(index + 1)) + " : " +
+                 drawing_module(index),
+             each.arrow);
+    begin_bound(each, 0);
+    formals(names, count, each.arrow);
+    out_.put(" : * : ", each.arrow);
+    expressions_.run(each.before);
+    expressions_.run(each.after);
+    modules(each.successor);
+    out_.put(";\n", each.arrow);
+}
+
+/// Draws random numbers for a module; which of its productions it takes depends on them.
+void CpfgWriter::group(std::size_t index) {
+    const std::vector<std::size_t>& members = groups_.at(index);
+    const CpfgProduction& first = session_.productions[index];
+    const int count = bindings_[index].draws;
+    const std::vector<std::string> names = formals_of(first);
+    head(first, label_of(first.stage, index));
+    out_.put("* : " + drawing_module(index), first.arrow);
+    draws(names, count, first.arrow);
+    out_.put(";\n", first.arrow);
+    bool always = false;
+    for (const std::size_t member : members) {
+        const CpfgProduction& each = session_.productions[member];
+        const std::vector<std::string> own = formals_of(each);
+        out_.put(bound_label(each.stage, "b" + std::to_string(member + 1)) + " : " +
+                     drawing_module(index),
+                 each.span);
+        begin_bound(each, bindings_[member].first_draw);
+        formals(own, count, each.span);
+        out_.put(" : ", each.span);
+        if (chosen(each)) {
+            weighted(each, index);
+            begin_bound(each, bindings_[member].first_draw);
+            expressions_.run(each.before);
+        } else {
+            expressions_.run(each.before);
+            condition(each);
+        }
+        always = always || is_always(each);
+        expressions_.run(each.after);
+        out_.put(" : ", each.arrow);
+        modules(each.successor);
+        out_.put(";\n", each.arrow);
+    }
+    if (!always) { // nothing matches: the module stays
+        out_.put(bound_label(first.stage, "k" + std::to_string(index + 1)) + " : " +
+                     drawing_module(index),
+                 first.span);
+        begin_bound(first, 0);
+        formals(names, count, first.span);
+        out_.put(" : * : " + spelled(first.predecessor.front().name,
+                                     first.predecessor.front().has_arguments),
+                 first.span);
+        draws(names, 0, first.span);
+        out_.put(";\n", first.span);
+    }
+}
+
+void CpfgWriter::condition(const CpfgProduction& each) {
+    if (each.condition < 0) {
+        out_.put("*", each.span);
+        return;
+    }
+    const SourceSpan span = expression(each.condition).span;
+    const CpfgTerm test = expressions_.term(each.condition);
+    const bool number = is_cpfg_number(test.text);
+    const bool always = number && !is_cpfg_zero(test.text);
+    out_.put(always ? "*" : test.text, span);
+}
+
+void CpfgWriter::weight(const CpfgProduction& each) {
+    if (each.weight >= 0 && session_.seed < 0) {
+        expressions_.leave_out(
+            expression(each.weight).span, "weight",
+            "without `seed:` the first production that matches is taken: this is left out");
+    }
+    if (!chosen(each)) {
+        return;
+    }
+    if (!each.left.empty() || !each.right.empty()) {
+        expressions_.leave_out(each.span, "choice " + key_of(each),
+                               "the choice is among productions with the same contexts; cpfg "
+                               "chooses among all that match");
+    }
+    if (each.weight < 0) {
+        out_.put(" ~ 1", each.span);
+        return;
+    }
+    const SourceSpan span = expression(each.weight).span;
+    out_.put(" ~ ", span);
+    out_.put("(" + expressions_.term(each.weight).text + ")", span);
+}
+
+/// The condition that this one is chosen: the last random number, as a part of the weights of all
+/// that match, falls into its own.
+void CpfgWriter::weighted(const CpfgProduction& each, std::size_t index) {
+    const std::vector<std::string> own = formals_of(each);
+    std::string until;
+    std::string all;
+    std::string test;
+    bool last = false;
+    for (const std::size_t member : groups_.at(index)) {
+        const CpfgProduction& other = session_.productions[member];
+        begin_bound(each, bindings_[member].first_draw);
+        const std::vector<std::string> names = formals_of(other);
+        for (std::size_t i = 0; i < names.size() && i < own.size(); ++i) {
+            if (names[i] != own[i]) {
+                expressions_.let(names[i], own[i]);
+            }
+        }
+        expressions_.run(other.before);
+        const std::string condition =
+            is_always(other) ? "" : in_cpfg_parentheses(expressions_.term(other.condition).text);
+        std::string part =
+            other.weight < 0 ? "1" : in_cpfg_parentheses(expressions_.term(other.weight).text);
+        part += condition.empty() ? "" : " * (" + condition + " != 0)";
+        all += (all.empty() ? "" : " + ") + part;
+        if (until.empty() || !last) {
+            until = all;
+        }
+        last = last || &other == &each;
+        test = &other == &each ? condition : test;
+    }
+    const SourceSpan span = each.weight < 0 ? each.span : expression(each.weight).span;
+    const std::string u = expressions_.draw_name(bindings_[index].draws - 1);
+    const std::string chance =
+        until == all ? "" : u + " * (" + all + ") < " + in_cpfg_parentheses(until);
+    const std::string both =
+        test.empty() || chance.empty() ? test + chance : test + " != 0 && " + chance;
+    out_.put(both.empty() ? "*" : both, span);
+}
+
+} // namespace lsys

@@ -1,0 +1,95 @@
+// Writes what was parsed of a cpfg file as .lsys text.
+//
+// An expression of .lsys draws a random number where it stands, so one that is used twice, or that
+// decides something, is a parameter of a module that is written first and decomposed at once:
+// `A(x) --> random1(x, {0, 1})`, `random1(x, u) --> ...`.
+#pragma once
+
+#include "grammar/dialects/cpfg/curves.h"
+#include "grammar/dialects/cpfg/expressions.h"
+#include "grammar/dialects/cpfg/session.h"
+
+#include <cstddef>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+class CpfgWriter {
+public:
+    CpfgWriter(CpfgSession& session, Translation& out);
+
+    void run();
+
+private:
+    enum class Binding : std::uint8_t {
+        None,
+        Own,   // the production matches, then its random numbers are drawn
+        Group, // they are drawn, then one of the productions of the module is chosen
+    };
+    struct Binds {
+        Binding binding = Binding::None;
+        int first_draw = 0; // of a group: of those of the production itself
+        int draws = 0;      // of the module
+    };
+
+    // --- names
+    void find_names();
+    void keep_tilde(CpfgProduction& each) const;
+    void check_module(CpfgModule& module);
+    void surface(const CpfgModule& module);
+    [[nodiscard]] std::string spelled(const std::string& name, bool has_arguments) const;
+    [[nodiscard]] static std::string key_of(const CpfgProduction& each);
+
+    // --- the header
+    void settings();
+    void setting(const char* begin, int expression, const char* fallback);
+    void depth(const char* begin, int expression, Stage stage);
+    void view();
+    void declare();
+    void names(const char* begin, const std::vector<CpfgModule>& list);
+    [[nodiscard]] bool has(Stage stage) const;
+
+    // --- productions
+    void find_bindings();
+    void bind_group(const std::vector<std::size_t>& members);
+    [[nodiscard]] bool check(const CpfgProduction& each);
+    void production(std::size_t index);
+    void bound(std::size_t index);
+    void group(std::size_t index);
+    void head(const CpfgProduction& each, const std::string& label);
+    void condition(const CpfgProduction& each);
+    void weight(const CpfgProduction& each);
+    void weighted(const CpfgProduction& each, std::size_t index);
+    void modules(const std::vector<CpfgModule>& list);
+    void pattern(const std::vector<CpfgModule>& list);
+    [[nodiscard]] std::string drawing_module(std::size_t index) const;
+    [[nodiscard]] std::vector<std::string> read_formals(const CpfgProduction& each);
+    void begin_bound(const CpfgProduction& each, int first_draw);
+    void formals(const std::vector<std::string>& names, int draws, SourceSpan span);
+    void draws(const std::vector<std::string>& names, int count, SourceSpan span);
+    [[nodiscard]] std::vector<std::string> formals_of(const CpfgProduction& each) const;
+    [[nodiscard]] bool chosen(const CpfgProduction& each) const;
+    [[nodiscard]] bool is_always(const CpfgProduction& each) const;
+    [[nodiscard]] const CpfgExpression& expression(int index) const {
+        return session_.expressions[static_cast<std::size_t>(index)];
+    }
+
+    CpfgSession& session_;
+    const ParseContext& context_;
+    Translation& out_;
+    SourceSpan header_; // what no place of its own says
+    CpfgView view_;
+    CpfgExpressions expressions_;
+    std::vector<Binds> bindings_;                            // of each production
+    std::map<std::size_t, std::vector<std::size_t>> groups_; // by the first of its productions
+    std::set<Stage> bound_;                                  // stages with bindings
+    std::set<std::string> used_;
+    std::set<std::string> matched_;
+    std::set<std::string> surfaces_;
+    std::map<std::string, int> alternatives_;
+};
+
+} // namespace lsys

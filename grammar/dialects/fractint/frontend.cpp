@@ -1,0 +1,176 @@
+#include "grammar/dialects/fractint/frontend.h"
+
+#include "grammar/ast/reports.h"
+#include "grammar/dialects/fractint/session.h"
+#include "grammar/dialects/fractint/writer.h"
+
+#include <algorithm>
+#include <array>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\x1A";
+
+char lowered(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+std::string lowered(std::string_view text) {
+    std::string out(text);
+    std::transform(out.begin(), out.end(), out.begin(), [](char c) { return lowered(c); });
+    return out;
+}
+
+/// An entry as it is chosen: with the place of its name, without the kind that some files write.
+struct NamedEntry {
+    std::string name;
+    const FractintEntry* entry = nullptr;
+};
+
+/// Comments and formulas left out.
+std::vector<NamedEntry> systems_of(const FractintSession& session) {
+    std::vector<NamedEntry> systems;
+    for (const FractintEntry& entry : session.entries) {
+        std::string_view name = session.context.sources.text(entry.name);
+        const std::string low = lowered(name);
+        constexpr std::array<std::string_view, 3> kOthers{"frm:", "ifs:", "par:"};
+        if (low.empty() || low == "comment" ||
+            std::any_of(kOthers.begin(), kOthers.end(),
+                        [&](std::string_view kind) { return low.starts_with(kind); })) {
+            continue;
+        }
+        constexpr std::string_view kKind = "lsys:";
+        name.remove_prefix(low.starts_with(kKind) ? kKind.size() : 0);
+        systems.push_back({std::string(name), &entry});
+    }
+    return systems;
+}
+
+/// `Koch1, Koch2, ...`
+std::string listed(const std::vector<NamedEntry>& systems) {
+    constexpr std::size_t kMost = 200;
+    std::string text;
+    for (std::size_t i = 0; i < systems.size() && i < kMost; ++i) {
+        text += (i == 0 ? "" : ", ") + shown(systems[i].name);
+    }
+    return systems.size() > kMost
+               ? text + " and " + std::to_string(systems.size() - kMost) + " more"
+               : text;
+}
+
+/// The system that is wanted, or null after a report.
+const NamedEntry*
+choose(const std::vector<NamedEntry>& systems, FileId root, const ParseContext& context) {
+    const SourceSpan start{root, 0, 0};
+    if (systems.empty()) {
+        if (!context.diagnostics.has_errors()) {
+            context.diagnostics.add(DiagnosticCode::ForeignSyntax, start,
+                                    "no system, `name { ... }`, is in this file");
+        }
+        return nullptr;
+    }
+    const std::string wanted = lowered(context.system);
+    if (wanted.empty() && systems.size() == 1) {
+        return &systems.front();
+    }
+    const NamedEntry* found = nullptr;
+    for (const NamedEntry& system : systems) {
+        if (!wanted.empty() && lowered(system.name) == wanted) {
+            if (found == nullptr) {
+                found = &system;
+            } else {
+                context.diagnostics
+                    .add(DiagnosticCode::ForeignQuirk, system.entry->name,
+                         "of two systems with one name Fractint takes the first")
+                    .labels.push_back({found->entry->name, "this is the first"});
+            }
+        }
+    }
+    if (found != nullptr) {
+        return found;
+    }
+    Diagnostic& error = context.diagnostics.add(
+        DiagnosticCode::WhichSystem, systems.front().entry->name,
+        wanted.empty() ? "this file holds " + std::to_string(systems.size()) +
+                             " systems; choose one with --system NAME"
+                       : "this file has no system `" + shown(context.system) + "`");
+    if (!wanted.empty()) {
+        std::vector<std::string> low;
+        for (const NamedEntry& system : systems) {
+            low.push_back(lowered(system.name));
+        }
+        const std::vector<std::string_view> candidates(low.begin(), low.end());
+        if (const auto nearest = nearest_name(wanted, candidates)) {
+            const auto at = std::find(candidates.begin(), candidates.end(), *nearest);
+            const NamedEntry& system = systems[static_cast<std::size_t>(at - candidates.begin())];
+            error.span = system.entry->name;
+            error.help.push_back("did you mean `" + shown(system.name) + "`?");
+        }
+    }
+    error.help.push_back("it holds " + listed(systems));
+    return nullptr;
+}
+
+} // namespace
+
+std::string_view recognise_fractint(std::string_view text) {
+    bool in_block = false;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        std::string_view line = text.substr(at, end - at);
+        line = line.substr(0, line.find(';'));
+        at = end + 1;
+        if (const std::size_t open = line.find('{'); !in_block && open != std::string_view::npos) {
+            in_block = true;
+            line.remove_prefix(open + 1);
+        }
+        if (in_block) {
+            constexpr std::string_view kAxiom = "axiom";
+            line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
+            if (line.size() > kAxiom.size() && lowered(line.substr(0, kAxiom.size())) == kAxiom &&
+                (line[kAxiom.size()] == ' ' || line[kAxiom.size()] == '\t' ||
+                 line[kAxiom.size()] == '=')) {
+                return "an `Axiom` between braces";
+            }
+            in_block = line.find('}') == std::string_view::npos;
+        }
+    }
+    return {};
+}
+
+std::vector<std::string> systems_in_fractint(std::string_view text) {
+    SourceMap sources;
+    Names names;
+    Diagnostics diagnostics;
+    const FileLoader nothing = [](const std::string&) -> Result<std::string> {
+        return Error{"nothing is included"};
+    };
+    const FileId root = sources.add("", std::string(text));
+    const ParseContext context{sources, names, diagnostics, nothing};
+    FractintSession session(root, context);
+    session.parse(sources.file(root).text());
+    std::vector<std::string> found;
+    for (NamedEntry& system : systems_of(session)) {
+        found.push_back(std::move(system.name));
+    }
+    return found;
+}
+
+Translation translate_fractint(FileId root, const ParseContext& context) {
+    FractintSession collection(root, context);
+    collection.parse(context.sources.file(root).text());
+    Translation translation(root);
+    const std::vector<NamedEntry> systems = systems_of(collection);
+    const NamedEntry* const chosen = choose(systems, root, context);
+    if (chosen == nullptr) {
+        return translation;
+    }
+    FractintSession session(*chosen->entry, context);
+    session.parse(context.sources.text(chosen->entry->body));
+    FractintWriter(session, chosen->entry->name, context, translation).write();
+    return translation;
+}
+
+} // namespace lsys

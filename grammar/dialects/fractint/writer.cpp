@@ -1,0 +1,282 @@
+#include "grammar/dialects/fractint/writer.h"
+
+#include "grammar/ast/number.h"
+#include "grammar/ast/reports.h"
+#include "grammar/base/utf8.h"
+#include "grammar/dialects/impl/letter_modules.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace lsys {
+
+namespace {
+
+constexpr double kFullTurn = 360.0;
+constexpr std::uint32_t kLeastAngle = 3; // of those that Fractint takes
+constexpr std::uint32_t kMostAngle = 50;
+
+/// Commands that the number behind them belongs to.
+constexpr std::string_view kNumbered = "@\\/C<>";
+/// Symbols that present versions of Fractint let no rule replace.
+constexpr std::string_view kReserved = "+-/\\@|!C<>[]";
+
+char folded(char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
+bool is_one_of(char c, std::string_view set) {
+    return set.find(c) != std::string_view::npos;
+}
+
+std::string text_of(float value) {
+    std::array<char, 32> digits{};
+    const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+    return {digits.data(), end};
+}
+
+/// A module of .lsys for the symbol. Some have a meaning there that Fractint does not give them.
+std::string spelled(char symbol) {
+    switch (symbol) {
+    case '.':
+        return "`dot`";
+    case '%':
+        return "`percent`";
+    case '`':
+        return "`backquote`";
+    case '{':
+        return "`brace`";
+    default:
+        return spelled_letter(static_cast<unsigned char>(symbol));
+    }
+}
+
+} // namespace
+
+void FractintWriter::quirk(SourceSpan place, const std::string& message) {
+    context_.diagnostics.add(DiagnosticCode::ForeignQuirk, place, message);
+}
+
+void FractintWriter::mistake(SourceSpan place, const std::string& message) {
+    context_.diagnostics.add(DiagnosticCode::ForeignSyntax, place, message);
+}
+
+void FractintWriter::write() {
+    const FractintLine* angle = nullptr;
+    const FractintLine* axiom = nullptr;
+    std::vector<Rule> rules;
+    for (const FractintLine& line : session_.lines) {
+        if (line.kind == FractintLineKind::Rule) {
+            add_rule(line, rules);
+            continue;
+        }
+        const FractintLine*& known = line.kind == FractintLineKind::Angle ? angle : axiom;
+        if (known != nullptr) {
+            quirk(known->key, line.kind == FractintLineKind::Angle
+                                  ? "there is another `Angle` below, which Fractint takes"
+                                  : "there is another `Axiom` below, which Fractint takes");
+        }
+        known = &line;
+    }
+    if (axiom == nullptr || axiom->texts.empty()) {
+        mistake(axiom == nullptr ? name_ : axiom->key, "the system has no axiom");
+        return;
+    }
+    if (angle == nullptr || angle->texts.empty()) {
+        mistake(angle == nullptr ? name_ : angle->key,
+                "the system has no angle: `Angle 8` is an eighth of a full turn");
+        return;
+    }
+    translation_.put("#set turtle fractint;\n#set names letters;\n");
+    write_angle(*angle);
+    translation_.put("\n#w : ", axiom->key);
+    write_text(*axiom);
+    translation_.put(";\n\n");
+    for (std::size_t i = 0; i < rules.size(); ++i) {
+        write_rule(rules[i], i + 1);
+    }
+}
+
+void FractintWriter::write_angle(const FractintLine& line) {
+    // `=` may stand before the number.
+    const bool has_equals = context_.sources.text(line.texts.front()) == "=";
+    const std::size_t first = has_equals ? 1 : 0;
+    const SourceSpan place = line.texts.size() > first ? line.texts[first] : line.key;
+    const std::string_view text = context_.sources.text(place);
+    std::uint32_t parts = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), parts);
+    if (line.texts.size() <= first || error != std::errc() || parts == 0) {
+        mistake(place, "expected the number of parts of a full turn, as in `Angle 8`");
+        return;
+    }
+    if (end != text.data() + text.size() || line.texts.size() > first + 1) {
+        quirk(place, "Fractint takes " + std::to_string(parts) +
+                         " for the angle and what stands behind it for a mistake");
+    }
+    if (parts < kLeastAngle || parts > kMostAngle) {
+        quirk(place, "Fractint takes angles from " + std::to_string(kLeastAngle) + " to " +
+                         std::to_string(kMostAngle) + " only");
+    }
+    const auto degrees = static_cast<float>(kFullTurn / static_cast<double>(parts));
+    translation_.put("#set angle ", line.key);
+    translation_.put(text_of(degrees), place);
+    translation_.put(";\n");
+}
+
+bool FractintWriter::check_key(const FractintLine& line) {
+    const std::string_view key = context_.sources.text(line.key);
+    if (key.size() != 1) {
+        mistake(line.key, "`" + shown(key) +
+                              "` is neither `Angle` nor `Axiom` nor one symbol that a rule "
+                              "replaces");
+        return false;
+    }
+    const char symbol = folded(key[0]);
+    if (static_cast<unsigned char>(symbol) < 0x20 || static_cast<unsigned char>(symbol) >= 0x7F) {
+        mistake(line.key, "this is no symbol");
+        return false;
+    }
+    if (symbol == '[' || symbol == ']') {
+        mistake(line.key, "no rule can replace a bracket");
+        return false;
+    }
+    if (is_one_of(symbol, kReserved)) {
+        quirk(line.key, "present versions of Fractint let no rule replace `" + shown(key) + "`");
+    }
+    return true;
+}
+
+/// What Fractint takes for text behind the end of a line.
+void FractintWriter::check_texts(const FractintLine& line) {
+    const bool is_rule = line.kind == FractintLineKind::Rule;
+    bool begun = false;
+    std::uint32_t words = 0;
+    for (const SourceSpan& text : line.texts) {
+        const bool equals = context_.sources.text(text) == "=";
+        if (equals && begun && is_rule) {
+            mistake(text, "a line holds one rule; this is a second `=`");
+            return;
+        }
+        words += equals ? 0U : 1U;
+        if (words == 2 && !equals && is_rule) {
+            quirk(text, "Fractint takes a text with blanks for a mistake; here they mean nothing");
+            ++words; // once
+        }
+        begun = begun || !equals;
+    }
+}
+
+void FractintWriter::add_rule(const FractintLine& line, std::vector<Rule>& rules) {
+    if (!check_key(line)) {
+        return;
+    }
+    check_texts(line);
+    const char symbol = folded(context_.sources.text(line.key)[0]);
+    for (Rule& rule : rules) {
+        if (rule.symbol == symbol) {
+            rule.lines.push_back(&line);
+            return;
+        }
+    }
+    rules.push_back({symbol, line.key, {&line}});
+}
+
+void FractintWriter::write_rule(const Rule& rule, std::size_t number) {
+    translation_.put("#r" + std::to_string(number) + " : ", rule.key);
+    translation_.put(spelled(rule.symbol), rule.key);
+    if (is_one_of(rule.symbol, kNumbered)) {
+        translation_.put("(n)", rule.key);
+    }
+    translation_.put(" : * : ", rule.key);
+    for (const FractintLine* line : rule.lines) {
+        write_text(*line);
+    }
+    translation_.put(";\n");
+}
+
+void FractintWriter::write_text(const FractintLine& line) {
+    bool begun = false;
+    for (const SourceSpan& text : line.texts) {
+        // The `=` of `Axiom = F` and `F = FF`; in an axiom others are symbols.
+        if (!begun && context_.sources.text(text) == "=") {
+            begun = line.kind == FractintLineKind::Axiom;
+            continue;
+        }
+        begun = true;
+        write_word(text);
+    }
+}
+
+void FractintWriter::write_word(SourceSpan word) {
+    const std::string_view text = context_.sources.text(word);
+    for (std::uint32_t at = 0; at < text.size();) {
+        const SourceSpan symbol{word.file, word.begin + at, word.begin + at + 1};
+        const char c = folded(text[at]);
+        ++at;
+        if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7F) {
+            const CodePoint point = decode_utf8(text.substr(at - 1));
+            at += point.length - 1;
+            mistake({symbol.file, symbol.begin, symbol.begin + point.length},
+                    "this is no symbol of a system");
+            continue;
+        }
+        write_symbol(symbol);
+        if (is_one_of(c, kNumbered)) {
+            at += write_number(symbol, text.substr(at));
+        }
+    }
+}
+
+void FractintWriter::write_symbol(SourceSpan symbol) {
+    const char c = folded(context_.sources.text(symbol)[0]);
+    const std::string text = spelled(c);
+    if (text.size() == 1) {
+        translation_.copy_as(text, symbol);
+    } else {
+        translation_.put(text, symbol);
+    }
+}
+
+/// The number behind a command: how many bytes of `rest` it is. `I` is its inverse, `Q` its root.
+std::uint32_t FractintWriter::write_number(SourceSpan command, std::string_view rest) {
+    bool root = false;
+    bool inverse = false;
+    std::uint32_t at = 0;
+    while (at < 2 && at < rest.size() && (folded(rest[at]) == 'Q' || folded(rest[at]) == 'I')) {
+        (folded(rest[at]) == 'Q' ? root : inverse) = true;
+        ++at;
+    }
+    const std::uint32_t begin = at;
+    while (at < rest.size() && ((rest[at] >= '0' && rest[at] <= '9') || rest[at] == '.')) {
+        ++at;
+    }
+    const std::string_view digits = rest.substr(begin, at - begin);
+    const SourceSpan place{command.file, command.end, command.end + at};
+    const std::size_t length = literal_length(digits);
+    if (length == 0) {
+        quirk(join(command, place),
+              "`" + shown(context_.sources.text(command)) + "` has no number; Fractint takes 0");
+        translation_.put("(0)", join(command, place));
+        return at;
+    }
+    if (length != digits.size()) {
+        quirk(place, "Fractint reads this number up to its second point");
+    }
+    if (!root && !inverse) {
+        translation_.put("(", place);
+        translation_.copy(
+            {place.file, place.begin, place.begin + static_cast<std::uint32_t>(length)},
+            context_.sources);
+        translation_.put(")", place);
+        return at;
+    }
+    double value = 0.0;
+    std::from_chars(digits.data(), digits.data() + length, value);
+    value = root ? std::sqrt(value) : value;
+    value = inverse && value > 0.0 ? 1.0 / value : value;
+    translation_.put("(" + text_of(static_cast<float>(value)) + ")", place);
+    return at;
+}
+
+} // namespace lsys

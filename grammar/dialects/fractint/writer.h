@@ -1,0 +1,50 @@
+// Writes an entry of a Fractint collection as .lsys text, and says what is wrong in it.
+#pragma once
+
+#include "grammar/ast/translation.h"
+#include "grammar/dialects/fractint/session.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+class FractintWriter {
+public:
+    FractintWriter(const FractintSession& session,
+                   SourceSpan name,
+                   const ParseContext& context,
+                   Translation& translation)
+        : session_(session), name_(name), context_(context), translation_(translation) {}
+
+    void write();
+
+private:
+    /// All lines that replace one symbol.
+    struct Rule {
+        char symbol = 0;
+        SourceSpan key;
+        std::vector<const FractintLine*> lines;
+    };
+
+    void write_angle(const FractintLine& line);
+    void write_rule(const Rule& rule, std::size_t number);
+    void write_text(const FractintLine& line);
+    void write_word(SourceSpan word);
+    std::uint32_t write_number(SourceSpan command, std::string_view rest);
+    void write_symbol(SourceSpan symbol);
+    void add_rule(const FractintLine& line, std::vector<Rule>& rules);
+    bool check_key(const FractintLine& line);
+    void check_texts(const FractintLine& line);
+    void quirk(SourceSpan place, const std::string& message);
+    void mistake(SourceSpan place, const std::string& message);
+
+    const FractintSession& session_;
+    SourceSpan name_;
+    const ParseContext& context_;
+    Translation& translation_;
+};
+
+} // namespace lsys

@@ -1,0 +1,59 @@
+// Writes the expressions of a Houdini rule text in .lsys.
+#pragma once
+
+#include "grammar/ast/translation.h"
+#include "grammar/dialects/houdini/session.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lsys {
+
+/// Where an expression stands.
+enum class HoudiniPlace : std::uint8_t { Premise, Successor, Condition, Probability };
+
+struct HoudiniScope {
+    HoudiniPlace place{};
+    const HoudiniRule* rule = nullptr;            // null in the premise
+    const std::vector<std::string_view>* zeros{}; // parameters that this form of the rule lacks
+};
+
+class HoudiniExpressions {
+public:
+    HoudiniExpressions(const HoudiniSession& session, Translation& translation)
+        : session_(session), translation_(translation) {}
+
+    /// What `a` is.
+    void set_angle(std::string angle) { angle_ = std::move(angle); }
+    void write(int node, const HoudiniScope& scope);
+    /// Says once that `rand` does not depend on its seed.
+    void say_random(SourceSpan place);
+
+private:
+    /// What is still to be written: a node, or a text that stands for a place.
+    struct Item {
+        int node = -1;
+        std::string_view text;
+        SourceSpan span;
+    };
+
+    void write_node(const HoudiniNode& node, const HoudiniScope& scope);
+    void write_name(const HoudiniNode& node, const HoudiniScope& scope);
+    void write_call(const HoudiniNode& node, const HoudiniScope& scope);
+    void write_random(const HoudiniNode& node, const HoudiniScope& scope);
+    void write_whole(const HoudiniNode& node);
+    [[nodiscard]] bool draws(int root, bool& is_positive) const;
+    void write_binary(const HoudiniNode& node);
+    void missing(SourceSpan place, const std::string& message) const;
+
+    const HoudiniSession& session_;
+    std::string angle_;
+    Translation& translation_;
+    std::vector<Item> items_; // the next one last
+    bool said_random_ = false;
+};
+
+} // namespace lsys

@@ -1,0 +1,45 @@
+// What a Houdini rule text says of each symbol: with how many parameters it occurs, whether rules
+// rewrite it, whether they ask for its age. Houdini does not tell modules apart by the number of
+// their parameters, and takes 0 for those that are left out; .lsys does.
+#pragma once
+
+#include "grammar/dialects/houdini/session.h"
+
+#include <cstdint>
+#include <map>
+#include <string_view>
+
+namespace lsys {
+
+struct HoudiniSymbol {
+    bool is_command = false; // of the turtle: a parameter that is left out has a value of its own
+    bool is_rewritten = false;
+    bool ages = false;        // a rule of it asks for `g`
+    std::uint64_t counts = 0; // bit k: occurs in a word with k parameters
+    std::uint32_t most = 0;   // parameters anywhere
+};
+
+class HoudiniSymbols {
+public:
+    explicit HoudiniSymbols(const HoudiniSession& session);
+
+    [[nodiscard]] const HoudiniSymbol& of(const HoudiniModule& module) const;
+    /// Parameters of a module, without those left out at the end.
+    [[nodiscard]] std::uint32_t count(const HoudiniModule& module) const;
+    [[nodiscard]] bool occurs(std::string_view symbol) const { return symbols_.contains(symbol); }
+
+    static constexpr std::uint32_t kMostParameters = 60;
+
+private:
+    HoudiniSymbol& symbol_of(const HoudiniModule& module);
+    void see(int list, bool is_word);
+    [[nodiscard]] bool asks_for_age(const HoudiniRule& rule) const;
+
+    const HoudiniSession& session_;
+    std::map<std::string_view, HoudiniSymbol> symbols_;
+};
+
+/// Whether the predecessor or a context of the rule names a parameter so.
+[[nodiscard]] bool names_parameter(const HoudiniRule& rule, std::string_view name);
+
+} // namespace lsys

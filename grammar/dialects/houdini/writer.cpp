@@ -1,0 +1,332 @@
+#include "grammar/dialects/houdini/writer.h"
+
+#include "grammar/ast/number.h"
+#include "grammar/ast/reports.h"
+#include "grammar/base/utf8.h"
+#include "grammar/dialects/impl/letter_modules.h"
+
+#include <algorithm>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r";
+
+std::string_view without_sign(std::string_view number) {
+    number.remove_prefix(!number.empty() && (number[0] == '-' || number[0] == '+') ? 1 : 0);
+    return number;
+}
+
+SourceSpan trimmed(SourceSpan span, std::string_view text) {
+    const std::size_t last = text.find_last_not_of(kBlanks);
+    span.end =
+        span.begin + static_cast<std::uint32_t>(last == std::string_view::npos ? 0 : last + 1);
+    return span;
+}
+
+} // namespace
+
+HoudiniWriter::HoudiniWriter(const HoudiniSession& session, Translation& translation)
+    : session_(session), translation_(translation), symbols_(session),
+      expressions_(session, translation) {
+    read_settings();
+    expressions_.set_angle(number("angle", "90"));
+    for (const HoudiniRule& rule : session.rules) {
+        bool& known = has_probability_[group_of(rule)];
+        known = known || rule.probability != -1;
+    }
+    find_chances();
+}
+
+void HoudiniWriter::mistake(SourceSpan place, const std::string& message) const {
+    session_.context.diagnostics.add(DiagnosticCode::ForeignSyntax, place, message);
+}
+
+void HoudiniWriter::lacks(SourceSpan place, const std::string& message) const {
+    session_.context.diagnostics.add(DiagnosticCode::ForeignFeature, place, message);
+}
+
+void HoudiniWriter::read_settings() {
+    for (const HoudiniSetting& setting : session_.settings) {
+        const HoudiniSettingRow* const row = find_houdini_setting(houdini_key(text(setting.key)));
+        const SourceSpan value = trimmed(setting.value, text(setting.value));
+        if (row == nullptr) { // which the scanner lets through for none
+            continue;
+        }
+        const std::string_view digits = without_sign(text(value));
+        if (row->kind != HoudiniSettingKind::Ignore &&
+            (digits.empty() || literal_length(digits) != digits.size())) {
+            mistake(value, "`" + shown(text(value)) + "` is no number");
+        } else if (!settings_.emplace(row->name, value).second) {
+            mistake(setting.key, "this setting stands twice");
+        }
+    }
+}
+
+/// A setting as it is written, or what lsc takes without it.
+std::string HoudiniWriter::number(std::string_view name, const char* usual) const {
+    const auto found = settings_.find(name);
+    std::string digits = found != settings_.end() ? std::string(text(found->second)) : usual;
+    return digits.starts_with('+') ? digits.substr(1) : digits;
+}
+
+void HoudiniWriter::write_settings() {
+    translation_.put("#set turtle sidefx;\n#set names letters;\n");
+    for (const std::string_view key : {"angle", "angle_scale", "step", "step_scale", "width",
+                                       "width_scale", "sides", "seed", "n"}) {
+        const auto found = settings_.find(key);
+        if (found == settings_.end()) {
+            continue;
+        }
+        translation_.put(key == "n" ? "#n = " : "#set " + std::string(key) + " ", found->second);
+        translation_.put(number(key, ""), found->second);
+        translation_.put(";\n");
+    }
+    if (std::any_of(session_.rules.begin(), session_.rules.end(),
+                    [](const HoudiniRule& rule) { return rule.probability != -1; })) {
+        translation_.put("#set weights any;\n");
+    }
+    const auto ignored = settings_.find("ignore");
+    if (ignored != settings_.end()) {
+        translation_.put("#ignore :", ignored->second);
+        read_letter_modules(ignored->second, session_.context, [&](const LetterModule& symbol) {
+            translation_.put(" " + spelled_letter(symbol.character), symbol.span);
+        });
+        translation_.put(";\n");
+    }
+}
+
+bool HoudiniWriter::asks_for(std::string_view value) const {
+    std::size_t rule = 0;
+    for (std::uint32_t i = 0; i < session_.nodes.size(); ++i) {
+        while (rule < session_.rules.size() && session_.rules[rule].end_node <= i) {
+            ++rule;
+        }
+        const HoudiniNode& node = session_.nodes[i];
+        if (node.kind == HoudiniNodeKind::Name && text(node.span) == value &&
+            (rule == session_.rules.size() || session_.rules[rule].first_node > i ||
+             !names_parameter(session_.rules[rule], value))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// The values b, c and d, which -D can replace.
+void HoudiniWriter::write_values() {
+    for (const std::string_view value : {"b", "c", "d"}) {
+        if (!asks_for(value)) {
+            continue;
+        }
+        const auto found = settings_.find(value);
+        if (found == settings_.end()) {
+            session_.context.diagnostics.add(
+                DiagnosticCode::ForeignLoss, session_.premise_span,
+                "the value of `" + std::string(value) +
+                    "` is not in this file, and taken for 0; give -D value_" + std::string(value) +
+                    "=NUMBER");
+        }
+        translation_.put("#define value_" + std::string(value) + " " + number(value, "0") + ";\n",
+                         found != settings_.end() ? found->second : session_.premise_span);
+    }
+}
+
+void HoudiniWriter::write() {
+    if (session_.premise == -1) {
+        mistake({translation_.file(), 0, 0},
+                "the premise is missing: a line of symbols before the rules");
+        return;
+    }
+    write_settings();
+    write_values();
+    translation_.put("\n#w : ", session_.premise_span);
+    write_word(session_.premise, {HoudiniPlace::Premise, nullptr, nullptr});
+    translation_.put(";\n\n");
+    for (std::size_t i = 0; i < session_.rules.size(); ++i) {
+        if (check_head(session_.rules[i])) {
+            write_rule(session_.rules[i], i + 1);
+        }
+    }
+    for (std::size_t i = 0; i < session_.rules.size(); ++i) {
+        write_ageing(session_.rules[i], i + 1);
+    }
+}
+
+void HoudiniWriter::write_symbol(const HoudiniModule& it) {
+    const std::string_view symbol = text(it.symbol);
+    if (symbol[0] == '`') {
+        lacks(it.symbol, "what stands in back quotes is of Houdini's expressions, which lsc does "
+                         "not have");
+        return;
+    }
+    const CodePoint point = decode_utf8(symbol);
+    const std::string spelled = spelled_letter(point.value);
+    if (!point.valid || point.value < 0x20 || point.value == 0x7F) {
+        mistake(it.symbol, "this is no character of a module");
+    } else if (spelled == symbol) {
+        translation_.copy(it.symbol, session_.context.sources);
+    } else {
+        translation_.put(spelled, it.symbol);
+    }
+}
+
+void HoudiniWriter::write_word(int list, const HoudiniScope& scope) {
+    const HoudiniList& modules = session_.lists[static_cast<std::size_t>(list)];
+    for (std::uint32_t i = modules.begin; i < modules.end; ++i) {
+        write_module(module(i), scope);
+    }
+}
+
+/// Says once what a symbol does in Houdini and not here.
+void HoudiniWriter::say_lost(char symbol, SourceSpan place) {
+    if (lost_.find(symbol) != std::string::npos) {
+        return;
+    }
+    lost_ += symbol;
+    const std::string what = symbol == 'g'   ? "groups of primitives"
+                             : symbol == 'a' ? "attributes of points"
+                             : symbol == 'J' ? "values that are stamped on a leaf"
+                                             : "coordinates of a colour map";
+    session_.context.diagnostics.add(DiagnosticCode::ForeignLoss, place,
+                                     "lsc has no " + what +
+                                         "; the module stays in the word and that is left out");
+}
+
+void HoudiniWriter::write_module(const HoudiniModule& it, const HoudiniScope& scope) {
+    const std::string_view symbol = text(it.symbol);
+    const HoudiniSymbol& known = symbols_.of(it);
+    if (known.is_command && !known.is_rewritten && write_special(it, symbol[0], scope)) {
+        return;
+    }
+    write_symbol(it);
+    write_arguments(it, 0, scope);
+}
+
+/// Symbols of the turtle that .lsys writes in another way. False: it does not.
+bool HoudiniWriter::write_special(const HoudiniModule& it, char symbol, const HoudiniScope& scope) {
+    const std::uint32_t count = symbols_.count(it);
+    const int first =
+        count != 0 ? session_.arguments[static_cast<std::size_t>(it.arguments)].first : -1;
+    switch (symbol) {
+    case '~': // drawn when the module is written
+        translation_.put("`~`(", it.symbol);
+        for (int turn = 0; turn < 3; ++turn) {
+            translation_.put(turn == 0 ? "{-abs(" : ", {-abs(", it.symbol);
+            for (int end = 0; end < 2; ++end) {
+                if (first == -1) {
+                    translation_.put("180", it.symbol);
+                } else {
+                    expressions_.write(first, scope);
+                }
+                translation_.put(end == 0 ? "), abs(" : ")}", it.symbol);
+            }
+        }
+        translation_.put(")", it.symbol);
+        return true;
+    case 'T':
+        if (count != 0) {
+            return false;
+        }
+        translation_.copy(it.symbol, session_.context.sources);
+        translation_.put("(" + number("gravity", "0") + ")", it.symbol);
+        return true;
+    case '$':
+        if (count == 0) {
+            return false;
+        }
+        if (count != 3) {
+            mistake(it.parentheses, "`$` takes a point: three numbers");
+        }
+        translation_.put("`aim`", it.symbol);
+        write_arguments(it, 0, scope);
+        return true;
+    case 'a': {
+        if (count == 0) {
+            return false;
+        }
+        say_lost('a', it.symbol);
+        const bool named =
+            session_.nodes[static_cast<std::size_t>(first)].kind == HoudiniNodeKind::Text;
+        translation_.copy(it.symbol, session_.context.sources);
+        write_arguments(it, named ? 1 : 0, scope);
+        return true;
+    }
+    case 'g':
+        if (count != 0) {
+            say_lost('g', it.symbol);
+        }
+        return false;
+    case '\'':
+    case '#':
+        say_lost('\'', it.symbol);
+        return false;
+    case 'J':
+    case 'K':
+    case 'M':
+        if (count > 2) {
+            say_lost('J', it.symbol);
+        }
+        return false;
+    default:
+        return false;
+    }
+}
+
+/// What Houdini takes for a parameter that is left out before others.
+void HoudiniWriter::write_left_out(const HoudiniModule& it, std::uint32_t index, SourceSpan place) {
+    const char symbol = text(it.symbol)[0];
+    if (!symbols_.of(it).is_command) {
+        translation_.put("0", place);
+    } else if (symbol == 'J' || symbol == 'K' || symbol == 'M') {
+        translation_.put(index == 0 ? number("step_scale", "0.9") : "0", place);
+    } else if (std::string_view("FHGfh").find(symbol) == std::string_view::npos) {
+        mistake(place, "a parameter is missing");
+    } else if (index == 0 && (symbols_.occurs("\"") || symbols_.occurs("_"))) {
+        lacks(place, "the length that the turtle then has cannot be written as a parameter");
+    } else if (index == 1 && (symbols_.occurs("!") || symbols_.occurs("?"))) {
+        lacks(place, "the width that the turtle then has cannot be written as a parameter");
+    } else if (index < 2) {
+        translation_.put(index == 0 ? number("step", "1") : number("width", "0.1"), place);
+    } else {
+        translation_.put(index == 2 ? std::string("1") : number("sides", "8"), place);
+    }
+}
+
+/// The parameters of a module of a word, but for the first `skip`.
+void HoudiniWriter::write_arguments(const HoudiniModule& it,
+                                    std::uint32_t skip,
+                                    const HoudiniScope& scope) {
+    const HoudiniSymbol& known = symbols_.of(it);
+    const std::uint32_t given = symbols_.count(it);
+    const std::uint32_t count = known.is_command ? given : known.most;
+    if (count > HoudiniSymbols::kMostParameters) {
+        mistake(it.parentheses, "a module with so many parameters is not read");
+        return;
+    }
+    if (count <= skip && !known.ages) {
+        return;
+    }
+    const SourceSpan place = given != 0 ? it.parentheses : it.symbol;
+    translation_.put("(", place);
+    int node = given != 0 ? session_.arguments[static_cast<std::size_t>(it.arguments)].first : -1;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const bool is_there = i < given && session_.nodes[static_cast<std::size_t>(node)].kind !=
+                                               HoudiniNodeKind::Missing;
+        if (i >= skip) {
+            translation_.put(i > skip ? ", " : "", place);
+            if (is_there) {
+                expressions_.write(node, scope);
+            } else {
+                write_left_out(it, i, place);
+            }
+        }
+        node = i < given ? session_.nodes[static_cast<std::size_t>(node)].next : -1;
+    }
+    if (known.ages) {
+        translation_.put(count > skip ? ", 0" : "0", place);
+    }
+    translation_.put(")", place);
+}
+
+} // namespace lsys

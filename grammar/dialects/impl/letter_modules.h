@@ -1,0 +1,42 @@
+// Module texts of dialects in which every character is a module: `F[+(30)A]`. Writes them as .lsys
+// modules with `names letters`: letters and known symbols as they are, other characters in back
+// quotes.
+#pragma once
+
+#include "grammar/ast/parse_context.h"
+#include "grammar/ast/translation.h"
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace lsys {
+
+/// The character as a module of a .lsys file whose names are letters.
+[[nodiscard]] std::string spelled_letter(char32_t character);
+
+/// One module of a text.
+struct LetterModule {
+    char32_t character = 0;
+    SourceSpan span;      // of the character
+    SourceSpan arguments; // from `(` to one past `)`; empty: there are none
+};
+
+/// Writes the character; arguments are left to the caller.
+void write_letter(const LetterModule& module,
+                  const ParseContext& context,
+                  Translation& translation);
+
+/// Calls visit(LetterModule) for each module of `text`, blanks left out. A parenthesis right behind
+/// a character belongs to it up to the `)` that closes it; one that is never closed is reported.
+/// False: a mistake was reported.
+bool read_letter_modules(SourceSpan text,
+                         const ParseContext& context,
+                         const std::function<void(const LetterModule&)>& visit);
+
+/// Writes `(...)` of a module, numbers and commas only, as it stands; reports what else there is.
+bool write_plain_arguments(SourceSpan arguments,
+                           const ParseContext& context,
+                           Translation& translation);
+
+} // namespace lsys

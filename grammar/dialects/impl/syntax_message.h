@@ -1,0 +1,29 @@
+// The message of a syntax error of a dialect: what was expected, and what stands there.
+#pragma once
+
+#include "grammar/ast/parse_context.h"
+
+#include <string>
+#include <string_view>
+
+namespace lsys {
+
+class SyntaxMessage {
+public:
+    SyntaxMessage(const ParseContext& context, SourceSpan place)
+        : context_(context), place_(place) {}
+
+    /// A token that would have been right, in words.
+    void expected(std::string_view token);
+    /// `saw`: the token that stands there, in words.
+    void report(std::string_view saw);
+
+private:
+    const ParseContext& context_;
+    SourceSpan place_;
+    std::string expected_;
+    std::string last_;
+    int count_ = 0;
+};
+
+} // namespace lsys

@@ -1,0 +1,48 @@
+// Writes texts of a file of L3D as .lsys modules in back quotes, character by character, and says
+// where the program does not do what is meant.
+#pragma once
+
+#include "grammar/ast/translation.h"
+#include "grammar/dialects/l3d/session.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace lsys {
+
+class L3dWriter {
+public:
+    L3dWriter(const L3dSession& session, Translation& translation)
+        : context_(session.context), translation_(translation) {}
+
+    /// A line as it counts: without a line end and, unless as the program has it, without a comment
+    /// behind it.
+    [[nodiscard]] SourceSpan line(SourceSpan text);
+    /// A left side, with the same exception without blanks at its end.
+    [[nodiscard]] SourceSpan key(SourceSpan text);
+    /// An axiom or a right side.
+    void write(SourceSpan text);
+    /// A left side; nothing is said of it.
+    void write_key(SourceSpan text);
+
+private:
+    struct Parameter {
+        std::uint32_t open = 0;
+        std::uint32_t end = 0; // one past the `)`
+    };
+    std::uint32_t put_character(std::uint32_t at, std::uint32_t end);
+    void put_characters(std::uint32_t at, std::uint32_t end);
+    void warn(std::uint32_t begin, std::uint32_t end, const std::string& message);
+    void check_parameter(char command, Parameter parameter);
+    void check_command(char command, std::uint32_t at);
+
+    const ParseContext& context_;
+    Translation& translation_;
+    FileId file_ = kNoFile;
+    std::string_view source_;
+    bool said_half_turn_ = false;
+    bool said_digit_ = false;
+};
+
+} // namespace lsys

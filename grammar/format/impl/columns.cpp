@@ -1,0 +1,149 @@
+#include "grammar/format/impl/columns.h"
+
+#include "grammar/format/impl/lines.h"
+
+#include <algorithm>
+
+namespace lsys {
+
+namespace {
+
+/// A cell that is so much wider than the median, or than which the widest is so much wider, stands
+/// alone.
+constexpr std::uint32_t kWidestGap = 24;
+/// A longer head leaves too little of the line for modules that do not fit.
+constexpr std::uint32_t kLongHead = 50;
+
+bool has_columns(const LayoutRow& row) {
+    const bool of_cells = row.shape != StatementShape::List && row.shape != StatementShape::Other;
+    return of_cells && !row.list_below && !row.several_lines && row.column == 0 &&
+           row.head <= kColumns;
+}
+
+/// `widths` is scratch space.
+void line_up_block(std::span<LayoutRow> rows, std::vector<std::uint32_t>& widths) {
+    for (std::size_t cell = 0; cell + 1 < kCells; ++cell) {
+        widths.clear();
+        for (const LayoutRow& row : rows) {
+            if (cell + 1 < row.cell_count) {
+                widths.push_back(row.cells[cell]);
+            }
+        }
+        pad(widths);
+        std::size_t next = 0;
+        for (LayoutRow& row : rows) {
+            std::uint32_t blanks = 0;
+            if (cell + 1 < row.cell_count) {
+                blanks = widths[next++];
+            }
+            if (blanks == kAlone) {
+                blanks = 0;
+                row.cell_count = static_cast<std::uint8_t>(cell); // nor does it follow later ones
+            }
+            row.cells[cell] = blanks;
+        }
+    }
+    for (LayoutRow& row : rows) {
+        std::uint32_t added = 0;
+        for (const std::uint32_t blanks : row.cells) {
+            added += blanks;
+        }
+        // No line is broken for the sake of columns.
+        const bool too_long = row.first_line <= kColumns && row.first_line + added > kColumns;
+        if (too_long || row.head + added + row.first_module > kColumns) {
+            row.cells.fill(0);
+        }
+    }
+}
+
+} // namespace
+
+LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column) {
+    LayoutRow row;
+    row.begin = static_cast<std::uint32_t>(begin);
+    row.column = column;
+    PieceReader reader(text, begin);
+    row.shape = reader.shape();
+    Piece piece;
+    std::uint32_t now = column;
+    std::uint32_t cell_begin = column;
+    bool in_first_line = true;
+    bool in_head = true;
+    bool has_modules = false;
+    bool in_first_module = false;
+    bool has_outer_place = false; // on the first line, to break it outside of branches
+    // What follows the first line, or is too far right on it, is not asked for.
+    const auto is_measured = [&] {
+        return has_modules && !in_first_module && (!in_first_line || now > kColumns);
+    };
+    while (!is_measured() && reader.next(piece)) {
+        if (piece.begins_cell) {
+            if (row.cell_count < kCells) {
+                row.cells[row.cell_count - 1U] = now - cell_begin;
+                ++row.cell_count;
+            }
+            cell_begin = now + 1;
+        }
+        if (piece.in_list && in_head) {
+            in_head = false;
+            row.list_below = piece.own_line;
+            has_modules = !piece.semicolon_only;
+            in_first_module = true;
+        } else if (piece.own_line || piece.break_class != BreakClass::Never) {
+            in_first_module = false;
+        }
+        in_first_line = in_first_line && !piece.own_line;
+        has_outer_place =
+            has_outer_place || (piece.in_list && !in_first_module && piece.depth == 0 &&
+                                piece.break_class == BreakClass::Fine && now <= kColumns);
+        const std::uint32_t width = piece.width + (piece.blank ? 1U : 0U);
+        now += width;
+        row.first_module += in_first_module ? width : 0;
+        row.head = in_head ? now : row.head;
+        row.first_line = in_first_line ? now : row.first_line;
+        row.several_lines = row.several_lines || piece.several_lines;
+    }
+    row.several_lines = reader.skip_rest() || row.several_lines;
+    const bool too_long = row.head + row.first_module > kColumns ||
+                          (row.first_line > kColumns && (row.head > kLongHead || !has_outer_place));
+    row.list_below = row.list_below || (has_modules && too_long);
+    row.end = static_cast<std::uint32_t>(reader.offset());
+    row.comments_end = row.end;
+    return row;
+}
+
+void line_up(std::span<LayoutRow> rows) {
+    std::vector<std::uint32_t> widths;
+    for (std::size_t i = 0; i < rows.size();) {
+        std::size_t end = i + 1;
+        if (has_columns(rows[i])) {
+            while (end < rows.size() && has_columns(rows[end]) &&
+                   rows[end].shape == rows[i].shape) {
+                ++end;
+            }
+            line_up_block(rows.subspan(i, end - i), widths);
+        } else {
+            rows[i].cells.fill(0);
+        }
+        i = end;
+    }
+}
+
+void pad(std::vector<std::uint32_t>& widths) {
+    if (widths.empty()) {
+        return;
+    }
+    std::vector<std::uint32_t> sorted = widths;
+    const auto median = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
+    std::nth_element(sorted.begin(), median, sorted.end());
+    const std::uint32_t most = *median + kWidestGap;
+    std::uint32_t column = 0;
+    for (const std::uint32_t width : widths) {
+        column = width <= most ? std::max(column, width) : column;
+    }
+    for (std::uint32_t& width : widths) {
+        width = width > column || column - width > kWidestGap ? kAlone : column - width;
+    }
+}
+
+} // namespace lsys

@@ -1,0 +1,266 @@
+#include "grammar/format/impl/lexemes.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+
+namespace lsys {
+
+namespace {
+
+bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
+}
+
+} // namespace
+
+bool LexemeReader::next(Lexeme& lexeme) {
+    if (!skip_blanks()) {
+        return false;
+    }
+    const char c = text_[at_];
+    if (c == '/' && starts('/', '*')) {
+        const std::size_t end = text_.find("*/", at_ + 2);
+        take(LexemeKind::BlockComment, end == text_.npos ? rest() : end + 2 - at_);
+    } else if (c == '/' && area_ == Area::Between && starts('/', '/')) {
+        line_comment();
+    } else if (c == '#') {
+        keyword();
+    } else if (c == ';') {
+        take(LexemeKind::Semicolon, 1);
+        area_ = Area::Between;
+    } else if (c == ':' && depth_ == 0) {
+        take(LexemeKind::Colon, 1);
+        next_part();
+    } else {
+        token();
+    }
+    lexeme = lexeme_;
+    return true;
+}
+
+bool LexemeReader::skip_blanks() {
+    newlines_ = 0;
+    std::size_t at = at_;
+    for (; at < text_.size() && is_blank(text_[at]); ++at) {
+        newlines_ += text_[at] == '\n' ? 1U : 0U;
+    }
+    blank_ = at > at_;
+    at_ = at;
+    return at < text_.size();
+}
+
+void LexemeReader::take(LexemeKind kind, std::size_t length) {
+    lexeme_ = {kind, text_.substr(at_, length), newlines_, blank_, false, false};
+    at_ += length;
+    if (kind != LexemeKind::BlockComment) {
+        previous_ = kind;
+    }
+}
+
+void LexemeReader::line_comment() {
+    std::size_t length = std::min(text_.find('\n', at_), text_.size()) - at_;
+    while (length > 2 && is_blank(text_[at_ + length - 1])) {
+        --length;
+    }
+    take(LexemeKind::LineComment, length);
+}
+
+std::size_t LexemeReader::word_length(std::size_t from) const {
+    std::size_t end = from;
+    while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]))) {
+        ++end;
+    }
+    return end - from;
+}
+
+void LexemeReader::keyword() {
+    using enum StatementShape;
+    const std::string_view name = text_.substr(at_ + 1, word_length(at_ + 1));
+    take(LexemeKind::Keyword, name.size() + 1);
+    depth_ = 0;
+    part_ = 0;
+    after_value_ = false;
+    const char next = next_character();
+    if (name == "w" || name == "ignore" || name == "consider") {
+        shape_ = List;
+        area_ = Area::Modules;
+    } else if (next == ':' || name == "decompose" || name == "interpret") {
+        shape_ = Production;
+        area_ = Area::Modules;
+        part_ = 1;
+    } else if (name == "module") {
+        shape_ = Declaration;
+        area_ = Area::Modules;
+    } else if (name == "object" || name == "include") {
+        shape_ = name == "include" && next == '"' ? Other : Declaration;
+        area_ = Area::Object;
+    } else if (name == "set") {
+        shape_ = Setting;
+        area_ = Area::Set;
+    } else if (name == "define" || name == "param") {
+        shape_ = Definition;
+        area_ = Area::Name;
+    } else {
+        shape_ = Other;
+        area_ = Area::Expression;
+    }
+}
+
+/// What follows blanks and comments; NUL at the end.
+char LexemeReader::next_character() const {
+    std::size_t at = at_;
+    while (at < text_.size()) {
+        if (is_blank(text_[at])) {
+            ++at;
+        } else if (text_.substr(at).starts_with("/*")) {
+            const std::size_t end = text_.find("*/", at + 2);
+            at = end == text_.npos ? text_.size() : end + 2;
+        } else {
+            return text_[at];
+        }
+    }
+    return '\0';
+}
+
+/// Productions: `#name :` head `:` condition `:` successor.
+void LexemeReader::next_part() {
+    if (part_ == 0) {
+        return;
+    }
+    ++part_;
+    area_ = part_ == 3 ? Area::Expression : Area::Modules;
+    after_value_ = false;
+}
+
+void LexemeReader::token() {
+    if (area_ == Area::Modules && depth_ == 0) {
+        module();
+    } else if (area_ == Area::Object && depth_ == 0) {
+        quoted();
+    } else {
+        expression();
+    }
+}
+
+/// A file name, or a module; the module `"` is no beginning of a name.
+void LexemeReader::quoted() {
+    const std::size_t end = text_[at_] == '"' ? text_.find_first_of("\"\n", at_ + 1) : text_.npos;
+    if (end != text_.npos && text_[end] == '"') {
+        take(LexemeKind::Quoted, end + 1 - at_);
+    } else {
+        module();
+    }
+}
+
+void LexemeReader::module() {
+    const char c = text_[at_];
+    if (is_letter(c)) {
+        take(LexemeKind::Module, word_length(at_));
+    } else if (c == '`') {
+        // Side by side they are one text, or modules that stay side by side.
+        std::size_t end = text_.find('`', at_ + 1);
+        while (end != text_.npos && end + 1 < text_.size() && text_[end + 1] == '`') {
+            end = text_.find('`', end + 2);
+        }
+        take(LexemeKind::Module, end == text_.npos ? rest() : end + 1 - at_);
+    } else if (c == '(') {
+        take(LexemeKind::Open, 1);
+        depth_ = 1;
+        after_value_ = false;
+    } else if (c == '<' || c == '>') {
+        take(LexemeKind::Context, 1);
+    } else {
+        take(LexemeKind::Module, 1);
+    }
+}
+
+void LexemeReader::value(LexemeKind kind, std::size_t length) {
+    take(kind, length);
+    // In `#set`, values stand in a row, and the name of a constant is followed by its
+    // expression.
+    after_value_ = !((area_ == Area::Set && depth_ == 0) || area_ == Area::Name);
+    if (area_ == Area::Name) {
+        area_ = Area::Expression;
+    }
+}
+
+void LexemeReader::expression() {
+    const char c = text_[at_];
+    if (is_letter(c)) {
+        value(LexemeKind::Word, word_length(at_));
+    } else if (is_digit(c) || c == '.') {
+        value(LexemeKind::Number, number_length());
+    } else if (c == '(' || c == '{') {
+        const bool call = c == '(' && after_value_ && previous_ == LexemeKind::Word;
+        const bool bounds = c == '{' && after_value_ && depth_ == 0;
+        take(LexemeKind::Left, 1);
+        lexeme_.call = call;
+        lexeme_.bounds = bounds;
+        ++depth_;
+        after_value_ = false;
+    } else if (c == ')' || c == '}') {
+        // The parenthesis of a module opened at depth 0.
+        const bool module = depth_ == 1 && (area_ == Area::Modules || area_ == Area::Object);
+        take(module ? LexemeKind::Close : LexemeKind::Right, 1);
+        depth_ -= depth_ > 0 ? 1U : 0U;
+        after_value_ = !(area_ == Area::Set && depth_ == 0);
+    } else if (c == ',') {
+        take(LexemeKind::Comma, 1);
+        after_value_ = false;
+    } else {
+        operation();
+    }
+}
+
+std::size_t LexemeReader::number_length() const {
+    std::size_t end = at_;
+    const auto digits = [&] {
+        while (end < text_.size() && (is_digit(text_[end]) || text_[end] == '.')) {
+            ++end;
+        }
+    };
+    digits();
+    if (end < text_.size() && (text_[end] == 'e' || text_[end] == 'E')) {
+        std::size_t exponent = end + 1;
+        if (exponent < text_.size() && (text_[exponent] == '+' || text_[exponent] == '-')) {
+            ++exponent;
+        }
+        if (exponent < text_.size() && is_digit(text_[exponent])) {
+            end = exponent;
+            digits();
+        }
+    }
+    return end - at_;
+}
+
+void LexemeReader::operation() {
+    const char c = text_[at_];
+    const bool compares = (c == '=' || c == '!' || c == '<' || c == '>') && starts(c, '=');
+    if (compares || ((c == '&' || c == '|') && starts(c, c))) {
+        take(LexemeKind::Operator, 2);
+        after_value_ = false;
+        return;
+    }
+    const bool unary = !after_value_ && (c == '-' || c == '!');
+    const bool any = !after_value_ && c == '*';
+    take(unary ? LexemeKind::Unary : any ? LexemeKind::Any : LexemeKind::Operator, 1);
+    after_value_ = any; // `~` may follow
+}
+
+std::vector<Lexeme> lexemes_of(std::string_view text) {
+    std::vector<Lexeme> lexemes;
+    LexemeReader reader(text, 0);
+    for (Lexeme lexeme; reader.next(lexeme);) {
+        lexemes.push_back(lexeme);
+    }
+    return lexemes;
+}
+
+} // namespace lsys

@@ -1,0 +1,242 @@
+#include "grammar/format/impl/pieces.h"
+
+#include "grammar/base/utf8.h"
+
+#include <algorithm>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::uint32_t kLongestRow = 16;
+
+bool is_tight(const Lexeme& lexeme) {
+    return lexeme.kind == LexemeKind::Operator &&
+           (lexeme.text == "^" || lexeme.text == "*" || lexeme.text == "/");
+}
+
+bool is_module(const Lexeme& lexeme, char symbol) {
+    return lexeme.kind == LexemeKind::Module && lexeme.text[0] == symbol;
+}
+bool opens_bracket(const Lexeme& lexeme) {
+    return is_module(lexeme, '[') || is_module(lexeme, '{');
+}
+bool closes_bracket(const Lexeme& lexeme) {
+    return is_module(lexeme, ']') || is_module(lexeme, '}');
+}
+
+/// Whether a blank stands between two tokens of one statement. A comment keeps its distance, so
+/// that no `/` makes another comment of it.
+bool blank_between(const Lexeme& before, const Lexeme& after) {
+    using enum LexemeKind;
+    if (before.kind == BlockComment) {
+        return after.kind != Semicolon && after.kind != Comma && after.kind != Right &&
+               after.kind != Close;
+    }
+    if (after.kind == BlockComment) {
+        return before.kind != Open && before.kind != Left;
+    }
+    switch (after.kind) {
+    case Semicolon:
+        return before.kind == Colon; // an empty successor
+    case Open:
+    case Close:
+    case Right:
+    case Comma:
+        return false;
+    case Colon:
+    case Context:
+        return true;
+    case Module:
+        return before.kind != Module && before.kind != Close ? true : after.blank_before;
+    case Left:
+        if (after.call) {
+            return false;
+        }
+        break;
+    default:
+        break;
+    }
+    return !is_tight(after) && !is_tight(before) && before.kind != Open && before.kind != Left &&
+           before.kind != Unary;
+}
+
+} // namespace
+
+void append_comment(std::string_view comment, std::string& out) {
+    for (std::size_t at = 0; at < comment.size();) {
+        const std::size_t end = std::min(comment.find("\r\n", at), comment.size());
+        out += comment.substr(at, end - at);
+        at = end < comment.size() ? end + 1 : end;
+    }
+}
+
+PieceReader::PieceReader(std::string_view text, std::size_t begin) : reader_(text, begin) {
+    done_ = !reader_.next(now_);
+    shape_ = reader_.shape();
+}
+
+bool PieceReader::next(Piece& piece) {
+    if (done_) {
+        return false;
+    }
+    piece.text.clear();
+    describe(piece);
+    for (;;) {
+        take(piece);
+        before_ = now_;
+        if (before_.kind == LexemeKind::Semicolon || !reader_.next(now_)) {
+            done_ = true;
+            piece.ends_statement = true;
+            break;
+        }
+        if (ends_before(now_)) {
+            break;
+        }
+        if (blank_between(before_, now_)) {
+            piece.text += ' ';
+        }
+    }
+    end_ = reader_.offset();
+    if (piece.break_class == BreakClass::Fine && piece.text.starts_with("//")) {
+        piece.break_class = BreakClass::Poor; // a line that begins so would look like a comment
+    }
+    const std::string_view written = piece.text;
+    piece.several_lines = has_comment_ && written.find('\n') != written.npos;
+    if (piece.several_lines) {
+        piece.width = text_width(written.substr(0, written.find('\n')));
+        piece.last_width = text_width(written.substr(written.rfind('\n') + 1));
+    } else {
+        piece.width = text_width(written);
+        piece.last_width = piece.width;
+    }
+    return true;
+}
+
+bool PieceReader::skip_rest() {
+    bool several_lines = false;
+    while (!done_) {
+        several_lines = several_lines || (now_.kind == LexemeKind::BlockComment &&
+                                          now_.text.find('\n') != now_.text.npos);
+        done_ = now_.kind == LexemeKind::Semicolon || !reader_.next(now_);
+    }
+    end_ = reader_.offset();
+    return several_lines;
+}
+
+void PieceReader::describe(Piece& piece) {
+    const bool first = index_ == 0;
+    piece.blank = !first && blank_between(before_, now_);
+    piece.begins_cell = !first && begins_cell();
+    piece.in_list = in_list_;
+    const bool keeps_line = now_.kind != LexemeKind::Semicolon;
+    piece.own_line = in_list_ && keeps_line && now_.newlines_before > 0;
+    piece.break_class = first ? BreakClass::Never : break_class();
+    piece.depth = brackets_ - (closes_bracket(now_) && brackets_ > 0 ? 1U : 0U);
+    piece.rank = 0;
+    if (in_list_) {
+        // Outer levels first, then blanks, then branches.
+        piece.rank = brackets_ * 4 + (piece.blank ? 0 : 2) + (is_module(now_, '[') ? 0 : 1);
+    }
+    piece.ends_statement = false;
+    piece.semicolon_only = now_.kind == LexemeKind::Semicolon;
+}
+
+bool PieceReader::begins_cell() const {
+    if (parentheses_ > 0 || now_.kind == LexemeKind::BlockComment) {
+        return false;
+    }
+    switch (shape_) {
+    case StatementShape::Production:
+        return now_.kind == LexemeKind::Colon && colons_ < 3;
+    case StatementShape::Definition:
+        return index_ <= 2 || now_.bounds;
+    case StatementShape::Setting:
+    case StatementShape::Declaration:
+        return index_ <= 2;
+    case StatementShape::List:
+    case StatementShape::Other:
+        break;
+    }
+    return false;
+}
+
+BreakClass PieceReader::break_class() const {
+    using enum LexemeKind;
+    if (in_list_) {
+        if (opens_bracket(before_) || now_.kind == BlockComment || now_.kind == Semicolon) {
+            return BreakClass::Never;
+        }
+        return closes_bracket(now_) ? BreakClass::Poor : BreakClass::Fine;
+    }
+    switch (now_.kind) {
+    case Operator:
+        return before_.kind == Keyword ? BreakClass::Never : BreakClass::Fine;
+    case Context:
+    case Module:
+        return BreakClass::Fine;
+    default:
+        return before_.kind == Colon && now_.kind != Semicolon ? BreakClass::Fine
+                                                               : BreakClass::Never;
+    }
+}
+
+/// Whether `after` stands beside symbols like itself.
+bool PieceReader::continues_row(const Lexeme& after) const {
+    return after.kind == LexemeKind::Module && before_.kind == LexemeKind::Module &&
+           !after.blank_before && after.text[0] == before_.text[0] && after.text.size() == 1 &&
+           before_.text.size() == 1 && !opens_bracket(after) && !closes_bracket(after) &&
+           row_ < kLongestRow;
+}
+
+bool PieceReader::ends_before(const Lexeme& after) const {
+    if (parentheses_ > 0) {
+        return false;
+    }
+    if (in_list_ && after.kind == LexemeKind::Module) {
+        return !continues_row(after);
+    }
+    if (in_list_ && after.kind == LexemeKind::Open) {
+        return false;
+    }
+    return blank_between(before_, after);
+}
+
+void PieceReader::take(Piece& piece) {
+    row_ = !piece.text.empty() && continues_row(now_) ? row_ + 1 : 1;
+    if (now_.kind == LexemeKind::BlockComment) {
+        has_comment_ = true;
+        append_comment(now_.text, piece.text);
+    } else {
+        piece.text += now_.text;
+    }
+    switch (now_.kind) {
+    case LexemeKind::BlockComment:
+        return;
+    case LexemeKind::Open:
+    case LexemeKind::Left:
+        ++parentheses_;
+        break;
+    case LexemeKind::Close:
+    case LexemeKind::Right:
+        parentheses_ -= parentheses_ > 0 ? 1U : 0U;
+        break;
+    case LexemeKind::Colon:
+        ++colons_;
+        in_list_ = in_list_ || (shape_ == StatementShape::Production && colons_ == 3) ||
+                   shape_ == StatementShape::List;
+        break;
+    case LexemeKind::Module:
+        if (opens_bracket(now_)) {
+            ++brackets_;
+        } else if (closes_bracket(now_)) {
+            brackets_ -= brackets_ > 0 ? 1U : 0U;
+        }
+        break;
+    default:
+        break;
+    }
+    ++index_;
+}
+
+} // namespace lsys

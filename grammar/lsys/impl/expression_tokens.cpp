@@ -1,0 +1,245 @@
+#include "grammar/lsys/impl/expression_tokens.h"
+
+#include "grammar/ast/number.h"
+#include "grammar/ast/reports.h"
+#include "grammar/lsys/impl/statement_tokens.h"
+
+#include <string>
+#include <utility>
+
+namespace lsys::lsys_grammar {
+
+namespace {
+
+Diagnostic& report(ParseSession& session, DiagnosticCode code, std::string message) {
+    const ScanState& scan = session.scan;
+    return session.context.diagnostics.add(code, session.scanned.span(scan.begin, scan.end),
+                                           std::move(message));
+}
+
+void add_fix(Diagnostic& diagnostic, std::string title, SourceSpan span, std::string replacement) {
+    diagnostic.fixes.push_back({std::move(title), {{span, std::move(replacement)}}, true});
+}
+
+bool is_word_character(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');
+}
+
+} // namespace
+
+Token number(ParseSession& session, std::string_view text, SourceSpan span) {
+    const Literal literal = read_literal(text);
+    if (literal.range != LiteralRange::Normal && session.wants_reports()) {
+        report_literal_range(session.context.diagnostics, literal, text, span);
+    }
+    if (literal.range == LiteralRange::Overflow) {
+        return Token(Parser::token::TOK_BAD_VALUE, span);
+    }
+    return Token(Parser::token::TOK_NUMBER, literal.value, span);
+}
+
+void report_malformed_number(ParseSession& session, std::string_view text, SourceSpan span) {
+    if (!session.wants(DiagnosticCode::MalformedNumber)) {
+        return;
+    }
+    Diagnostic& diagnostic = session.context.diagnostics.add(
+        DiagnosticCode::MalformedNumber, span, "`" + shown(text) + "` is not a number");
+    const std::size_t length = literal_length(text);
+    const std::string_view rest = text.substr(length);
+    if (rest == "f" || rest == "F") {
+        add_fix(diagnostic, "numbers have no suffix; remove it",
+                {span.file, span.end - 1, span.end}, "");
+    } else if (text.starts_with("0x") || text.starts_with("0X")) {
+        diagnostic.help.emplace_back("there are no hexadecimal numbers");
+    }
+    diagnostic.help.emplace_back("numbers are written `3`, `3.14`, `.5`, `1.` or `1e-3`");
+}
+
+std::size_t number_before_name(std::string_view text) {
+    const std::size_t length = literal_length(text);
+    const std::string_view name = text.substr(length);
+    if (length == 0 || name.empty() || (name[0] >= '0' && name[0] <= '9') ||
+        name.find('.') != std::string_view::npos) {
+        return 0;
+    }
+    // Not `1e`, `1f`, `1e5F`, `0x10`: those are numbers of other languages.
+    const bool is_suffix = name == "f" || name == "F" || name == "e" || name == "E";
+    const bool is_hexadecimal =
+        text.substr(0, length) == "0" && (name[0] == 'x' || name[0] == 'X') && name.size() > 1;
+    const bool has_exponent = text.substr(0, length).find_first_of("eE") != std::string_view::npos;
+    return is_suffix || is_hexadecimal || has_exponent ? 0 : length;
+}
+
+namespace {
+
+Token between_values(ParseSession& session) {
+    ScanState& scan = session.scan;
+    scan.after_operator();
+    const SourceSpan place = session.supplied();
+    const bool in_list = !scan.open.empty() && scan.open.back().kind != OpenBracket::Kind::Group;
+    const std::string_view text = session.scanned.text;
+    const bool adjacent = scan.begin == scan.last_end;
+    if (!in_list && lacks_colon(session, "")) {
+        return lose_statement(session);
+    }
+    if (in_list && !adjacent) {
+        if (session.wants(DiagnosticCode::MissingComma)) {
+            Diagnostic& diagnostic = session.context.diagnostics.add(
+                DiagnosticCode::MissingComma, place, "two values without a `,` between them");
+            add_fix(diagnostic, "add `,`", place, ",");
+        }
+        return Token(Parser::token::TOK_COMMA, place).as_supplied();
+    }
+    const bool joins_conditions = scan.part == Part::Condition && scan.open.empty() && !adjacent;
+    if (session.wants(DiagnosticCode::MissingOperator)) {
+        Diagnostic& diagnostic = session.context.diagnostics.add(
+            DiagnosticCode::MissingOperator, place, "two values without an operator between them");
+        if (adjacent) {
+            add_fix(diagnostic, "a product is written with `*`", place, "*");
+        } else {
+            std::uint32_t end = scan.end;
+            while (end < text.size() && is_word_character(text[end])) {
+                ++end;
+            }
+            const std::string_view word = text.substr(scan.begin, end - scan.begin);
+            diagnostic.labels.push_back(
+                {session.scanned.span(scan.begin, scan.end), "this begins another value"});
+            diagnostic.help.emplace_back(word == "and"  ? "`and` is written `&&`"
+                                         : word == "or" ? "`or` is written `||`"
+                                         : joins_conditions
+                                             ? "two conditions are joined with `&&` or `||`"
+                                             : "a product is written with `*`");
+        }
+    }
+    return (joins_conditions ? Token(Parser::token::TOK_AND, place)
+                             : Token(Parser::token::TOK_STAR, place))
+        .as_supplied();
+}
+
+} // namespace
+
+Token supply_before_value(ParseSession& session) {
+    Token token = between_values(session);
+    session.scan.end = session.scan.begin;
+    return token;
+}
+
+bool begins_bounds(const ScanState& scan) {
+    return scan.value_before && scan.part == Part::Value && scan.keyword == Keyword::Param &&
+           scan.open.empty();
+}
+
+std::optional<Token> closing(ParseSession& session, char character) {
+    ScanState& scan = session.scan;
+    const bool is_brace = character == '}';
+    if (scan.open.empty() || (is_brace && scan.open_braces == 0)) {
+        const auto code = is_brace ? DiagnosticCode::BadRange : DiagnosticCode::ExtraParenthesis;
+        if (session.wants(code)) {
+            Diagnostic& diagnostic =
+                report(session, code, is_brace ? "`}` closes no `{`" : "`)` closes no `(`");
+            add_fix(diagnostic, "remove it", diagnostic.span, "");
+        }
+        return std::nullopt;
+    }
+    if (is_brace == (scan.open.back().kind == OpenBracket::Kind::Brace)) {
+        const SourceSpan span = session.token();
+        const OpenBracket::Kind kind = scan.pop();
+        return is_brace                            ? Token(Parser::token::TOK_RBRACE, span)
+               : kind == OpenBracket::Kind::Module ? Token(Parser::token::TOK_CLOSE, span)
+                                                   : Token(Parser::token::TOK_RPAREN, span);
+    }
+    // A bracket of the other kind was opened later and is closed first.
+    const OpenBracket& inner = scan.open.back();
+    const SourceSpan place = session.supplied();
+    if (session.wants(DiagnosticCode::UnclosedParenthesis)) {
+        const std::string closer = is_brace ? ")" : "}";
+        Diagnostic& diagnostic = session.context.diagnostics.add(
+            DiagnosticCode::UnclosedParenthesis, session.scanned.span(inner.begin, inner.begin + 1),
+            std::string("`") + (is_brace ? '(' : '{') + "` is not closed before the `" + character +
+                "`");
+        diagnostic.labels.push_back(
+            {session.scanned.span(scan.begin, scan.end), "this closes a bracket around it"});
+        add_fix(diagnostic, "add `" + closer + "`", place, closer);
+    }
+    if (scan.pop() == OpenBracket::Kind::Brace) {
+        return Token(Parser::token::TOK_RBRACE, place).as_supplied();
+    }
+    return Token(Parser::token::TOK_RPAREN, place).as_supplied();
+}
+
+bool lengthen_chain(ParseSession& session) {
+    ScanState& scan = session.scan;
+    scan.value_before = false;
+    scan.name_before = false;
+    ++scan.chain;
+    return ++scan.depth <= kMaxNesting;
+}
+
+Token too_deep(ParseSession& session) {
+    const ScanState& scan = session.scan;
+    if (session.wants_reports()) {
+        const bool is_operator = scan.chain != 0;
+        report_too_deep(session.context.diagnostics, session.scanned.span(scan.begin, scan.end),
+                        is_operator ? "operators" : "parentheses");
+    }
+    return lose_statement(session);
+}
+
+void report_split_operator(ParseSession& session, std::string_view text) {
+    if (!session.wants(DiagnosticCode::SplitOperator)) {
+        return;
+    }
+    const std::string joined{text.front(), text.back()};
+    Diagnostic& diagnostic = report(session, DiagnosticCode::SplitOperator,
+                                    "a blank splits the operator `" + joined + "`");
+    add_fix(diagnostic, "remove the blank", diagnostic.span, joined);
+}
+
+void report_wrong_operator(ParseSession& session, std::string_view right) {
+    if (!session.wants(DiagnosticCode::SyntaxError)) {
+        return;
+    }
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text.substr(scan.begin, scan.end - scan.begin);
+    Diagnostic& diagnostic = report(session, DiagnosticCode::SyntaxError,
+                                    "there is no operator `" + std::string(text) + "`");
+    add_fix(diagnostic, "write `" + std::string(right) + "`", diagnostic.span, std::string(right));
+}
+
+void report_remainder_operator(ParseSession& session) {
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        Diagnostic& diagnostic =
+            report(session, DiagnosticCode::SyntaxError, "there is no operator `%`");
+        diagnostic.help.emplace_back("the remainder of a division is `mod(a, b)`");
+    }
+}
+
+void report_assignment(ParseSession& session) {
+    if (session.wants(DiagnosticCode::AssignmentInExpression)) {
+        Diagnostic& diagnostic = report(session, DiagnosticCode::AssignmentInExpression,
+                                        "`=` compares nothing: it only stands in `#n = ...;`");
+        add_fix(diagnostic, "compare with `==`", diagnostic.span, "==");
+    }
+}
+
+void report_comment_in_expression(ParseSession& session) {
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        Diagnostic& diagnostic = report(session, DiagnosticCode::SyntaxError,
+                                        "a comment with `//` stands between statements only");
+        diagnostic.help.emplace_back("write `/* ... */` here, or put the comment after the `;`");
+    }
+}
+
+void report_stray_hash(ParseSession& session) {
+    if (session.wants(DiagnosticCode::UnknownCharacter)) {
+        Diagnostic& diagnostic = report(session, DiagnosticCode::UnknownCharacter,
+                                        "`#` has no meaning in an expression");
+        diagnostic.help.emplace_back(
+            "the age of the word, which Carey's instancing rules write `#`, is `step()`");
+        if (!session.scan.value_before) {
+            diagnostic.fixes.push_back({"write `step()`", {{diagnostic.span, "step()"}}, false});
+        }
+    }
+}
+
+} // namespace lsys::lsys_grammar

@@ -1,0 +1,159 @@
+#include "grammar/lsys/impl/lookahead.h"
+
+#include "grammar/base/diagnostic.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::array<std::string_view, 13> kSpellings{
+    "",    "n",      "define",   "param",     "module",    "object", "include",
+    "set", "ignore", "consider", "decompose", "interpret", "w"};
+
+/// What other programs, or hasty fingers, write for a keyword.
+struct Synonym {
+    std::string_view word;
+    Keyword keyword;
+};
+constexpr std::array<Synonym, 14> kSynonyms{{
+    {"axiom", Keyword::Axiom},
+    {"omega", Keyword::Axiom},
+    {"start", Keyword::Axiom},
+    {"W", Keyword::Axiom},
+    {"iterations", Keyword::Generations},
+    {"generations", Keyword::Generations},
+    {"depth", Keyword::Generations},
+    {"N", Keyword::Generations},
+    {"const", Keyword::Define},
+    {"let", Keyword::Define},
+    {"import", Keyword::Include},
+    {"interpretation", Keyword::Interpret},
+    {"homomorphism", Keyword::Interpret},
+    {"decomposition", Keyword::Decompose},
+}};
+
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+/// The end of the comment that begins at `at`; the end of the text if it is not closed.
+std::size_t comment_end(std::string_view text, std::size_t at) {
+    const std::size_t close = text.find("*/", at + 2);
+    return close == std::string_view::npos ? text.size() : close + 2;
+}
+
+std::size_t next_significant(std::string_view text, std::size_t at) {
+    while (at < text.size()) {
+        if (is_blank(text[at])) {
+            ++at;
+        } else if (text.substr(at, 2) == "/*") {
+            at = comment_end(text, at);
+        } else {
+            break;
+        }
+    }
+    return at;
+}
+
+} // namespace
+
+std::string_view leading_word(std::string_view text) {
+    std::size_t end = 0;
+    if (!text.empty() && is_letter(text[0])) {
+        while (end < text.size() &&
+               (is_letter(text[end]) || (text[end] >= '0' && text[end] <= '9'))) {
+            ++end;
+        }
+    }
+    return text.substr(0, end);
+}
+
+char next_character(std::string_view text, std::uint32_t at) {
+    const std::size_t next = next_significant(text, at);
+    return next < text.size() ? text[next] : '\0';
+}
+
+bool is_first_on_line(std::string_view text, std::uint32_t at) {
+    while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '\t' || text[at - 1] == '\r')) {
+        --at;
+    }
+    return at == 0 || text[at - 1] == '\n';
+}
+
+bool begins_statement(std::string_view text, std::uint32_t at) {
+    const std::string_view word = leading_word(text.substr(at + 1));
+    if (word.empty()) {
+        return false;
+    }
+    return find_keyword(word) != Keyword::Label || is_first_on_line(text, at) ||
+           next_character(text, at + 1 + static_cast<std::uint32_t>(word.size())) == ':';
+}
+
+std::uint32_t count_colons(std::string_view text, std::uint32_t begin) {
+    std::uint32_t colons = 0;
+    std::size_t at = begin;
+    while (at < text.size() && text[at] != ';') {
+        if (text[at] == '`') {
+            const std::size_t close = text.find_first_of("`\n", at + 1);
+            at = close == std::string_view::npos ? text.size() : close + 1;
+            continue;
+        }
+        if (text.substr(at, 2) == "/*") {
+            at = comment_end(text, at);
+            continue;
+        }
+        if (text[at] == '#' && at != begin &&
+            is_first_on_line(text, static_cast<std::uint32_t>(at))) {
+            break;
+        }
+        colons += text[at] == ':' ? 1u : 0u;
+        ++at;
+    }
+    return colons;
+}
+
+std::string_view spelling(Keyword keyword) {
+    return kSpellings[static_cast<std::size_t>(keyword)];
+}
+
+Keyword find_keyword(std::string_view word) {
+    const auto found = std::find(kSpellings.begin(), kSpellings.end(), word);
+    return found == kSpellings.end() ? Keyword::Label
+                                     : static_cast<Keyword>(found - kSpellings.begin());
+}
+
+bool is_synonym(std::string_view word, Keyword keyword) {
+    return std::any_of(kSynonyms.begin(), kSynonyms.end(), [&](const Synonym& synonym) {
+        return synonym.keyword == keyword && synonym.word == word;
+    });
+}
+
+std::optional<Keyword> suggest_keyword(std::string_view word) {
+    for (const Synonym& synonym : kSynonyms) {
+        if (synonym.word == word) {
+            return synonym.keyword;
+        }
+    }
+    if (word.size() < 2) {
+        return std::nullopt;
+    }
+    // One-letter keywords are near to every short word.
+    std::vector<std::string_view> candidates;
+    for (const std::string_view candidate : kSpellings) {
+        if (candidate.size() > 1) {
+            candidates.push_back(candidate);
+        }
+    }
+    const std::optional<std::string_view> nearest = nearest_name(word, candidates);
+    return nearest ? std::optional(find_keyword(*nearest)) : std::nullopt;
+}
+
+} // namespace lsys

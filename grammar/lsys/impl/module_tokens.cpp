@@ -1,0 +1,263 @@
+#include "grammar/lsys/impl/module_tokens.h"
+
+#include "grammar/ast/reports.h"
+#include "grammar/base/utf8.h"
+#include "grammar/lsys/impl/lookahead.h"
+#include "grammar/lsys/impl/statement_tokens.h"
+
+#include <array>
+#include <string>
+#include <utility>
+
+namespace lsys::lsys_grammar {
+
+namespace {
+
+constexpr std::size_t kLongestQuotedName = 16;
+
+Diagnostic& report(ParseSession& session, DiagnosticCode code, std::string message) {
+    const ScanState& scan = session.scan;
+    return session.context.diagnostics.add(code, session.scanned.span(scan.begin, scan.end),
+                                           std::move(message));
+}
+
+void add_fix(Diagnostic& diagnostic, std::string title, SourceSpan span, std::string replacement) {
+    diagnostic.fixes.push_back({std::move(title), {{span, std::move(replacement)}}, true});
+}
+
+/// Symbols of other programs, and what this language writes for them.
+struct ForeignSymbol {
+    char symbol;
+    std::string_view meaning;
+};
+constexpr std::array<ForeignSymbol, 9> kForeignSymbols{{
+    {'@',
+     "in Houdini `@` divides the angle, in Fractint it scales the step, in .sys files it turns: "
+     "write `\"(factor)` for the step, `+(angle)` or `-(angle)` for a turn"},
+    {'*', "in .l++ files `*` draws a leaf (`#object L LEAF;` and `L`), in Houdini it rolls by 180 "
+          "degrees (`\\(180)`)"},
+    {'~', "in Houdini `~(a)` turns at random (`+({-10, 10})`), in cpfg `~` places a surface "
+          "(`#object`)"},
+    {'=', "in .l++ files `=(p)` sets the thickness (`!(width)`); a production is "
+          "`#name : A : * : B;`"},
+    {'?', "in Houdini `?` divides the width (`!(width)`), in cpfg it asks for the turtle's state"},
+    {'<',
+     "`<` stands between a left context and the predecessor; in .l files it rolls (`\\` and `/`), "
+     "in .l++ files it changes the width (`!(width)`), in .sys files it turns (`+` and `-`)"},
+    {'>', "`>` stands between the predecessor and a right context; in .l files it rolls (`\\` and "
+          "`/`), in .l++ files it changes the width (`!(width)`), in .sys files it turns (`+` and "
+          "`-`)"},
+    {'#', "`#` begins a statement; in Houdini `#` steps the texture"},
+    {';',
+     "`;` ends the statement; in cpfg it sets the colour (`'(index)`), in Houdini it multiplies "
+     "the angle"},
+}};
+
+Stray stray_number(ParseSession& session, std::string_view text) {
+    const ScanState& scan = session.scan;
+    const std::string_view all = session.scanned.text;
+    const char before = scan.last_end > 0 ? all[scan.last_end - 1] : '\0';
+    if (before == '{') {
+        if (session.wants(DiagnosticCode::BadRange)) {
+            Diagnostic& diagnostic = report(session, DiagnosticCode::BadRange,
+                                            "a random range stands only inside parentheses");
+            diagnostic.help.emplace_back(
+                "outside of them `{` and `}` are modules that make a polygon");
+        }
+        return Stray::Range;
+    }
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        Diagnostic& diagnostic =
+            report(session, DiagnosticCode::SyntaxError, "a number cannot stand among modules");
+        const bool after_turn =
+            scan.last_end == scan.begin &&
+            std::string_view("+-/\\&^!\"'").find(before) != std::string_view::npos;
+        if (after_turn) {
+            add_fix(diagnostic, "put the argument in parentheses", diagnostic.span,
+                    "(" + std::string(text) + ")");
+        } else {
+            diagnostic.help.emplace_back("an argument stands in parentheses: `F(2)`, `+(30)`");
+        }
+    }
+    return Stray::Skip;
+}
+
+} // namespace
+
+Stray stray_in_modules(ParseSession& session, std::string_view text) {
+    const char first = text[0];
+    const ScanState& scan = session.scan;
+    if (scan.part == Part::Head && !scan.failed) {
+        const bool begins_condition = (first == '*' || first == '~') && !scan.part_empty;
+        if (lacks_colon(session, begins_condition ? ": " : "")) {
+            return begins_condition ? Stray::Colon : Stray::Lost;
+        }
+    }
+    if ((first >= '0' && first <= '9') || first == '.') {
+        return stray_number(session, text);
+    }
+    if (first == ',') {
+        if (session.wants(DiagnosticCode::SyntaxError)) {
+            Diagnostic& diagnostic = report(session, DiagnosticCode::SyntaxError,
+                                            "modules stand side by side, without commas");
+            add_fix(diagnostic, "remove it", diagnostic.span, "");
+        }
+        return Stray::Skip;
+    }
+    report_foreign_symbol(session, first);
+    return Stray::Module;
+}
+
+NameId read_as_module(ParseSession& session, std::string_view text) {
+    return session.builder.intern(text);
+}
+
+void report_foreign_symbol(ParseSession& session, char symbol) {
+    if (!session.wants(DiagnosticCode::UnknownCharacter)) {
+        return;
+    }
+    Diagnostic& diagnostic =
+        report(session, DiagnosticCode::UnknownCharacter,
+               std::string("`") + symbol + "` is not a module of this language");
+    for (const ForeignSymbol& foreign : kForeignSymbols) {
+        if (foreign.symbol == symbol) {
+            diagnostic.help.emplace_back(foreign.meaning);
+        }
+    }
+    diagnostic.fixes.push_back({"as a module without meaning of its own, write it in back quotes",
+                                {{diagnostic.span, std::string("`") + symbol + "`"}},
+                                false});
+}
+
+void report_extra_parenthesis(ParseSession& session) {
+    if (session.wants(DiagnosticCode::ExtraParenthesis)) {
+        Diagnostic& diagnostic =
+            report(session, DiagnosticCode::ExtraParenthesis, "`)` closes no `(`");
+        add_fix(diagnostic, "remove it", diagnostic.span, "");
+    }
+}
+
+bool is_colour_symbol(ParseSession& session) {
+    const ScanState& scan = session.scan;
+    if ((scan.part != Part::Successor && scan.part != Part::Axiom) || scan.skipping ||
+        !scan.open.empty() || next_character(session.scanned.text, scan.end) != '(') {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::StraySemicolon)) {
+        Diagnostic& diagnostic = report(session, DiagnosticCode::StraySemicolon,
+                                        "`;` ends the statement, but parameters follow");
+        diagnostic.help.emplace_back("in cpfg `;` sets the colour, which is `'(index)` here; in "
+                                     "Houdini it multiplies the angle");
+        add_fix(diagnostic, "as a module, write it in back quotes", diagnostic.span, "`;`");
+    }
+    return true;
+}
+
+void check_quoted_text(ParseSession& session, std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const CodePoint point = decode_utf8(text.substr(at));
+        if ((point.value < 0x20 || (point.value >= 0x7F && point.value <= 0xA0)) &&
+            session.wants(DiagnosticCode::BadQuotedName)) {
+            const auto begin = session.scan.begin + static_cast<std::uint32_t>(at);
+            session.context.diagnostics.add(DiagnosticCode::BadQuotedName,
+                                            session.scanned.span(begin, begin + point.length),
+                                            "a control character is no module");
+            return;
+        }
+        at += point.length;
+    }
+}
+
+NameId quoted_name(ParseSession& session, std::string_view text, SourceSpan span) {
+    const std::string_view name = text.substr(1, text.size() - 2);
+    std::size_t count = 0;
+    bool printable = true;
+    for (std::size_t at = 0; at < name.size() && count <= kLongestQuotedName;) {
+        const CodePoint point = decode_utf8(name.substr(at));
+        printable =
+            printable && point.value > 0x20 && !(point.value >= 0x7F && point.value <= 0xA0);
+        at += point.length;
+        ++count;
+    }
+    if ((count == 0 || count > kLongestQuotedName || !printable) &&
+        session.wants(DiagnosticCode::BadQuotedName)) {
+        Diagnostic& diagnostic = session.context.diagnostics.add(
+            DiagnosticCode::BadQuotedName, span,
+            count == 0   ? "there is no name between the back quotes"
+            : !printable ? "a name in back quotes has no blanks and no control characters"
+                         : "a name in back quotes has at most 16 characters");
+        diagnostic.help.emplace_back("back quotes are for symbols that only other programs have, "
+                                     "such as `` `;` ``");
+    }
+    return session.builder.intern(name);
+}
+
+void report_unclosed_back_quote(ParseSession& session) {
+    if (session.wants(DiagnosticCode::UnclosedQuote)) {
+        Diagnostic& diagnostic = report(session, DiagnosticCode::UnclosedQuote,
+                                        "this back quote is not closed on its line");
+        diagnostic.help.emplace_back("a symbol of another program stands between two of them: "
+                                     "`` `;` ``");
+    }
+}
+
+Token unclosed_quote(ParseSession& session) {
+    if (session.wants(DiagnosticCode::UnclosedQuote)) {
+        Diagnostic& diagnostic =
+            report(session, DiagnosticCode::UnclosedQuote, "this name is not closed on its line");
+        const std::string_view text = session.scanned.text;
+        const std::size_t line_end = std::min(text.find('\n', session.scan.end), text.size());
+        const std::size_t semicolon = text.rfind(';', line_end);
+        if (semicolon != std::string_view::npos && semicolon > session.scan.end) {
+            const SourceSpan place = session.scanned.after(static_cast<std::uint32_t>(semicolon));
+            add_fix(diagnostic, "add `\"`", place, "\"");
+            diagnostic.fixes.back().machine_applicable = false;
+        }
+    }
+    return lose_statement(session);
+}
+
+int run_before_star(std::string_view text) {
+    std::size_t length = text.size() - 1;
+    if (text[length - 1] == '/') {
+        --length;
+        while (length > 0 && (text[length - 1] == ' ' || text[length - 1] == '\t' ||
+                              text[length - 1] == '\r' || text[length - 1] == '\n')) {
+            --length;
+        }
+    }
+    return static_cast<int>(length);
+}
+
+void control_characters(ParseSession& session) {
+    ScanState& scan = session.scan;
+    const bool continues = scan.control_end == scan.begin && scan.begin != 0;
+    scan.control_end = scan.end;
+    if (continues || session.silent ||
+        !session.context.diagnostics.admits(DiagnosticCode::UnknownCharacter)) {
+        return;
+    }
+    const std::string_view text = session.scanned.text.substr(scan.begin, scan.end - scan.begin);
+    report(session, DiagnosticCode::UnknownCharacter,
+           "a control character, `" + shown(text) + "`, has no meaning in a grammar");
+}
+
+void report_unclosed_comment(ParseSession& session) {
+    ScanState& scan = session.scan;
+    if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::UnclosedComment)) {
+        Diagnostic& diagnostic = session.context.diagnostics.add(
+            DiagnosticCode::UnclosedComment,
+            session.scanned.span(scan.comment_begin, scan.comment_begin + 2),
+            "this comment is never closed");
+        diagnostic.help.emplace_back("a comment ends with `*/`; everything after this one is lost");
+    }
+    scan.failed = true;
+}
+
+void keep_comment(ParseSession& session) {
+    if (session.comments != nullptr) {
+        session.comments->push_back({session.scan.comment_begin, session.scan.end});
+    }
+}
+
+} // namespace lsys::lsys_grammar

@@ -1,0 +1,72 @@
+// One parse of one .lsys file: what the scanner, the parser and their reports share. Included files
+// have sessions of their own, and all build the same Ast.
+#pragma once
+
+#include "grammar/ast/ast_builder.h"
+#include "grammar/ast/include_chain.h"
+#include "grammar/ast/text_map.h"
+#include "grammar/base/diagnostic.h"
+#include "grammar/lsys/impl/scan_state.h"
+#include "grammar/lsys/parse.h"
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+class PlainReader;
+
+class ParseSession {
+public:
+    ParseSession(const ParseContext& parse_context,
+                 const ScannedText& scanned_text,
+                 Ast& ast,
+                 IncludeChain* include_chain)
+        : context(parse_context), scanned(scanned_text),
+          builder(scanned, ast, parse_context.names, parse_context.diagnostics),
+          includes(include_chain), ast_(ast) {}
+    ParseSession(const ParseSession&) = delete;
+    ParseSession& operator=(const ParseSession&) = delete;
+
+    const ParseContext& context;
+    const ScannedText scanned;
+    AstBuilder builder;
+    ScanState scan;
+    IncludeChain* includes; // null where files are not to be read
+
+    bool silent = false; // the scan is for its tokens only: nothing is reported
+    std::vector<TextRange>* comments = nullptr; // collects them, if it is set
+    PlainReader* plain_reader = nullptr;        // of the first pass
+
+    /// The match at hand becomes a token.
+    SourceSpan token() {
+        scan.last_end = scan.end;
+        scan.part_empty = false;
+        return scanned.span(scan.begin, scan.end);
+    }
+    /// A token that the author did not write, after the last one.
+    [[nodiscard]] SourceSpan supplied() const { return scanned.after(scan.last_end); }
+
+    /// Whether a report of a syntax error would be read: none in a statement that has failed.
+    [[nodiscard]] bool wants_reports() const { return !silent && !scan.failed; }
+    /// The same for one of `code`; counts it if it is one too many to be stored.
+    [[nodiscard]] bool wants(DiagnosticCode code) {
+        return wants_reports() && context.diagnostics.admits(code);
+    }
+
+    // --- for the parser
+    /// Keeps the statement unless `whole` is false or a part of it was lost; reads an included
+    /// file.
+    void end_statement(SourceSpan span, bool whole);
+    /// The parser has recovered within the statement.
+    void recover() {
+        builder.recover();
+        scan.failed = false;
+    }
+
+private:
+    Ast& ast_;
+};
+
+} // namespace lsys

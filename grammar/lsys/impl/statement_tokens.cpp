@@ -1,0 +1,496 @@
+#include "grammar/lsys/impl/statement_tokens.h"
+
+#include "grammar/ast/reports.h"
+#include "grammar/lsys/impl/lookahead.h"
+
+#include <string>
+#include <utility>
+
+namespace lsys::lsys_grammar {
+
+namespace {
+
+constexpr const char* kFourParts =
+    "a production has four parts: `#name : predecessor : condition : successor;`, with `*` for no "
+    "condition";
+
+void add_fix(Diagnostic& diagnostic, std::string title, SourceSpan span, std::string replacement) {
+    diagnostic.fixes.push_back({std::move(title), {{span, std::move(replacement)}}, true});
+}
+
+Token keyword_token(ParseSession& session, std::string_view word, SourceSpan span) {
+    switch (session.scan.keyword) {
+    case Keyword::Label:
+        return Token(Parser::token::TOK_LABEL, session.builder.intern(word), span);
+    case Keyword::Generations:
+        return Token(Parser::token::TOK_N, span);
+    case Keyword::Define:
+        return Token(Parser::token::TOK_DEFINE, span);
+    case Keyword::Param:
+        return Token(Parser::token::TOK_PARAM, span);
+    case Keyword::Module:
+        return Token(Parser::token::TOK_MODULE, span);
+    case Keyword::Object:
+        return Token(Parser::token::TOK_OBJECT, span);
+    case Keyword::Include:
+        return Token(Parser::token::TOK_INCLUDE, span);
+    case Keyword::Set:
+        return Token(Parser::token::TOK_SET, span);
+    case Keyword::Ignore:
+        return Token(Parser::token::TOK_IGNORE, span);
+    case Keyword::Consider:
+        return Token(Parser::token::TOK_CONSIDER, span);
+    case Keyword::Decompose:
+        return Token(Parser::token::TOK_DECOMPOSE, span);
+    case Keyword::Interpret:
+        return Token(Parser::token::TOK_INTERPRET, span);
+    case Keyword::Axiom:
+        return Token(Parser::token::TOK_W, span);
+    }
+    return Token(Parser::token::TOK_YYerror, span);
+}
+
+/// The part after `#word`, where `next` is the next character.
+Part part_after(Keyword keyword, char next) {
+    if (next != ':') {
+        if (keyword == Keyword::Module) {
+            return Part::Declaration;
+        }
+        if (keyword == Keyword::Object || keyword == Keyword::Include) {
+            return Part::ObjectName;
+        }
+    }
+    return Part::Opening;
+}
+
+void open_statement(ScanState& scan, Keyword keyword) {
+    scan.keyword = keyword;
+    scan.statement_open = true;
+    scan.statement_begin = scan.begin;
+    scan.skipping = false;
+    scan.failed = false;
+    scan.semicolon_supplied = false;
+    scan.open.clear();
+    scan.open_braces = 0;
+    scan.chain = 0;
+    scan.depth = 0;
+}
+
+Token begin_parts(ParseSession& session, std::string_view word, char next) {
+    ScanState& scan = session.scan;
+    const SourceSpan span = session.token();
+    scan.enter(part_after(scan.keyword, next));
+    return keyword_token(session, word, span);
+}
+
+/// `#word`, which is neither a keyword nor followed by `:`.
+Token unknown_statement(ParseSession& session, std::string_view word, char next) {
+    ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    if (count_colons(text, scan.statement_begin) >= 2) {
+        return begin_parts(session, word, next); // a production; missing_opening() will tell
+    }
+    const std::optional<Keyword> meant = suggest_keyword(word);
+    if (session.wants(DiagnosticCode::UnknownStatement)) {
+        const SourceSpan span = session.scanned.span(scan.begin, scan.end);
+        Diagnostic& diagnostic = session.context.diagnostics.add(
+            DiagnosticCode::UnknownStatement, span, "there is no statement `#" + shown(word) + "`");
+        if (meant) {
+            const std::string name = "#" + std::string(spelling(*meant));
+            add_fix(diagnostic, "did you mean `" + name + "`?", span, name);
+        } else {
+            diagnostic.help.emplace_back("statements are `#n`, `#define`, `#param`, `#module`, "
+                                         "`#object`, `#include`, `#set`, `#ignore :`, "
+                                         "`#consider :`, `#w :`, `#decompose`, `#interpret` and "
+                                         "productions, `#name : ...`");
+        }
+    }
+    if (!meant) {
+        return lose_statement(session);
+    }
+    scan.keyword = *meant;
+    return begin_parts(session, spelling(*meant), next);
+}
+
+/// `#axiom : ...;` has a `:` like a production, but only one.
+bool is_axiom_by_another_name(const ParseSession& session, std::string_view word) {
+    return is_synonym(word, Keyword::Axiom) &&
+           count_colons(session.scanned.text, session.scan.statement_begin) == 1;
+}
+
+Token start(ParseSession& session, std::string_view word) {
+    ScanState& scan = session.scan;
+    open_statement(scan, find_keyword(word));
+    const char next = next_character(session.scanned.text, scan.end);
+    if (scan.keyword == Keyword::Label && next != ':') {
+        return unknown_statement(session, word, next);
+    }
+    if (scan.keyword == Keyword::Label && is_axiom_by_another_name(session, word)) {
+        if (session.wants(DiagnosticCode::UnknownStatement)) {
+            const SourceSpan span = session.scanned.span(scan.begin, scan.end);
+            Diagnostic& diagnostic =
+                session.context.diagnostics.add(DiagnosticCode::UnknownStatement, span,
+                                                "there is no statement `#" + shown(word) + "`");
+            add_fix(diagnostic, "the axiom is `#w`", span, "#w");
+        }
+        scan.keyword = Keyword::Axiom;
+    }
+    return begin_parts(session, word, next);
+}
+
+} // namespace
+
+Token start_statement(ParseSession& session, std::string_view text) {
+    const std::size_t name = text.find_first_not_of(" \t", 1);
+    if (name > 1) {
+        const ScanState& scan = session.scan;
+        if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::SplitOperator)) {
+            Diagnostic& diagnostic = session.context.diagnostics.add(
+                DiagnosticCode::SplitOperator, session.scanned.span(scan.begin, scan.end),
+                "a blank stands between `#` and its word");
+            add_fix(
+                diagnostic, "remove the blank",
+                session.scanned.span(scan.begin + 1, scan.begin + static_cast<std::uint32_t>(name)),
+                "");
+        }
+    }
+    return start(session, text.substr(name));
+}
+
+Token start_without_hash(ParseSession& session, std::string_view word) {
+    ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    const Keyword keyword = find_keyword(word);
+    const char next = word.empty() ? '\0' : next_character(text, scan.end);
+    const bool takes_words = keyword == Keyword::Define || keyword == Keyword::Param ||
+                             keyword == Keyword::Set || keyword == Keyword::Object ||
+                             keyword == Keyword::Include || keyword == Keyword::Module ||
+                             keyword == Keyword::Decompose || keyword == Keyword::Interpret;
+    const bool is_statement = !word.empty() && (next == ':' || takes_words ||
+                                                (keyword == Keyword::Generations && next == '='));
+    const bool after_modules = // of a statement that a `;` has ended on this line
+        (scan.part == Part::Between && scan.last_end != 0 &&
+         text.substr(scan.last_end, scan.begin - scan.last_end).find('\n') ==
+             std::string_view::npos &&
+         (scan.keyword == Keyword::Label || scan.keyword == Keyword::Axiom));
+    if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::MissingHash)) {
+        const SourceSpan span = session.scanned.span(scan.begin, scan.end);
+        Diagnostic& diagnostic = session.context.diagnostics.add(DiagnosticCode::MissingHash, span,
+                                                                 "a statement begins with `#`");
+        if (is_statement) {
+            add_fix(diagnostic, "write `#" + shown(word) + "`", {span.file, span.begin, span.begin},
+                    "#");
+        } else if (after_modules) {
+            diagnostic.labels.push_back({session.scanned.span(scan.last_end - 1, scan.last_end),
+                                         "this `;` ends the statement"});
+            diagnostic.help.emplace_back("if it is meant as a module, as in other programs, write "
+                                         "it in back quotes: `` `;` ``");
+        } else {
+            diagnostic.help.emplace_back(
+                "for example `#w : F;` or `#grow : F : * : F F;`; a comment is `// ...` or "
+                "`/* ... */`");
+        }
+    }
+    if (is_statement) {
+        return start(session, word);
+    }
+    open_statement(scan, Keyword::Label);
+    return lose_statement(session);
+}
+
+void after_opening_colon(ParseSession& session) {
+    ScanState& scan = session.scan;
+    scan.enter(scan.keyword == Keyword::Axiom ? Part::Axiom
+               : scan.keyword == Keyword::Ignore || scan.keyword == Keyword::Consider
+                   ? Part::Ignored
+                   : Part::Head);
+}
+
+namespace {
+
+/// Whether a `:` is due next.
+bool opens_with_colon(const ScanState& scan) {
+    return scan.keyword == Keyword::Axiom || scan.keyword == Keyword::Ignore ||
+           scan.keyword == Keyword::Consider || scan.keyword == Keyword::Label ||
+           (names_production(scan.keyword) && scan.name_before);
+}
+
+} // namespace
+
+Token opening_equals(ParseSession& session) {
+    ScanState& scan = session.scan;
+    if (scan.keyword == Keyword::Generations) {
+        const SourceSpan span = session.token();
+        scan.enter(Part::Value);
+        return Token(Parser::token::TOK_ASSIGN, span);
+    }
+    if (opens_with_colon(scan)) {
+        if (session.wants(DiagnosticCode::MissingColon)) {
+            const SourceSpan span = session.scanned.span(scan.begin, scan.end);
+            Diagnostic& diagnostic = session.context.diagnostics.add(
+                DiagnosticCode::MissingColon, span, "a `:` stands here, not a `=`");
+            add_fix(diagnostic, "write `:`", span, ":");
+        }
+        const SourceSpan span = session.token();
+        after_opening_colon(session);
+        return Token(Parser::token::TOK_COLON, span);
+    }
+    return Token(Parser::token::TOK_OTHER, session.token());
+}
+
+std::optional<Token> missing_opening(ParseSession& session) {
+    ScanState& scan = session.scan;
+    const bool wants_equals = scan.keyword == Keyword::Generations;
+    if (!wants_equals && !opens_with_colon(scan)) {
+        return std::nullopt;
+    }
+    const SourceSpan place = session.supplied();
+    const std::string sign = wants_equals ? "=" : ":";
+    const auto code = wants_equals ? DiagnosticCode::SyntaxError : DiagnosticCode::MissingColon;
+    if (session.wants(code)) {
+        const std::string_view written =
+            session.scanned.text.substr(scan.statement_begin, scan.last_end - scan.statement_begin);
+        Diagnostic& diagnostic = session.context.diagnostics.add(
+            code, place, "`" + sign + "` is missing after `" + shown(written) + "`");
+        add_fix(diagnostic, "add `" + sign + "`", place, " " + sign);
+    }
+    scan.end = scan.begin; // what follows is still to be read
+    if (wants_equals) {
+        scan.enter(Part::Value);
+        return Token(Parser::token::TOK_ASSIGN, place).as_supplied();
+    }
+    after_opening_colon(session);
+    return Token(Parser::token::TOK_COLON, place).as_supplied();
+}
+
+bool is_needless_sign(ParseSession& session) {
+    ScanState& scan = session.scan;
+    const bool takes_none = scan.keyword == Keyword::Define || scan.keyword == Keyword::Param ||
+                            scan.keyword == Keyword::Set || scan.keyword == Keyword::Generations;
+    if (!scan.part_empty || !takes_none || !scan.open.empty()) {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        const SourceSpan span = session.scanned.span(scan.begin, scan.end);
+        const std::string sign(session.scanned.text.substr(scan.begin, 1));
+        Diagnostic& diagnostic = session.context.diagnostics.add(
+            DiagnosticCode::SyntaxError, span,
+            "`#" + std::string(spelling(scan.keyword)) + "` takes no `" + sign + "` here");
+        add_fix(diagnostic, "remove it", span, "");
+    }
+    return true;
+}
+
+Token colon_after_modules(ParseSession& session) {
+    ScanState& scan = session.scan;
+    if (scan.part == Part::Head) {
+        const SourceSpan span = session.token();
+        scan.enter(Part::Condition);
+        return Token(Parser::token::TOK_COLON, span);
+    }
+    if (session.wants(DiagnosticCode::ExtraColon)) {
+        const std::string word(spelling(scan.keyword));
+        Diagnostic& diagnostic = session.context.diagnostics.add(
+            DiagnosticCode::ExtraColon, session.scanned.span(scan.begin, scan.end),
+            scan.part == Part::Successor ? "a production has no fifth part"
+                                         : "`#" + word + "` has no further part");
+        if (scan.part == Part::Successor) {
+            diagnostic.help.emplace_back(kFourParts);
+        } else if (scan.part == Part::Axiom) {
+            diagnostic.help.emplace_back("the axiom is `#w : modules;`");
+        }
+    }
+    return lose_statement(session);
+}
+
+Token colon_in_expression(ParseSession& session) {
+    ScanState& scan = session.scan;
+    if (!scan.open.empty() && (scan.part == Part::Head || scan.part == Part::Condition)) {
+        return start_drain(session, Drain::Colon, session.scanned.span(scan.begin, scan.end));
+    }
+    const SourceSpan span = session.token();
+    if (scan.part == Part::Condition) {
+        scan.enter(Part::Successor);
+    }
+    return Token(Parser::token::TOK_COLON, span);
+}
+
+std::optional<Token> semicolon(ParseSession& session) {
+    ScanState& scan = session.scan;
+    if (scan.statement_open) {
+        return start_drain(session, Drain::Semicolon, session.scanned.span(scan.begin, scan.end));
+    }
+    if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::StraySemicolon)) {
+        const SourceSpan span = session.scanned.span(scan.begin, scan.end);
+        Diagnostic& diagnostic = session.context.diagnostics.add(
+            DiagnosticCode::StraySemicolon, span, "this `;` ends no statement");
+        add_fix(diagnostic, "remove it", span, "");
+    }
+    return std::nullopt;
+}
+
+namespace {
+
+void report_unclosed(ParseSession& session) {
+    const ScanState& scan = session.scan;
+    if (!session.wants(DiagnosticCode::UnclosedParenthesis)) {
+        return;
+    }
+    const OpenBracket& inner = scan.open.back();
+    const auto character = [](const OpenBracket& bracket) {
+        return bracket.kind == OpenBracket::Kind::Brace ? '{' : '(';
+    };
+    Diagnostic& diagnostic = session.context.diagnostics.add(
+        DiagnosticCode::UnclosedParenthesis, session.scanned.span(inner.begin, inner.begin + 1),
+        std::string("`") + character(inner) + "` is never closed");
+    if (scan.open.size() > 1) {
+        diagnostic.notes.push_back("at this place " + std::to_string(scan.open.size()) +
+                                   " are open, one inside the other");
+    }
+    std::string closing;
+    constexpr std::size_t kMostInserted = 100;
+    for (std::size_t i = scan.open.size(); i > 0 && closing.size() < kMostInserted; --i) {
+        closing += scan.open[i - 1].kind == OpenBracket::Kind::Brace ? '}' : ')';
+    }
+    if (closing.size() == scan.open.size()) {
+        add_fix(diagnostic, "add `" + closing + "`", session.supplied(), closing);
+    }
+}
+
+/// The production ends, but its successor, or more, has not come.
+void report_missing_parts(ParseSession& session) {
+    const ScanState& scan = session.scan;
+    if (!session.wants(DiagnosticCode::MissingColon)) {
+        return;
+    }
+    const SourceSpan place = session.supplied();
+    Diagnostics& diagnostics = session.context.diagnostics;
+    if (scan.part == Part::Head) {
+        Diagnostic& diagnostic =
+            diagnostics.add(DiagnosticCode::MissingColon, place,
+                            "the production ends before its condition and its successor");
+        diagnostic.help.emplace_back(kFourParts);
+        if (scan.keyword == Keyword::Generations) {
+            diagnostic.help.emplace_back("the number of generations is `#n = 6;`");
+        }
+        return;
+    }
+    const std::string_view condition =
+        session.scanned.text.substr(scan.part_begin, scan.last_end - scan.part_begin);
+    const bool is_condition = condition.find_first_of("<>=!~&|") != std::string_view::npos ||
+                              condition.find_first_not_of(" \t\r\n*") == std::string_view::npos;
+    if (is_condition) {
+        Diagnostic& diagnostic = diagnostics.add(DiagnosticCode::MissingColon, place,
+                                                 "the production ends before its successor");
+        diagnostic.help.emplace_back(kFourParts);
+        return;
+    }
+    const std::uint32_t first =
+        scan.part_begin + static_cast<std::uint32_t>(condition.find_first_not_of(" \t\r\n"));
+    Diagnostic& diagnostic =
+        diagnostics.add(DiagnosticCode::MissingColon, session.scanned.span(first, scan.last_end),
+                        "the production has three parts, not four");
+    diagnostic.help.emplace_back(kFourParts);
+    const std::uint32_t at = session.scanned.source_begin(first);
+    add_fix(diagnostic, "if this is the successor, add the condition `*`",
+            {session.scanned.file, at, at}, "* : ");
+}
+
+} // namespace
+
+Token start_drain(ParseSession& session, Drain kind, SourceSpan own) {
+    ScanState& scan = session.scan;
+    scan.draining = kind;
+    scan.drained = own;
+    if (!scan.skipping && !scan.open.empty()) {
+        report_unclosed(session);
+    }
+    if (kind != Drain::Colon && (scan.part == Part::Head || scan.part == Part::Condition)) {
+        if (!scan.skipping) {
+            report_missing_parts(session);
+        }
+        scan.failed = true;
+        session.builder.spoil();
+    }
+    return drain(session);
+}
+
+Token drain(ParseSession& session) {
+    ScanState& scan = session.scan;
+    if (!scan.open.empty()) {
+        const SourceSpan place = session.supplied();
+        switch (scan.pop()) {
+        case OpenBracket::Kind::Module:
+            return Token(Parser::token::TOK_CLOSE, place).as_supplied();
+        case OpenBracket::Kind::Brace:
+            return Token(Parser::token::TOK_RBRACE, place).as_supplied();
+        case OpenBracket::Kind::Call:
+        case OpenBracket::Kind::Group:
+            return Token(Parser::token::TOK_RPAREN, place).as_supplied();
+        }
+    }
+    if (scan.draining == Drain::Colon) {
+        const SourceSpan colon = scan.drained;
+        scan.draining = Drain::Nothing;
+        scan.last_end = scan.end;
+        scan.enter(scan.part == Part::Head ? Part::Condition : Part::Successor);
+        return Token(Parser::token::TOK_COLON, colon);
+    }
+    if (scan.part == Part::Condition) {
+        scan.enter(Part::Successor);
+        return Token(Parser::token::TOK_COLON, session.supplied()).as_supplied();
+    }
+    if (scan.part == Part::Head) {
+        scan.enter(Part::Successor); // nothing of it will come
+        return Token(Parser::token::TOK_YYerror, session.supplied()).as_supplied();
+    }
+    if (scan.statement_open) {
+        const SourceSpan place = session.supplied();
+        scan.statement_open = false;
+        scan.skipping = false;
+        scan.ended_part = std::exchange(scan.part, Part::Between);
+        if (scan.draining == Drain::Semicolon) {
+            scan.draining = Drain::Nothing;
+            scan.last_end = scan.end;
+            return Token(Parser::token::TOK_SEMICOLON, scan.drained);
+        }
+        if (scan.draining == Drain::NextStatement) {
+            scan.draining = Drain::Nothing;
+        }
+        scan.semicolon_supplied = true;
+        return Token(Parser::token::TOK_SEMICOLON, place).as_supplied();
+    }
+    return Token(Parser::token::TOK_END, session.supplied()).as_supplied();
+}
+
+Token lose_statement(ParseSession& session) {
+    ScanState& scan = session.scan;
+    const SourceSpan span = session.token();
+    scan.skipping = true;
+    scan.failed = true;
+    session.builder.spoil();
+    return Token(Parser::token::TOK_YYerror, span);
+}
+
+bool lacks_colon(ParseSession& session, std::string_view inserted) {
+    ScanState& scan = session.scan;
+    if ((scan.part != Part::Head && scan.part != Part::Condition) ||
+        count_colons(session.scanned.text, scan.statement_begin) >= 3) {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::MissingColon)) {
+        const SourceSpan place = session.scanned.span(scan.begin, scan.end);
+        Diagnostic& diagnostic = session.context.diagnostics.add(
+            DiagnosticCode::MissingColon, place,
+            inserted.empty() ? "the production lacks a `:` before this, or earlier"
+                             : "the production lacks a `:` before this");
+        if (!inserted.empty()) {
+            add_fix(diagnostic, "add `:`", {place.file, place.begin, place.begin},
+                    std::string(inserted));
+        }
+        diagnostic.help.emplace_back(kFourParts);
+    }
+    return true;
+}
+
+} // namespace lsys::lsys_grammar

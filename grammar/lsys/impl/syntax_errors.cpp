@@ -1,0 +1,225 @@
+#include "grammar/lsys/impl/syntax_errors.h"
+
+#include "grammar/ast/reports.h"
+#include "grammar/lsys/impl/lookahead.h"
+#include "grammar/lsys/impl/statement_tokens.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lsys::lsys_grammar {
+
+namespace {
+
+using Kind = Parser::symbol_kind;
+
+/// The token that cannot stand, and what is known about its place.
+struct Unexpected {
+    Parser::symbol_kind_type token;
+    SourceSpan place;
+    std::span<const Parser::symbol_kind_type> expected;
+    Part part;
+    std::string_view text;
+
+    [[nodiscard]] bool expects(Parser::symbol_kind_type kind) const {
+        return std::find(expected.begin(), expected.end(), kind) != expected.end();
+    }
+};
+
+std::string name_expected(const ScanState& scan) {
+    switch (scan.keyword) {
+    case Keyword::Set:
+        return "a key, as in `#set angle 30;`";
+    case Keyword::Object:
+    case Keyword::Include:
+        return "an object, for example `SPHERE`";
+    case Keyword::Decompose:
+    case Keyword::Interpret:
+        return "the name of the production";
+    default:
+        return "the name of the constant";
+    }
+}
+
+std::vector<std::string> expected_in_words(const Unexpected& error, const ScanState& scan) {
+    std::vector<std::string> words;
+    const bool value = error.expects(Kind::S_NUMBER);
+    const bool operators = error.expects(Kind::S_PLUS);
+    const auto add = [&](bool holds, std::string text) {
+        if (holds) {
+            words.push_back(std::move(text));
+        }
+    };
+    add(error.expects(Kind::S_NAMES), "a module");
+    add(value && error.part != Part::Setting, "a value");
+    add(value && error.part == Part::Setting, "a number or a word");
+    add(!value && error.expects(Kind::S_IDENTIFIER), name_expected(scan));
+    add(error.expects(Kind::S_STRING), "a file name in quotes");
+    add(operators, "an operator");
+    add(!operators && error.expects(Kind::S_STAR), "`*`");
+    add(error.expects(Kind::S_ASSIGN), "`=`");
+    add(error.expects(Kind::S_TILDE), "`~` and a probability");
+    add(error.expects(Kind::S_COMMA), "`,`");
+    add(error.expects(Kind::S_RPAREN) || error.expects(Kind::S_CLOSE), "`)`");
+    add(error.expects(Kind::S_RBRACE), "`}`");
+    add(!value && error.expects(Kind::S_LBRACE), "the bounds `{min, max}`");
+    add(error.expects(Kind::S_CLT), "`<`");
+    add(error.expects(Kind::S_CGT), "`>`");
+    if (error.expects(Kind::S_COLON)) {
+        const bool after_head = error.part == Part::Head;
+        const bool after_condition = error.part == Part::Condition;
+        words.emplace_back(after_head        ? "`:` and the condition"
+                           : after_condition ? "`:` and the successor"
+                                             : "`:`");
+    }
+    add(error.expects(Kind::S_SEMICOLON), "`;`");
+    return words;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        text += i == 0 ? "" : i + 1 == words.size() ? " or " : ", ";
+        text += words[i];
+    }
+    return text;
+}
+
+std::string found_in_words(const Unexpected& error, const ScanState& scan) {
+    if (error.text.empty()) {
+        return scan.draining == Drain::EndOfFile ? "the end of the file" : "the next statement";
+    }
+    return "`" + shown(error.text) + "`";
+}
+
+Diagnostic& report(ParseSession& session, DiagnosticCode code, SourceSpan span, std::string text) {
+    return session.context.diagnostics.add(code, span, std::move(text));
+}
+
+void report_expected(ParseSession& session, const Unexpected& error) {
+    if (!session.wants(DiagnosticCode::SyntaxError)) {
+        return;
+    }
+    const ScanState& scan = session.scan;
+    const std::vector<std::string> words = expected_in_words(error, scan);
+    const std::string found = found_in_words(error, scan);
+    Diagnostic& diagnostic =
+        report(session, DiagnosticCode::SyntaxError, error.place,
+               words.empty() ? found + " cannot stand here"
+                             : "expected " + joined(words) + ", found " + found);
+    if (scan.keyword == Keyword::Param && error.expects(Kind::S_LBRACE) &&
+        !error.expects(Kind::S_NUMBER)) {
+        diagnostic.help.emplace_back("a parameter has bounds: `#param NAME value {min, max};`");
+    } else if (error.part == Part::Setting && !error.text.empty() && error.text != ";") {
+        diagnostic.help.emplace_back(error.text == "\""
+                                         ? "the words of a setting stand without quotes"
+                                         : "an expression stands in parentheses here: "
+                                           "`#set angle (360 / 7);`");
+    } else if (error.text == "?") {
+        diagnostic.help.emplace_back("there is no conditional operator; a comparison is 1 or 0 and "
+                                     "can be a factor");
+    } else if (error.token == Kind::S_COMMA && scan.open.empty()) {
+        diagnostic.help.emplace_back("a comma stands only between arguments in parentheses");
+    }
+}
+
+/// `[` or another module where a value is due: the `(` before was never closed.
+bool report_modules_in_parentheses(ParseSession& session, const Unexpected& error) {
+    const ScanState& scan = session.scan;
+    if (error.token != Kind::S_OTHER || scan.open.empty() ||
+        scan.open.front().kind != OpenBracket::Kind::Module || error.text.size() != 1 ||
+        std::string_view("[]$\"'\\").find(error.text[0]) == std::string_view::npos) {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::UnclosedParenthesis)) {
+        const std::uint32_t open = scan.open.front().begin;
+        Diagnostic& diagnostic =
+            report(session, DiagnosticCode::UnclosedParenthesis,
+                   session.scanned.span(open, open + 1), "`(` is never closed");
+        diagnostic.labels.push_back(
+            {error.place, "`" + std::string(error.text) + "` is no part of an argument"});
+    }
+    return true;
+}
+
+bool report_empty_condition(ParseSession& session, const Unexpected& error) {
+    const std::string_view text = session.scanned.text;
+    const std::size_t before = session.scan.begin == 0
+                                   ? std::string_view::npos
+                                   : text.find_last_not_of(" \t\r\n", session.scan.begin - 1);
+    if (error.token != Kind::S_COLON || error.part != Part::Successor ||
+        before == std::string_view::npos || text[before] != ':') {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        Diagnostic& diagnostic =
+            report(session, DiagnosticCode::SyntaxError, error.place, "the condition is missing");
+        diagnostic.fixes.push_back(
+            {"`*` is the condition that always holds",
+             {{{error.place.file, error.place.begin, error.place.begin}, "* "}},
+             true});
+    }
+    return true;
+}
+
+bool report_unary_plus(ParseSession& session, const Unexpected& error) {
+    if (error.token != Kind::S_PLUS || !error.expects(Kind::S_NUMBER)) {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        Diagnostic& diagnostic = report(session, DiagnosticCode::SyntaxError, error.place,
+                                        "expected a value, found `+`");
+        diagnostic.fixes.push_back(
+            {"a positive number has no sign; remove the `+`", {{error.place, ""}}, true});
+    }
+    return true;
+}
+
+bool report_parts_of_a_head(ParseSession& session, const Unexpected& error) {
+    const bool is_arrow = error.token == Kind::S_CLT || error.token == Kind::S_CGT;
+    if (error.part != Part::Head || !is_arrow) {
+        return false;
+    }
+    if (lacks_colon(session, "")) {
+        return true;
+    }
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        Diagnostic& diagnostic =
+            report(session, DiagnosticCode::SyntaxError, error.place,
+                   "a second `" + std::string(error.text) + "` cannot stand here");
+        diagnostic.help.emplace_back("contexts are written `left < predecessor > right`");
+    }
+    return true;
+}
+
+} // namespace
+
+void report_unexpected_token(ParseSession& session,
+                             Parser::symbol_kind_type token,
+                             SourceSpan place,
+                             std::span<const Parser::symbol_kind_type> expected) {
+    ScanState& scan = session.scan;
+    const bool is_supplied = scan.supplied;
+    // What was supplied has been reported already, but for a `;`, of which nobody knows yet.
+    if (session.wants_reports() && (!is_supplied || token == Kind::S_SEMICOLON)) {
+        const Part part = scan.statement_open ? scan.part : scan.ended_part;
+        const std::string_view text =
+            is_supplied ? std::string_view{}
+                        : session.scanned.text.substr(scan.begin, scan.end - scan.begin);
+        const Unexpected error{token, place, expected, part, text};
+        const bool in_production = part == Part::Head || part == Part::Condition;
+        const bool reported =
+            report_modules_in_parentheses(session, error) ||
+            report_empty_condition(session, error) || report_parts_of_a_head(session, error) ||
+            (in_production && scan.open.empty() && !is_supplied && lacks_colon(session, "")) ||
+            report_unary_plus(session, error);
+        if (!reported) {
+            report_expected(session, error);
+        }
+    }
+    scan.failed = true;
+}
+
+} // namespace lsys::lsys_grammar

@@ -1,0 +1,78 @@
+#include "grammar/lsys/parse.h"
+
+#include "grammar/lsys/impl/parse_session.h"
+#include "grammar/lsys/impl/plain_text.h"
+#include "grammar/lsys/impl/scanning.h"
+
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+void parse_text(const PlainText& plain,
+                const ParseContext& context,
+                Ast& ast,
+                IncludeChain& includes) {
+    ParseSession session(context, plain.scanned, ast, &includes);
+    session.builder.set_names(plain.names);
+    const lsys_grammar::Scanning scanning(session);
+    lsys_grammar::Parser parser(session, scanning.scanner());
+    const int failed = parser.parse();
+    LSYS_CHECK(failed == 0); // every error is recovered from
+}
+
+/// Parses one file to its end; its includes are parsed within.
+void parse_file(FileId file, const ParseContext& context, Ast& ast, IncludeChain& includes) {
+    parse_text(make_plain(file, context, false), context, ast, includes);
+}
+
+} // namespace
+
+void ParseSession::end_statement(SourceSpan span, bool whole) {
+    const bool is_kept = builder.finish_statement(span, whole);
+    if (is_kept && scan.semicolon_supplied && wants(DiagnosticCode::MissingSemicolon)) {
+        const SourceSpan place = supplied();
+        Diagnostic& diagnostic = context.diagnostics.add(
+            DiagnosticCode::MissingSemicolon, place, "`;` is missing at the end of a statement");
+        if (scan.draining != Drain::EndOfFile) {
+            diagnostic.labels.push_back({scanned.span(scan.next_statement, scan.next_statement + 1),
+                                         "the next statement begins here"});
+        }
+        diagnostic.fixes.push_back({"add `;`", {{place, ";"}}, true});
+    }
+    if (!is_kept || ast_.statements.back().kind != StatementKind::Include || includes == nullptr) {
+        return;
+    }
+    const std::uint32_t index = ast_.statements.back().index;
+    // By value: the vector grows while the file is parsed.
+    const IncludeNode node = ast_.includes[index];
+    const FileId file = includes->enter(node.path, node.path_span);
+    if (file == kNoFile) {
+        ast_.incomplete = true;
+        return;
+    }
+    ast_.includes[index].file = file;
+    ast_.files.push_back({file, node.path_span});
+    parse_file(file, context, ast_, *includes);
+    includes->leave();
+    builder.take_marks();
+}
+
+Ast parse_lsys(FileId root, const ParseContext& context) {
+    Ast ast;
+    ast.files.push_back({root, {}});
+    IncludeChain includes(context, root);
+    parse_file(root, context, ast, includes);
+    return ast;
+}
+
+Ast parse_translation(const Translation& translation, const ParseContext& context) {
+    Ast ast;
+    ast.files.push_back({translation.file(), {}});
+    IncludeChain includes(context, translation.file());
+    parse_text(make_plain(translation, context), context, ast, includes);
+    return ast;
+}
+
+} // namespace lsys

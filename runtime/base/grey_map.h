@@ -1,0 +1,36 @@
+// GreyMap: a picture of one channel: heights of a terrain, densities of a forest. Row 0 lies at the
+// lowest Z and column 0 at the lowest X, so a picture seen on a screen is the ground seen from
+// above.
+#pragma once
+
+#include "grammar/base/result.h"
+#include "runtime/base/large_vector.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace lsys {
+
+/// Most pixels of a map: 11,585 by 11,585.
+inline constexpr std::uint64_t kMaxMapPixels = std::uint64_t{1} << 27;
+
+struct GreyMap {
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+    LargeVector<std::uint16_t> values; // by rows; 0 is black, 65535 white
+
+    [[nodiscard]] std::uint16_t at(std::uint32_t column, std::uint32_t row) const {
+        return values[std::size_t{row} * columns + column];
+    }
+};
+
+/// Reads a PNG file of 1 to 16 bits a sample; 8 bits b become 257 b. Samples are taken as they are
+/// stored: no gamma, no opacity. Pictures with colours are refused, unless every pixel is grey.
+[[nodiscard]] Result<GreyMap> read_grey_png(std::string_view bytes);
+
+/// Reads raw samples of 16 bits, little-endian, by rows, without a header.
+[[nodiscard]] Result<GreyMap>
+read_grey_raw(std::string_view bytes, std::uint32_t columns, std::uint32_t rows);
+
+} // namespace lsys

@@ -1,0 +1,33 @@
+#include "runtime/base/large_vector.h"
+
+#include <cstdint>
+#include <new>
+#include <sys/mman.h>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::size_t kHugePage = std::size_t{2} << 20;
+constexpr std::size_t kLarge = 2 * kHugePage; // smaller blocks come from the heap
+
+} // namespace
+
+void* allocate_large(std::size_t bytes) {
+    if (bytes < kLarge) {
+        return ::operator new(bytes);
+    }
+    void* const address = ::operator new (bytes, std::align_val_t{kHugePage});
+    madvise(address, bytes, MADV_HUGEPAGE); // a refusal costs time, no more
+    return address;
+}
+
+void release_large(void* address, std::size_t bytes) noexcept {
+    if (bytes < kLarge) {
+        ::operator delete(address);
+    } else {
+        ::operator delete (address, std::align_val_t{kHugePage});
+    }
+}
+
+} // namespace lsys

@@ -1,0 +1,130 @@
+#include "runtime/base/png_samples.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <csetjmp>
+#include <cstddef>
+#include <cstring>
+#include <png.h>
+#include <string>
+
+namespace lsys {
+
+namespace {
+
+/// What libpng reads from, and where it leaves the reason of a failure.
+struct PngInput {
+    std::string_view left;
+    std::array<char, 128> reason{};
+};
+
+// libpng ends a read by longjmp: no function between setjmp and longjmp owns anything.
+
+[[noreturn]] void fail(png_structp png, png_const_charp message) {
+    auto* const input = static_cast<PngInput*>(png_get_error_ptr(png));
+    std::strncpy(input->reason.data(), message, input->reason.size() - 1);
+    png_longjmp(png, 1);
+}
+
+void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
+
+void take(png_structp png, png_bytep to, png_size_t count) {
+    auto* const input = static_cast<PngInput*>(png_get_io_ptr(png));
+    if (input->left.size() < count) {
+        fail(png, "the file ends early");
+    }
+    std::memcpy(to, input->left.data(), count);
+    input->left.remove_prefix(count);
+}
+
+struct PngSize {
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+    std::uint32_t channels = 0;
+    std::uint32_t passes = 0;
+};
+
+/// False: failed, see PngInput::reason. After it, samples have the form that is asked for.
+bool read_size(png_structp png, png_infop info, PngForm form, PngSize& size) {
+    if (setjmp(png_jmpbuf(png)) != 0) {
+        return false;
+    }
+    png_read_info(png, info);
+    if (form == PngForm::SixteenBits) {
+        png_set_expand_16(png);
+        png_set_strip_alpha(png);
+    } else {
+        png_set_expand(png);
+        png_set_scale_16(png);
+        png_set_gray_to_rgb(png);
+        png_set_add_alpha(png, 0xFF, PNG_FILLER_AFTER);
+    }
+    const int passes = png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+    size = {png_get_image_width(png, info), png_get_image_height(png, info),
+            png_get_channels(png, info), static_cast<std::uint32_t>(passes)};
+    return true;
+}
+
+bool read_rows(png_structp png, const PngSize& size, std::size_t row_bytes, png_bytep samples) {
+    if (setjmp(png_jmpbuf(png)) != 0) {
+        return false;
+    }
+    for (std::uint32_t pass = 0; pass < size.passes; ++pass) {
+        for (std::uint32_t row = 0; row < size.rows; ++row) {
+            png_read_row(png, samples + row * row_bytes, nullptr);
+        }
+    }
+    return true;
+}
+
+struct PngRequest {
+    PngForm form = PngForm::Rgba;
+    std::uint64_t most_pixels = 0;
+    std::string_view what;
+};
+
+Result<PngSamples>
+read_with(png_structp png, png_infop info, const PngRequest& request, PngInput& input) {
+    const auto damaged = [&input] {
+        return Error{fmt::format("the PNG cannot be read: {}", input.reason.data())};
+    };
+    PngSize size;
+    if (!read_size(png, info, request.form, size)) {
+        return damaged();
+    }
+    const std::uint64_t pixels = std::uint64_t{size.columns} * size.rows;
+    if (pixels > request.most_pixels) {
+        return Error{fmt::format("a {} of {} by {} pixels; the most is {}", request.what,
+                                 size.columns, size.rows, request.most_pixels)};
+    }
+    const std::size_t row_bytes = png_get_rowbytes(png, info);
+    PngSamples samples{size.columns, size.rows, size.channels,
+                       LargeVector<std::uint8_t>(row_bytes * size.rows)};
+    if (!read_rows(png, size, row_bytes, samples.bytes.data())) {
+        return damaged();
+    }
+    return samples;
+}
+
+} // namespace
+
+Result<PngSamples> read_png_samples(std::string_view bytes,
+                                    PngForm form,
+                                    std::uint64_t most_pixels,
+                                    std::string_view what) {
+    PngInput input{bytes, {}};
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &input, fail, ignore_warning);
+    png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+    if (info == nullptr) {
+        png_destroy_read_struct(&png, nullptr, nullptr);
+        return Error{"there is no memory to read a PNG"};
+    }
+    png_set_read_fn(png, &input, take);
+    Result<PngSamples> samples = read_with(png, info, {form, most_pixels, what}, input);
+    png_destroy_read_struct(&png, &info, nullptr);
+    return samples;
+}
+
+} // namespace lsys

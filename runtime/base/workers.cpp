@@ -1,0 +1,162 @@
+#include "runtime/base/workers.h"
+
+#include <algorithm>
+
+#if LSYS_THREADS
+#include <condition_variable>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+#endif
+
+namespace lsys {
+
+#if LSYS_THREADS
+
+namespace {
+
+constexpr std::uint32_t kMaxThreads = 1024;
+// How often a helper looks for the next task before it sleeps: some tens of microseconds, as long
+// as the serial work between two passes over a word.
+constexpr int kLooks = 2000;
+
+void pause_a_moment() {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#endif
+}
+
+} // namespace
+
+/// The helpers: all workers but the calling thread.
+struct Workers::Team {
+    using Task = std::function<void()>;
+
+    /// Starts `count` helpers, or as many as the system gives.
+    explicit Team(std::uint32_t count) {
+        helpers.reserve(count);
+        while (helpers.size() < count) {
+            try {
+                helpers.emplace_back([this] { help(); });
+            } catch (const std::system_error&) {
+                return;
+            }
+        }
+    }
+    ~Team() {
+        {
+            const std::lock_guard lock(mutex);
+            stops = true;
+            ++tickets;
+        }
+        begun.notify_all();
+        for (std::thread& helper : helpers) {
+            helper.join();
+        }
+    }
+    Team(const Team&) = delete;
+    Team& operator=(const Team&) = delete;
+
+    /// Runs `task` on the calling thread and on all helpers; returns when all have left it.
+    void run(const Task& new_task) {
+        {
+            const std::lock_guard lock(mutex);
+            task = &new_task;
+            ++tickets;
+        }
+        begun.notify_all();
+        new_task();
+        std::unique_lock lock(mutex);
+        task = nullptr;
+        left.wait(lock, [&] { return busy == 0; });
+    }
+
+    /// Returns whether there is a task after the last one seen; else the team ends.
+    bool wait_for_task(std::uint64_t last) {
+        for (int i = 0; i < kLooks && tickets.load(std::memory_order_relaxed) == last; ++i) {
+            pause_a_moment();
+        }
+        std::unique_lock lock(mutex);
+        begun.wait(lock, [&] { return stops || tickets != last; });
+        return !stops;
+    }
+
+    void help() {
+        std::uint64_t last = 0;
+        while (wait_for_task(last)) {
+            const Task* current = nullptr;
+            {
+                const std::lock_guard lock(mutex);
+                last = tickets;
+                current = task;
+                busy += current != nullptr ? 1 : 0;
+            }
+            if (current == nullptr) {
+                continue; // woken too late
+            }
+            (*current)();
+            const std::lock_guard lock(mutex);
+            if (--busy == 0) {
+                left.notify_one();
+            }
+        }
+    }
+
+    std::mutex mutex;
+    std::condition_variable begun;
+    std::condition_variable left;
+    std::atomic<std::uint64_t> tickets{0}; // tasks begun so far
+    const Task* task = nullptr;            // null once its pieces are all taken
+    std::uint32_t busy = 0;                // helpers within the task
+    bool stops = false;
+    std::vector<std::thread> helpers; // last: they use all of the above
+};
+
+Workers::Workers(std::uint32_t threads)
+    : count_(threads != 0 ? std::min(threads, kMaxThreads)
+                          : std::max(1U, std::thread::hardware_concurrency())) {}
+
+void Workers::start() {
+    if (team_ == nullptr && count_ > 1) {
+        team_ = std::make_unique<Team>(count_ - 1);
+        count_ = static_cast<std::uint32_t>(team_->helpers.size()) + 1;
+    }
+}
+
+#else
+
+struct Workers::Team {
+    template <typename Task>
+    void run(const Task&) {}
+};
+
+Workers::Workers(std::uint32_t) : count_(1) {}
+
+void Workers::start() {}
+
+#endif
+
+Workers::~Workers() = default;
+
+void Workers::for_each(std::uint64_t pieces, const std::function<void(std::uint64_t)>& piece) {
+    if (pieces > 1) {
+        start();
+    }
+    if (team_ == nullptr || pieces <= 1) {
+        for (std::uint64_t i = 0; i < pieces; ++i) {
+            piece(i);
+        }
+        return;
+    }
+    // Each thread takes the next piece until none is left, so that neighbours are done at about the
+    // same time.
+    std::atomic<std::uint64_t> next{0};
+    team_->run([&] {
+        for (std::uint64_t i = next.fetch_add(1); i < pieces; i = next.fetch_add(1)) {
+            piece(i);
+        }
+    });
+}
+
+} // namespace lsys

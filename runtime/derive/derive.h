@@ -1,0 +1,93 @@
+// Derivation: from Bytecode to words, generation by generation (LANGUAGE.md sections 4 to 6). The
+// result depends on bytecode, seed and number of generations alone, not on threads or chunks.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "runtime/base/limits.h"
+#include "runtime/derive/word.h"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+enum class RuntimeErrorKind : std::uint8_t {
+    NotFinite,     // a parameter or condition is infinite or not a number
+    RangeReversed, // {min, max} with min > max
+    RangeTooWide,  // a bound or the width is not finite
+    OutOfBounds,   // a #param outside its bounds
+    Unbalanced,    // a `]` without its `[` in the last word, which is of age `generation`
+    TooDeep,       // a later stage's production still matches after as many passes as there may be
+};
+
+/// What went wrong at run time, as facts; runtime_diagnostic() words it.
+struct RuntimeError {
+    RuntimeErrorKind kind{};
+    ProductionId production = kNoProduction; // none: the axiom or a global
+    std::uint32_t site = kNone;              // the expression, or the production's name
+    std::uint32_t generation = 0; // age of the word being rewritten; kStartGeneration: at the start
+    std::uint64_t position = 0;   // of the module in that word
+    SymbolId symbol = kNoSymbol;  // the module
+    std::vector<float> parameters; // its parameters
+    float value = 0.0F;            // the value, or min
+    float second = 0.0F;           // max
+    std::uint32_t global = kNone;  // of OutOfBounds and errors while globals are drawn
+    bool in_condition = false;     // not in an argument
+};
+
+struct DeriveOptions {
+    std::uint32_t generations = 0; // asked for: what steps() yields
+    std::uint64_t seed = 0;
+    std::uint32_t threads = 0; // 0: as many as the machine has
+    /// Words keep the origin of each module: 8 bytes more for each, and time to write them.
+    bool origins = false;
+    Limits limits;
+    const std::atomic<bool>* cancelled = nullptr;
+    /// Modules that a thread takes at a time; no word depends on it. Tests make it small.
+    std::uint32_t chunk_modules = 1U << 16;
+    /// Called between generations, and now and then within a long one; from any thread, but never
+    /// from two at once.
+    std::function<void(std::uint32_t generation, std::uint64_t modules_written)> progress;
+};
+
+enum class DeriveStatus : std::uint8_t { Ok, Error, Limit, Cancelled, OutOfMemory };
+
+/// One derivation in progress. Holds a reference to the bytecode, which outlives it.
+class Derivation {
+public:
+    Derivation(const Bytecode& bytecode, DeriveOptions options);
+    ~Derivation();
+    Derivation(Derivation&&) noexcept;
+    Derivation& operator=(Derivation&&) noexcept;
+
+    /// Draws the globals and makes the axiom. Before anything else; or resume().
+    [[nodiscard]] DeriveStatus start();
+    /// Goes on from a saved word of age `age`; globals are drawn anew from the seed, which gives
+    /// the same. Origins that the word does not keep are not known.
+    [[nodiscard]] DeriveStatus resume(Word word, std::uint32_t age);
+    /// Rewrites the word once. After anything but Ok the word is still that of age().
+    [[nodiscard]] DeriveStatus step();
+    /// Steps until the age is `age` or something ends it.
+    [[nodiscard]] DeriveStatus run_to(std::uint32_t age);
+    /// Checks that every `]` of the word has its `[`; commands that derive call it on the last
+    /// word. Error names the production that wrote it if only one can have.
+    [[nodiscard]] DeriveStatus check_brackets();
+
+    [[nodiscard]] const Word& word() const;
+    [[nodiscard]] std::uint32_t age() const;
+    [[nodiscard]] const RuntimeError& error() const; // after Error
+    [[nodiscard]] const LimitReport& limit() const;  // after Limit or OutOfMemory
+    [[nodiscard]] const std::vector<float>& globals() const;
+    [[nodiscard]] Word take_word();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace lsys

@@ -1,0 +1,82 @@
+#include "runtime/derive/engine/brackets.h"
+
+namespace lsys {
+
+namespace {
+
+bool closes_too_much(const Bytecode& bytecode, TableRange codes) {
+    std::int64_t depth = 0;
+    for (std::uint32_t i = codes.first; i < codes.first + codes.count; ++i) {
+        const SymbolKind kind =
+            bytecode.symbol(bytecode.symbol_of(bytecode.template_codes[i])).kind;
+        depth += kind == SymbolKind::BranchOpen ? 1 : kind == SymbolKind::BranchClose ? -1 : 0;
+        if (depth < 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Whether the production takes a bracket out of the word, so that others lose their partner.
+bool rewrites_bracket(const Bytecode& bytecode, const BytecodeProduction& production) {
+    for (std::uint32_t i = 0; i < production.predecessor.count; ++i) {
+        const PatternItem& item = bytecode.patterns[production.predecessor.first + i];
+        const SymbolKind kind = bytecode.symbol(item.symbol).kind;
+        if (kind == SymbolKind::BranchOpen || kind == SymbolKind::BranchClose) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+BracketCounter::BracketCounter(const Bytecode& bytecode) {
+    change_.reserve(bytecode.code_count());
+    for (Code code = 0; code < bytecode.code_count(); ++code) {
+        const SymbolKind kind = bytecode.symbol(bytecode.symbol_of(code)).kind;
+        has_close_ = has_close_ || kind == SymbolKind::BranchClose;
+        const int change = kind == SymbolKind::BranchOpen    ? 1
+                           : kind == SymbolKind::BranchClose ? -1
+                                                             : 0;
+        change_.push_back(static_cast<std::int8_t>(change));
+    }
+}
+
+ProductionId only_unbalanced_production(const Bytecode& bytecode) {
+    if (closes_too_much(bytecode, bytecode.axiom.codes)) {
+        return kNoProduction;
+    }
+    ProductionId found = kNoProduction;
+    for (std::uint32_t i = 0; i < bytecode.productions.size(); ++i) {
+        if (bytecode.productions[i].stage == Stage::Interpret) {
+            break; // it writes no word
+        }
+        if (rewrites_bracket(bytecode, bytecode.productions[i])) {
+            return kNoProduction;
+        }
+        if (closes_too_much(bytecode, bytecode.productions[i].successor.codes)) {
+            if (found != kNoProduction) {
+                return kNoProduction;
+            }
+            found = static_cast<ProductionId>(i);
+        }
+    }
+    return found;
+}
+
+RuntimeError
+unmatched_bracket(const Bytecode& bytecode, Code code, std::uint64_t position, std::uint32_t age) {
+    RuntimeError error;
+    error.kind = RuntimeErrorKind::Unbalanced;
+    error.production = only_unbalanced_production(bytecode);
+    error.site = error.production == kNoProduction
+                     ? bytecode.axiom_site
+                     : bytecode.productions[static_cast<std::size_t>(error.production)].name_site;
+    error.generation = age;
+    error.position = position;
+    error.symbol = bytecode.symbol_of(code);
+    return error;
+}
+
+} // namespace lsys

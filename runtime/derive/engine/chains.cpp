@@ -1,0 +1,83 @@
+#include "runtime/derive/engine/chains.h"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+/// Modules that productions of the stage take apart, by what they are made of; by symbol.
+std::vector<std::vector<std::uint32_t>> parts_of(const Bytecode& bytecode, TableRange stage) {
+    std::vector<std::vector<std::uint32_t>> parts(bytecode.symbols.size());
+    std::vector<bool> matched(bytecode.symbols.size(), false);
+    const auto head = [&](std::uint32_t p) {
+        const TableRange predecessor = bytecode.productions[p].predecessor;
+        return static_cast<std::size_t>(bytecode.patterns[predecessor.first].symbol);
+    };
+    for (std::uint32_t p = stage.first; p < stage.first + stage.count; ++p) {
+        matched[head(p)] = true;
+    }
+    for (std::uint32_t p = stage.first; p < stage.first + stage.count; ++p) {
+        const TableRange codes = bytecode.productions[p].successor.codes;
+        for (std::uint32_t i = codes.first; i < codes.first + codes.count; ++i) {
+            const auto symbol =
+                static_cast<std::uint32_t>(bytecode.symbol_of(bytecode.template_codes[i]));
+            if (matched[symbol]) {
+                parts[head(p)].push_back(symbol);
+            }
+        }
+    }
+    for (std::vector<std::uint32_t>& list : parts) {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+    return parts;
+}
+
+/// Modules on the longest way, less one; nothing if it never ends.
+std::optional<std::uint32_t> longest_way(const std::vector<std::vector<std::uint32_t>>& parts) {
+    std::vector<std::uint32_t> users(parts.size(), 0);
+    for (const std::vector<std::uint32_t>& list : parts) {
+        for (const std::uint32_t part : list) {
+            ++users[part];
+        }
+    }
+    std::vector<std::uint32_t> ready;
+    for (std::uint32_t s = 0; s < parts.size(); ++s) {
+        if (users[s] == 0) {
+            ready.push_back(s);
+        }
+    }
+    std::vector<std::uint32_t> steps(parts.size(), 0);
+    std::uint32_t longest = 0;
+    std::size_t done = 0;
+    for (; done < ready.size(); ++done) {
+        const std::uint32_t s = ready[done];
+        longest = std::max(longest, steps[s]);
+        for (const std::uint32_t part : parts[s]) {
+            steps[part] = std::max(steps[part], steps[s] + 1);
+            if (--users[part] == 0) {
+                ready.push_back(part);
+            }
+        }
+    }
+    return done == parts.size() ? std::optional(longest) : std::nullopt;
+}
+
+} // namespace
+
+StageDepth depth_of(const Bytecode& bytecode, Stage stage) {
+    const TableRange range = bytecode.of(stage);
+    if (range.count == 0) {
+        return {};
+    }
+    const std::uint32_t most = stage == Stage::Decompose ? bytecode.settings.decompose_depth
+                                                         : bytecode.settings.interpret_depth;
+    const std::optional<std::uint32_t> way = longest_way(parts_of(bytecode, range));
+    const std::uint32_t needed = way ? *way + 1 : most + 1;
+    return {std::min(needed, most), needed > most && bytecode.settings.at_depth == AtDepth::Error};
+}
+
+} // namespace lsys

@@ -1,0 +1,133 @@
+#include "runtime/derive/engine/choose.h"
+
+namespace lsys {
+
+template <typename C>
+bool Chooser<C>::condition(const Candidate& candidate,
+                           const ModulePlace& place,
+                           const float* own,
+                           bool& is_true) {
+    switch (candidate.condition) {
+    case ConditionKind::Always:
+        is_true = true;
+        return true;
+    case ConditionKind::Never:
+        is_true = false;
+        return true;
+    case ConditionKind::Comparisons:
+        is_true = true;
+        for (const Comparison& comparison : plan_.comparisons(candidate)) {
+            is_true = is_true && holds(comparison, own);
+        }
+        return true;
+    case ConditionKind::Expression:
+        break;
+    }
+    const PlanInputs& inputs = plan_.inputs();
+    const EvalFrame frame{matcher_.formals(candidate, place), inputs.globals,
+                          static_cast<float>(keys_.generation), inputs.steps};
+    float value = 0.0F;
+    const std::uint32_t first = plan_.bytecode().productions[candidate.production].condition;
+    if (!evaluate(plan_.bytecode(), first, frame, nullptr, &value, fault_)) {
+        faulty_candidate_ = static_cast<std::uint32_t>(&candidate - &plan_.candidate(0));
+        return false;
+    }
+    is_true = value != 0.0F;
+    return true;
+}
+
+template <typename C>
+bool Chooser<C>::choose(const ModulePlace& place, const Row& row, std::uint32_t& record) {
+    record = 0;
+    if (row.kind == RowKind::Choice) {
+        record = choose_by_chance(module_draw(place.index), row);
+        return true;
+    }
+    if (row.kind == RowKind::Tests) {
+        record = choose_by_test(word_.parameters + place.parameter, row);
+        return true;
+    }
+    const Bytecode& bytecode = plan_.bytecode();
+    const Family& family = plan_.family(row.source);
+    const std::span<const Candidate> candidates = plan_.candidates(family);
+    const float* const own = matcher_.own(place);
+    std::uint32_t group = kNone; // whose contexts were looked for last
+    bool in_context = true;
+    for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+        const Candidate& candidate = candidates[i];
+        if (candidate.modules > 1 && !matcher_.matches_predecessor(
+                                         bytecode.productions[candidate.production], place.index)) {
+            continue;
+        }
+        if (candidate.has_context) {
+            if (candidate.group != group) {
+                group = candidate.group;
+                in_context = matcher_.matches_contexts(bytecode.productions[candidate.production],
+                                                       place.index);
+            }
+            if (!in_context) {
+                continue;
+            }
+        }
+        bool is_true = false;
+        if (!condition(candidate, place, own, is_true)) {
+            return false;
+        }
+        if (is_true) {
+            record = i + 1;
+            return !candidate.stochastic || choose_among(family, i, place, record);
+        }
+    }
+    return true;
+}
+
+/// The stochastic choice once candidate `first` of the family is known to match.
+template <typename C>
+bool Chooser<C>::choose_among(const Family& family,
+                              std::uint32_t first,
+                              const ModulePlace& place,
+                              std::uint32_t& record) {
+    const std::span<const Candidate> candidates = plan_.candidates(family);
+    const std::uint32_t group = candidates[first].group;
+    const float* const own = matcher_.own(place);
+    matching_.assign(1, first);
+    float sum = candidates[first].weight;
+    for (std::uint32_t i = first + 1; i < candidates.size(); ++i) {
+        const Candidate& candidate = candidates[i];
+        if (candidate.group != group || !candidate.stochastic) {
+            continue;
+        }
+        bool is_true = false;
+        if (!condition(candidate, place, own, is_true)) {
+            return false;
+        }
+        if (is_true) {
+            matching_.push_back(i);
+            sum += candidate.weight;
+        }
+    }
+    record = first + 1;
+    if (matching_.size() == 1) {
+        return true;
+    }
+    const Bytecode& bytecode = plan_.bytecode();
+    const std::uint32_t rule = bytecode.productions[candidates[first].production].rule;
+    const float u = bytecode.settings.choice == ChoiceScope::Generation
+                        ? plan_.rule_draw(rule, keys_.generation)
+                        : module_draw(place.index);
+    float running = 0.0F;
+    for (const std::uint32_t i : matching_) {
+        record = i + 1;
+        running += candidates[i].weight / sum;
+        if (running > u) {
+            break;
+        }
+    }
+    return true;
+}
+
+template class Chooser<std::uint8_t>;
+template class Chooser<std::uint16_t>;
+template class Chooser<std::uint32_t>;
+
+} // namespace lsys

@@ -1,0 +1,116 @@
+// Chooser: which production rewrites a module (LANGUAGE.md section 5). Conditions and draws are
+// evaluated here and nowhere else; the answer is a record, which the writing pass reads.
+#pragma once
+
+#include "runtime/base/random.h"
+#include "runtime/derive/engine/eval.h"
+#include "runtime/derive/engine/match.h"
+#include "runtime/derive/engine/plan.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+/// What names the draws of one pass.
+struct PassKeys {
+    std::uint64_t seed = 0;
+    std::uint32_t generation = 0;
+    std::uint64_t first_draw = 0; // 4096 k in the pass of rule k of a sequential generation
+    bool same_age = false;        // what is written is of that generation too, not of the next
+};
+
+/// Reads what it is given when it is asked, so that word and keys may be changed between calls.
+template <typename C>
+class Chooser {
+public:
+    Chooser(const Plan& plan,
+            const PassKeys& keys,
+            const WordView<C>& word,
+            const ContextTables* contexts)
+        : plan_(plan), keys_(keys), word_(word), contexts_(contexts),
+          matcher_(plan, word, contexts) {}
+
+    /// The record of a module whose row is not Fixed: 0 if nothing matches, r if entry row.base + r
+    /// rewrites it. False: a condition has no finite value, fault() tells.
+    [[nodiscard]] bool choose(const ModulePlace& place, const Row& row, std::uint32_t& record);
+
+    /// The draw of a Choice row's module, and at once those of `count` modules at `positions`.
+    [[nodiscard]] float module_draw(std::uint64_t index) const {
+        const std::uint64_t position = word_.first_position + index;
+        const DrawKey key = choice_key();
+        const PhiloxBlock block = draw_block(key.seed, key.generation, position, key.block);
+        return unit_interval(block[key.word]);
+    }
+    void module_draws(const std::uint64_t* positions, std::size_t count, float* units) const {
+        draw_units(choice_key(), positions, count, units);
+    }
+    /// The same for a Choice row, with its draw, and for a Tests row, which cannot fail.
+    [[nodiscard]] std::uint32_t choose_by_chance(float u, const Row& row) const {
+        const Choice& choice = plan_.choice(row.source);
+        const float* const thresholds = plan_.thresholds(choice).data();
+        std::uint32_t taken = 0;
+        for (std::uint32_t i = 0; i + 1 < choice.count; ++i) {
+            taken += thresholds[i] > u ? 0U : 1U; // they ascend
+        }
+        return plan_.records(choice)[taken];
+    }
+    [[nodiscard]] std::uint32_t choose_by_test(const float* own, const Row& row) const {
+        for (const Test& test : plan_.tests(row.source)) {
+            if (holds(test.comparison, own)) {
+                return test.record;
+            }
+        }
+        return 0;
+    }
+    /// Whether the neighbours of a General row's module allow any match at all.
+    [[nodiscard]] bool passes_guards(std::uint64_t index, const Row& row) const {
+        if (row.left_guard != kNone) {
+            const std::uint64_t left = contexts_->left_of(index);
+            if (left == kNowhere || plan_.guards()[row.left_guard + word_.codes[left]] == 0) {
+                return false;
+            }
+        }
+        if (row.right_guard != kNone) {
+            const std::uint64_t next = contexts_->next_from(index + plan_.guard_distance());
+            if (next == kNowhere || plan_.guards()[row.right_guard + word_.codes[next]] == 0) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    [[nodiscard]] const EvalFault& fault() const { return fault_; }
+    /// The candidate at fault, an index into Plan::candidate().
+    [[nodiscard]] std::uint32_t faulty_candidate() const { return faulty_candidate_; }
+    [[nodiscard]] Matcher<C>& matcher() { return matcher_; }
+
+private:
+    [[nodiscard]] bool condition(const Candidate& candidate,
+                                 const ModulePlace& place,
+                                 const float* own,
+                                 bool& is_true);
+    [[nodiscard]] bool choose_among(const Family& family,
+                                    std::uint32_t first,
+                                    const ModulePlace& place,
+                                    std::uint32_t& record);
+    [[nodiscard]] DrawKey choice_key() const {
+        return {keys_.seed, keys_.generation, static_cast<std::uint32_t>(keys_.first_draw / 4),
+                static_cast<std::uint32_t>(keys_.first_draw % 4)};
+    }
+
+    const Plan& plan_;
+    const PassKeys& keys_;
+    const WordView<C>& word_;
+    const ContextTables* contexts_;
+    Matcher<C> matcher_;
+    EvalFault fault_;
+    std::uint32_t faulty_candidate_ = 0;
+    std::vector<std::uint32_t> matching_;
+};
+
+extern template class Chooser<std::uint8_t>;
+extern template class Chooser<std::uint16_t>;
+extern template class Chooser<std::uint32_t>;
+
+} // namespace lsys

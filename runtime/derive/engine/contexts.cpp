@@ -1,0 +1,178 @@
+#include "runtime/derive/engine/contexts.h"
+
+#include <algorithm>
+
+namespace lsys {
+
+ContextTables::ContextTables(const Plan& plan) : has_structure_(plan.has_structure()) {
+    const Bytecode& bytecode = plan.bytecode();
+    for (const BytecodeProduction& production : bytecode.productions) {
+        needs_left_ = needs_left_ || production.has_left;
+        needs_right_ = needs_right_ || production.has_right;
+        for (std::uint32_t i = 0; i < production.right.count; ++i) {
+            const PatternItem& item = bytecode.patterns[production.right.first + i];
+            needs_jump_ = needs_jump_ || item.kind == PatternKind::Open;
+        }
+    }
+    if (!needs_left_ && !needs_right_) {
+        return;
+    }
+    sights_.reserve(bytecode.code_count());
+    for (Code code = 0; code < bytecode.code_count(); ++code) {
+        const BytecodeSymbol& symbol = bytecode.symbol(bytecode.symbol_of(code));
+        sights_.push_back(symbol.kind == SymbolKind::BranchOpen    ? Sight::Open
+                          : symbol.kind == SymbolKind::BranchClose ? Sight::Close
+                          : symbol.ignored                         ? Sight::Ignored
+                                                                   : Sight::Module);
+    }
+}
+
+std::uint64_t ContextTables::held_bytes() const {
+    return sights_.size() + left_.held_bytes() + next_.held_bytes() + jump_.held_bytes() +
+           offsets_.used();
+}
+
+std::uint64_t ContextTables::held_bytes_after(const Word& word) const {
+    const std::uint64_t count = word.module_count();
+    const std::uint64_t table = (count + 1) * IndexTable::width(count);
+    std::uint64_t bytes = sights_.size();
+    if (has_structure_) {
+        bytes += needs_left_ ? std::max(left_.held_bytes(), table) : 0;
+        bytes += needs_right_ ? std::max(next_.held_bytes(), table) : 0;
+        bytes += needs_jump_ ? std::max(jump_.held_bytes(), table) : 0;
+    }
+    return bytes + std::max<std::uint64_t>(offsets_.used(), count / kOffsetStride * 8 + 8);
+}
+
+bool ContextTables::prepare(const Plan& plan, const Word& word) {
+    switch (word.code_width()) {
+    case 1:
+        return prepare_typed<std::uint8_t>(plan, word);
+    case 2:
+        return prepare_typed<std::uint16_t>(plan, word);
+    default:
+        return prepare_typed<std::uint32_t>(plan, word);
+    }
+}
+
+template <typename C>
+bool ContextTables::prepare_typed(const Plan& plan, const Word& word) {
+    const C* const codes = word.codes<C>().data();
+    count_ = word.module_count();
+    needs_offsets_ = plan.reads_contexts() && plan.has_parameters();
+    plain_ = !has_structure_ || is_plain(codes);
+    if (!plain_) {
+        if ((needs_left_ && !left_.reserve(count_, count_)) ||
+            (needs_right_ && !next_.reserve(count_ + 1, count_)) ||
+            (needs_jump_ && !jump_.reserve(count_, count_))) {
+            return false;
+        }
+        if (needs_left_) {
+            build_left(codes);
+        }
+        if (needs_right_) {
+            build_right(codes);
+        }
+    }
+    if (needs_offsets_) {
+        if (!offsets_.reserve((count_ / kOffsetStride + 1) * sizeof(std::uint64_t))) {
+            return false;
+        }
+        build_offsets(codes, plan);
+    }
+    return true;
+}
+
+template <typename C>
+bool ContextTables::is_plain(const C* codes) const {
+    return std::all_of(codes, codes + count_,
+                       [this](C code) { return sights_[code] == Sight::Module; });
+}
+
+/// One walk with a stack of what was left of each open `[`.
+template <typename C>
+void ContextTables::build_left(const C* codes) {
+    std::vector<std::uint64_t> open;
+    std::uint64_t left = kNowhere;
+    for (std::uint64_t i = 0; i < count_; ++i) {
+        left_.set(i, left);
+        switch (sights_[codes[i]]) {
+        case Sight::Module:
+            left = i;
+            break;
+        case Sight::Ignored:
+            break;
+        case Sight::Open:
+            open.push_back(left);
+            break;
+        case Sight::Close:
+            left = kNowhere; // without its `[`, nothing beyond it is on the path
+            if (!open.empty()) {
+                left = open.back();
+                open.pop_back();
+            }
+            break;
+        }
+    }
+}
+
+/// The same from the right: a `]` ends the axis before it, and its `[` goes on after it. A `[`
+/// without its `]` is a branch that reaches to the end of the word.
+template <typename C>
+void ContextTables::build_right(const C* codes) {
+    struct Closed {
+        std::uint64_t next;
+        std::uint64_t gap; // after the `]`
+    };
+    std::vector<Closed> closed;
+    std::uint64_t next = kNowhere;
+    std::uint64_t seen = count_; // the gap of the first thing that is not ignored
+    next_.set(count_, kNowhere);
+    for (std::uint64_t i = count_; i-- > 0;) {
+        switch (sights_[codes[i]]) {
+        case Sight::Module:
+            next = i;
+            seen = i;
+            break;
+        case Sight::Ignored:
+            if (needs_jump_) {
+                jump_.set(i, seen);
+            }
+            break;
+        case Sight::Close:
+            closed.push_back({next, i + 1});
+            next = kNowhere;
+            seen = i;
+            break;
+        case Sight::Open: {
+            Closed after{kNowhere, count_};
+            if (!closed.empty()) {
+                after = closed.back();
+                closed.pop_back();
+            }
+            next = after.next;
+            if (needs_jump_) {
+                jump_.set(i, after.gap);
+            }
+            seen = i;
+            break;
+        }
+        }
+        next_.set(i, next);
+    }
+}
+
+template <typename C>
+void ContextTables::build_offsets(const C* codes, const Plan& plan) {
+    auto* const offsets = reinterpret_cast<std::uint64_t*>(offsets_.data());
+    const std::vector<Row>& rows = plan.rows();
+    std::uint64_t stored = 0;
+    for (std::uint64_t i = 0; i < count_; ++i) {
+        if (i % kOffsetStride == 0) {
+            offsets[i / kOffsetStride] = stored;
+        }
+        stored += rows[codes[i]].stored;
+    }
+}
+
+} // namespace lsys

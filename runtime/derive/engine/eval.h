@@ -1,0 +1,79 @@
+// The general evaluator of conditions and arguments: a stack machine over Bytecode instructions.
+// Always right; the common expressions have faster forms (expressions/shape.h) that agree with it.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "runtime/base/random.h"
+
+#include <cstdint>
+
+namespace lsys {
+
+/// What an expression may read, beside random ranges.
+struct EvalFrame {
+    const float* formals = nullptr;
+    const float* globals = nullptr;
+    float step = 0.0F;  // age of the word being rewritten
+    float steps = 0.0F; // generations asked for
+};
+
+inline constexpr std::uint64_t kFirstBranchDraw = std::uint64_t{4} << 31;
+
+/// Where random ranges take their draws from: one module, or the start of the derivation.
+class RangeDraws {
+public:
+    /// Range i is draw `first + i` of the module.
+    [[nodiscard]] static RangeDraws of_module(std::uint64_t seed,
+                                              std::uint32_t generation,
+                                              std::uint64_t position,
+                                              std::uint64_t first) {
+        return {seed, generation, position, first};
+    }
+    /// Range i is draw 0 at position `position + i` of the start.
+    [[nodiscard]] static RangeDraws at_start(std::uint64_t seed, std::uint32_t position) {
+        return {seed, kStartGeneration, position, 0};
+    }
+    [[nodiscard]] float draw(std::uint32_t range);
+    /// Of a module: whether branch `branch` of its successor is taken has draws of its own, from
+    /// block 2^31 on.
+    [[nodiscard]] float draw_branch(std::uint32_t branch);
+
+private:
+    RangeDraws(std::uint64_t seed,
+               std::uint32_t generation,
+               std::uint64_t position,
+               std::uint64_t first)
+        : source_(seed, generation, position), seed_(seed), position_(position), first_(first),
+          generation_(generation) {}
+
+    DrawSource source_;
+    std::uint64_t seed_;
+    std::uint64_t position_;
+    std::uint64_t first_;
+    std::uint32_t generation_;
+};
+
+enum class Fault : std::uint8_t { None, NotFinite, RangeReversed, RangeTooWide };
+
+/// What stopped an evaluation, and at which instruction.
+struct EvalFault {
+    Fault kind = Fault::None;
+    std::uint32_t instruction = 0;
+    float value = 0.0F;  // the value, or min
+    float second = 0.0F; // max
+};
+
+/// Whether `{minimum, maximum}` can be drawn from.
+[[nodiscard]] Fault check_range(float minimum, float maximum);
+
+/// Runs the instructions from `first` to End. What Emit and Test take is appended at `out`, in
+/// order. False: `fault` says why, and `out` holds the values before it. `draws` may be null where
+/// no range occurs.
+[[nodiscard]] bool evaluate(const Bytecode& bytecode,
+                            std::uint32_t first,
+                            const EvalFrame& frame,
+                            RangeDraws* draws,
+                            float* out,
+                            EvalFault& fault);
+
+} // namespace lsys

@@ -1,0 +1,22 @@
+// Which module is at fault: the slow walk that finds the lowest position of a word where a
+// condition or an argument has no value, once a pass has met any such place.
+#pragma once
+
+#include "runtime/derive/derive.h"
+#include "runtime/derive/engine/choose.h"
+
+#include <optional>
+
+namespace lsys {
+
+/// The first fault among the modules from `begin` up to and with those that begin before `end`.
+/// At one module, conditions in file order come before arguments from left to right.
+template <typename C>
+[[nodiscard]] std::optional<RuntimeError> find_fault(const Plan& plan,
+                                                     const PassKeys& keys,
+                                                     const WordView<C>& word,
+                                                     const ContextTables* contexts,
+                                                     ModulePlace begin,
+                                                     std::uint64_t end);
+
+} // namespace lsys

@@ -1,0 +1,30 @@
+// The folded modules of a program by symbol and arguments.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+
+#include <cstdint>
+#include <unordered_map>
+
+namespace lsys {
+
+class FoldedIndex {
+public:
+    /// `bytecode` outlives the index; modules that are folded later are added.
+    explicit FoldedIndex(const Bytecode& bytecode);
+
+    /// The code of the module with these arguments, one for each parameter of the symbol, compared
+    /// bit by bit; kNone if it is not folded.
+    [[nodiscard]] Code find(SymbolId symbol, const float* arguments) const;
+    /// Of a folded module.
+    void add(Code code);
+
+private:
+    [[nodiscard]] std::uint64_t hash(SymbolId symbol, const float* arguments) const;
+    [[nodiscard]] const float* constants_of(Code code) const;
+
+    const Bytecode& bytecode_;
+    std::unordered_multimap<std::uint64_t, Code> codes_;
+};
+
+} // namespace lsys

@@ -1,0 +1,140 @@
+// Words that are never stored: blocks of modules that go down a row of levels, depth first. What is
+// left of a level's block is rewritten, piece by piece, into the block of the level below. Each
+// level counts the modules it has passed, which is the position of the next.
+#pragma once
+
+#include "runtime/derive/derive.h"
+#include "runtime/derive/engine/choose.h"
+#include "runtime/derive/engine/plan.h"
+#include "runtime/derive/engine/prune.h"
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+/// What is done with a word on its way down: generations of rewriting, each followed by passes.
+struct LevelSteps {
+    const Plan* rewriting = nullptr; // may be null for a single generation
+    const Plan* passes = nullptr;    // of a later stage; null: `depth` is 0
+    std::uint64_t seed = 0;
+    std::uint32_t first_age = 0;
+    std::uint32_t last_age = 0;
+    std::uint32_t depth = 0;           // passes over the word of each age
+    bool checked = false;              // something may match after them, which is an error
+    std::uint64_t first_pass_draw = 0; // of the first pass
+    bool prunes = false;               // generations begin with cuts
+
+    [[nodiscard]] std::uint64_t count() const {
+        return (std::uint64_t{last_age} - first_age + 1) * depth + (last_age - first_age);
+    }
+    [[nodiscard]] std::uint32_t age_of(std::uint64_t level) const {
+        return first_age + static_cast<std::uint32_t>(level / (std::uint64_t{depth} + 1));
+    }
+    /// Whether a word of that level is rewritten next; else it is passed over.
+    [[nodiscard]] bool rewrites(std::uint64_t level) const {
+        return level % (std::uint64_t{depth} + 1) == depth;
+    }
+    [[nodiscard]] PassKeys keys_of(std::uint64_t level) const {
+        const std::uint64_t pass = level % (std::uint64_t{depth} + 1);
+        return rewrites(level)
+                   ? PassKeys{seed, age_of(level), 0, false}
+                   : PassKeys{seed, age_of(level),
+                              first_pass_draw + (std::uint64_t{kMaxSequentialDraws} + 1) * pass,
+                              true};
+    }
+};
+
+/// Modules of the last level, in order.
+template <typename C>
+struct LevelBlock {
+    std::span<const C> codes;
+    const float* parameters = nullptr;
+    const Origin* origins = nullptr;  // null if nobody asks for them
+    std::uint64_t first_position = 0; // in the last word
+};
+
+struct LevelOptions {
+    bool origins = false;
+    std::uint64_t max_bytes = ~std::uint64_t{0};
+    std::uint64_t least_codes = 0; // a block that push() fills
+    std::uint64_t least_parameters = 0;
+    const std::atomic<bool>* cancelled = nullptr;
+};
+
+/// R: uint8_t or uint32_t, as the wider Plan::record_width() says.
+template <typename C, typename R>
+class Levels {
+public:
+    /// False ends the work.
+    using Sink = std::function<bool(const LevelBlock<C>&)>;
+
+    Levels(const LevelSteps& steps, const LevelOptions& options, Sink sink);
+
+    /// Room of a block.
+    [[nodiscard]] std::uint64_t room_codes() const { return room_codes_; }
+    [[nodiscard]] std::uint64_t room_parameters() const { return room_parameters_; }
+    /// Makes room for a block of the first word and returns it, or null: no memory is allowed for
+    /// it.
+    struct Block {
+        C* codes = nullptr;
+        float* parameters = nullptr;
+        Origin* origins = nullptr;
+    };
+    [[nodiscard]] Block first_block();
+    /// Sends the first `count` modules of that block down.
+    [[nodiscard]] DeriveStatus push(std::uint64_t count);
+
+    [[nodiscard]] RuntimeError& error() { return error_; }
+    [[nodiscard]] std::uint64_t held_bytes() const { return held_bytes_; }
+
+private:
+    struct Level {
+        std::unique_ptr<C[]> codes; // not initialised
+        std::unique_ptr<float[]> parameters;
+        std::unique_ptr<Origin[]> origins;
+        std::uint64_t count = 0;          // modules in the block
+        ModulePlace next;                 // to be rewritten
+        std::uint64_t first_position = 0; // of the block in its level's word
+        bool settled = false;             // no pass of this age concerns the block
+        bool pruned = false;              // cuts of the block have been made
+    };
+
+    [[nodiscard]] bool add_level();
+    [[nodiscard]] bool descend(std::uint64_t index);
+    [[nodiscard]] bool is_decomposed(std::uint64_t index);
+    [[nodiscard]] bool emit(Level& level);
+    void hand_down(Level& level, Level& below);
+    void prune(std::uint64_t index);
+    void look_at(const Level& level, const PassKeys& keys);
+    [[nodiscard]] bool fail(RuntimeError error);
+
+    LevelSteps steps_;
+    LevelOptions options_;
+    Sink sink_;
+    std::uint64_t last_ = 0; // level
+    WordView<C> view_;       // of the block that is rewritten
+    PassKeys keys_;
+    std::deque<Chooser<C>> choosers_; // of rewriting and of passes; they read the two above
+    std::vector<Level> levels_;
+    std::deque<Pruner> pruners_; // by age, where there are cuts
+    std::vector<R> records_;
+    std::uint64_t room_codes_ = 0;
+    std::uint64_t room_parameters_ = 0;
+    std::uint64_t held_bytes_ = 0;
+    DeriveStatus status_ = DeriveStatus::Ok;
+    RuntimeError error_;
+};
+
+extern template class Levels<std::uint8_t, std::uint8_t>;
+extern template class Levels<std::uint8_t, std::uint32_t>;
+extern template class Levels<std::uint16_t, std::uint8_t>;
+extern template class Levels<std::uint16_t, std::uint32_t>;
+extern template class Levels<std::uint32_t, std::uint8_t>;
+extern template class Levels<std::uint32_t, std::uint32_t>;
+
+} // namespace lsys

@@ -1,0 +1,80 @@
+// Matcher: contexts and formals of one module of a word. Choosing a production and evaluating its
+// arguments ask it; each thread has its own.
+#pragma once
+
+#include "runtime/derive/engine/contexts.h"
+#include "runtime/derive/engine/plan.h"
+#include "runtime/derive/origin.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+/// A word, or a block of one, as the passes read it. Positions count from `first_position`, which
+/// is not 0 where a block of a streamed word is rewritten.
+template <typename C>
+struct WordView {
+    const C* codes = nullptr;
+    const float* parameters = nullptr;
+    std::uint64_t count = 0;
+    std::uint64_t first_position = 0;
+    const Origin* origins = nullptr; // of each module, where they are kept
+};
+
+/// A module of a WordView, with the number of parameters stored before it.
+struct ModulePlace {
+    std::uint64_t index = 0;
+    std::uint64_t parameter = 0;
+};
+
+template <typename C>
+class Matcher {
+public:
+    /// `contexts` may be null where no production in force has one.
+    Matcher(const Plan& plan, const WordView<C>& word, const ContextTables* contexts)
+        : plan_(plan), word_(word), contexts_(contexts) {}
+
+    /// The parameters of a module, wherever they are kept.
+    [[nodiscard]] const float* own(const ModulePlace& place) const {
+        const Row& row = plan_.row(word_.codes[place.index]);
+        return row.constants == kNone ? word_.parameters + place.parameter
+                                      : plan_.bytecode().constants.data() + row.constants;
+    }
+    /// Whether the modules after the first are those of the predecessor.
+    [[nodiscard]] bool matches_predecessor(const BytecodeProduction& production,
+                                           std::uint64_t index) const;
+    /// Whether the contexts of `production` match around the predecessor at `index`. Keeps where,
+    /// for gather().
+    [[nodiscard]] bool matches_contexts(const BytecodeProduction& production, std::uint64_t index);
+    /// All formals of the candidate's production for the module at `place`. If some are of
+    /// contexts, the last matches_contexts() was for this production's group and place.
+    [[nodiscard]] const float* formals(const Candidate& candidate, const ModulePlace& place);
+    /// The same, after looking for the contexts again.
+    [[nodiscard]] const float* formals_again(const Candidate& candidate, const ModulePlace& place);
+
+private:
+    [[nodiscard]] bool matches_left(const BytecodeProduction& production, std::uint64_t index);
+    [[nodiscard]] bool matches_right(const BytecodeProduction& production, std::uint64_t index);
+    [[nodiscard]] SymbolId symbol_at(std::uint64_t index) const {
+        return plan_.bytecode().symbol_of(word_.codes[index]);
+    }
+    [[nodiscard]] std::uint64_t parameters_before(std::uint64_t index, ModulePlace near) const;
+    void gather(TableRange pattern, const std::vector<std::uint64_t>& places, ModulePlace near);
+
+    const Plan& plan_;
+    const WordView<C>& word_;
+    const ContextTables* contexts_;
+    std::vector<std::uint64_t> left_; // of each pattern item, its module
+    std::vector<std::uint64_t> right_;
+    std::vector<std::uint64_t> predecessor_;
+    std::vector<std::uint64_t> branches_; // gaps after the branches that the pattern is inside
+    std::vector<float> formals_;
+};
+
+extern template class Matcher<std::uint8_t>;
+extern template class Matcher<std::uint16_t>;
+extern template class Matcher<std::uint32_t>;
+
+} // namespace lsys

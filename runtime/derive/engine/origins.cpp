@@ -1,0 +1,122 @@
+#include "runtime/derive/engine/origins.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace lsys {
+
+namespace {
+
+template <typename C, typename R>
+class Tracer {
+public:
+    Tracer(const Plan& plan,
+           const WordView<C>& word,
+           const OriginRequest& request,
+           const R* records,
+           Origin* out)
+        : plan_(plan), word_(word), request_(request), rows_(plan.rows().data()),
+          entries_(plan.entries().data()), records_(records), out_(out), index_(request.begin) {}
+
+    Origin* run() {
+        if (request_.marks != nullptr) {
+            run_marked();
+        } else {
+            while (index_ < request_.end) {
+                trace_next();
+            }
+        }
+        return out_;
+    }
+
+private:
+    /// The module at index_, or the several that a match used up.
+    void trace_next() {
+        const C code = word_.codes[index_];
+        const Row& row = rows_[code];
+        const Entry* entry = entries_ + code;
+        std::uint32_t used = 1;
+        if (row.kind != RowKind::Fixed) {
+            const std::uint32_t record = *records_++;
+            if (record != 0) {
+                entry = entries_ + row.base + record;
+                used = plan_.used_by(*entry);
+            }
+        }
+        if (entry->candidate == kNone) {
+            *out_++ = word_.origins[index_];
+        } else {
+            for (std::uint32_t i = 0; i < entry->code_count; ++i) {
+                out_[i] = {entry->first_place + i, request_.generation};
+            }
+            out_ += entry->code_count;
+        }
+        index_ += used;
+    }
+
+    /// Runs between marked modules are copied.
+    void run_marked() {
+        constexpr std::size_t kBlock = Marks::kBlock;
+        std::array<MarkBits, Marks::kModules / kBlock> bits; // NOLINT: filled before it is read
+        while (index_ < request_.end) {
+            const std::uint64_t begin = index_;
+            const auto count = static_cast<std::size_t>(
+                std::min<std::uint64_t>(request_.end - begin, Marks::kModules));
+            request_.marks->fill(word_.codes, word_.count, begin, count, bits.data());
+            for (std::size_t first = 0; first < count; first += kBlock) {
+                const std::uint64_t block = begin + first;
+                for (std::uint64_t active = bits[first / kBlock].active; active != 0;
+                     active &= active - 1) {
+                    copy_to(block + static_cast<std::uint64_t>(std::countr_zero(active)));
+                    trace_next();
+                }
+                copy_to(block + std::min(count - first, kBlock));
+            }
+        }
+    }
+
+    void copy_to(std::uint64_t end) {
+        out_ = std::copy(word_.origins + index_, word_.origins + end, out_);
+        index_ = end;
+    }
+
+    const Plan& plan_;
+    const WordView<C>& word_;
+    const OriginRequest& request_;
+    const Row* rows_;
+    const Entry* entries_;
+    const R* records_;
+    Origin* out_;
+    std::uint64_t index_;
+};
+
+} // namespace
+
+template <typename C, typename R>
+Origin* trace_origins(const Plan& plan,
+                      const WordView<C>& word,
+                      const OriginRequest& request,
+                      const R* records,
+                      Origin* out) {
+    return Tracer<C, R>(plan, word, request, records, out).run();
+}
+
+void copy_axiom_origins(const Bytecode& bytecode, Origin* out) {
+    for (std::uint32_t i = 0; i < bytecode.axiom.codes.count; ++i) {
+        out[i] = {bytecode.axiom.codes.first + i, 0};
+    }
+}
+
+#define LSYS_TRACE(C, R)                                                                           \
+    template Origin* trace_origins<C, R>(const Plan&, const WordView<C>&, const OriginRequest&,    \
+                                         const R*, Origin*);
+LSYS_TRACE(std::uint8_t, std::uint8_t)
+LSYS_TRACE(std::uint8_t, std::uint32_t)
+LSYS_TRACE(std::uint16_t, std::uint8_t)
+LSYS_TRACE(std::uint16_t, std::uint32_t)
+LSYS_TRACE(std::uint32_t, std::uint8_t)
+LSYS_TRACE(std::uint32_t, std::uint32_t)
+#undef LSYS_TRACE
+
+} // namespace lsys

@@ -1,0 +1,481 @@
+#include "runtime/derive/engine/pass.h"
+
+#include "grammar/base/contract.h"
+#include "runtime/derive/engine/count.h"
+#include "runtime/derive/engine/faults.h"
+#include "runtime/derive/engine/write.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
+/// Programs of more codes are counted module by module.
+constexpr Code kCensusCodes = 4096;
+/// From this many modules on, counting them by all threads costs less than it saves over the
+/// census.
+constexpr std::uint64_t kCountedInParallel = 1U << 22;
+/// Threads end at about the same time if they have several chunks each, of a size that is worth it.
+constexpr std::uint64_t kChunksPerThread = 6;
+constexpr std::uint64_t kLeastChunk = 1U << 14;
+/// Shorter words take one thread less time than two need to meet. Threads are started a few
+/// generations before, for that takes them as long as a word of this length.
+constexpr std::uint64_t kWorthSharing = 1U << 17;
+constexpr std::uint64_t kWorthStarting = 1U << 13;
+/// Modules between two reports of progress.
+constexpr std::uint64_t kProgressStride = std::uint64_t{1} << 24;
+
+std::uint64_t saturating_add(std::uint64_t a, std::uint64_t b) {
+    return a > kMax - b ? kMax : a + b;
+}
+std::uint64_t saturating_multiply(std::uint64_t a, std::uint64_t b) {
+    return b != 0 && a > kMax / b ? kMax : a * b;
+}
+
+/// Marks pay where this part of the modules or less is marked: of a word of which every module has
+/// one successor, and of one where each is chosen or tested, which costs more.
+constexpr std::uint64_t kMarkedOfFixed = 8;
+constexpr std::uint64_t kMarkedOfDynamic = 2;
+
+template <typename C>
+WordView<C> view(const Word& word) {
+    return {word.codes<C>().data(), word.parameters().data(), word.module_count(), 0,
+            word.keeps_origins() ? word.origins().data() : nullptr};
+}
+
+} // namespace
+
+Passes::Passes(const Plan& plan, const DeriveOptions& options)
+    : plan_(plan), options_(options), workers_(options.threads), contexts_(plan) {}
+
+std::uint64_t Passes::held_bytes() const {
+    return contexts_.held_bytes() + records_.used() + chunks_.capacity() * sizeof(Chunk) +
+           census_.capacity() * sizeof(std::uint64_t);
+}
+
+bool Passes::cancelled() const {
+    return options_.cancelled != nullptr && options_.cancelled->load(std::memory_order_relaxed);
+}
+
+void Passes::report_progress(std::uint32_t generation, std::uint64_t modules) {
+    const std::uint64_t before = written_.fetch_add(modules, std::memory_order_relaxed);
+    if (!options_.progress || before / kProgressStride == (before + modules) / kProgressStride) {
+        return;
+    }
+    const std::unique_lock<std::mutex> only_one(progress_, std::try_to_lock);
+    if (only_one.owns_lock()) {
+        options_.progress(generation + 1, before + modules);
+    }
+}
+
+namespace {
+
+template <typename C>
+bool any_rewritten(const Plan& plan, const Word& word) {
+    const std::span<const C> codes = word.codes<C>();
+    return std::any_of(codes.begin(), codes.end(),
+                       [&plan](C code) { return !plan.row(code).copies; });
+}
+
+} // namespace
+
+bool Passes::concerns(const Word& word) const {
+    switch (word.code_width()) {
+    case 1:
+        return any_rewritten<std::uint8_t>(plan_, word);
+    case 2:
+        return any_rewritten<std::uint16_t>(plan_, word);
+    default:
+        return any_rewritten<std::uint32_t>(plan_, word);
+    }
+}
+
+DeriveStatus
+Passes::run(const Word& in, Word& out, const PassKeys& keys, std::uint64_t other_bytes) {
+    other_bytes_ = other_bytes;
+    written_.store(0, std::memory_order_relaxed);
+    limit_ = {};
+    limit_.generation = keys.generation;
+    limit_.modules = in.module_count();
+    switch (in.code_width()) {
+    case 1:
+        return run_typed<std::uint8_t>(in, out, keys);
+    case 2:
+        return run_typed<std::uint16_t>(in, out, keys);
+    default:
+        return run_typed<std::uint32_t>(in, out, keys);
+    }
+}
+
+template <typename C>
+DeriveStatus Passes::run_typed(const Word& in, Word& out, const PassKeys& keys) {
+    return plan_.record_width() == 1 ? run_recorded<C, std::uint8_t>(in, out, keys)
+                                     : run_recorded<C, std::uint32_t>(in, out, keys);
+}
+
+DeriveStatus Passes::no_memory(const Word& in, std::uint64_t bytes) {
+    census_known_ = false;
+    limit_.kind = LimitKind::Memory;
+    limit_.predicted_modules = std::max(modules_, in.module_count());
+    limit_.predicted_bytes = bytes;
+    limit_.exact = false;
+    return DeriveStatus::OutOfMemory;
+}
+
+template <typename C, typename R>
+DeriveStatus Passes::run_recorded(const Word& in, Word& out, const PassKeys& keys) {
+    const WordView<C> word = view<C>(in);
+    modules_ = 0;
+    parameters_ = 0;
+    const bool dynamic = !plan_.all_fixed();
+    const std::uint64_t record_bytes = dynamic ? word.count * sizeof(R) : 0;
+    const bool searches = dynamic && plan_.needs_contexts();
+    const std::uint64_t tables = searches ? contexts_.held_bytes_after(in) : 0;
+    const std::uint64_t before =
+        other_bytes_ + in.held_bytes() + out.held_bytes() + saturating_add(record_bytes, tables);
+    if (before > options_.limits.max_bytes) {
+        limit_.kind = LimitKind::Memory;
+        limit_.predicted_modules = word.count;
+        limit_.predicted_bytes = before;
+        limit_.exact = false;
+        return DeriveStatus::Limit;
+    }
+    if (!records_.reserve(record_bytes + sizeof(R)) ||
+        (searches && !contexts_.prepare(plan_, in))) {
+        return no_memory(in, before);
+    }
+    cut(word);
+    marks_.prepare(plan_, contexts());
+
+    by_census_ = !dynamic && plan_.rows().size() <= kCensusCodes &&
+                 (workers_.count() == 1 || word.count < kCountedInParallel);
+    if (by_census_) {
+        take_census(word);
+    } else {
+        census_known_ = false;
+        place_chunks(word, !in.parameters().empty());
+        const DeriveStatus status = count<C, R>(word, keys);
+        if (status != DeriveStatus::Ok) {
+            return status;
+        }
+    }
+    DeriveStatus status = check_limits(in, out, keys);
+    if (status == DeriveStatus::Limit) {
+        limit_.production = dominant_production(word, keys);
+    }
+    if (status != DeriveStatus::Ok) {
+        return status;
+    }
+    if (!out.resize(modules_, parameters_)) {
+        return no_memory(in, limit_.predicted_bytes);
+    }
+    status = write<C, R>(word, out, keys);
+    if (status != DeriveStatus::Ok) {
+        census_known_ = false;
+        return status;
+    }
+    if (by_census_) {
+        advance_census();
+    }
+    return DeriveStatus::Ok;
+}
+
+/// Chunks of the size asked for; with several threads smaller ones if each would have few of them,
+/// and one chunk of a word that is not worth a second thread.
+template <typename C>
+void Passes::cut(const WordView<C>& word) {
+    std::uint64_t size = std::max(options_.chunk_modules, 1U);
+    if (workers_.count() > 1 && size > kLeastChunk) {
+        if (word.count >= kWorthStarting) {
+            workers_.start();
+        }
+        size =
+            word.count < kWorthSharing
+                ? kWorthSharing
+                : std::clamp(word.count / (workers_.count() * kChunksPerThread), kLeastChunk, size);
+    }
+    chunks_.assign((word.count + size - 1) / size, {});
+    for (std::uint64_t i = 0; i < chunks_.size(); ++i) {
+        chunks_[i].begin.index = i * size;
+        chunks_[i].end = std::min(word.count, (i + 1) * size);
+    }
+}
+
+/// Where the parameters of each chunk begin, if the word stores any and several threads are to read
+/// them.
+template <typename C>
+void Passes::place_chunks(const WordView<C>& word, bool stores) {
+    if (!stores || workers_.count() == 1 || chunks_.size() == 1) {
+        return;
+    }
+    const Row* const rows = plan_.rows().data();
+    workers_.for_each(chunks_.size(), [&](std::uint64_t index) {
+        Chunk& chunk = chunks_[index];
+        std::uint64_t stored = 0;
+        for (std::uint64_t i = chunk.begin.index; i < chunk.end; ++i) {
+            stored += rows[word.codes[i]].stored;
+        }
+        chunk.parameters = stored;
+    });
+    std::uint64_t before = 0;
+    for (Chunk& chunk : chunks_) {
+        chunk.begin.parameter = before;
+        before += std::exchange(chunk.parameters, 0);
+    }
+}
+
+/// Judged by how the chunk begins.
+template <typename C>
+bool Passes::marks_pay(const WordView<C>& word, const Chunk& chunk) const {
+    if (!marks_.usable()) {
+        return false;
+    }
+    std::array<MarkBits, Marks::kModules / Marks::kBlock> bits; // NOLINT: written by fill()
+    const std::uint64_t count =
+        std::min<std::uint64_t>(chunk.end - chunk.begin.index, Marks::kModules);
+    const std::uint64_t part = plan_.all_fixed() ? kMarkedOfFixed : kMarkedOfDynamic;
+    return marks_.fill(word.codes, word.count, chunk.begin.index, count, bits.data()) <=
+           count / part;
+}
+
+template <typename C, typename R>
+DeriveStatus Passes::count(const WordView<C>& word, const PassKeys& keys) {
+    // A match of several modules may reach into the next chunk, which then begins after it.
+    const bool in_order = workers_.count() == 1 || plan_.predecessor_count() > 1;
+    const auto count_chunk = [&](std::uint64_t index) {
+        if (cancelled()) {
+            return;
+        }
+        Chunk& chunk = chunks_[index];
+        Chooser<C> chooser(plan_, keys, word, contexts());
+        R* const records = records_at<R>(chunk.begin.index);
+        chunk.marked = marks_pay(word, chunk);
+        const CountResult result =
+            chunk.marked
+                ? count_marked(plan_, chooser, marks_, word, chunk.begin, chunk.end, records)
+                : count_modules(plan_, chooser, word, {chunk.begin, chunk.end}, records);
+        chunk.modules = result.modules;
+        chunk.parameters = result.parameters;
+        chunk.fault = result.fault;
+        chunk.fault_index = result.end.index;
+        chunk.end = result.end.index;
+        if (in_order && index + 1 < chunks_.size()) {
+            chunks_[index + 1].begin = result.end;
+        }
+    };
+    if (in_order) {
+        for (std::uint64_t i = 0; i < chunks_.size(); ++i) {
+            count_chunk(i);
+            if (chunks_[i].fault) {
+                break;
+            }
+        }
+    } else {
+        workers_.for_each(chunks_.size(), count_chunk);
+    }
+    if (cancelled()) {
+        return DeriveStatus::Cancelled;
+    }
+    for (const Chunk& chunk : chunks_) {
+        if (chunk.fault) {
+            return report_fault(word, keys, {}, chunk.fault_index + 1);
+        }
+    }
+    for (Chunk& chunk : chunks_) {
+        chunk.out_module = modules_;
+        chunk.out_parameter = parameters_;
+        modules_ = saturating_add(modules_, chunk.modules);
+        parameters_ = saturating_add(parameters_, chunk.parameters);
+    }
+    return DeriveStatus::Ok;
+}
+
+template <typename C, typename R>
+DeriveStatus Passes::write(const WordView<C>& word, Word& out, const PassKeys& keys) {
+    C* const codes = out.codes<C>().data();
+    float* const parameters = out.parameters().data();
+    const bool in_order = workers_.count() == 1 || chunks_.size() == 1 || by_census_;
+    C* const codes_end = codes + modules_ + kWordSlack / sizeof(C);
+    float* const parameters_end = parameters + parameters_ + kWordSlack / sizeof(float);
+    WriteRequest<C> next; // in order: where the chunk before ended
+    next.codes = codes;
+    next.parameters = parameters;
+    Origin* const origins = out.keeps_origins() ? out.origins().data() : nullptr;
+    next.origins = origins;
+    std::uint64_t rewritten = 0; // by census
+    if (by_census_) {
+        for (Code code = 0; code < census_.size(); ++code) {
+            rewritten += plan_.row(code).copies ? 0 : census_[code];
+        }
+    }
+    const bool census_marked = marks_.usable() && rewritten <= word.count / kMarkedOfFixed;
+    const auto write_chunk = [&](std::uint64_t index) {
+        if (cancelled()) {
+            return;
+        }
+        Chunk& chunk = chunks_[index];
+        WriteRequest<C> request;
+        request.begin = chunk.begin;
+        request.codes = codes + chunk.out_module;
+        request.parameters = parameters + chunk.out_parameter;
+        request.origins = origins == nullptr ? nullptr : origins + chunk.out_module;
+        request.marks = chunk.marked ? &marks_ : nullptr;
+        request.writes_parameters = chunk.parameters != 0;
+        const bool last = index + 1 == chunks_.size();
+        request.codes_limit = in_order || last ? codes_end : request.codes + chunk.modules;
+        request.parameters_limit =
+            in_order || last ? parameters_end : request.parameters + chunk.parameters;
+        if (by_census_) {
+            request.begin = next.begin;
+            request.codes = next.codes;
+            request.parameters = next.parameters;
+            request.origins = next.origins;
+            request.marks = census_marked ? &marks_ : nullptr;
+            request.writes_parameters = parameters_ != 0;
+        }
+        request.end = chunk.end;
+        const C* const begin = request.codes;
+        chunk.begin = request.begin;
+        Matcher<C> matcher(plan_, word, contexts());
+        chunk.fault = !write_modules(plan_, keys, matcher, word, request,
+                                     static_cast<const R*>(records_at<R>(chunk.begin.index)));
+        if (in_order) {
+            next = request;
+        }
+        report_progress(keys.generation, static_cast<std::uint64_t>(request.codes - begin));
+    };
+    if (in_order) {
+        for (std::uint64_t i = 0; i < chunks_.size() && !(i > 0 && chunks_[i - 1].fault); ++i) {
+            write_chunk(i);
+        }
+    } else {
+        workers_.for_each(chunks_.size(), write_chunk);
+    }
+    if (cancelled()) {
+        return DeriveStatus::Cancelled;
+    }
+    for (const Chunk& chunk : chunks_) {
+        if (chunk.fault) {
+            return report_fault(word, keys, chunk.begin, chunk.end);
+        }
+    }
+    return DeriveStatus::Ok;
+}
+
+template <typename C>
+DeriveStatus Passes::report_fault(const WordView<C>& word,
+                                  const PassKeys& keys,
+                                  ModulePlace begin,
+                                  std::uint64_t end) {
+    std::optional<RuntimeError> error = find_fault(plan_, keys, word, contexts(), begin, end);
+    LSYS_CHECK(error.has_value(), begin.index, end);
+    error_ = std::move(*error);
+    return DeriveStatus::Error;
+}
+
+DeriveStatus Passes::check_limits(const Word& in, const Word& out, const PassKeys& keys) {
+    const std::uint64_t held = saturating_add(other_bytes_ + held_bytes() + in.held_bytes(),
+                                              out.held_bytes_after(modules_, parameters_));
+    limit_.generation = keys.generation;
+    limit_.predicted_modules = modules_;
+    limit_.predicted_bytes = held;
+    if (modules_ > options_.limits.max_modules) {
+        limit_.kind = LimitKind::Modules;
+        return DeriveStatus::Limit;
+    }
+    if (held > options_.limits.max_bytes) {
+        limit_.kind = LimitKind::Memory;
+        return DeriveStatus::Limit;
+    }
+    return DeriveStatus::Ok;
+}
+
+/// The production whose applications make the word longer by most modules.
+template <typename C>
+std::uint32_t Passes::dominant_production(const WordView<C>& word, const PassKeys& keys) const {
+    std::vector<std::uint64_t> uses(plan_.entries().size(), 0);
+    if (census_known_) {
+        std::copy(census_.begin(), census_.end(), uses.begin());
+    } else {
+        Chooser<C> chooser(plan_, keys, word, contexts());
+        for (ModulePlace place; place.index < word.count;) {
+            const C code = word.codes[place.index];
+            const Row& row = plan_.row(code);
+            std::uint32_t record = 0;
+            if (row.kind != RowKind::Fixed) {
+                const bool counted = chooser.choose(place, row, record);
+                LSYS_CHECK(counted, place.index); // or the pass had ended before
+            }
+            ++uses[record == 0 ? code : row.base + record];
+            const std::uint32_t modules =
+                record == 0 ? 1 : plan_.used_by(plan_.entries()[row.base + record]);
+            for (std::uint32_t i = 0; i < modules; ++i, ++place.index) {
+                place.parameter += plan_.row(word.codes[place.index]).stored;
+            }
+        }
+    }
+    std::vector<std::uint64_t> added(plan_.bytecode().productions.size(), 0);
+    std::uint32_t dominant = kNone;
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        const Entry& entry = plan_.entries()[i];
+        const std::uint32_t used = plan_.used_by(entry);
+        if (entry.candidate == kNone || entry.code_count <= used) {
+            continue;
+        }
+        const std::uint32_t production = plan_.candidate(entry.candidate).production;
+        added[production] = saturating_add(added[production],
+                                           saturating_multiply(uses[i], entry.code_count - used));
+    }
+    for (std::uint32_t production = 0; production < added.size(); ++production) {
+        if (added[production] > (dominant == kNone ? 0 : added[dominant])) {
+            dominant = production;
+        }
+    }
+    return dominant;
+}
+
+/// Makes sure of the census and takes the sizes of the next word from it.
+template <typename C>
+void Passes::take_census(const WordView<C>& word) {
+    if (!census_known_) {
+        census_.assign(plan_.rows().size(), 0);
+        for (std::uint64_t i = 0; i < word.count; ++i) {
+            ++census_[word.codes[i]];
+        }
+        census_known_ = true;
+    }
+    for (Code code = 0; code < census_.size(); ++code) {
+        const Row& row = plan_.row(code);
+        modules_ = saturating_add(modules_, saturating_multiply(census_[code], row.code_count));
+        parameters_ =
+            saturating_add(parameters_, saturating_multiply(census_[code], row.parameter_count));
+    }
+}
+
+/// The census of the word that was written, by the growth matrix.
+void Passes::advance_census() {
+    std::vector<std::uint64_t> next(census_.size(), 0);
+    for (Code code = 0; code < census_.size(); ++code) {
+        if (census_[code] == 0) {
+            continue;
+        }
+        const Entry& entry = plan_.entries()[code];
+        if (entry.candidate == kNone) {
+            next[code] += census_[code];
+            continue;
+        }
+        for (std::uint32_t i = 0; i < entry.code_count; ++i) {
+            next[plan_.pool_code(entry.first_code + i)] += census_[code];
+        }
+    }
+    census_ = std::move(next);
+}
+
+} // namespace lsys

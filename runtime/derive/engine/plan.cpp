@@ -1,0 +1,376 @@
+#include "runtime/derive/engine/plan.h"
+
+#include "grammar/base/contract.h"
+#include "runtime/base/random.h"
+#include "runtime/derive/word.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace lsys {
+
+namespace {
+
+/// Appends a code at the word's width.
+void append_code(Code code, std::uint32_t width, std::vector<std::byte>& pool) {
+    const auto append = [&pool](auto narrow) {
+        const auto bytes = std::bit_cast<std::array<std::byte, sizeof narrow>>(narrow);
+        pool.insert(pool.end(), bytes.begin(), bytes.end());
+    };
+    switch (width) {
+    case 1:
+        append(static_cast<std::uint8_t>(code));
+        break;
+    case 2:
+        append(static_cast<std::uint16_t>(code));
+        break;
+    default:
+        append(code);
+        break;
+    }
+}
+
+/// Programs of more codes are rewritten without folding templates.
+constexpr Code kMostFoldedCodes = 4096;
+
+bool uses_step(const Bytecode& bytecode, std::uint32_t first) {
+    return first != kNone && contains(bytecode, first, Opcode::Step);
+}
+
+template <typename T>
+std::uint64_t bytes_of(const std::vector<T>& values) {
+    return values.capacity() * sizeof(T);
+}
+
+} // namespace
+
+Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generation, Stage stage)
+    : bytecode_(bytecode), inputs_(inputs), each_generation_(each_generation),
+      productions_(bytecode.of(stage)),
+      parallel_(stage != Stage::Rewrite || bytecode.settings.rewriting == RewritingMode::Parallel ||
+                bytecode.settings.rewriting == RewritingMode::Leftmost) {
+    if (bytecode.settings.random == RandomSource::Glibc) {
+        dice_.emplace(bytecode, inputs.seed);
+    }
+    make_codes();
+    make_families();
+    make_guards();
+    make_entries();
+    if (parallel_) {
+        if (has_parameters_ && bytecode_.code_count() <= kMostFoldedCodes) {
+            folded_index_.emplace(bytecode_);
+        }
+        for (const Candidate& candidate : candidates_) {
+            predecessor_count_ = std::max(predecessor_count_, candidate.modules);
+        }
+        for (std::uint32_t i = 0; i < families_.size(); ++i) {
+            put_in_force(i);
+        }
+    }
+}
+
+void Plan::make_codes() {
+    const Code count = bytecode_.code_count();
+    code_width_ = lsys::code_width(count);
+    identity_first_ = static_cast<std::uint32_t>(bytecode_.template_codes.size());
+    pool_.reserve((std::size_t{identity_first_} + count) * code_width_ + kWordSlack);
+    for (const Code code : bytecode_.template_codes) {
+        append_code(code, code_width_, pool_);
+    }
+    for (Code code = 0; code < count; ++code) {
+        append_code(code, code_width_, pool_);
+    }
+    pool_.resize(pool_.size() + kWordSlack);
+
+    std::uint32_t most_stored = 0;
+    for (const BytecodeSymbol& symbol : bytecode_.symbols) {
+        most_stored = std::max(most_stored, symbol.parameter_count);
+        has_structure_ = has_structure_ || symbol.ignored ||
+                         symbol.kind == SymbolKind::BranchOpen ||
+                         symbol.kind == SymbolKind::BranchClose;
+    }
+    has_parameters_ = most_stored != 0;
+    mixes_inputs_ = most_stored > 1;
+    for (const BytecodeProduction& production : bytecode_.productions) {
+        if (std::uint64_t{production.successor.codes.count} * code_width_ > wide_bytes_) {
+            wide_bytes_ = 32;
+        }
+    }
+    lanes_.resize(most_stored); // of every module that is copied
+    for (std::uint32_t i = 0; i < most_stored; ++i) {
+        lanes_[i].input = i;
+    }
+
+    const std::size_t symbols = bytecode_.symbols.size();
+    codes_of_first_.assign(symbols + 1, 0);
+    for (Code code = 0; code < count; ++code) {
+        ++codes_of_first_[static_cast<std::size_t>(bytecode_.symbol_of(code)) + 1];
+    }
+    for (std::size_t i = 0; i < symbols; ++i) {
+        codes_of_first_[i + 1] += codes_of_first_[i];
+    }
+    codes_of_.resize(count);
+    std::vector<std::uint32_t> next(codes_of_first_.begin(), codes_of_first_.end() - 1);
+    for (Code code = 0; code < count; ++code) {
+        codes_of_[next[static_cast<std::size_t>(bytecode_.symbol_of(code))]++] = code;
+    }
+}
+
+std::span<const Code> Plan::codes_of(SymbolId symbol) const {
+    const auto index = static_cast<std::size_t>(symbol);
+    return {codes_of_.data() + codes_of_first_[index],
+            codes_of_first_[index + 1] - codes_of_first_[index]};
+}
+
+SymbolId Plan::first_symbol(std::uint32_t rule) const {
+    const Candidate& candidate = candidates_[families_[rule].first];
+    return bytecode_.patterns[bytecode_.productions[candidate.production].predecessor.first].symbol;
+}
+
+void Plan::make_families() {
+    const bool one_choice = bytecode_.settings.choice == ChoiceScope::Generation;
+    std::vector<std::uint32_t> family_of_production;
+    family_of_production.reserve(productions_.count);
+    std::vector<std::uint32_t> family_of_symbol(parallel_ ? bytecode_.symbols.size() : 0, kNone);
+    for (std::uint32_t p = productions_.first; p < productions_.first + productions_.count; ++p) {
+        const BytecodeProduction& production = bytecode_.productions[p];
+        std::uint32_t index = production.rule;
+        if (parallel_) {
+            const SymbolId symbol = bytecode_.patterns[production.predecessor.first].symbol;
+            std::uint32_t& known = family_of_symbol[static_cast<std::size_t>(symbol)];
+            if (known == kNone) {
+                known = static_cast<std::uint32_t>(families_.size());
+            }
+            index = known;
+        }
+        if (index >= families_.size()) {
+            families_.resize(std::size_t{index} + 1);
+        }
+        ++families_[index].count;
+        family_of_production.push_back(index);
+    }
+    std::uint32_t first = 0;
+    std::uint32_t largest = 0;
+    for (Family& family : families_) {
+        family.first = first;
+        first += family.count;
+        largest = std::max(largest, family.count);
+    }
+    record_width_ = largest <= 0xFF ? 1 : 4;
+
+    candidates_.resize(productions_.count);
+    std::vector<std::uint32_t> filled(families_.size(), 0);
+    for (std::uint32_t p = productions_.first; p < productions_.first + productions_.count; ++p) {
+        const BytecodeProduction& production = bytecode_.productions[p];
+        const std::uint32_t index = family_of_production[p - productions_.first];
+        Family& family = families_[index];
+        Candidate& candidate = candidates_[family.first + filled[index]++];
+        const PatternItem& item = bytecode_.patterns[production.predecessor.first];
+        std::uint32_t own_count = 0; // of all predecessor modules
+        for (std::uint32_t i = 0; i < production.predecessor.count; ++i) {
+            own_count +=
+                bytecode_.symbol(bytecode_.patterns[production.predecessor.first + i].symbol)
+                    .parameter_count;
+        }
+        const std::uint32_t own_end = item.first_formal + own_count;
+        candidate.production = p;
+        candidate.modules = production.predecessor.count;
+        candidate.group = production.group;
+        candidate.own_first = item.first_formal;
+        candidate.weight = production.weight;
+        candidate.stochastic = production.stochastic;
+        candidate.has_context = production.has_left || production.has_right;
+        candidate.reads_context =
+            uses_formal_outside(bytecode_, production.condition, item.first_formal, own_end) ||
+            uses_formal_outside(bytecode_, production.successor.arguments, item.first_formal,
+                                own_end);
+        candidate.gathers = candidate.reads_context || item.first_formal != 0 ||
+                            (production.predecessor.count > 1 && own_count > 0);
+        family.several = family.several || candidate.modules > 1;
+        family.has_context = family.has_context || candidate.has_context;
+        family.reads_context = family.reads_context || candidate.reads_context;
+        family.varies = family.varies || (one_choice && production.stochastic) ||
+                        uses_step(bytecode_, production.condition) ||
+                        uses_step(bytecode_, production.successor.arguments);
+    }
+    for (std::uint32_t i = 0; i < families_.size(); ++i) {
+        if (families_[i].varies) {
+            varying_families_.push_back(i);
+        }
+    }
+}
+
+/// Where every candidate of a family asks for a left neighbour, most modules are done with when
+/// theirs is seen to be another; the same on the right.
+void Plan::make_guards() {
+    constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 22;
+    const Code codes = bytecode_.code_count();
+    if (std::uint64_t{codes} * families_.size() * 2 > kMostBytes) {
+        return;
+    }
+    const auto mark = [&](std::uint32_t& guard, SymbolId symbol) {
+        if (guard == kNone) {
+            guard = static_cast<std::uint32_t>(guards_.size());
+            guards_.resize(guards_.size() + codes);
+        }
+        for (const Code code : codes_of(symbol)) {
+            guards_[guard + code] = 1;
+        }
+    };
+    for (Family& family : families_) {
+        bool all_left = true;
+        bool all_right = true;
+        for (const Candidate& candidate : candidates(family)) {
+            const BytecodeProduction& production = bytecode_.productions[candidate.production];
+            all_left = all_left && production.has_left;
+            all_right = all_right && production.has_right && !(parallel_ && family.several) &&
+                        bytecode_.patterns[production.right.first].kind == PatternKind::Module;
+        }
+        for (const Candidate& candidate : candidates(family)) {
+            const BytecodeProduction& production = bytecode_.productions[candidate.production];
+            if (all_left) {
+                const std::uint32_t nearest = production.left.first + production.left.count - 1;
+                mark(family.left_guard, bytecode_.patterns[nearest].symbol);
+            }
+            if (all_right) {
+                mark(family.right_guard, bytecode_.patterns[production.right.first].symbol);
+            }
+        }
+    }
+}
+
+void Plan::make_entries() {
+    const Code count = bytecode_.code_count();
+    rows_.resize(count);
+    block_of_code_.assign(count, kNone);
+    choice_of_code_.assign(count, kNone);
+    tests_of_code_.assign(count, kNone);
+    entries_.resize(std::size_t{count} + candidates_.size());
+    for (Code code = 0; code < count; ++code) {
+        Row& row = rows_[code];
+        row.stored = bytecode_.stored_parameters(code);
+        if (code >= bytecode_.symbols.size()) {
+            row.constants = bytecode_.folded[code - bytecode_.symbols.size()].first_constant;
+        }
+        reset_row(code);
+    }
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+        const WordTemplate& successor = bytecode_.productions[candidates_[i].production].successor;
+        Entry& entry = entries_[count + i];
+        entry.candidate = static_cast<std::uint32_t>(i);
+        entry.first_code = successor.codes.first;
+        entry.first_place = successor.codes.first;
+        entry.code_count = successor.codes.count;
+        entry.parameter_count = successor.parameter_count;
+        if (entry.parameter_count > kEntryLanes) {
+            entry.first_lane = static_cast<std::uint32_t>(lanes_.size());
+            lanes_.resize(lanes_.size() + entry.parameter_count);
+        }
+    }
+}
+
+Code Plan::pool_code(std::uint32_t index) const {
+    if (index < identity_first_) {
+        return bytecode_.template_codes[index];
+    }
+    const Code code = index - identity_first_;
+    return code < bytecode_.code_count() ? code : folded_codes_[code - bytecode_.code_count()];
+}
+
+/// Puts a template behind the others; returns where it begins.
+std::uint32_t Plan::add_template(const std::vector<Code>& codes) {
+    pool_.resize(pool_.size() - kWordSlack);
+    const auto first = static_cast<std::uint32_t>(pool_.size() / code_width_);
+    for (const Code code : codes) {
+        append_code(code, code_width_, pool_);
+    }
+    pool_.resize(pool_.size() + kWordSlack);
+    folded_codes_.insert(folded_codes_.end(), codes.begin(), codes.end());
+    return first;
+}
+
+Entry Plan::identity_entry(Code code) const {
+    Entry entry;
+    entry.first_code = identity_first_ + code;
+    entry.code_count = 1;
+    entry.parameter_count = rows_[code].stored;
+    for (std::uint32_t lane = 0; lane < kEntryLanes && lane < entry.parameter_count; ++lane) {
+        entry.scale[lane] = 1.0F;
+        entry.offset[lane] = -0.0F;
+        entry.input[lane] = static_cast<std::uint8_t>(lane);
+    }
+    entry.reads_own = entry.parameter_count != 0;
+    entry.special = entry.parameter_count > kEntryLanes;
+    return entry;
+}
+
+void Plan::finish(Entry& entry) {
+    entry.special = entry.general || entry.parameter_count > kEntryLanes ||
+                    std::uint64_t{entry.code_count} * code_width_ > wide_bytes_;
+}
+
+void Plan::set_kind(Code code, RowKind kind) {
+    Row& row = rows_[code];
+    dynamic_rows_ -= row.kind != RowKind::Fixed ? 1 : 0;
+    dynamic_rows_ += kind != RowKind::Fixed ? 1 : 0;
+    row.kind = kind;
+    row.copies = row.copies && kind == RowKind::Fixed;
+}
+
+void Plan::reset_row(Code code) {
+    set_kind(code, RowKind::Fixed);
+    Row& row = rows_[code];
+    row.slow = false;
+    row.copies = true;
+    row.code_count = 1;
+    row.parameter_count = row.stored;
+    entries_[code] = identity_entry(code);
+}
+
+void Plan::prepare(std::uint32_t generation) {
+    LSYS_CHECK(each_generation_);
+    generation_ = generation;
+    if (dice_) {
+        dice_->roll(generation);
+    }
+    for (const std::uint32_t index : varying_families_) {
+        families_[index].current = false;
+        if (parallel_) {
+            put_in_force(index);
+        }
+    }
+}
+
+void Plan::select_rule(std::uint32_t rule) {
+    if (selected_rule_ != kNone) {
+        for (const Code code : codes_of(first_symbol(selected_rule_))) {
+            reset_row(code);
+        }
+    }
+    needs_contexts_ = false;
+    reads_contexts_ = false;
+    selected_rule_ = rule;
+    predecessor_count_ =
+        bytecode_.productions[candidates_[families_[rule].first].production].predecessor.count;
+    put_in_force(rule);
+}
+
+float Plan::rule_draw(std::uint32_t rule, std::uint32_t generation) const {
+    if (dice_) {
+        return dice_->draw(rule, generation);
+    }
+    const std::uint64_t position = ~std::uint64_t{0} - rule;
+    return unit_interval(draw_block(inputs_.seed, generation, position, 0)[0]);
+}
+
+std::uint64_t Plan::held_bytes() const {
+    return bytes_of(rows_) + bytes_of(entries_) + bytes_of(lanes_) + bytes_of(families_) +
+           bytes_of(candidates_) + bytes_of(comparisons_) + bytes_of(choices_) +
+           bytes_of(thresholds_) + bytes_of(choice_records_) + bytes_of(pool_) +
+           bytes_of(codes_of_first_) + bytes_of(codes_of_) + bytes_of(choice_of_code_) +
+           bytes_of(tests_of_code_) + bytes_of(test_lists_) + bytes_of(tests_) + bytes_of(guards_) +
+           bytes_of(varying_families_) + bytes_of(folded_codes_) + bytes_of(block_of_code_);
+}
+
+} // namespace lsys

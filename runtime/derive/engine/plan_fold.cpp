@@ -1,0 +1,101 @@
+// What a module with known arguments writes, as folded modules: a template of its own in the pool
+// in place of the parameters of its production's.
+#include "runtime/derive/engine/plan.h"
+
+#include <algorithm>
+
+namespace lsys {
+
+namespace {
+
+/// Larger templates, and larger families, are left to the parameters of the word.
+constexpr std::size_t kMostFoldedTemplateCodes = std::size_t{1} << 20;
+constexpr std::uint32_t kMostOwnEntries = 256;
+
+} // namespace
+
+/// Lets an entry of a module whose arguments are known write folded modules alone, if the program
+/// has them.
+bool Plan::fold(Code code, Entry& entry) {
+    if (!folded_index_ || rows_[code].stored != 0 || entry.parameter_count == 0) {
+        return false;
+    }
+    const std::uint64_t key = std::uint64_t{code} << 32 | entry.candidate;
+    auto known = templates_.find(key);
+    if (known == templates_.end()) {
+        const std::uint32_t first =
+            folded_template(candidates_[entry.candidate], own_constants(rows_[code]));
+        known = templates_.emplace(key, first).first;
+    }
+    if (known->second == kNone) {
+        return false;
+    }
+    entry.first_code = known->second;
+    entry.parameter_count = 0;
+    entry.general = false;
+    entry.reads_own = false;
+    finish(entry);
+    return true;
+}
+
+/// The successor with the folded modules that these arguments lead to, in the pool; kNone if not
+/// all are.
+std::uint32_t Plan::folded_template(const Candidate& candidate, const float* own) {
+    const WordTemplate& successor = bytecode_.productions[candidate.production].successor;
+    if (candidate.gathers || is_drawn(bytecode_, successor) ||
+        folded_codes_.size() + successor.codes.count > kMostFoldedTemplateCodes ||
+        contains(bytecode_, successor.arguments, Opcode::Step)) {
+        return kNone;
+    }
+    const EvalFrame frame{own, inputs_.globals, 0.0F, inputs_.steps};
+    std::vector<float> values(successor.parameter_count);
+    EvalFault fault;
+    if (!evaluate(bytecode_, successor.arguments, frame, nullptr, values.data(), fault)) {
+        return kNone;
+    }
+    std::vector<Code> codes;
+    codes.reserve(successor.codes.count);
+    const float* arguments = values.data();
+    for (std::uint32_t i = 0; i < successor.codes.count; ++i) {
+        Code written = bytecode_.template_codes[successor.codes.first + i];
+        const std::uint32_t stored = bytecode_.stored_parameters(written);
+        if (stored != 0) {
+            written = folded_index_->find(static_cast<SymbolId>(written), arguments);
+            arguments += stored;
+        }
+        if (written == kNone) {
+            return kNone;
+        }
+        codes.push_back(written);
+    }
+    return add_template(codes);
+}
+
+/// The entries of a module that is rewritten in one of several ways.
+void Plan::fold_records(const Family& family, Code code) {
+    Row& row = rows_[code];
+    if (!folded_index_ || row.stored != 0 || family.count > kMostOwnEntries) {
+        return;
+    }
+    std::vector<Entry> block(entries_.begin() + row.base + 1,
+                             entries_.begin() + row.base + 1 + family.count);
+    bool any = false;
+    for (Entry& entry : block) {
+        any = fold(code, entry) || any;
+    }
+    if (!any) {
+        return;
+    }
+    std::uint32_t& first = block_of_code_[code];
+    if (first == kNone) {
+        first = static_cast<std::uint32_t>(entries_.size());
+        entries_.resize(entries_.size() + family.count);
+    }
+    std::copy(block.begin(), block.end(), entries_.begin() + first);
+    row.base = first - 1;
+    row.slow =
+        own_constants(row) != nullptr &&
+        std::any_of(block.begin(), block.end(), [](const Entry& entry) { return entry.reads_own; });
+}
+
+} // namespace lsys

@@ -1,0 +1,370 @@
+// What is in force: the shapes of a family's conditions and arguments, and the rows they lead to.
+#include "grammar/base/contract.h"
+#include "runtime/derive/engine/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsys {
+
+namespace {
+
+/// A lane that yields `value` from any finite input; nothing fits -0, whose sign would depend on
+/// the input's.
+bool is_lane_constant(float value) {
+    return std::isfinite(value) && !(value == 0.0F && std::signbit(value));
+}
+
+/// Candidates tried ahead for all folded modules of one family; further ones are tried when a
+/// module is met.
+constexpr std::uint64_t kFoldedBudget = std::uint64_t{1} << 16;
+
+} // namespace
+
+ShapeKnowledge Plan::knowledge(const Candidate& candidate) const {
+    const BytecodeProduction& production = bytecode_.productions[candidate.production];
+    ShapeKnowledge known;
+    known.own_first = candidate.own_first;
+    if (production.predecessor.count == 1) {
+        const SymbolId symbol = bytecode_.patterns[production.predecessor.first].symbol;
+        known.own_count = bytecode_.symbol(symbol).parameter_count;
+    }
+    known.globals = inputs_.globals;
+    known.steps = inputs_.steps;
+    if (each_generation_) {
+        known.step = static_cast<float>(generation_);
+    }
+    return known;
+}
+
+void Plan::shape_condition(Candidate& candidate) {
+    const BytecodeProduction& production = bytecode_.productions[candidate.production];
+    if (production.condition == kNone) {
+        candidate.condition = ConditionKind::Always;
+        return;
+    }
+    candidate.condition = ConditionKind::Expression;
+    const std::vector<ValueShape> shapes =
+        shapes_of(bytecode_, production.condition, knowledge(candidate));
+    if (shapes.size() != 1) {
+        return;
+    }
+    const ValueShape& shape = shapes[0];
+    if (shape.kind == ShapeKind::Constant && std::isfinite(shape.constant)) {
+        candidate.condition = shape.constant != 0.0F ? ConditionKind::Always : ConditionKind::Never;
+    } else if (shape.kind == ShapeKind::Comparisons) {
+        candidate.condition = ConditionKind::Comparisons;
+        const auto count = static_cast<std::uint32_t>(shape.comparisons.size());
+        if (count > candidate.comparison_room) {
+            candidate.first_comparison = static_cast<std::uint32_t>(comparisons_.size());
+            candidate.comparison_room = count;
+            comparisons_.resize(comparisons_.size() + count);
+        }
+        candidate.comparison_count = count;
+        std::copy(shape.comparisons.begin(), shape.comparisons.end(),
+                  comparisons_.begin() + candidate.first_comparison);
+    }
+}
+
+void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
+    const WordTemplate& successor = bytecode_.productions[candidate.production].successor;
+    entry.general = false;
+    entry.reads_own = false;
+    if (successor.parameter_count == 0) {
+        finish(entry);
+        return;
+    }
+    const std::vector<ValueShape> shapes =
+        shapes_of(bytecode_, successor.arguments, knowledge(candidate));
+    entry.general = shapes.size() != successor.parameter_count;
+    for (std::uint32_t i = 0; i < shapes.size() && !entry.general; ++i) {
+        Lane lane;
+        if (shapes[i].kind == ShapeKind::Constant && is_lane_constant(shapes[i].constant)) {
+            lane = {0, 0.0F, shapes[i].constant};
+        } else if (shapes[i].kind == ShapeKind::Affine && shapes[i].lane.input <= 0xFF) {
+            lane = shapes[i].lane;
+            entry.reads_own = true;
+        } else {
+            entry.general = true;
+        }
+        if (i < kEntryLanes) {
+            entry.scale[i] = lane.scale;
+            entry.offset[i] = lane.offset;
+            entry.input[i] = static_cast<std::uint8_t>(lane.input);
+        }
+        if (entry.parameter_count > kEntryLanes) {
+            lanes_[entry.first_lane + i] = lane;
+        }
+    }
+    finish(entry);
+}
+
+void Plan::shape(Family& family) {
+    family.reads_own = false;
+    for (std::uint32_t i = family.first; i < family.first + family.count; ++i) {
+        Entry& entry = entries_[std::size_t{bytecode_.code_count()} + i];
+        shape_condition(candidates_[i]);
+        shape_entry(candidates_[i], entry);
+        family.reads_own = family.reads_own || entry.reads_own;
+    }
+    family.current = true;
+}
+
+void Plan::put_in_force(std::uint32_t family_index) {
+    Family& family = families_[family_index];
+    if (!family.current) {
+        shape(family);
+    }
+    needs_contexts_ = needs_contexts_ || family.has_context;
+    reads_contexts_ = reads_contexts_ || family.reads_context;
+    const BytecodeProduction& example = bytecode_.productions[candidates_[family.first].production];
+    folded_budget_ = kFoldedBudget;
+    for (const Code code : codes_of(bytecode_.patterns[example.predecessor.first].symbol)) {
+        resolve(family_index, code);
+    }
+}
+
+const float* Plan::own_constants(const Row& row) const {
+    return row.constants == kNone ? nullptr : bytecode_.constants.data() + row.constants;
+}
+
+ConditionKind
+Plan::condition_for(const Family& family, const Candidate& candidate, const float* own) const {
+    if (own == nullptr) {
+        return candidate.condition;
+    }
+    if (candidate.condition == ConditionKind::Comparisons) {
+        const std::span<const Comparison> all = comparisons(candidate);
+        return std::all_of(all.begin(), all.end(),
+                           [own](const Comparison& each) { return holds(each, own); })
+                   ? ConditionKind::Always
+                   : ConditionKind::Never;
+    }
+    if (candidate.condition == ConditionKind::Expression && !candidate.gathers && known(family)) {
+        const EvalFrame frame{own, inputs_.globals, static_cast<float>(generation_), inputs_.steps};
+        float value = 0.0F;
+        EvalFault fault;
+        if (evaluate(bytecode_, bytecode_.productions[candidate.production].condition, frame,
+                     nullptr, &value, fault)) {
+            return value != 0.0F ? ConditionKind::Always : ConditionKind::Never;
+        }
+    }
+    return candidate.condition;
+}
+
+void Plan::resolve(std::uint32_t family_index, Code code) {
+    const Family& family = families_[family_index];
+    reset_row(code);
+    Row& row = rows_[code];
+    row.base = bytecode_.code_count() + family.first - 1;
+    row.source = family_index;
+    row.left_guard = family.left_guard;
+    row.right_guard = family.right_guard;
+    const float* const own = own_constants(row);
+    row.slow = own != nullptr && family.reads_own;
+    if (family.several) {
+        set_kind(code, RowKind::General);
+        return;
+    }
+    for (std::uint32_t i = 0; i < family.count; ++i) {
+        const Candidate& candidate = candidates_[family.first + i];
+        if (own != nullptr) {
+            if (folded_budget_ == 0) {
+                set_kind(code, RowKind::General);
+                return;
+            }
+            --folded_budget_;
+        }
+        const ConditionKind condition = condition_for(family, candidate, own);
+        if (condition == ConditionKind::Never) {
+            continue;
+        }
+        if (candidate.has_context || condition != ConditionKind::Always) {
+            set_kind(code, resolve_tests(family, code) ? RowKind::Tests : RowKind::General);
+            fold_records(family, code);
+            return;
+        }
+        if (candidate.stochastic) {
+            resolve_choice(family, i, code);
+        } else {
+            resolve_fixed(code, entries_[row.base + 1 + i]);
+        }
+        return;
+    }
+    row.slow = false; // no production can match
+}
+
+/// Whether comparisons alone decide, each by itself: no contexts, no chance, no other conditions.
+bool Plan::resolve_tests(const Family& family, Code code) {
+    constexpr std::size_t kMostTests = 16;
+    Row& row = rows_[code];
+    if (row.constants != kNone) {
+        return false;
+    }
+    std::vector<Test> found;
+    for (std::uint32_t i = 0; i < family.count; ++i) {
+        const Candidate& candidate = candidates_[family.first + i];
+        const std::span<const Comparison> all = comparisons(candidate);
+        if (candidate.condition == ConditionKind::Never) {
+            continue;
+        }
+        if (candidate.has_context || candidate.stochastic || found.size() == kMostTests ||
+            candidate.condition == ConditionKind::Expression ||
+            (candidate.condition == ConditionKind::Comparisons && all.size() != 1)) {
+            return false;
+        }
+        if (candidate.condition == ConditionKind::Always) {
+            constexpr std::uint32_t kAny =
+                Comparison::kLess | Comparison::kEqual | Comparison::kGreater;
+            found.push_back({{{}, 0.0F, kAny}, i + 1});
+            break;
+        }
+        found.push_back({all[0], i + 1});
+    }
+    std::uint32_t& index = tests_of_code_[code];
+    if (index == kNone) {
+        index = static_cast<std::uint32_t>(test_lists_.size());
+        test_lists_.emplace_back();
+    }
+    TestList& list = test_lists_[index];
+    const auto count = static_cast<std::uint32_t>(found.size());
+    if (count > list.room) {
+        list.room = count;
+        list.first = static_cast<std::uint32_t>(tests_.size());
+        tests_.resize(tests_.size() + count);
+    }
+    list.count = count;
+    std::copy(found.begin(), found.end(), tests_.begin() + list.first);
+    row.source = index;
+    return true;
+}
+
+void Plan::resolve_choice(const Family& family, std::uint32_t first_match, Code code) {
+    Row& row = rows_[code];
+    const Candidate& first = candidates_[family.first + first_match];
+    if (own_constants(row) != nullptr) {
+        if (folded_budget_ < family.count) {
+            set_kind(code, RowKind::General);
+            return;
+        }
+        folded_budget_ -= family.count;
+    }
+    std::vector<std::uint32_t> records;
+    float sum = 0.0F;
+    for (std::uint32_t i = first_match; i < family.count; ++i) {
+        const Candidate& candidate = candidates_[family.first + i];
+        if (candidate.group != first.group || !candidate.stochastic) {
+            continue;
+        }
+        const ConditionKind condition = condition_for(family, candidate, own_constants(row));
+        if (condition == ConditionKind::Never) {
+            continue;
+        }
+        if (condition != ConditionKind::Always) {
+            set_kind(code, RowKind::General);
+            fold_records(family, code);
+            return;
+        }
+        records.push_back(i + 1);
+        sum += candidate.weight;
+    }
+    if (records.size() == 1) {
+        resolve_fixed(code, entries_[row.base + records[0]]);
+        return;
+    }
+    std::vector<float> running;
+    float total = 0.0F;
+    for (const std::uint32_t record : records) {
+        total += candidates_[family.first + record - 1].weight / sum;
+        running.push_back(total);
+    }
+    if (bytecode_.settings.choice == ChoiceScope::Generation) {
+        if (!each_generation_) {
+            set_kind(code, RowKind::General);
+            return;
+        }
+        const float u = rule_draw(bytecode_.productions[first.production].rule, generation_);
+        std::size_t taken = 0;
+        while (taken + 1 < records.size() && !(running[taken] > u)) {
+            ++taken;
+        }
+        resolve_fixed(code, entries_[row.base + records[taken]]);
+        return;
+    }
+    std::uint32_t& index = choice_of_code_[code];
+    if (index == kNone) {
+        index = static_cast<std::uint32_t>(choices_.size());
+        choices_.emplace_back();
+    }
+    Choice& choice = choices_[index];
+    const auto count = static_cast<std::uint32_t>(records.size());
+    if (count > choice.room) {
+        choice.room = count;
+        choice.first = static_cast<std::uint32_t>(thresholds_.size());
+        thresholds_.resize(thresholds_.size() + count);
+        choice_records_.resize(choice_records_.size() + count);
+    }
+    choice.count = count;
+    std::copy(running.begin(), running.end(), thresholds_.begin() + choice.first);
+    std::copy(records.begin(), records.end(), choice_records_.begin() + choice.first);
+    row.source = index;
+    set_kind(code, RowKind::Choice);
+    fold_records(family, code);
+}
+
+void Plan::resolve_fixed(Code code, const Entry& taken) {
+    Row& row = rows_[code];
+    Entry entry = taken;
+    row.slow = false;
+    if (!fold(code, entry) && own_constants(row) != nullptr && (entry.reads_own || entry.general)) {
+        row.slow = !bake(row, entry);
+    }
+    row.copies = false;
+    row.code_count = entry.code_count;
+    row.parameter_count = entry.parameter_count;
+    finish(entry);
+    entry.special = entry.special || row.slow;
+    entries_[code] = entry;
+    set_kind(code, RowKind::Fixed);
+}
+
+/// Makes the parameters of a folded module's only entry constants, if they can be.
+bool Plan::bake(const Row& row, Entry& entry) const {
+    const BytecodeProduction& production =
+        bytecode_.productions[candidates_[entry.candidate].production];
+    const float* const own = own_constants(row);
+    if (entry.parameter_count > kEntryLanes) {
+        return false;
+    }
+    std::array<float, kEntryLanes> values{};
+    if (entry.general) {
+        const bool steady =
+            each_generation_ || !contains(bytecode_, production.successor.arguments, Opcode::Step);
+        if (is_drawn(bytecode_, production.successor) || !steady) {
+            return false;
+        }
+        const EvalFrame frame{own, inputs_.globals, static_cast<float>(generation_), inputs_.steps};
+        EvalFault fault;
+        if (!evaluate(bytecode_, production.successor.arguments, frame, nullptr, values.data(),
+                      fault)) {
+            return false;
+        }
+    } else {
+        for (std::size_t i = 0; i < entry.parameter_count; ++i) {
+            values[i] = own[entry.input[i]] * entry.scale[i] + entry.offset[i];
+        }
+    }
+    if (!std::all_of(values.begin(), values.begin() + entry.parameter_count, is_lane_constant)) {
+        return false;
+    }
+    for (std::size_t i = 0; i < entry.parameter_count; ++i) {
+        entry.scale[i] = 0.0F;
+        entry.offset[i] = values[i];
+        entry.input[i] = 0;
+    }
+    entry.general = false;
+    entry.reads_own = false;
+    return true;
+}
+
+} // namespace lsys

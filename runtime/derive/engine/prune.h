@@ -1,0 +1,80 @@
+// Cuts: a module of the turtle's operation Cut takes the rest of its branch with it, up to the `]`
+// that closes the branch. A generation begins with them, before anything is matched.
+#pragma once
+
+#include "runtime/derive/engine/match.h"
+#include "runtime/derive/word.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+/// Follows the branches of a word that comes in pieces.
+class Pruner {
+public:
+    explicit Pruner(const Bytecode& bytecode);
+
+    /// Whether some module can cut at all.
+    [[nodiscard]] bool any() const { return any_; }
+
+    /// Calls keep(index, parameter) for each module that stays, in order, with the number of
+    /// parameters stored before it in this piece.
+    template <typename C, typename Keep>
+    void each_kept(const C* codes, std::uint64_t count, Keep&& keep) {
+        std::uint64_t parameter = 0;
+        for (std::uint64_t i = 0; i < count; ++i) {
+            const Kind kind = kinds_[codes[i]];
+            if (depth_ == 0 && kind.role == Role::Cut) {
+                depth_ = 1;
+            } else if (depth_ > 0 && kind.role == Role::Open) {
+                ++depth_;
+            } else if (depth_ > 0 && kind.role == Role::Close) {
+                --depth_;
+                if (depth_ == 0) {
+                    keep(i, parameter);
+                }
+            } else if (depth_ == 0) {
+                keep(i, parameter);
+            }
+            parameter += kind.stored;
+        }
+    }
+    /// Whether a piece begins within what is cut off, or holds a cut.
+    template <typename C>
+    [[nodiscard]] bool concerns(const C* codes, std::uint64_t count) const {
+        if (depth_ > 0) {
+            return true;
+        }
+        for (std::uint64_t i = 0; i < count; ++i) {
+            if (kinds_[codes[i]].role == Role::Cut) {
+                return true;
+            }
+        }
+        return false;
+    }
+    [[nodiscard]] std::uint32_t stored(Code code) const { return kinds_[code].stored; }
+    void begin_again() { depth_ = 0; }
+
+private:
+    enum class Role : std::uint8_t { Other, Cut, Open, Close };
+    struct Kind {
+        Role role = Role::Other;
+        std::uint32_t stored = 0;
+    };
+    std::vector<Kind> kinds_; // by code
+    std::uint64_t depth_ = 0; // branches open within what is cut off, and that one; 0: nothing is
+    bool any_ = false;
+};
+
+/// How much of a word stays.
+struct PrunedSize {
+    std::uint64_t modules = 0;
+    std::uint64_t parameters = 0;
+};
+/// Nothing to cut: the sizes of the word itself.
+[[nodiscard]] PrunedSize pruned_size(Pruner& pruner, const Word& word);
+/// Writes what stays to `out`, which has the sizes of pruned_size().
+void write_pruned(Pruner& pruner, const Word& word, Word& out);
+
+} // namespace lsys

@@ -1,0 +1,88 @@
+#include "runtime/derive/engine/start.h"
+
+#include "runtime/derive/engine/eval.h"
+
+namespace lsys {
+
+namespace {
+
+RuntimeError describe(const Bytecode& bytecode, const EvalFault& fault) {
+    RuntimeError error;
+    error.kind = fault.kind == Fault::RangeReversed  ? RuntimeErrorKind::RangeReversed
+                 : fault.kind == Fault::RangeTooWide ? RuntimeErrorKind::RangeTooWide
+                                                     : RuntimeErrorKind::NotFinite;
+    error.generation = kStartGeneration;
+    error.site = site_of(bytecode, fault.instruction);
+    error.value = fault.value;
+    error.second = fault.second;
+    return error;
+}
+
+} // namespace
+
+std::optional<RuntimeError>
+draw_globals(const Bytecode& bytecode, std::uint64_t seed, std::vector<float>& globals) {
+    globals.clear();
+    globals.reserve(bytecode.globals.size());
+    for (std::uint32_t i = 0; i < bytecode.globals.size(); ++i) {
+        const BytecodeGlobal& global = bytecode.globals[i];
+        RangeDraws draws = RangeDraws::at_start(seed, global.draw_position);
+        const EvalFrame frame{nullptr, globals.data(), 0.0F, 0.0F};
+        float value = 0.0F;
+        EvalFault fault;
+        if (!evaluate(bytecode, global.instruction, frame, &draws, &value, fault)) {
+            RuntimeError error = describe(bytecode, fault);
+            error.global = i;
+            return error;
+        }
+        if (global.has_bounds && !(global.minimum <= value && value <= global.maximum)) {
+            RuntimeError error;
+            error.kind = RuntimeErrorKind::OutOfBounds;
+            error.generation = kStartGeneration;
+            error.site = global.site;
+            error.value = value;
+            error.global = i;
+            return error;
+        }
+        globals.push_back(value);
+    }
+    return std::nullopt;
+}
+
+std::optional<RuntimeError> axiom_parameters(const Bytecode& bytecode,
+                                             std::uint64_t seed,
+                                             const std::vector<float>& globals,
+                                             std::vector<float>& parameters) {
+    const WordTemplate& axiom = bytecode.axiom;
+    parameters.assign(axiom.parameter_count, 0.0F);
+    if (axiom.arguments == kNone) {
+        return std::nullopt;
+    }
+    RangeDraws draws = RangeDraws::at_start(seed, bytecode.axiom_draw_position);
+    const EvalFrame frame{nullptr, globals.data(), 0.0F, 0.0F};
+    EvalFault fault;
+    if (evaluate(bytecode, axiom.arguments, frame, &draws, parameters.data(), fault)) {
+        return std::nullopt;
+    }
+    RuntimeError error = describe(bytecode, fault);
+    std::uint32_t emitted = 0; // before the fault
+    for (std::uint32_t at = axiom.arguments; at < fault.instruction; ++at) {
+        const auto opcode = static_cast<Opcode>(bytecode.instructions[at] & 0xFF);
+        emitted += opcode == Opcode::Emit ? 1 : 0;
+        at += opcode == Opcode::Literal ? 1 : 0;
+    }
+    std::uint32_t stored = 0;
+    for (std::uint32_t i = 0; i < axiom.codes.count; ++i) {
+        const Code code = bytecode.template_codes[axiom.codes.first + i];
+        const std::uint32_t count = bytecode.stored_parameters(code);
+        if (emitted < stored + count) {
+            error.position = i;
+            error.symbol = bytecode.symbol_of(code);
+            break;
+        }
+        stored += count;
+    }
+    return error;
+}
+
+} // namespace lsys

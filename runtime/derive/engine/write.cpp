@@ -1,0 +1,407 @@
+#include "runtime/derive/engine/write.h"
+
+#include "runtime/derive/engine/origins.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+/// Four binary32 values that are computed together: GCC's and Clang's vectors, on any machine.
+using Float4 = float __attribute__((vector_size(16)));
+
+/// Where the lanes of one entry find their inputs.
+enum class LaneInputs : std::uint8_t {
+    None,  // no parameters are written
+    First, // no module stores more than one
+    Any,
+};
+
+bool all_finite(const float* values, std::size_t count) {
+    constexpr std::uint32_t kExponent = 0x7F800000;
+    std::uint32_t found = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        found |= (std::bit_cast<std::uint32_t>(values[i]) & kExponent) == kExponent ? 1U : 0U;
+    }
+    return found == 0;
+}
+
+template <typename C, typename R>
+class Writer {
+public:
+    Writer(const Plan& plan,
+           const PassKeys& keys,
+           Matcher<C>& matcher,
+           const WordView<C>& word,
+           WriteRequest<C>& request,
+           const R* records)
+        : plan_(plan), keys_(keys), matcher_(matcher), word_(word), request_(request),
+          rows_(plan.rows().data()), entries_(plan.entries().data()),
+          pool_(reinterpret_cast<const C*>(plan.pool())), records_(records), place_(request.begin),
+          codes_(request.codes), parameters_(request.parameters) {}
+
+    bool run() {
+        bool fine = true;
+        if (plan_.predecessor_count() > 1) {
+            fine = run_exactly(request_.end);
+        } else if (!plan_.has_parameters() || !request_.writes_parameters) {
+            fine = run_with<LaneInputs::None>();
+        } else if (!plan_.mixes_inputs()) {
+            fine = run_with<LaneInputs::First>();
+        } else {
+            fine = run_with<LaneInputs::Any>();
+        }
+        const float* const written = std::exchange(request_.parameters, parameters_);
+        request_.begin = place_;
+        request_.codes = codes_;
+        return fine && all_finite(written, static_cast<std::size_t>(parameters_ - written));
+    }
+
+private:
+    template <LaneInputs kInputs>
+    bool run_with() {
+        return request_.marks != nullptr ? run_marked<kInputs>() : run_wide<kInputs>();
+    }
+
+    template <LaneInputs kInputs>
+    bool run_wide() {
+        if (plan_.all_fixed()) {
+            return plan_.wide_bytes() == 16 ? run_wide<kInputs, false, 16>()
+                                            : run_wide<kInputs, false, 32>();
+        }
+        return plan_.wide_bytes() == 16 ? run_wide<kInputs, true, 16>()
+                                        : run_wide<kInputs, true, 32>();
+    }
+
+    /// Batches that cannot pass the limits, without asking for each module; what is near a limit
+    /// or special is written exactly.
+    template <LaneInputs kInputs, bool kRecords, std::size_t kBytes>
+    bool run_wide() {
+        while (place_.index < request_.end) {
+            const auto code_room = static_cast<std::uint64_t>(request_.codes_limit - codes_);
+            const auto parameter_room =
+                static_cast<std::uint64_t>(request_.parameters_limit - parameters_);
+            std::uint64_t batch =
+                std::min(request_.end - place_.index, code_room / (kBytes / sizeof(C)));
+            if constexpr (kInputs != LaneInputs::None) {
+                batch = std::min(batch, parameter_room / kEntryLanes);
+            }
+            if (batch != 0 && run_batch<kInputs, kRecords, kBytes>(batch) == batch) {
+                continue;
+            }
+            if (!run_exactly(place_.index + 1)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// The first four parameters of an entry, as one store.
+    template <LaneInputs kInputs>
+    static void store_lanes(const Entry& entry, const float* own, float* out) {
+        Float4 scale;
+        Float4 offset;
+        std::memcpy(&scale, entry.scale.data(), sizeof scale);
+        std::memcpy(&offset, entry.offset.data(), sizeof offset);
+        Float4 input;
+        if constexpr (kInputs == LaneInputs::First) {
+            input = Float4{own[0], own[0], own[0], own[0]};
+        } else {
+            input = Float4{own[entry.input[0]], own[entry.input[1]], own[entry.input[2]],
+                           own[entry.input[3]]};
+        }
+        const Float4 values = input * scale + offset;
+        std::memcpy(out, &values, sizeof values);
+    }
+
+    /// Up to `batch` modules; returns how many, which are fewer if a special one comes next.
+    template <LaneInputs kInputs, bool kRecords, std::size_t kBytes>
+    std::uint64_t run_batch(std::uint64_t batch) {
+        const C* in = word_.codes + place_.index;
+        const C* const begin = in;
+        const C* const end = in + batch;
+        const float* own = word_.parameters + place_.parameter;
+        const float* const first_own = own;
+        const Row* const rows = rows_;
+        const Entry* const entries = entries_;
+        const C* const pool = pool_;
+        const R* records = records_;
+        C* codes = codes_;
+        float* parameters = parameters_;
+        for (; in != end; ++in) {
+            const C code = *in;
+            const Entry* entry = entries + code;
+            [[maybe_unused]] const Row* row = rows + code;
+            if constexpr (kRecords) {
+                if (row->kind != RowKind::Fixed) {
+                    const std::uint32_t record = *records;
+                    entry = record == 0 ? entry : entries + row->base + record;
+                    if (entry->special || row->slow) {
+                        break;
+                    }
+                    ++records;
+                } else if (entry->special) {
+                    break;
+                }
+            } else if (entry->special) {
+                break;
+            }
+            std::memcpy(codes, pool + entry->first_code, kBytes);
+            codes += entry->code_count;
+            if constexpr (kInputs != LaneInputs::None) {
+                store_lanes<kInputs>(*entry, own, parameters);
+                parameters += entry->parameter_count;
+                own += row->stored;
+            }
+        }
+        const auto done = static_cast<std::uint64_t>(in - begin);
+        records_ = records;
+        codes_ = codes;
+        parameters_ = parameters;
+        place_.index += done;
+        place_.parameter += static_cast<std::uint64_t>(own - first_own);
+        return done;
+    }
+
+    template <LaneInputs kInputs>
+    bool run_marked() {
+        constexpr std::size_t kBlock = Marks::kBlock;
+        const Marks& marks = *request_.marks;
+        std::array<MarkBits, Marks::kModules / kBlock> bits; // NOLINT: filled before it is read
+        while (place_.index < request_.end) {
+            const std::uint64_t begin = place_.index;
+            const auto count = static_cast<std::size_t>(
+                std::min<std::uint64_t>(request_.end - begin, Marks::kModules));
+            marks.fill(word_.codes, word_.count, begin, count, bits.data());
+            for (std::size_t first = 0; first < count; first += kBlock) {
+                const auto size = static_cast<unsigned>(std::min(count - first, kBlock));
+                if (!write_block<kInputs>(marks, bits[first / kBlock], size)) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+
+    /// The next `size` modules, of 64 or the last: what stands between two that are marked is moved
+    /// by one copy of 64.
+    template <LaneInputs kInputs>
+    bool write_block(const Marks& marks, MarkBits bits, unsigned size) {
+        constexpr std::size_t kBlock = Marks::kBlock;
+        const C* const in = word_.codes + place_.index;
+        const std::uint64_t begin = place_.index;
+        unsigned from = 0;
+        while (true) {
+            const unsigned to =
+                bits.active == 0 ? size : static_cast<unsigned>(std::countr_zero(bits.active));
+            const unsigned run = to - from;
+            const bool code_room =
+                static_cast<std::size_t>(request_.codes_limit - codes_) >= kBlock;
+            if (code_room) {
+                std::memcpy(codes_, in + from, kBlock * sizeof(C));
+            } else {
+                std::copy_n(in + from, run, codes_);
+            }
+            codes_ += run;
+            if constexpr (kInputs != LaneInputs::None) {
+                const std::uint64_t before =
+                    to == kBlock ? ~std::uint64_t{0} : (std::uint64_t{1} << to) - 1;
+                const std::uint64_t stored = marks.stored(in, bits.stores & before);
+                bits.stores &= ~before;
+                copy_parameters(stored);
+            }
+            if (bits.active == 0) {
+                break;
+            }
+            bits.active &= bits.active - 1;
+            place_.index = begin + to;
+            if (!write_marked<kInputs>(in[to])) {
+                return false;
+            }
+            bits.stores &= ~(std::uint64_t{1} << to);
+            from = to + 1;
+        }
+        place_.index = begin + size;
+        return true;
+    }
+
+    void copy_parameters(std::uint64_t count) {
+        const float* const own = word_.parameters + place_.parameter;
+        if (static_cast<std::uint64_t>(request_.parameters_limit - parameters_) >=
+            count + kEntryLanes) {
+            for (std::uint64_t i = 0; i < count; i += kEntryLanes) {
+                std::memcpy(parameters_ + i, own + i, kEntryLanes * sizeof(float));
+            }
+        } else {
+            std::copy_n(own, count, parameters_);
+        }
+        parameters_ += count;
+        place_.parameter += count;
+    }
+
+    /// The marked module at place_.
+    template <LaneInputs kInputs>
+    bool write_marked(C code) {
+        constexpr std::size_t kWide = 32 / sizeof(C);
+        const Row& row = rows_[code];
+        const Entry* entry = entries_ + code;
+        if (row.kind != RowKind::Fixed) {
+            const std::uint32_t record = *records_++;
+            entry = record == 0 ? entry : entries_ + row.base + record;
+        }
+        bool room = static_cast<std::size_t>(request_.codes_limit - codes_) >= kWide;
+        if constexpr (kInputs != LaneInputs::None) {
+            room = room &&
+                   static_cast<std::size_t>(request_.parameters_limit - parameters_) >= kEntryLanes;
+        }
+        if (room && !entry->special && !row.slow) {
+            std::memcpy(codes_, pool_ + entry->first_code, kWide * sizeof(C));
+            if constexpr (kInputs != LaneInputs::None) {
+                store_lanes<kInputs>(*entry, word_.parameters + place_.parameter, parameters_);
+            }
+        } else {
+            std::copy_n(pool_ + entry->first_code, entry->code_count, codes_);
+            if (!write_parameters(*entry)) {
+                return false;
+            }
+        }
+        codes_ += entry->code_count;
+        parameters_ += entry->parameter_count;
+        place_.parameter += row.stored;
+        return true;
+    }
+
+    /// Modules up to `end`, without writing anything but what they become.
+    bool run_exactly(std::uint64_t end) {
+        while (place_.index < end) {
+            const C code = word_.codes[place_.index];
+            const Row& row = rows_[code];
+            const Entry* entry = entries_ + code;
+            std::uint32_t modules = 1;
+            if (row.kind != RowKind::Fixed) {
+                const std::uint32_t record = *records_++;
+                if (record != 0) {
+                    entry = entries_ + row.base + record;
+                    modules = plan_.used_by(*entry);
+                }
+            }
+            codes_ = std::copy_n(pool_ + entry->first_code, entry->code_count, codes_);
+            if (!write_parameters(*entry)) {
+                return false;
+            }
+            parameters_ += entry->parameter_count;
+            for (; modules != 0; --modules, ++place_.index) {
+                place_.parameter += rows_[word_.codes[place_.index]].stored;
+            }
+        }
+        return true;
+    }
+
+    bool write_parameters(const Entry& entry) {
+        if (entry.parameter_count == 0) {
+            return true;
+        }
+        if (entry.general) {
+            EvalFault fault;
+            return evaluate_entry(plan_, keys_, matcher_, word_.first_position + place_.index,
+                                  place_, entry, parameters_, fault);
+        }
+        const float* const own = matcher_.own(place_);
+        if (entry.parameter_count > kEntryLanes) {
+            const Lane* const lanes = plan_.lanes().data() + entry.first_lane;
+            for (std::uint32_t i = 0; i < entry.parameter_count; ++i) {
+                parameters_[i] = value_of(lanes[i], own);
+            }
+            return true;
+        }
+        for (std::uint32_t i = 0; i < entry.parameter_count; ++i) {
+            parameters_[i] = own[entry.input[i]] * entry.scale[i] + entry.offset[i];
+        }
+        return true;
+    }
+
+    const Plan& plan_;
+    const PassKeys& keys_;
+    Matcher<C>& matcher_;
+    const WordView<C>& word_;
+    WriteRequest<C>& request_;
+    const Row* rows_;
+    const Entry* entries_;
+    const C* pool_;
+    const R* records_;
+    ModulePlace place_;
+    C* codes_;
+    float* parameters_;
+};
+
+} // namespace
+
+template <typename C, typename R>
+bool write_modules(const Plan& plan,
+                   const PassKeys& keys,
+                   Matcher<C>& matcher,
+                   const WordView<C>& word,
+                   WriteRequest<C>& request,
+                   const R* records) {
+    const std::uint64_t begin = request.begin.index;
+    if (!Writer<C, R>(plan, keys, matcher, word, request, records).run()) {
+        return false;
+    }
+    if (request.origins != nullptr) {
+        const OriginRequest traced{begin, request.begin.index,
+                                   keys.generation + (keys.same_age ? 0 : 1), request.marks};
+        request.origins = trace_origins(plan, word, traced, records, request.origins);
+    }
+    return true;
+}
+
+template <typename C>
+bool evaluate_entry(const Plan& plan,
+                    const PassKeys& keys,
+                    Matcher<C>& matcher,
+                    std::uint64_t position,
+                    ModulePlace place,
+                    const Entry& entry,
+                    float* out,
+                    EvalFault& fault) {
+    const Bytecode& bytecode = plan.bytecode();
+    const Candidate& candidate = plan.candidate(entry.candidate);
+    const BytecodeProduction& production = bytecode.productions[candidate.production];
+    if (production.successor.arguments == kNone) {
+        return true;
+    }
+    const PlanInputs& inputs = plan.inputs();
+    const EvalFrame frame{matcher.formals_again(candidate, place), inputs.globals,
+                          static_cast<float>(keys.generation), inputs.steps};
+    const bool draws_choice =
+        candidate.stochastic && bytecode.settings.choice == ChoiceScope::Module;
+    RangeDraws draws = RangeDraws::of_module(keys.seed, keys.generation, position,
+                                             keys.first_draw + (draws_choice ? 1 : 0));
+    return evaluate(bytecode, production.successor.arguments, frame, &draws, out, fault);
+}
+
+#define LSYS_WRITE(C, R)                                                                           \
+    template bool write_modules<C, R>(const Plan&, const PassKeys&, Matcher<C>&,                   \
+                                      const WordView<C>&, WriteRequest<C>&, const R*);
+LSYS_WRITE(std::uint8_t, std::uint8_t)
+LSYS_WRITE(std::uint8_t, std::uint32_t)
+LSYS_WRITE(std::uint16_t, std::uint8_t)
+LSYS_WRITE(std::uint16_t, std::uint32_t)
+LSYS_WRITE(std::uint32_t, std::uint8_t)
+LSYS_WRITE(std::uint32_t, std::uint32_t)
+#undef LSYS_WRITE
+#define LSYS_EVALUATE(C)                                                                           \
+    template bool evaluate_entry<C>(const Plan&, const PassKeys&, Matcher<C>&, std::uint64_t,      \
+                                    ModulePlace, const Entry&, float*, EvalFault&);
+LSYS_EVALUATE(std::uint8_t)
+LSYS_EVALUATE(std::uint16_t)
+LSYS_EVALUATE(std::uint32_t)
+#undef LSYS_EVALUATE
+
+} // namespace lsys

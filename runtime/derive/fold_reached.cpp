@@ -1,0 +1,220 @@
+#include "runtime/derive/fold_reached.h"
+
+#include "runtime/derive/engine/eval.h"
+#include "runtime/derive/engine/folded_index.h"
+#include "runtime/derive/engine/shape.h"
+#include "runtime/derive/engine/start.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+/// Larger programs would spend more on this than they gain.
+constexpr std::size_t kMostProductions = 4096;
+constexpr std::uint32_t kMostAxiomParameters = 4096;
+constexpr std::uint32_t kMostCodes = 4096;
+constexpr std::uint64_t kMostTrials = std::uint64_t{1} << 16; // of productions on modules
+
+class Folder {
+public:
+    Folder(const Bytecode& bytecode, std::vector<float> globals, std::uint32_t generations)
+        : program_(bytecode), globals_(std::move(globals)), generations_(generations),
+          index_(program_), seen_(program_.code_count(), false) {
+        const std::uint32_t width = code_width(bytecode.code_count());
+        most_codes_ = std::min(width == 1 ? 256U : 65'536U, kMostCodes);
+        by_symbol_.resize(bytecode.symbols.size());
+        parts_.resize(bytecode.symbols.size());
+        for (std::uint32_t i = 0; i < bytecode.productions.size(); ++i) {
+            const BytecodeProduction& production = bytecode.productions[i];
+            const SymbolId symbol = bytecode.patterns[production.predecessor.first].symbol;
+            if (production.stage != Stage::Interpret) { // whose words are never kept
+                (production.stage == Stage::Rewrite ? by_symbol_
+                                                    : parts_)[static_cast<std::size_t>(symbol)]
+                    .push_back(i);
+            }
+        }
+    }
+
+    std::optional<Bytecode> run(const std::vector<float>& axiom_parameters) {
+        const Code before = program_.code_count();
+        WordTemplate& axiom = program_.axiom;
+        take(axiom, axiom_parameters.data());
+        if (!fine_) {
+            return std::nullopt;
+        }
+        put(axiom, axiom_parameters.data());
+        decompose();
+        for (std::uint32_t age = 0; age < generations_ && !next_.empty() && fine_; ++age) {
+            const std::vector<Code> now = std::exchange(next_, {});
+            for (const Code code : now) {
+                apply(by_symbol_, code);
+            }
+            decompose();
+        }
+        const bool any = program_.code_count() > before || bare_axiom_;
+        return fine_ && any ? std::optional(std::move(program_)) : std::nullopt;
+    }
+
+private:
+    using Table = std::vector<std::vector<std::uint32_t>>; // productions by symbol
+
+    /// What the new modules are taken apart into, to the end.
+    void decompose() {
+        for (std::size_t i = 0; i < next_.size() && fine_; ++i) {
+            apply(parts_, next_[i]);
+        }
+    }
+
+    /// The modules that the productions can make of a module.
+    void apply(const Table& table, Code code) {
+        const auto symbol = static_cast<std::size_t>(program_.symbol_of(code));
+        std::vector<float> own;
+        if (code >= program_.symbols.size()) {
+            const float* const first =
+                program_.constants.data() +
+                program_.folded[code - program_.symbols.size()].first_constant;
+            own.assign(first, first + program_.symbols[symbol].parameter_count);
+        }
+        const bool own_known = own.size() == program_.symbols[symbol].parameter_count;
+        for (const std::uint32_t index : table[symbol]) {
+            fine_ = fine_ && ++trials_ <= kMostTrials;
+            if (!fine_) {
+                return;
+            }
+            const BytecodeProduction& production = program_.productions[index];
+            const std::uint32_t own_first =
+                program_.patterns[production.predecessor.first].first_formal;
+            const std::uint32_t own_end = own_first + program_.symbols[symbol].parameter_count;
+            const auto reads_others = [&](std::uint32_t first) {
+                return uses_formal_outside(program_, first, own_first, own_end);
+            };
+            const bool knows = own_known && own_first == 0 && !reads_others(production.condition) &&
+                               !reads_others(production.successor.arguments);
+            if (knows && !may_match(production, own.data())) {
+                continue;
+            }
+            expand(production, own.data(), knows);
+        }
+    }
+
+    [[nodiscard]] bool may_match(const BytecodeProduction& production, const float* own) const {
+        if (production.condition == kNone ||
+            contains(program_, production.condition, Opcode::Step)) {
+            return true;
+        }
+        float value = 0.0F;
+        EvalFault fault;
+        return !evaluate(program_, production.condition, frame(own), nullptr, &value, fault) ||
+               value != 0.0F;
+    }
+
+    void expand(const BytecodeProduction& production, const float* own, bool knows) {
+        const WordTemplate& successor = production.successor;
+        if (successor.parameter_count == 0) {
+            take(successor, nullptr);
+            return;
+        }
+        std::vector<float> values(successor.parameter_count);
+        EvalFault fault;
+        const bool known =
+            knows && !is_drawn(program_, successor) &&
+            !contains(program_, successor.arguments, Opcode::Step) &&
+            evaluate(program_, successor.arguments, frame(own), nullptr, values.data(), fault);
+        take(successor, known ? values.data() : nullptr);
+    }
+
+    /// Notes the modules of a template; without `arguments`, those that store some stay as they
+    /// are.
+    void take(const WordTemplate& words, const float* arguments) {
+        for (std::uint32_t i = 0; i < words.codes.count && fine_; ++i) {
+            Code code = program_.template_codes[words.codes.first + i];
+            const std::uint32_t stored = program_.stored_parameters(code);
+            if (stored != 0 && arguments != nullptr) {
+                code = fold(static_cast<SymbolId>(code), arguments);
+                arguments += stored;
+            }
+            if (fine_ && !seen_[code]) {
+                seen_[code] = true;
+                next_.push_back(code);
+            }
+        }
+    }
+
+    Code fold(SymbolId symbol, const float* arguments) {
+        const Code known = index_.find(symbol, arguments);
+        if (known != kNone) {
+            return known;
+        }
+        const Code code = program_.code_count();
+        if (code >= most_codes_) {
+            fine_ = false;
+            return 0;
+        }
+        program_.folded.push_back({symbol, static_cast<std::uint32_t>(program_.constants.size())});
+        program_.constants.insert(program_.constants.end(), arguments,
+                                  arguments + program_.symbol(symbol).parameter_count);
+        seen_.push_back(false);
+        index_.add(code);
+        return code;
+    }
+
+    /// The axiom with its folded modules.
+    void put(WordTemplate& axiom, const float* arguments) {
+        bare_axiom_ = axiom.parameter_count != 0;
+        for (std::uint32_t i = 0; i < axiom.codes.count; ++i) {
+            Code& code = program_.template_codes[axiom.codes.first + i];
+            const std::uint32_t stored = program_.stored_parameters(code);
+            if (stored != 0) {
+                code = index_.find(static_cast<SymbolId>(code), arguments);
+                arguments += stored;
+            }
+        }
+        axiom.arguments = kNone;
+        axiom.parameter_count = 0;
+        axiom.draw_count = 0;
+    }
+
+    [[nodiscard]] EvalFrame frame(const float* own) const {
+        return {own, globals_.data(), 0.0F, static_cast<float>(generations_)};
+    }
+
+    Bytecode program_;
+    std::vector<float> globals_;
+    std::uint32_t generations_;
+    FoldedIndex index_;
+    std::vector<bool> seen_; // by code
+    std::vector<Code> next_; // of the next age
+    Table by_symbol_;
+    Table parts_; // of #decompose
+    std::uint32_t most_codes_ = 0;
+    std::uint64_t trials_ = 0;
+    bool bare_axiom_ = false; // it stored parameters
+    bool fine_ = true;
+};
+
+} // namespace
+
+std::optional<Bytecode>
+fold_reached(const Bytecode& bytecode, std::uint64_t seed, std::uint32_t generations) {
+    const bool stores =
+        std::any_of(bytecode.symbols.begin(), bytecode.symbols.end(),
+                    [](const BytecodeSymbol& symbol) { return symbol.parameter_count != 0; });
+    if (!stores || bytecode.settings.rewriting != RewritingMode::Parallel ||
+        code_width(bytecode.code_count()) > 2 || bytecode.productions.size() > kMostProductions ||
+        bytecode.axiom.parameter_count > kMostAxiomParameters) {
+        return std::nullopt;
+    }
+    std::vector<float> globals;
+    std::vector<float> axiom;
+    if (draw_globals(bytecode, seed, globals) || axiom_parameters(bytecode, seed, globals, axiom)) {
+        return std::nullopt; // the derivation says what is wrong
+    }
+    return Folder(bytecode, std::move(globals), generations).run(axiom);
+}
+
+} // namespace lsys

@@ -1,0 +1,162 @@
+#include "runtime/derive/interpretation.h"
+
+#include "runtime/derive/engine/chains.h"
+#include "runtime/derive/engine/levels.h"
+#include "runtime/derive/engine/start.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+/// What outlives the plan that reads it.
+struct Prepared {
+    Prepared(const Bytecode& program, const InterpretInputs& given)
+        : bytecode(program), inputs(given) {}
+
+    const Bytecode& bytecode;
+    InterpretInputs inputs;
+    std::vector<float> globals;
+};
+
+LevelSteps steps_of(const Plan& plan, const InterpretInputs& inputs, const StageDepth& depth) {
+    LevelSteps steps;
+    steps.passes = &plan;
+    steps.seed = inputs.seed;
+    steps.first_age = inputs.generations;
+    steps.last_age = inputs.generations;
+    steps.depth = depth.passes;
+    steps.checked = depth.checked;
+    steps.first_pass_draw = kFirstInterpretDraw;
+    return steps;
+}
+
+template <typename C, typename R>
+class Interpreter final : public Interpretation {
+public:
+    Interpreter(std::unique_ptr<const Prepared> prepared,
+                std::unique_ptr<const Plan> plan,
+                bool origins,
+                Sink sink)
+        : prepared_(std::move(prepared)), plan_(std::move(plan)), sink_(std::move(sink)),
+          origins_(origins),
+          levels_(
+              steps_of(*plan_, prepared_->inputs, depth_of(prepared_->bytecode, Stage::Interpret)),
+              {origins, prepared_->inputs.max_bytes, 1, most_stored(prepared_->bytecode),
+               prepared_->inputs.cancelled},
+              [this](const LevelBlock<C>& block) { return emit(block); }) {}
+
+    DeriveStatus feed(std::span<const Code> codes,
+                      std::span<const float> parameters,
+                      std::span<const Origin> origins) override {
+        const float* next = parameters.data();
+        while (!codes.empty()) {
+            const auto block = levels_.first_block();
+            if (block.codes == nullptr) {
+                return DeriveStatus::Limit;
+            }
+            std::uint64_t count = 0;
+            std::uint64_t stored = 0;
+            while (count < codes.size() && count < levels_.room_codes()) {
+                const std::uint64_t own = plan_->row(codes[count]).stored;
+                if (stored + own > levels_.room_parameters()) {
+                    break;
+                }
+                block.codes[count] = static_cast<C>(codes[count]);
+                ++count;
+                stored += own;
+            }
+            std::copy_n(next, stored, block.parameters);
+            next += stored;
+            if (origins_) {
+                std::copy_n(origins.begin(), count, block.origins);
+                origins = origins.subspan(count);
+            }
+            codes = codes.subspan(count);
+            const DeriveStatus status = levels_.push(count);
+            if (status != DeriveStatus::Ok) {
+                error_ = std::move(levels_.error());
+                return status;
+            }
+        }
+        return DeriveStatus::Ok;
+    }
+
+    const RuntimeError& error() const override { return error_; }
+
+private:
+    static std::uint64_t most_stored(const Bytecode& bytecode) {
+        std::uint64_t most = 0;
+        for (const BytecodeSymbol& symbol : bytecode.symbols) {
+            most = std::max<std::uint64_t>(most, symbol.parameter_count);
+        }
+        return most;
+    }
+
+    bool emit(const LevelBlock<C>& block) {
+        std::size_t parameters = 0;
+        for (const C code : block.codes) {
+            parameters += plan_->row(code).stored;
+        }
+        emitted_.assign(block.codes.begin(), block.codes.end());
+        return sink_(emitted_, {block.parameters, parameters},
+                     {block.origins, origins_ ? emitted_.size() : 0});
+    }
+
+    std::unique_ptr<const Prepared> prepared_;
+    std::unique_ptr<const Plan> plan_;
+    Sink sink_;
+    bool origins_;
+    Levels<C, R> levels_;
+    std::vector<Code> emitted_;
+    RuntimeError error_;
+};
+
+template <typename C>
+std::unique_ptr<Interpretation> make_typed(std::unique_ptr<const Prepared> prepared,
+                                           std::unique_ptr<const Plan> plan,
+                                           bool origins,
+                                           Interpretation::Sink sink) {
+    if (plan->record_width() == 1) {
+        return std::make_unique<Interpreter<C, std::uint8_t>>(std::move(prepared), std::move(plan),
+                                                              origins, std::move(sink));
+    }
+    return std::make_unique<Interpreter<C, std::uint32_t>>(std::move(prepared), std::move(plan),
+                                                           origins, std::move(sink));
+}
+
+} // namespace
+
+std::unique_ptr<Interpretation> Interpretation::make(const Bytecode& bytecode,
+                                                     const InterpretInputs& inputs,
+                                                     bool origins,
+                                                     Sink sink) {
+    if (!bytecode.has(Stage::Interpret)) {
+        return nullptr;
+    }
+    auto prepared = std::make_unique<Prepared>(bytecode, inputs);
+    // The derivation has drawn them before, without an error.
+    static_cast<void>(draw_globals(bytecode, inputs.seed, prepared->globals));
+    prepared->globals.resize(bytecode.globals.size());
+    auto plan = std::make_unique<Plan>(
+        bytecode,
+        PlanInputs{prepared->globals.data(), inputs.seed, static_cast<float>(inputs.generations)},
+        true, Stage::Interpret);
+    plan->prepare(inputs.generations);
+    switch (plan->code_width()) {
+    case 1:
+        return make_typed<std::uint8_t>(std::move(prepared), std::move(plan), origins,
+                                        std::move(sink));
+    case 2:
+        return make_typed<std::uint16_t>(std::move(prepared), std::move(plan), origins,
+                                         std::move(sink));
+    default:
+        return make_typed<std::uint32_t>(std::move(prepared), std::move(plan), origins,
+                                         std::move(sink));
+    }
+}
+
+} // namespace lsys

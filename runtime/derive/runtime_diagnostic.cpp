@@ -1,0 +1,280 @@
+#include "runtime/derive/runtime_diagnostic.h"
+
+#include "runtime/base/random.h"
+#include "runtime/derive/stream.h"
+#include "runtime/derive/word_text.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+std::string number(float value) {
+    if (std::isnan(value)) {
+        return "not a number";
+    }
+    if (std::isinf(value)) {
+        return value > 0.0F ? "infinite" : "minus infinite";
+    }
+    std::string text;
+    append_number(value, text);
+    return text;
+}
+
+std::string module_text(const RuntimeError& error, const Bytecode& bytecode) {
+    std::string text =
+        spelled_name(bytecode.symbol(error.symbol).name, bytecode.settings.print_letters);
+    for (std::size_t i = 0; i < error.parameters.size(); ++i) {
+        text += i == 0 ? '(' : ',';
+        append_number(error.parameters[i], text);
+    }
+    return error.parameters.empty() ? text : text + ')';
+}
+
+/// "production `p`", "the axiom", "constant `c`".
+std::string owner(const RuntimeError& error, const Bytecode& bytecode) {
+    if (error.global != kNone) {
+        return fmt::format("constant `{}`", bytecode.globals[error.global].name);
+    }
+    if (error.production == kNoProduction) {
+        return "the axiom";
+    }
+    return fmt::format("production `{}`",
+                       bytecode.productions[static_cast<std::size_t>(error.production)].name);
+}
+
+/// The place of a site, and a note for readers without the source.
+void place(Diagnostic& diagnostic,
+           std::uint32_t site,
+           const Bytecode& bytecode,
+           bool sources_loaded) {
+    if (site == kNone) {
+        return;
+    }
+    const Site& at = bytecode.sites[site];
+    if (sources_loaded) {
+        diagnostic.span = at.span;
+        return;
+    }
+    diagnostic.notes.push_back(fmt::format(
+        "at {}:{}:{}", bytecode.files[static_cast<std::size_t>(at.span.file)], at.line, at.column));
+}
+
+/// What was done with the module.
+const char* doing(const RuntimeError& error, const Bytecode& bytecode) {
+    switch (error.production == kNoProduction
+                ? Stage::Rewrite
+                : bytecode.productions[static_cast<std::size_t>(error.production)].stage) {
+    case Stage::Rewrite:
+        break;
+    case Stage::Decompose:
+        return "decomposing";
+    case Stage::Interpret:
+        return "interpreting";
+    }
+    return "rewriting";
+}
+
+void note_module(Diagnostic& diagnostic, const RuntimeError& error, const Bytecode& bytecode) {
+    if (error.global != kNone) {
+        diagnostic.notes.emplace_back("drawn when the derivation starts");
+    } else if (error.generation == kStartGeneration) {
+        diagnostic.notes.push_back(
+            fmt::format("module {} of the axiom (counted from 0)", grouped_digits(error.position)));
+    } else {
+        diagnostic.notes.push_back(fmt::format(
+            "while {} `{}`, module {} of generation {} (counted from 0)", doing(error, bytecode),
+            module_text(error, bytecode), grouped_digits(error.position), error.generation));
+    }
+}
+
+Diagnostic not_finite(const RuntimeError& error, const Bytecode& bytecode) {
+    const char* const what = error.global != kNone ? "the value"
+                             : error.in_condition  ? "the condition"
+                                                   : "a parameter";
+    Diagnostic diagnostic = make_diagnostic(
+        DiagnosticCode::NotFinite, {},
+        fmt::format("{} of {} is {}", what, owner(error, bytecode), number(error.value)));
+    diagnostic.label = number(error.value) + " here";
+    note_module(diagnostic, error, bytecode);
+    if (error.production != kNoProduction) {
+        diagnostic.help.emplace_back(
+            error.in_condition
+                ? "let an earlier production take the modules for which it has no value"
+                : "guard the production with a condition, or bound the value with `min` and "
+                  "`max`");
+    }
+    return diagnostic;
+}
+
+Diagnostic bad_range(const RuntimeError& error, const Bytecode& bytecode) {
+    const bool reversed = error.kind == RuntimeErrorKind::RangeReversed;
+    std::string why = "its minimum lies above its maximum";
+    if (!reversed) {
+        why = std::isfinite(error.value) && std::isfinite(error.second)
+                  ? "its width overflows binary32"
+                  : "its bounds must be finite";
+    }
+    Diagnostic diagnostic = make_diagnostic(
+        DiagnosticCode::BadRangeBounds, {},
+        fmt::format("the range {{{}, {}}} of {} cannot be drawn from: {}", number(error.value),
+                    number(error.second), owner(error, bytecode), why));
+    note_module(diagnostic, error, bytecode);
+    if (reversed) {
+        diagnostic.help.emplace_back("order the bounds with `min` and `max`");
+    }
+    return diagnostic;
+}
+
+Diagnostic out_of_bounds(const RuntimeError& error, const Bytecode& bytecode) {
+    const BytecodeGlobal& global = bytecode.globals[error.global];
+    Diagnostic diagnostic = make_diagnostic(
+        DiagnosticCode::BadParameterBounds, {},
+        fmt::format("parameter `{}` is {}, outside its bounds {{{}, {}}}", global.name,
+                    number(error.value), number(global.minimum), number(global.maximum)));
+    note_module(diagnostic, error, bytecode);
+    return diagnostic;
+}
+
+Diagnostic unbalanced(const RuntimeError& error, const Bytecode& bytecode) {
+    Diagnostic diagnostic = make_diagnostic(
+        DiagnosticCode::UnbalancedWord, {},
+        fmt::format("module {} of generation {} is a `{}` without its `[` (counted from 0)",
+                    grouped_digits(error.position), error.generation,
+                    bytecode.symbol(error.symbol).name));
+    if (error.production != kNoProduction) {
+        diagnostic.label = "writes it";
+        diagnostic.notes.push_back(fmt::format(
+            "{} closes a branch that it does not open, and no other does", owner(error, bytecode)));
+    }
+    diagnostic.help.emplace_back("balance the brackets of every successor and of the axiom");
+    return diagnostic;
+}
+
+Diagnostic too_deep(const RuntimeError& error, const Bytecode& bytecode) {
+    const BytecodeProduction& production =
+        bytecode.productions[static_cast<std::size_t>(error.production)];
+    const bool draws = production.stage == Stage::Interpret;
+    const std::uint32_t depth =
+        draws ? bytecode.settings.interpret_depth : bytecode.settings.decompose_depth;
+    Diagnostic diagnostic = make_diagnostic(
+        draws ? DiagnosticCode::InterpretDepth : DiagnosticCode::DecomposeDepth, {},
+        fmt::format("production `{}` still matches after {} passes of `{}`", production.name,
+                    grouped_digits(depth), keyword_of(production.stage)));
+    note_module(diagnostic, error, bytecode);
+    const std::string key = draws ? "interpret_depth" : "decompose_depth";
+    diagnostic.help.push_back(
+        fmt::format("let its productions end, raise the number of passes with `#set {} {};`, or "
+                    "leave what remains as it is with `#set at_depth stop;`",
+                    key, std::min(depth * 10, kMaxDepth)));
+    return diagnostic;
+}
+
+} // namespace
+
+std::string grouped_digits(std::uint64_t value) {
+    std::string text = std::to_string(value);
+    for (std::size_t at = text.size(); at > 3;) {
+        at -= 3;
+        text.insert(at, 1, ',');
+    }
+    return text;
+}
+
+std::string byte_size_text(std::uint64_t bytes) {
+    constexpr std::array<std::string_view, 7> kUnits{"B", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
+    auto size = static_cast<double>(bytes);
+    std::size_t unit = 0;
+    while (size >= 1024.0 && unit + 1 < kUnits.size()) {
+        size /= 1024.0;
+        ++unit;
+    }
+    return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.1f} {}", size, kUnits[unit]);
+}
+
+Diagnostic
+runtime_diagnostic(const RuntimeError& error, const Bytecode& bytecode, bool sources_loaded) {
+    Diagnostic diagnostic;
+    switch (error.kind) {
+    case RuntimeErrorKind::NotFinite:
+        diagnostic = not_finite(error, bytecode);
+        break;
+    case RuntimeErrorKind::RangeReversed:
+    case RuntimeErrorKind::RangeTooWide:
+        diagnostic = bad_range(error, bytecode);
+        break;
+    case RuntimeErrorKind::OutOfBounds:
+        diagnostic = out_of_bounds(error, bytecode);
+        break;
+    case RuntimeErrorKind::Unbalanced:
+        diagnostic = unbalanced(error, bytecode);
+        break;
+    case RuntimeErrorKind::TooDeep:
+        diagnostic = too_deep(error, bytecode);
+        break;
+    }
+    place(diagnostic, error.site, bytecode, sources_loaded);
+    return diagnostic;
+}
+
+Diagnostic limit_diagnostic(const LimitReport& report,
+                            const Limits& limits,
+                            const Bytecode& bytecode,
+                            bool sources_loaded) {
+    const bool modules = report.kind == LimitKind::Modules;
+    const bool no_memory = !modules && report.predicted_bytes <= limits.max_bytes;
+    // a report without a word is of the axiom itself
+    const bool axiom = report.modules == 0 && report.generation == 0 && !report.streamed;
+    const std::uint64_t failed =
+        std::uint64_t{report.generation} + (axiom || report.streamed ? 0 : 1);
+    const std::string size = modules ? grouped_digits(report.predicted_modules) + " modules"
+                                     : byte_size_text(report.predicted_bytes);
+    const std::string limit =
+        modules ? grouped_digits(limits.max_modules) : byte_size_text(limits.max_bytes);
+    Diagnostic diagnostic = make_diagnostic(
+        DiagnosticCode::LimitReached, {},
+        no_memory
+            ? fmt::format("the system has no memory for generation {}, which takes {}{}", failed,
+                          report.exact ? "" : "at least ", size)
+            : fmt::format("generation {} {} {}{}, over the limit of {}", failed,
+                          modules ? "has" : "takes", report.exact ? "" : "at least ", size, limit));
+    std::uint32_t site = bytecode.axiom_site;
+    if (report.production != kNone) {
+        const BytecodeProduction& production = bytecode.productions[report.production];
+        site = production.name_site;
+        diagnostic.label = "adds most of them";
+        if (!modules || !sources_loaded) {
+            diagnostic.label.clear();
+            diagnostic.notes.push_back(
+                fmt::format("production `{}` adds most modules", production.name));
+        }
+    }
+    place(diagnostic, site, bytecode, sources_loaded);
+    if (axiom || report.streamed) {
+        diagnostic.help.push_back(modules ? "raise the limit with `--max-modules`"
+                                          : "raise the limit with `--max-memory`");
+        return diagnostic;
+    }
+    diagnostic.notes.push_back(fmt::format("generation {}, with {} modules, is the last that fits",
+                                           report.generation, grouped_digits(report.modules)));
+    std::string help = fmt::format("ask for fewer generations: `-n {}`", report.generation);
+    if (!no_memory) {
+        help += modules ? fmt::format(", or raise the limit: `--max-modules {}`",
+                                      report.predicted_modules)
+                        : ", or raise the limit with `--max-memory`";
+    }
+    if (!modules && !why_not_streamable(bytecode)) {
+        help += ", or store no word: `--stream`";
+    }
+    diagnostic.help.push_back(std::move(help));
+    return diagnostic;
+}
+
+} // namespace lsys

@@ -1,0 +1,201 @@
+// Layout, little-endian, without gaps:
+//   0  magic "lsystate"
+//   8  version            u32    12  code width          u32
+//  16  program digest     u64    24  seed                u64
+//  32  generations        u32    36  age                 u32
+//  40  modules            u64    48  parameters          u64
+//  56  codes, of the code width each
+//      parameters, binary32
+//      checksum           u64, over the checksums of header, codes and parameters
+#include "runtime/derive/state_file.h"
+
+#include "grammar/base/contract.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+namespace lsys {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "words are written as they lie");
+
+constexpr std::string_view kMagic = "lsystate";
+constexpr std::size_t kHeaderBytes = 56;
+constexpr std::size_t kChecksumBytes = 8;
+
+template <typename T>
+void put(char*& at, T value) {
+    std::memcpy(at, &value, sizeof value);
+    at += sizeof value;
+}
+
+template <typename T>
+T get(const char*& at) {
+    T value;
+    std::memcpy(&value, at, sizeof value);
+    at += sizeof value;
+    return value;
+}
+
+template <typename T>
+std::string_view bytes_of(std::span<const T> values) {
+    return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
+}
+
+std::string_view code_bytes(const Word& word) {
+    switch (word.code_width()) {
+    case 1:
+        return bytes_of(word.codes<std::uint8_t>());
+    case 2:
+        return bytes_of(word.codes<std::uint16_t>());
+    default:
+        return bytes_of(word.codes<std::uint32_t>());
+    }
+}
+
+char* code_data(Word& word) {
+    switch (word.code_width()) {
+    case 1:
+        return reinterpret_cast<char*>(word.codes<std::uint8_t>().data());
+    case 2:
+        return reinterpret_cast<char*>(word.codes<std::uint16_t>().data());
+    default:
+        return reinterpret_cast<char*>(word.codes<std::uint32_t>().data());
+    }
+}
+
+std::uint64_t
+combined_checksum(std::string_view header, std::string_view codes, std::string_view parameters) {
+    const std::array<std::uint64_t, 3> parts{checksum(header), checksum(codes),
+                                             checksum(parameters)};
+    return checksum(bytes_of(std::span<const std::uint64_t>(parts)));
+}
+
+/// Whether every code exists and the parameters are as many as they store, and finite.
+template <typename C>
+bool holds_word_of(const Bytecode& bytecode, const Word& word) {
+    std::uint64_t stored = 0;
+    for (const C code : word.codes<C>()) {
+        if (code >= bytecode.code_count()) {
+            return false;
+        }
+        stored += bytecode.stored_parameters(code);
+    }
+    if (stored != word.parameter_count()) {
+        return false;
+    }
+    for (const float value : word.parameters()) {
+        if (!std::isfinite(value)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool fits(const Bytecode& bytecode, const Word& word) {
+    switch (word.code_width()) {
+    case 1:
+        return holds_word_of<std::uint8_t>(bytecode, word);
+    case 2:
+        return holds_word_of<std::uint16_t>(bytecode, word);
+    default:
+        return holds_word_of<std::uint32_t>(bytecode, word);
+    }
+}
+
+} // namespace
+
+bool is_state_file(std::string_view bytes) {
+    return bytes.substr(0, kMagic.size()) == kMagic;
+}
+
+bool write_state(const StateHeader& header,
+                 const Word& word,
+                 const std::function<bool(std::string_view)>& flush) {
+    std::array<char, kHeaderBytes> head{};
+    char* at = head.data();
+    std::memcpy(at, kMagic.data(), kMagic.size());
+    at += kMagic.size();
+    put(at, kStateFileVersion);
+    put(at, word.code_width());
+    put(at, header.program_digest);
+    put(at, header.seed);
+    put(at, header.generations);
+    put(at, header.age);
+    put(at, word.module_count());
+    put(at, word.parameter_count());
+    const std::string_view head_bytes(head.data(), head.size());
+    const std::string_view codes = code_bytes(word);
+    const std::string_view parameters = bytes_of(word.parameters());
+    std::array<char, kChecksumBytes> tail{};
+    at = tail.data();
+    put(at, combined_checksum(head_bytes, codes, parameters));
+    return flush(head_bytes) && (codes.empty() || flush(codes)) &&
+           (parameters.empty() || flush(parameters)) && flush({tail.data(), tail.size()});
+}
+
+Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode) {
+    if (!is_state_file(bytes)) {
+        return Error{"not a saved state of lsc"};
+    }
+    if (bytes.size() < kHeaderBytes + kChecksumBytes) {
+        return Error{"the saved state is cut off: its header is incomplete"};
+    }
+    const char* at = bytes.data() + kMagic.size();
+    const auto version = get<std::uint32_t>(at);
+    if (version != kStateFileVersion) {
+        return Error{"the saved state has version " + std::to_string(version) +
+                     ", this lsc reads version " + std::to_string(kStateFileVersion) +
+                     ": derive it again"};
+    }
+    const auto width = get<std::uint32_t>(at);
+    SavedState state;
+    state.header.program_digest = get<std::uint64_t>(at);
+    state.header.seed = get<std::uint64_t>(at);
+    state.header.generations = get<std::uint32_t>(at);
+    state.header.age = get<std::uint32_t>(at);
+    const auto modules = get<std::uint64_t>(at);
+    const auto parameters = get<std::uint64_t>(at);
+
+    // sizes are compared before they are multiplied
+    const std::uint64_t body = bytes.size() - kHeaderBytes - kChecksumBytes;
+    if ((width != 1 && width != 2 && width != 4) || modules > body / width ||
+        parameters > (body - modules * width) / sizeof(float)) {
+        return Error{"the saved state is cut off or damaged: it is shorter than its header says"};
+    }
+    const std::uint64_t code_size = modules * width;
+    const std::uint64_t parameter_size = parameters * sizeof(float);
+    if (code_size + parameter_size != body) {
+        return Error{"the saved state is damaged: it is longer than its header says"};
+    }
+    const std::string_view codes = bytes.substr(kHeaderBytes, code_size);
+    const std::string_view values = bytes.substr(kHeaderBytes + code_size, parameter_size);
+    const char* tail = bytes.data() + kHeaderBytes + body;
+    if (get<std::uint64_t>(tail) !=
+        combined_checksum(bytes.substr(0, kHeaderBytes), codes, values)) {
+        return Error{"the saved state is damaged: its checksum does not fit"};
+    }
+    if (state.header.program_digest != digest(bytecode)) {
+        return Error{"the saved state is of another program: the grammar or its definitions have "
+                     "changed since"};
+    }
+    if (width != code_width(bytecode.code_count())) {
+        return Error{"the saved state is damaged: its codes have the wrong width"};
+    }
+    state.word = Word(width);
+    if (!state.word.resize(modules, parameters)) {
+        return Error{"there is not enough memory for the saved word"};
+    }
+    std::memcpy(code_data(state.word), codes.data(), code_size);
+    std::memcpy(state.word.parameters().data(), values.data(), parameter_size);
+    if (!fits(bytecode, state.word)) {
+        return Error{"the saved state is damaged: the program has no such word"};
+    }
+    return state;
+}
+
+} // namespace lsys

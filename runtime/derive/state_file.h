@@ -1,0 +1,41 @@
+// A derivation saved in its middle: `--save-state`, `--from`. Holds the digest of the program,
+// seed, number of generations asked for, age and word, with magic, version and a checksum; the
+// .cpp draws the layout.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "grammar/base/result.h"
+#include "runtime/derive/word.h"
+
+#include <cstdint>
+#include <functional>
+#include <string_view>
+
+namespace lsys {
+
+inline constexpr std::uint32_t kStateFileVersion = 1;
+
+struct StateHeader {
+    std::uint64_t program_digest = 0; // of digest()
+    std::uint64_t seed = 0;
+    std::uint32_t generations = 0; // asked for
+    std::uint32_t age = 0;
+};
+
+struct SavedState {
+    StateHeader header;
+    Word word;
+};
+
+/// Hands the bytes of a state file to `flush`, in order and in few pieces; the word is not copied.
+/// False as soon as flush returns false.
+[[nodiscard]] bool write_state(const StateHeader& header,
+                               const Word& word,
+                               const std::function<bool(std::string_view)>& flush);
+/// Refuses foreign, newer, truncated or damaged bytes, states of another program, and words that
+/// the program could not hold. The message does not name the file.
+[[nodiscard]] Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode);
+/// Whether these bytes begin like a state file.
+[[nodiscard]] bool is_state_file(std::string_view bytes);
+
+} // namespace lsys

@@ -1,0 +1,187 @@
+#include "runtime/derive/stream.h"
+
+#include "grammar/base/contract.h"
+#include "runtime/derive/engine/brackets.h"
+#include "runtime/derive/engine/chains.h"
+#include "runtime/derive/engine/levels.h"
+#include "runtime/derive/engine/origins.h"
+#include "runtime/derive/engine/plan.h"
+#include "runtime/derive/engine/start.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::uint64_t kProgressStride = std::uint64_t{1} << 24;
+
+/// Sends the axiom down the levels, and what arrives to the consumer.
+template <typename C, typename R>
+class Streamer {
+public:
+    Streamer(const Bytecode& bytecode,
+             const LevelSteps& steps,
+             const DeriveOptions& options,
+             const StreamConsumer& consumer)
+        : plan_(*steps.rewriting), options_(options), consumer_(consumer), brackets_(bytecode),
+          bytecode_(bytecode),
+          levels_(steps,
+                  {options.origins, options.limits.max_bytes, bytecode.axiom.codes.count,
+                   bytecode.axiom.parameter_count, options.cancelled},
+                  [this](const LevelBlock<C>& block) { return emit(block); }) {}
+
+    StreamOutcome run(const std::vector<float>& axiom_parameters) {
+        const auto first = levels_.first_block();
+        DeriveStatus status = DeriveStatus::Limit;
+        if (first.codes != nullptr) {
+            copy_axiom_codes(bytecode_, first.codes);
+            std::copy(axiom_parameters.begin(), axiom_parameters.end(), first.parameters);
+            if (options_.origins) {
+                copy_axiom_origins(bytecode_, first.origins);
+            }
+            status = levels_.push(bytecode_.axiom.codes.count);
+        }
+        if (outcome_.status != DeriveStatus::Ok) {
+            return std::move(outcome_); // of emit()
+        }
+        outcome_.status = status;
+        if (status == DeriveStatus::Error) {
+            outcome_.error = std::move(levels_.error());
+        } else if (status == DeriveStatus::Limit) {
+            report_limit(LimitKind::Memory, outcome_.modules);
+            outcome_.limit.predicted_bytes = levels_.held_bytes();
+        }
+        return std::move(outcome_);
+    }
+
+private:
+    void report_limit(LimitKind kind, std::uint64_t predicted) {
+        outcome_.limit.kind = kind;
+        outcome_.limit.generation = options_.generations;
+        outcome_.limit.modules = outcome_.modules;
+        outcome_.limit.predicted_modules = predicted;
+        outcome_.limit.exact = false;
+        outcome_.limit.streamed = true;
+        outcome_.status = DeriveStatus::Limit;
+    }
+
+    /// Hands a block of the last word to the consumer.
+    bool emit(const LevelBlock<C>& block) {
+        const std::uint64_t count = block.codes.size();
+        if (count > options_.limits.max_modules - outcome_.modules) {
+            report_limit(LimitKind::Modules, outcome_.modules + count);
+            return false;
+        }
+        const std::optional<std::uint64_t> unmatched = brackets_.feed(block.codes.data(), count);
+        if (unmatched) {
+            outcome_.error =
+                unmatched_bracket(bytecode_, block.codes[*unmatched],
+                                  block.first_position + *unmatched, options_.generations);
+            outcome_.status = DeriveStatus::Error;
+            return false;
+        }
+        std::uint64_t parameters = 0;
+        if (plan_.has_parameters()) {
+            for (const C code : block.codes) {
+                parameters += plan_.row(code).stored;
+            }
+        }
+        emitted_.assign(block.codes.begin(), block.codes.end());
+        const std::size_t origins = options_.origins ? emitted_.size() : 0;
+        if (!consumer_({emitted_, {block.parameters, parameters}, {block.origins, origins}})) {
+            outcome_.status = DeriveStatus::Cancelled;
+            return false;
+        }
+        const std::uint64_t before = outcome_.modules;
+        outcome_.modules += count;
+        outcome_.parameters += parameters;
+        if (options_.progress && before / kProgressStride != outcome_.modules / kProgressStride) {
+            options_.progress(options_.generations, outcome_.modules);
+        }
+        return true;
+    }
+
+    const Plan& plan_;
+    const DeriveOptions& options_;
+    const StreamConsumer& consumer_;
+    BracketCounter brackets_;
+    const Bytecode& bytecode_;
+    Levels<C, R> levels_;
+    std::vector<Code> emitted_;
+    StreamOutcome outcome_;
+};
+
+template <typename C>
+StreamOutcome stream(const Bytecode& bytecode,
+                     const LevelSteps& steps,
+                     const DeriveOptions& options,
+                     const StreamConsumer& consumer,
+                     const std::vector<float>& axiom) {
+    const bool narrow = steps.rewriting->record_width() == 1 &&
+                        (steps.passes == nullptr || steps.passes->record_width() == 1);
+    return narrow ? Streamer<C, std::uint8_t>(bytecode, steps, options, consumer).run(axiom)
+                  : Streamer<C, std::uint32_t>(bytecode, steps, options, consumer).run(axiom);
+}
+
+} // namespace
+
+std::optional<std::string> why_not_streamable(const Bytecode& bytecode) {
+    if (bytecode.settings.rewriting != RewritingMode::Parallel) {
+        return "`rewriting " + std::string(name_of(bytecode.settings.rewriting)) +
+               "` needs the whole word";
+    }
+    for (const BytecodeProduction& production : bytecode.productions) {
+        if (production.has_left || production.has_right) {
+            return "production `" + production.name + "` has a context, which needs the whole word";
+        }
+    }
+    return std::nullopt;
+}
+
+StreamOutcome derive_streamed(const Bytecode& bytecode,
+                              const DeriveOptions& options,
+                              const StreamConsumer& consumer) {
+    StreamOutcome outcome;
+    std::vector<float> globals;
+    std::vector<float> axiom;
+    std::optional<RuntimeError> wrong = draw_globals(bytecode, options.seed, globals);
+    if (!wrong) {
+        wrong = axiom_parameters(bytecode, options.seed, globals, axiom);
+    }
+    if (wrong) {
+        outcome.error = std::move(*wrong);
+        outcome.status = DeriveStatus::Error;
+        return outcome;
+    }
+    const PlanInputs inputs{globals.data(), options.seed, static_cast<float>(options.generations)};
+    const Plan plan(bytecode, inputs, false);
+    std::optional<Plan> decomposing;
+    LevelSteps steps;
+    steps.rewriting = &plan;
+    steps.seed = options.seed;
+    steps.last_age = options.generations;
+    steps.prunes = bytecode.cuts();
+    const StageDepth depth = depth_of(bytecode, Stage::Decompose);
+    if (depth.passes != 0) {
+        decomposing.emplace(bytecode, inputs, false, Stage::Decompose);
+        steps.passes = &*decomposing;
+        steps.depth = depth.passes;
+        steps.checked = depth.checked;
+        steps.first_pass_draw = kFirstDecomposeDraw;
+    }
+    switch (plan.code_width()) {
+    case 1:
+        return stream<std::uint8_t>(bytecode, steps, options, consumer, axiom);
+    case 2:
+        return stream<std::uint16_t>(bytecode, steps, options, consumer, axiom);
+    default:
+        return stream<std::uint32_t>(bytecode, steps, options, consumer, axiom);
+    }
+}
+
+} // namespace lsys

@@ -1,0 +1,71 @@
+#include "runtime/export/impl/base64.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::string_view kDigits =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+/// Two digits for each value of twelve bits.
+constexpr std::array<std::array<char, 2>, 4096> kPairs = [] {
+    std::array<std::array<char, 2>, 4096> pairs{};
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        pairs[i] = {kDigits[i / 64], kDigits[i % 64]};
+    }
+    return pairs;
+}();
+
+char* put_group(char* at, const std::byte* bytes) {
+    const std::uint32_t bits = std::to_integer<std::uint32_t>(bytes[0]) << 16U |
+                               std::to_integer<std::uint32_t>(bytes[1]) << 8U |
+                               std::to_integer<std::uint32_t>(bytes[2]);
+    std::memcpy(at, kPairs[bits >> 12U].data(), 2);
+    std::memcpy(at + 2, kPairs[bits & 0xFFFU].data(), 2);
+    return at + 4;
+}
+
+} // namespace
+
+void Base64Writer::put(std::span<const std::byte> bytes) {
+    while (rest_size_ != 0 && rest_size_ < 3 && !bytes.empty()) {
+        rest_[rest_size_++] = bytes.front();
+        bytes = bytes.subspan(1);
+    }
+    if (rest_size_ == 3) {
+        out_.used(put_group(out_.room(4), rest_.data()));
+        rest_size_ = 0;
+    }
+    constexpr std::size_t kGroups = 4096;
+    while (bytes.size() >= 3 && !out_.stopped()) {
+        const std::size_t groups = std::min(bytes.size() / 3, kGroups);
+        char* at = out_.room(4 * groups);
+        for (std::size_t i = 0; i < groups; ++i) {
+            at = put_group(at, bytes.data() + 3 * i);
+        }
+        out_.used(at);
+        bytes = bytes.subspan(3 * groups);
+    }
+    if (bytes.size() < 3) {
+        for (const std::byte byte : bytes) {
+            rest_[rest_size_++] = byte;
+        }
+    }
+}
+
+void Base64Writer::finish() {
+    if (rest_size_ != 0) {
+        std::fill(rest_.begin() + static_cast<std::ptrdiff_t>(rest_size_), rest_.end(),
+                  std::byte{0});
+        char* const at = out_.room(4);
+        put_group(at, rest_.data());
+        std::fill(at + rest_size_ + 1, at + 4, '=');
+        out_.used(at + 4);
+        rest_size_ = 0;
+    }
+}
+
+} // namespace lsys

@@ -1,0 +1,24 @@
+// Base64 (RFC 4648) of bytes that come in pieces.
+#pragma once
+
+#include "runtime/export/impl/piece_writer.h"
+
+#include <array>
+
+namespace lsys {
+
+class Base64Writer {
+public:
+    explicit Base64Writer(PieceWriter& out) : out_(out) {}
+
+    void put(std::span<const std::byte> bytes);
+    /// After the last byte.
+    void finish();
+
+private:
+    PieceWriter& out_;
+    std::array<std::byte, 3> rest_{}; // bytes that make no whole group yet
+    std::size_t rest_size_ = 0;
+};
+
+} // namespace lsys

@@ -1,0 +1,237 @@
+// A forest as one mesh: every branch instance gets vertices of its own.
+#include "runtime/export/impl/forest_plan.h"
+#include "runtime/export/impl/formats.h"
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+/// What stands in a piece of the trees: first how much, then where it begins.
+struct Share {
+    std::uint64_t vertices = 0;
+    std::vector<std::uint64_t> indices; // by material of the scene
+};
+
+class Baker {
+public:
+    Baker(const ForestScene& scene, std::uint32_t threads, Mesh& mesh)
+        : scene_(scene), threads_(threads), mesh_(mesh), plan_(scene, 0.0F, threads),
+          materials_(find_forest_materials(scene, plan_)) {
+        for (const ForestKind& kind : plan_.kinds()) {
+            own_.push_back(number_vertices(kind, plan_));
+            const Mesh& from = kind.meshes->mesh;
+            if (kind.trees > 0) {
+                use(from);
+            }
+        }
+        if (scene.ground != nullptr) {
+            use(*scene.ground);
+        }
+        for (std::uint32_t s = 0; s < scene.meshes.size(); ++s) {
+            first_kind_.push_back(kinds_);
+            kinds_ += scene.meshes[s].size();
+        }
+    }
+
+    MeshStatus bake(std::uint64_t max_bytes) {
+        if (plan_.triangles() > max_bytes / (3 * sizeof(std::uint32_t))) {
+            return MeshStatus::Limit; // before shares are counted
+        }
+        count_shares();
+        std::uint64_t vertices = ground_vertices();
+        for (Share& share : shares_) {
+            vertices += std::exchange(share.vertices, vertices);
+        }
+        std::uint64_t indices = 0;
+        for (std::uint32_t m = 0; m < materials_.samples.materials.size(); ++m) {
+            const std::uint64_t first = indices;
+            ground_at_.push_back(indices);
+            indices += ground_indices(m);
+            for (Share& share : shares_) {
+                indices += std::exchange(share.indices[m], indices);
+            }
+            if (indices > first) {
+                mesh_.parts.push_back(
+                    {static_cast<std::uint32_t>(mesh_.materials.size()), first, indices - first});
+                mesh_.materials.push_back(materials_.samples.materials[m]);
+            }
+        }
+        if (vertices > std::numeric_limits<std::uint32_t>::max()) {
+            return MeshStatus::TooManyVertices;
+        }
+        const std::uint64_t of_vertex =
+            2 * sizeof(glm::vec3) + (textured_ ? sizeof(glm::vec2) : 0) +
+            (tangents_ ? sizeof(glm::vec4) : 0) + (colours_ ? sizeof(std::uint16_t) : 0);
+        if (vertices * of_vertex + indices * sizeof(std::uint32_t) > max_bytes) {
+            return MeshStatus::Limit;
+        }
+        mesh_.positions.resize(vertices);
+        mesh_.normals.resize(vertices);
+        mesh_.texture_coordinates.resize(textured_ ? vertices : 0);
+        mesh_.tangents.resize(tangents_ ? vertices : 0);
+        mesh_.colours.resize(colours_ ? vertices : 0);
+        indices_.resize(indices);
+        put_ground();
+        put_trees();
+        mesh_.indices = std::move(indices_);
+        return MeshStatus::Ok;
+    }
+
+private:
+    void use(const Mesh& mesh) {
+        textured_ = textured_ && is_complete(mesh, mesh.texture_coordinates);
+        tangents_ = tangents_ && is_complete(mesh, mesh.tangents);
+        colours_ = colours_ && is_complete(mesh, mesh.colours);
+    }
+    [[nodiscard]] std::uint64_t ground_vertices() const {
+        return scene_.ground == nullptr ? 0 : scene_.ground->positions.size();
+    }
+    [[nodiscard]] std::uint64_t ground_indices(std::uint32_t material) const {
+        std::uint64_t count = 0;
+        for (std::size_t p = 0; scene_.ground != nullptr && p < scene_.ground->parts.size(); ++p) {
+            const MeshPart& part = scene_.ground->parts[p];
+            count += materials_.of_ground[part.material] == material ? part.index_count : 0;
+        }
+        return count;
+    }
+
+    /// Calls visit(kind's number, branch) for those of a piece.
+    template <typename Visit>
+    void for_each_branch(std::span<const Tree> trees, const Visit& visit) const {
+        std::vector<TreeExpander> expanders;
+        expanders.reserve(kinds_);
+        for (const ForestKind& kind : plan_.kinds()) {
+            expanders.emplace_back(*kind.cache, scene_.forest.key);
+        }
+        for (const Tree& tree : trees) {
+            const std::size_t k = first_kind_[tree.species] + scene_.forest.stage_of(tree);
+            expanders[k].expand(tree, [&](const BranchInstance& branch) { visit(k, branch); });
+        }
+    }
+
+    void count_shares() {
+        shares_.resize(piece_count(scene_.forest));
+        for (Share& share : shares_) {
+            share.indices.resize(materials_.samples.materials.size());
+        }
+        for_each_piece(
+            scene_.forest, threads_, [&](std::uint64_t piece, std::span<const Tree> trees) {
+                Share& share = shares_[piece];
+                for_each_branch(trees, [&](std::size_t k, const BranchInstance& branch) {
+                    share.vertices += own_[k].of(branch.instance).size();
+                    const ForestKind& kind = plan_.kinds()[k];
+                    for (const MeshPart& part : kind.meshes->parts_of(branch.instance)) {
+                        share.indices[materials_.of_kinds[k][part.material]] += part.index_count;
+                    }
+                });
+            });
+    }
+
+    void put_ground() {
+        if (scene_.ground == nullptr) {
+            return;
+        }
+        const Mesh& ground = *scene_.ground;
+        std::copy(ground.positions.begin(), ground.positions.end(), mesh_.positions.begin());
+        std::copy(ground.normals.begin(), ground.normals.end(), mesh_.normals.begin());
+        copy(textured_, ground.texture_coordinates, mesh_.texture_coordinates);
+        copy(tangents_, ground.tangents, mesh_.tangents);
+        copy(colours_, ground.colours, mesh_.colours);
+        for (const MeshPart& part : ground.parts) {
+            std::uint64_t& at = ground_at_[materials_.of_ground[part.material]];
+            ground.indices.read(part.first_index,
+                                std::span(indices_).subspan(at, part.index_count));
+            at += part.index_count;
+        }
+    }
+    template <typename Items>
+    static void copy(bool wanted, const Items& from, Items& to) {
+        if (wanted) {
+            std::copy(from.begin(), from.end(), to.begin());
+        }
+    }
+
+    void put_trees() {
+        for_each_piece(scene_.forest, threads_,
+                       [&](std::uint64_t piece, std::span<const Tree> trees) {
+                           Share& share = shares_[piece];
+                           for_each_branch(trees, [&](std::size_t k, const BranchInstance& branch) {
+                               put_branch(k, branch, share);
+                           });
+                       });
+    }
+
+    void put_branch(std::size_t k, const BranchInstance& branch, Share& share) {
+        const ForestKind& kind = plan_.kinds()[k];
+        const Mesh& from = kind.meshes->mesh;
+        const InstancePose pose = pose_of(branch, kind.cache->instances[branch.instance]);
+        const glm::mat3 turn = glm::mat3_cast(pose.rotation);
+        const glm::mat3 turn_and_scale = pose.scale * turn;
+        std::uint64_t at = share.vertices;
+        for (const std::uint32_t vertex : own_[k].of(branch.instance)) {
+            mesh_.positions[at] = pose.translation + turn_and_scale * from.positions[vertex];
+            mesh_.normals[at] = turn * from.normals[vertex];
+            if (textured_) {
+                mesh_.texture_coordinates[at] = from.texture_coordinates[vertex];
+            }
+            if (tangents_) {
+                const glm::vec4& tangent = from.tangents[vertex];
+                mesh_.tangents[at] = glm::vec4(turn * glm::vec3(tangent), tangent.w);
+            }
+            if (colours_) {
+                mesh_.colours[at] = from.colours[vertex];
+            }
+            ++at;
+        }
+        const auto base = static_cast<std::uint32_t>(share.vertices);
+        for (const MeshPart& part : kind.meshes->parts_of(branch.instance)) {
+            std::uint64_t& to = share.indices[materials_.of_kinds[k][part.material]];
+            for (std::uint64_t i = 0; i < part.index_count; ++i) {
+                indices_[to++] = base + own_[k].indices[part.first_index + i];
+            }
+        }
+        share.vertices = at;
+    }
+
+    const ForestScene& scene_;
+    std::uint32_t threads_;
+    Mesh& mesh_;
+    ForestPlan plan_;
+    ForestMaterials materials_;
+    std::vector<InstanceVertices> own_;   // of each kind
+    std::vector<std::size_t> first_kind_; // of each species
+    std::size_t kinds_ = 0;
+    std::vector<Share> shares_;
+    LargeVector<std::uint32_t> indices_;   // until they are the mesh's
+    std::vector<std::uint64_t> ground_at_; // indices of the ground, by material
+    bool textured_ = true;
+    bool tangents_ = true;
+    bool colours_ = true;
+};
+
+} // namespace
+
+MeshStatus
+bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads, Mesh& mesh) {
+    mesh = {};
+    MeshStatus status = MeshStatus::OutOfMemory;
+    try {
+        status = Baker(scene, threads, mesh).bake(max_bytes);
+    } catch (const std::bad_alloc&) {
+        status = MeshStatus::OutOfMemory;
+    } catch (const std::length_error&) {
+        status = MeshStatus::OutOfMemory;
+    }
+    if (status != MeshStatus::Ok) {
+        mesh = {};
+    }
+    return status;
+}
+
+} // namespace lsys

@@ -1,0 +1,36 @@
+// The writers of forests. Each writes one whole file and may stop early once the writer has
+// stopped.
+#pragma once
+
+#include "runtime/export/impl/forest_plan.h"
+#include "runtime/export/impl/piece_writer.h"
+
+#include <cstddef>
+#include <functional>
+#include <span>
+
+namespace lsys {
+
+[[nodiscard]] ForestExportStatus write_forest_gltf(const ForestScene& scene,
+                                                   const ForestPlan& plan,
+                                                   ForestForm form,
+                                                   bool binary,
+                                                   const ForestExportInfo& info,
+                                                   PieceWriter& out);
+[[nodiscard]] ForestExportStatus write_forest_usda(const ForestScene& scene,
+                                                   const ForestPlan& plan,
+                                                   const ForestExportInfo& info,
+                                                   PieceWriter& out);
+
+/// Bytes of the transforms of a group: all translations, then all rotations, then all scales.
+inline constexpr std::uint64_t kTranslationBytes = 12;
+inline constexpr std::uint64_t kRotationBytes = 16;
+inline constexpr std::uint64_t kScaleBytes = 12;
+inline constexpr std::uint64_t kInstanceBytes = kTranslationBytes + kRotationBytes + kScaleBytes;
+
+/// Hands over the transforms of all groups in order; false from `write` stops it.
+void write_transforms(const ForestPlan& plan,
+                      const ForestExportInfo& info,
+                      const std::function<bool(std::span<const std::byte>)>& write);
+
+} // namespace lsys

@@ -1,0 +1,237 @@
+#include "runtime/export/impl/forest_plan.h"
+
+#include "grammar/base/contract.h"
+#include "runtime/base/workers.h"
+#include "runtime/export/impl/formats.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace lsys {
+
+namespace {
+
+bool same(const Material& a, const Material& b) {
+    return a.name == b.name && a.kind == b.kind && a.colour == b.colour &&
+           a.two_sided == b.two_sided && a.cut_out == b.cut_out && a.textured == b.textured &&
+           a.picture == b.picture;
+}
+
+constexpr std::uint64_t kPieceTrees = 512;
+
+std::uint32_t add_material(Mesh& samples, const Material& material) {
+    const auto found =
+        std::find_if(samples.materials.begin(), samples.materials.end(),
+                     [&material](const Material& other) { return same(material, other); });
+    if (found != samples.materials.end()) {
+        return static_cast<std::uint32_t>(found - samples.materials.begin());
+    }
+    const auto number = static_cast<std::uint32_t>(samples.materials.size());
+    samples.materials.push_back(material);
+    samples.parts.push_back({number, 0, 3});
+    return number;
+}
+
+} // namespace
+
+ForestPlan::ForestPlan(const ForestScene& scene, float cell, std::uint32_t threads)
+    : scene_(scene) {
+    const Forest& forest = scene.forest;
+    LSYS_CHECK(scene.meshes.size() == forest.species.size(), scene.meshes.size());
+    std::uint32_t instances = 0;
+    for (std::uint32_t s = 0; s < forest.species.size(); ++s) {
+        first_kind_.push_back(static_cast<std::uint32_t>(kinds_.size()));
+        LSYS_CHECK(scene.meshes[s].size() == forest.species[s].stages.size(), s);
+        for (std::uint32_t i = 0; i < scene.meshes[s].size(); ++i) {
+            const InstanceCache& cache = forest.species[s].stages[i].cache;
+            kinds_.push_back({s, i, instances, &cache, &scene.meshes[s][i], 0});
+            instances += static_cast<std::uint32_t>(cache.instances.size());
+        }
+    }
+    uses_.assign(instances, 0);
+    for (const Tree& tree : forest.trees) {
+        ++kinds_[first_kind_[tree.species] + forest.stage_of(tree)].trees;
+    }
+    sort_trees(cell);
+    cut_cells();
+    count_pieces(threads);
+    find_groups();
+}
+
+/// Trees by cells, in each as they lie in the forest.
+void ForestPlan::sort_trees(float cell) {
+    const LargeVector<Tree>& trees = scene_.forest.trees;
+    if (!(cell > 0.0F)) {
+        if (!trees.empty()) {
+            cells_.emplace_back().tree_count = trees.size();
+        }
+        return;
+    }
+    const auto place = [cell](float at) {
+        return static_cast<std::int64_t>(
+            std::floor(static_cast<double>(at) / static_cast<double>(cell)));
+    };
+    std::map<std::pair<std::int64_t, std::int64_t>, std::uint32_t> numbers; // by z and x
+    LargeVector<std::uint32_t> cell_of_tree;
+    cell_of_tree.resize(trees.size());
+    std::vector<std::uint64_t> counts;
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+        const auto [found, is_new] =
+            numbers.emplace(std::pair(place(trees[i].position.z), place(trees[i].position.x)),
+                            static_cast<std::uint32_t>(counts.size()));
+        if (is_new) {
+            counts.push_back(0);
+        }
+        cell_of_tree[i] = found->second;
+        ++counts[found->second];
+    }
+    std::vector<std::uint64_t> next(counts.size());
+    std::uint64_t first = 0;
+    for (const auto& [at, number] : numbers) {
+        ForestCell& made = cells_.emplace_back();
+        made.x = at.second;
+        made.z = at.first;
+        made.first_tree = first;
+        made.tree_count = counts[number];
+        next[number] = first;
+        first += counts[number];
+    }
+    tree_of_place_.resize(trees.size());
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+        tree_of_place_[next[cell_of_tree[i]]++] = static_cast<std::uint32_t>(i);
+    }
+}
+
+std::vector<TreeExpander> ForestPlan::make_expanders() const {
+    std::vector<TreeExpander> expanders;
+    expanders.reserve(kinds_.size());
+    for (const ForestKind& kind : kinds_) {
+        expanders.emplace_back(*kind.cache, scene_.forest.key);
+    }
+    return expanders;
+}
+
+void ForestPlan::cut_cells() {
+    for (ForestCell& cell : cells_) {
+        cell.first_piece = pieces_.size();
+        for (std::uint64_t done = 0; done < cell.tree_count; done += kPieceTrees) {
+            pieces_.push_back(
+                {cell.first_tree + done, std::min(kPieceTrees, cell.tree_count - done), {}});
+        }
+        cell.piece_count = pieces_.size() - cell.first_piece;
+    }
+}
+
+/// Leaves in ForestPiece::before how many stand in the piece itself.
+void ForestPlan::count_pieces(std::uint32_t threads) {
+    Workers(threads).for_each(pieces_.size(), [this](std::uint64_t number) {
+        ForestPiece& piece = pieces_[number];
+        std::vector<TreeExpander> expanders = make_expanders();
+        std::vector<std::uint32_t> counts(uses_.size(), 0);
+        for (std::uint64_t i = 0; i < piece.tree_count; ++i) {
+            const Tree& tree = tree_at(piece.first_tree + i);
+            const ForestKind& kind = kind_of(tree);
+            std::uint32_t* const of_kind = counts.data() + kind.first;
+            expanders[static_cast<std::size_t>(&kind - kinds_.data())].expand_instances(
+                tree, [of_kind](std::uint32_t instance) { ++of_kind[instance]; });
+        }
+        for (const ForestKind& kind : kinds_) {
+            for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
+                if (counts[kind.first + i] > 0 && kind.meshes->triangles_of(i) > 0) {
+                    piece.before.emplace_back(kind.first + i, counts[kind.first + i]);
+                }
+            }
+        }
+    });
+}
+
+void ForestPlan::find_groups() {
+    std::map<std::uint32_t, std::uint64_t> counts; // of a cell, by instance
+    for (ForestCell& cell : cells_) {
+        counts.clear();
+        for (ForestPiece& piece : std::span(pieces_).subspan(cell.first_piece, cell.piece_count)) {
+            for (auto& [instance, count] : piece.before) {
+                std::uint64_t& before = counts[instance];
+                before += std::exchange(count, before);
+            }
+        }
+        cell.first_group = groups_.size();
+        cell.group_count = counts.size();
+        for (const auto& [instance, count] : counts) {
+            groups_.push_back({instance, branches_ + cell.branches, count});
+            cell.branches += count;
+            uses_[instance] += count;
+            const ForestKind& kind = kind_of_instance(instance);
+            triangles_ += kind.meshes->triangles_of(instance - kind.first) * count;
+        }
+        branches_ += cell.branches;
+    }
+    std::erase_if(cells_, [](const ForestCell& cell) { return cell.group_count == 0; });
+}
+
+const ForestKind& ForestPlan::kind_of_instance(std::uint32_t instance) const {
+    const auto after =
+        std::upper_bound(kinds_.begin(), kinds_.end(), instance,
+                         [](std::uint32_t i, const ForestKind& kind) { return i < kind.first; });
+    return *(after - 1);
+}
+
+ForestMaterials find_forest_materials(const ForestScene& scene, const ForestPlan& plan) {
+    ForestMaterials materials;
+    bool textured = true;
+    bool tangents = true;
+    for (const ForestKind& kind : plan.kinds()) {
+        const Mesh& mesh = kind.meshes->mesh;
+        std::vector<std::uint32_t>& numbers = materials.of_kinds.emplace_back();
+        if (kind.trees == 0) {
+            continue;
+        }
+        for (const Material& material : mesh.materials) {
+            numbers.push_back(add_material(materials.samples, material));
+        }
+        textured = textured && is_complete(mesh, mesh.texture_coordinates);
+        tangents = tangents && is_complete(mesh, mesh.tangents);
+    }
+    if (scene.ground != nullptr) {
+        for (const Material& material : scene.ground->materials) {
+            materials.of_ground.push_back(add_material(materials.samples, material));
+        }
+    }
+    materials.samples.positions.resize(1);
+    materials.samples.texture_coordinates.resize(textured ? 1 : 0);
+    materials.samples.tangents.resize(tangents ? 1 : 0);
+    return materials;
+}
+
+InstanceVertices number_vertices(const ForestKind& kind, const ForestPlan& plan) {
+    const Mesh& mesh = kind.meshes->mesh;
+    InstanceVertices own;
+    const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
+    own.indices.resize(indices.size());
+    // The instance that has met a vertex last, and its number there.
+    std::vector<std::uint32_t> met_by(mesh.positions.size(), kNone);
+    std::vector<std::uint32_t> numbers(mesh.positions.size());
+    for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
+        own.first.push_back(own.vertices.size());
+        if (plan.uses()[kind.first + i] == 0) {
+            continue;
+        }
+        for (const MeshPart& part : kind.meshes->parts_of(i)) {
+            for (std::uint64_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
+                const std::uint32_t vertex = indices[k];
+                if (met_by[vertex] != i) {
+                    met_by[vertex] = i;
+                    numbers[vertex] =
+                        static_cast<std::uint32_t>(own.vertices.size() - own.first[i]);
+                    own.vertices.push_back(vertex);
+                }
+                own.indices[k] = numbers[vertex];
+            }
+        }
+    }
+    own.first.push_back(own.vertices.size());
+    return own;
+}
+
+} // namespace lsys

@@ -1,0 +1,161 @@
+// Transforms in the order of a file: cell by cell, group by group. A window of groups is filled in
+// one walk over the trees of their cells, by threads, each of which takes pieces; a group that is
+// larger than a window takes a walk for each of its three arrays and no room at all.
+#include "runtime/base/workers.h"
+#include "runtime/export/impl/forest_formats.h"
+
+#include <algorithm>
+#include <array>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::size_t kFloats = kInstanceBytes / sizeof(float);
+
+using Write = std::function<bool(std::span<const std::byte>)>;
+
+class Transforms {
+public:
+    Transforms(const ForestPlan& plan, const ForestExportInfo& info, const Write& write)
+        : plan_(plan), window_(info.window_bytes / kInstanceBytes), workers_(info.threads),
+          write_(write) {}
+
+    void write_all() {
+        std::size_t cell = 0; // of the group `first`
+        for (std::size_t first = 0; first < plan_.groups().size() && !stopped_;) {
+            while (first >= end_of(plan_.cells()[cell])) {
+                ++cell;
+            }
+            const std::span<const ForestGroup> groups = window_from(first);
+            if (groups[0].count > window_) {
+                write_large(plan_.cells()[cell], groups[0]);
+            } else {
+                write_window(cell, first, groups);
+            }
+            first += groups.size();
+        }
+    }
+
+private:
+    static std::size_t end_of(const ForestCell& cell) {
+        return cell.first_group + cell.group_count;
+    }
+
+    /// As many groups as fit, at least one.
+    [[nodiscard]] std::span<const ForestGroup> window_from(std::size_t first) const {
+        const std::span<const ForestGroup> groups = plan_.groups().subspan(first);
+        std::size_t some = 1;
+        while (some < groups.size() &&
+               groups[some].first + groups[some].count - groups[0].first <= window_) {
+            ++some;
+        }
+        return groups.first(some);
+    }
+
+    /// Of groups from number `first`, which is of `cell`, on.
+    void write_window(std::size_t cell, std::size_t first, std::span<const ForestGroup> groups) {
+        const std::size_t end = first + groups.size();
+        std::vector<std::pair<const ForestCell*, const ForestPiece*>> pieces;
+        for (; cell < plan_.cells().size() && plan_.cells()[cell].first_group < end; ++cell) {
+            for (const ForestPiece& piece : plan_.pieces_of(plan_.cells()[cell])) {
+                pieces.emplace_back(&plan_.cells()[cell], &piece);
+            }
+        }
+        floats_.resize(kFloats * (groups.back().first + groups.back().count - groups[0].first));
+        workers_.for_each(pieces.size(), [&](std::uint64_t number) {
+            const auto& [of, piece] = pieces[number];
+            const std::size_t from = std::max(first, of->first_group);
+            const std::size_t to = std::min(end, end_of(*of));
+            fill(plan_.groups().subspan(from, to - from), *piece, groups[0].first);
+        });
+        hand_over(floats_);
+    }
+
+    /// Puts what stands in a piece and in `groups`, which are of one cell, into the window that
+    /// begins with instance `window`.
+    void fill(std::span<const ForestGroup> groups, const ForestPiece& piece, std::uint64_t window) {
+        struct Place {
+            float* base = nullptr; // of the group; null: it is not in the window
+            std::uint64_t count = 0;
+            std::uint64_t next = 0;
+        };
+        std::vector<Place> places(plan_.uses().size());
+        auto group = groups.begin();
+        for (const auto& [instance, before] : piece.before) {
+            while (group != groups.end() && group->instance < instance) {
+                ++group;
+            }
+            if (group != groups.end() && group->instance == instance) {
+                places[instance] = {floats_.data() + kFloats * (group->first - window),
+                                    group->count, before};
+            }
+        }
+        plan_.for_each_branch(piece, [&](const ForestKind& kind, std::uint32_t instance,
+                                         const BranchInstance& branch) {
+            Place& place = places[instance];
+            if (place.base == nullptr) {
+                return;
+            }
+            const std::uint64_t i = place.next++;
+            put(pose_of(branch, kind.cache->instances[branch.instance]), place.base + 3 * i,
+                place.base + 3 * place.count + 4 * i, place.base + 7 * place.count + 3 * i);
+        });
+    }
+
+    void write_large(const ForestCell& cell, const ForestGroup& group) {
+        for (int array = 0; array < 3 && !stopped_; ++array) {
+            floats_.clear();
+            plan_.for_each_branch(cell, [&](const ForestKind& kind, std::uint32_t instance,
+                                            const BranchInstance& branch) {
+                if (instance != group.instance || stopped_) {
+                    return;
+                }
+                std::array<float, 3> translation{};
+                std::array<float, 4> rotation{};
+                std::array<float, 3> scale{};
+                put(pose_of(branch, kind.cache->instances[branch.instance]), translation.data(),
+                    rotation.data(), scale.data());
+                const auto append = [this](std::span<const float> values) {
+                    floats_.insert(floats_.end(), values.begin(), values.end());
+                };
+                array == 0 ? append(translation) : array == 1 ? append(rotation) : append(scale);
+                if (floats_.size() * sizeof(float) > kPieceBytes) {
+                    hand_over(floats_);
+                    floats_.clear();
+                }
+            });
+            hand_over(floats_);
+        }
+    }
+
+    static void put(const InstancePose& pose, float* translation, float* rotation, float* scale) {
+        for (int k = 0; k < 3; ++k) {
+            translation[k] = pose.translation[k];
+            scale[k] = pose.scale;
+        }
+        rotation[0] = pose.rotation.x;
+        rotation[1] = pose.rotation.y;
+        rotation[2] = pose.rotation.z;
+        rotation[3] = pose.rotation.w;
+    }
+
+    void hand_over(std::span<const float> floats) {
+        stopped_ = stopped_ || !write_(std::as_bytes(floats));
+    }
+
+    const ForestPlan& plan_;
+    std::uint64_t window_; // instances
+    Workers workers_;
+    const Write& write_;
+    LargeVector<float> floats_; // of the window
+    bool stopped_ = false;
+};
+
+} // namespace
+
+void write_transforms(const ForestPlan& plan, const ForestExportInfo& info, const Write& write) {
+    Transforms(plan, info, write).write_all();
+}
+
+} // namespace lsys

@@ -1,0 +1,279 @@
+// Forests as USD text: a PointInstancer for each species and stage (OpenUSD,
+// "UsdGeomPointInstancer"). Prototypes are the instances, each with vertices of its own, seen from
+// its entry: orientations are half floats for older readers, and what is far from its origin would
+// be off. `orientationsf` says the same in floats.
+#include "runtime/export/impl/forest_formats.h"
+#include "runtime/export/impl/formats.h"
+#include "runtime/export/impl/text.h"
+#include "runtime/export/impl/usda_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lsys {
+
+namespace {
+
+class UsdaForest {
+public:
+    UsdaForest(const ForestScene& scene,
+               const ForestPlan& plan,
+               const ForestExportInfo& info,
+               PieceWriter& out)
+        : scene_(scene), plan_(plan), info_(info), out_(out),
+          materials_(find_forest_materials(scene, plan)),
+          names_(usda_part_names(materials_.samples)) {}
+
+    void write() {
+        put_header();
+        out_.put("def Xform \"Forest\" (\n    kind = \"assembly\"\n)\n{\n");
+        if (scene_.ground != nullptr && triangle_count(*scene_.ground) > 0) {
+            put_ground(*scene_.ground);
+        }
+        std::vector<std::string> names{"Ground", "Materials"};
+        for (std::size_t k = 0; k < plan_.kinds().size(); ++k) {
+            const ForestKind& kind = plan_.kinds()[k];
+            names.push_back(unlike(names, identifier(scene_.forest.species[kind.species].name)));
+            if (count_used(kind) > 0) {
+                put_instancer(kind, materials_.of_kinds[k], names.back());
+            }
+        }
+        ExportInfo pictures;
+        pictures.textures = info_.textures;
+        pictures.picture_prefix = info_.picture_prefix;
+        put_usda_materials(materials_.samples, names_, pictures, "/Forest", out_);
+        out_.put("}\n");
+    }
+
+private:
+    [[nodiscard]] std::uint32_t count_used(const ForestKind& kind) const {
+        const auto uses = std::span(plan_.uses()).subspan(kind.first, kind.cache->instances.size());
+        return static_cast<std::uint32_t>(
+            std::count_if(uses.begin(), uses.end(), [](std::uint64_t n) { return n > 0; }));
+    }
+
+    void put_header() {
+        out_.put(fmt::format("#usda 1.0\n"
+                             "(\n"
+                             "    defaultPrim = \"Forest\"\n"
+                             "    doc = \"{0}\"\n"
+                             "    metersPerUnit = 1\n"
+                             "    upAxis = \"Y\"\n"
+                             "    customLayerData = {{\n"
+                             "        string generator = \"{0}\"\n"
+                             "        string scene = \"{1}\"\n"
+                             "        uint64 key = {2}\n"
+                             "        uint64 trees = {3}\n"
+                             "        uint64 branches = {4}\n"
+                             "    }}\n"
+                             ")\n\n",
+                             json_text(one_line(info_.generator)), json_text(one_line(info_.name)),
+                             scene_.forest.key, scene_.forest.trees.size(), plan_.branches()));
+    }
+
+    /// `vertex(i)` and `index(i)`: of the mesh of this prim; the parts' triangles come in order.
+    template <typename Vertex, typename Turn, typename Index>
+    void put_surface(const Mesh& mesh,
+                     std::string_view name,
+                     std::uint64_t vertices,
+                     std::span<const MeshPart> parts,
+                     const std::vector<std::uint32_t>& materials,
+                     const Vertex& vertex,
+                     const Turn& turn,
+                     const Index& index) {
+        bool two_sided = false;
+        std::uint64_t triangles = 0;
+        for (const MeshPart& part : parts) {
+            two_sided = two_sided || mesh.materials[part.material].two_sided;
+            triangles += part.index_count / 3;
+        }
+        Bounds bounds;
+        for (std::uint64_t i = 0; i < vertices; ++i) {
+            bounds.add(turn(mesh.positions[vertex(i)], true));
+        }
+        out_.put(fmt::format("    def Mesh \"{}\"\n"
+                             "    {{\n"
+                             "        uniform token subdivisionScheme = \"none\"\n"
+                             "        uniform token orientation = \"rightHanded\"\n"
+                             "        uniform bool doubleSided = {}\n"
+                             "        float3[] extent = [({}, {}, {}), ({}, {}, {})]\n",
+                             name, two_sided ? 1 : 0, bounds.low.x, bounds.low.y, bounds.low.z,
+                             bounds.high.x, bounds.high.y, bounds.high.z));
+        put_list(out_, "int[] faceVertexCounts", triangles,
+                 [](std::uint64_t, char* at) { return put_text(at, "3"); });
+        out_.put("\n");
+        put_list(out_, "int[] faceVertexIndices", 3 * triangles, [&](std::uint64_t i, char* at) {
+            return put_number(at, std::uint64_t{index(parts[0].first_index + i)});
+        });
+        out_.put("\n");
+        const auto vectors = [&](std::string_view what, const LargeVector<glm::vec3>& from,
+                                 bool place) {
+            put_list(out_, what, vertices, [&](std::uint64_t i, char* at) {
+                const glm::vec3 v = turn(from[vertex(i)], place);
+                return put_tuple<3>(at, {v.x, v.y, v.z});
+            });
+        };
+        vectors("point3f[] points", mesh.positions, true);
+        out_.put("\n");
+        vectors("normal3f[] normals", mesh.normals, false);
+        constexpr std::string_view kOfVertices =
+            " (\n            interpolation = \"vertex\"\n        )\n";
+        out_.put(kOfVertices);
+        if (is_complete(mesh, mesh.texture_coordinates)) {
+            put_list(out_, "texCoord2f[] primvars:st", vertices, [&](std::uint64_t i, char* at) {
+                const glm::vec2& t = mesh.texture_coordinates[vertex(i)];
+                return put_tuple<2>(at, {t.x, 1.0F - t.y});
+            });
+            out_.put(kOfVertices);
+        }
+        if (is_complete(mesh, mesh.colours)) {
+            put_list(out_, "color3f[] primvars:displayColor", vertices,
+                     [&](std::uint64_t i, char* at) {
+                         const glm::vec3 c = palette_colour(mesh.colours[vertex(i)]);
+                         return put_tuple<3>(at, {c.r, c.g, c.b});
+                     });
+            out_.put(kOfVertices);
+        }
+        put_subsets(parts, materials);
+        out_.put("    }\n");
+    }
+
+    void put_subsets(std::span<const MeshPart> parts, const std::vector<std::uint32_t>& materials) {
+        out_.put("        uniform token subsetFamily:materialBind:familyType = \"partition\"\n");
+        std::uint64_t first = 0;
+        for (const MeshPart& part : parts) {
+            const std::string& name = names_[materials[part.material]];
+            out_.put(fmt::format("\n        def GeomSubset \"{}\" (\n"
+                                 "            prepend apiSchemas = [\"MaterialBindingAPI\"]\n"
+                                 "        )\n"
+                                 "        {{\n"
+                                 "        uniform token elementType = \"face\"\n"
+                                 "        uniform token familyName = \"materialBind\"\n",
+                                 name));
+            put_list(
+                out_, "int[] indices", part.index_count / 3,
+                [first](std::uint64_t face, char* at) { return put_number(at, first + face); });
+            out_.put(fmt::format("\n        rel material:binding = </Forest/Materials/{}>\n"
+                                 "        }}\n",
+                                 name));
+            first += part.index_count / 3;
+        }
+    }
+
+    void put_ground(const Mesh& mesh) {
+        TriangleReader indices(mesh.indices);
+        put_surface(
+            mesh, "Ground", mesh.positions.size(), mesh.parts, materials_.of_ground,
+            [](std::uint64_t i) { return i; }, [](const glm::vec3& v, bool) { return v; },
+            [&indices](std::uint64_t i) { return indices[i]; });
+    }
+
+    void put_instancer(const ForestKind& kind,
+                       const std::vector<std::uint32_t>& materials,
+                       const std::string& name) {
+        out_.put(fmt::format("    def PointInstancer \"{}\"\n    {{\n", name));
+        prototypes_.assign(kind.cache->instances.size(), 0);
+        std::vector<std::uint32_t> used;
+        for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
+            if (plan_.uses()[kind.first + i] > 0) {
+                prototypes_[i] = static_cast<std::uint32_t>(used.size());
+                used.push_back(i);
+            }
+        }
+        out_.put("        rel prototypes = [");
+        for (std::size_t p = 0; p < used.size(); ++p) {
+            out_.put(
+                fmt::format("{}</Forest/{}/Prototypes/I{}>", p == 0 ? "" : ", ", name, used[p]));
+        }
+        out_.put("]\n");
+        put_branches(kind);
+        out_.put("        def Scope \"Prototypes\"\n        {\n");
+        const InstanceVertices own = number_vertices(kind, plan_);
+        for (const std::uint32_t i : used) {
+            const Instance& instance = kind.cache->instances[i];
+            const glm::dquat back = glm::conjugate(instance.frame);
+            const std::span<const std::uint32_t> vertices = own.of(i);
+            put_surface(
+                kind.meshes->mesh, fmt::format("I{}", i), vertices.size(), kind.meshes->parts_of(i),
+                materials, [vertices](std::uint64_t k) { return vertices[k]; },
+                [&](const glm::vec3& v, bool place) {
+                    return glm::vec3(
+                        back * (glm::dvec3(v) - (place ? instance.position : glm::dvec3(0.0))));
+                },
+                [&own](std::uint64_t k) { return own.indices[k]; });
+        }
+        out_.put("        }\n    }\n");
+    }
+
+    /// An array for each part of the transforms, and a walk over the trees for each array.
+    void put_branches(const ForestKind& kind) {
+        put_array("int[] protoIndices", kind, [this](const BranchInstance& branch, char* at) {
+            return put_number(at, std::uint64_t{prototypes_[branch.instance]});
+        });
+        put_array("point3f[] positions", kind, [](const BranchInstance& branch, char* at) {
+            const glm::vec3& p = branch.position;
+            return put_tuple<3>(at, {p.x, p.y, p.z});
+        });
+        for (const std::string_view array : {"quath[] orientations", "quatf[] orientationsf"}) {
+            put_array(array, kind, [](const BranchInstance& branch, char* at) {
+                const glm::quat q = glm::normalize(branch.rotation);
+                return put_tuple<4>(at, {q.w, q.x, q.y, q.z});
+            });
+        }
+        put_array("float3[] scales", kind, [](const BranchInstance& branch, char* at) {
+            return put_tuple<3>(at, {branch.scale, branch.scale, branch.scale});
+        });
+    }
+
+    template <typename Put>
+    void put_array(std::string_view what, const ForestKind& kind, const Put& put) {
+        out_.put(fmt::format("        {} = [", what));
+        std::uint64_t count = 0;
+        for (const ForestCell& cell : plan_.cells()) {
+            plan_.for_each_branch(cell, [&](const ForestKind& of, std::uint32_t instance,
+                                            const BranchInstance& branch) {
+                if (&of != &kind || plan_.uses()[instance] == 0 || out_.stopped()) {
+                    return;
+                }
+                char* at = out_.room(kUsdaItemBytes + kNumberBytes);
+                at = put_text(at, count == 0                      ? ""
+                                  : count % kUsdaItemsOfLine == 0 ? ",\n            "
+                                                                  : ", ");
+                out_.used(put(branch, at));
+                ++count;
+            });
+        }
+        out_.put("]\n");
+    }
+
+    const ForestScene& scene_;
+    const ForestPlan& plan_;
+    const ForestExportInfo& info_;
+    PieceWriter& out_;
+    ForestMaterials materials_;
+    std::vector<std::string> names_;        // of materials
+    std::vector<std::uint32_t> prototypes_; // numbers of the instances among those used
+};
+
+} // namespace
+
+ForestExportStatus write_forest_usda(const ForestScene& scene,
+                                     const ForestPlan& plan,
+                                     const ForestExportInfo& info,
+                                     PieceWriter& out) {
+    // Integers of USD are signed.
+    constexpr std::uint64_t kMost = 0x7FFFFFFF;
+    for (const ForestKind& kind : plan.kinds()) {
+        if (kind.meshes->mesh.positions.size() > kMost) {
+            return ForestExportStatus::TooLarge;
+        }
+    }
+    if (plan.branches() > kMost) {
+        return ForestExportStatus::TooLarge;
+    }
+    UsdaForest(scene, plan, info, out).write();
+    return ForestExportStatus::Ok;
+}
+
+} // namespace lsys

@@ -1,0 +1,189 @@
+#include "runtime/export/impl/gltf_motion.h"
+
+#include <fmt/format.h>
+#include <glm/mat4x4.hpp>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::size_t kChunk = 16384; // vertices
+constexpr int kFloat = 5126;
+
+struct Influence {
+    std::array<std::uint16_t, 4> joints{};
+    std::array<std::uint8_t, 4> weights{};
+};
+
+/// Weights add up to 255. A joint without weight has to be 0, and none may come twice.
+Influence influence_of(const VertexSegments& segments, const Skin& skin) {
+    const std::uint16_t first = skin.joint_of(segments[0]);
+    const std::uint16_t second = skin.joint_of(segments[1]);
+    return first == second ? Influence{{first}, {255}} : Influence{{first, second}, {128, 127}};
+}
+
+template <typename Item, typename ItemOf>
+void write_vertices(const Mesh& mesh, const GltfBytes& write, const ItemOf& item_of) {
+    std::vector<std::array<Item, 4>> chunk;
+    const std::span<const VertexSegments> all(mesh.segments);
+    for (std::size_t first = 0; first < all.size(); first += kChunk) {
+        chunk.clear();
+        for (const VertexSegments& segments :
+             all.subspan(first, std::min(kChunk, all.size() - first))) {
+            chunk.push_back(item_of(segments));
+        }
+        write(std::as_bytes(std::span<const std::array<Item, 4>>(chunk)));
+    }
+}
+
+float time_of(const PlantAnimation& poses, std::uint32_t frame) {
+    return static_cast<float>(static_cast<double>(frame) /
+                              static_cast<double>(poses.frames_per_second));
+}
+
+} // namespace
+
+void write_vertex_joints(const Mesh& mesh, const GltfMotion& motion, const GltfBytes& write) {
+    if (motion.joint_bytes() == 2) {
+        write_vertices<std::uint16_t>(mesh, write, [&](const VertexSegments& segments) {
+            return influence_of(segments, motion.skin).joints;
+        });
+        return;
+    }
+    write_vertices<std::uint8_t>(mesh, write, [&](const VertexSegments& segments) {
+        std::array<std::uint8_t, 4> bytes{};
+        const Influence influence = influence_of(segments, motion.skin);
+        for (std::size_t i = 0; i < bytes.size(); ++i) {
+            bytes[i] = static_cast<std::uint8_t>(influence.joints[i]);
+        }
+        return bytes;
+    });
+}
+
+void write_vertex_weights(const Mesh& mesh, const GltfMotion& motion, const GltfBytes& write) {
+    write_vertices<std::uint8_t>(mesh, write, [&](const VertexSegments& segments) {
+        return influence_of(segments, motion.skin).weights;
+    });
+}
+
+void write_inverse_binds(const GltfMotion& motion, const GltfBytes& write) {
+    const glm::mat4 none(1.0F);
+    write(std::as_bytes(std::span(&none, 1)));
+    for (const std::uint32_t segment : motion.skin.segments) {
+        const SegmentPlace& place = motion.poses.frame(0)[segment];
+        const glm::dquat back = glm::conjugate(glm::normalize(glm::dquat(place.frame)));
+        glm::dmat4 inverse = glm::mat4_cast(back);
+        inverse[3] = glm::dvec4(back * -glm::dvec3(place.base), 1.0);
+        const glm::mat4 matrix(inverse);
+        write(std::as_bytes(std::span(&matrix, 1)));
+    }
+}
+
+void write_times(const GltfMotion& motion, const GltfBytes& write) {
+    std::vector<float> times;
+    for (std::uint32_t i = 0; i < motion.poses.frame_count; ++i) {
+        times.push_back(time_of(motion.poses, i));
+    }
+    write(std::as_bytes(std::span<const float>(times)));
+}
+
+void write_translations(const GltfMotion& motion, const GltfBytes& write) {
+    std::vector<glm::vec3> bases;
+    for (const std::uint32_t segment : motion.skin.segments) {
+        bases.clear();
+        for (std::uint32_t i = 0; i < motion.poses.frame_count; ++i) {
+            bases.push_back(motion.poses.frame(i)[segment].base);
+        }
+        write(std::as_bytes(std::span<const glm::vec3>(bases)));
+    }
+}
+
+void write_rotations(const GltfMotion& motion, const GltfBytes& write) {
+    std::vector<glm::quat> rotations;
+    std::vector<std::array<float, 4>> ordered;
+    for (const std::uint32_t segment : motion.skin.segments) {
+        joint_rotations(motion.poses, segment, rotations);
+        ordered.clear();
+        for (const glm::quat& q : rotations) {
+            ordered.push_back({q.x, q.y, q.z, q.w});
+        }
+        write(std::as_bytes(std::span<const std::array<float, 4>>(ordered)));
+    }
+}
+
+std::string joint_nodes(const GltfMotion& motion, std::size_t first) {
+    std::string text = R"({"name":"joints")";
+    const auto add = std::back_inserter(text);
+    for (std::size_t i = 0; i < motion.moving_joints(); ++i) {
+        fmt::format_to(add, "{}{}", i == 0 ? R"(,"children":[)" : ",", first + 1 + i);
+    }
+    text += motion.moving_joints() == 0 ? "}" : "]}";
+    std::vector<glm::quat> rotations;
+    for (const std::uint32_t segment : motion.skin.segments) {
+        const glm::vec3& base = motion.poses.frame(0)[segment].base;
+        joint_rotations(motion.poses, segment, rotations);
+        const glm::quat& q = rotations.front();
+        fmt::format_to(add,
+                       R"(,{{"name":"segment {}","translation":[{},{},{}],)"
+                       R"("rotation":[{},{},{},{}]}})",
+                       segment, base.x, base.y, base.z, q.x, q.y, q.z, q.w);
+    }
+    return text;
+}
+
+std::string motion_accessors(const GltfMotion& motion, const GltfMotionViews& views) {
+    const std::uint32_t frames = motion.poses.frame_count;
+    std::string text = fmt::format(
+        R"({{"bufferView":{},"componentType":{},"count":{},"type":"MAT4"}},)"
+        R"({{"bufferView":{},"componentType":{},"count":{},"type":"SCALAR","min":[0],"max":[{}]}})",
+        views.inverse_binds, kFloat, motion.skin.joint_count(), views.times, kFloat, frames,
+        static_cast<double>(time_of(motion.poses, frames - 1)));
+    const auto add = std::back_inserter(text);
+    const auto add_channels = [&](std::size_t view, std::size_t bytes, const char* type) {
+        for (std::size_t i = 0; i < motion.moving_joints(); ++i) {
+            fmt::format_to(add,
+                           R"(,{{"bufferView":{},"byteOffset":{},"componentType":{},"count":{},)"
+                           R"("type":"{}"}})",
+                           view, i * frames * bytes, kFloat, frames, type);
+        }
+    };
+    add_channels(views.translations, sizeof(glm::vec3), "VEC3");
+    add_channels(views.rotations, sizeof(glm::quat), "VEC4");
+    return text;
+}
+
+std::string
+skin_and_animation(const GltfMotion& motion, std::size_t first_node, std::size_t accessor) {
+    std::string text = fmt::format(
+        R"("skins":[{{"name":"plant","inverseBindMatrices":{},"skeleton":{},"joints":[)", accessor,
+        first_node);
+    const auto add = std::back_inserter(text);
+    for (std::size_t i = 0; i < motion.skin.joint_count(); ++i) {
+        fmt::format_to(add, "{}{}", i == 0 ? "" : ",", first_node + i);
+    }
+    text += "]}],";
+    const std::size_t moving = motion.moving_joints();
+    if (moving == 0) { // an animation has at least one channel
+        return text;
+    }
+    text += R"("animations":[{"name":"motion","channels":[)";
+    for (std::size_t i = 0; i < 2 * moving; ++i) {
+        fmt::format_to(add, R"({}{{"sampler":{},"target":{{"node":{},"path":"{}"}}}})",
+                       i == 0 ? "" : ",", i, first_node + 1 + i % moving,
+                       i < moving ? "translation" : "rotation");
+    }
+    text += R"(],"samplers":[)";
+    for (std::size_t i = 0; i < 2 * moving; ++i) {
+        fmt::format_to(add, R"({}{{"input":{},"output":{}}})", i == 0 ? "" : ",", accessor + 1,
+                       accessor + 2 + i);
+    }
+    text += "]}],";
+    return text;
+}
+
+} // namespace lsys

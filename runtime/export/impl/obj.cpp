@@ -1,0 +1,127 @@
+// Wavefront OBJ and MTL (Wavefront Advanced Visualizer manual, appendix B1, as its readers have it:
+// https://paulbourke.net/dataformats/obj/). v of texture coordinates goes upwards there.
+#include "runtime/export/impl/formats.h"
+#include "runtime/export/impl/pictures.h"
+#include "runtime/export/impl/text.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <new>
+#include <optional>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+/// Of one line: keyword, blanks, and at most nine numbers.
+constexpr std::size_t kLineBytes = 16 + 9 * (kNumberBytes + 1);
+
+/// Names that differ where the materials do.
+std::vector<std::string> material_words(const Mesh& mesh) {
+    std::vector<std::string> words;
+    for (const Material& material : mesh.materials) {
+        words.push_back(unlike(words, word(material.name)));
+    }
+    return words;
+}
+
+template <std::size_t kCount>
+void put_line(PieceWriter& out, std::string_view keyword, const std::array<float, kCount>& values) {
+    char* at = put_text(out.room(kLineBytes), keyword);
+    for (const float value : values) {
+        *at++ = ' ';
+        at = put_number(at, value);
+    }
+    *at++ = '\n';
+    out.used(at);
+}
+
+/// A corner names its position, texture coordinate and normal by the same number.
+void put_faces(TriangleReader& indices, const MeshPart& part, bool textured, PieceWriter& out) {
+    for (std::uint64_t i = 0; i + 2 < part.index_count && !out.stopped(); i += 3) {
+        char* at = out.room(kLineBytes);
+        *at++ = 'f';
+        for (std::uint64_t corner = i; corner < i + 3; ++corner) {
+            *at++ = ' ';
+            const char* const digits = at;
+            at = put_number(at, std::uint64_t{indices[part.first_index + corner]} + 1);
+            const std::string_view number(digits, static_cast<std::size_t>(at - digits));
+            *at++ = '/';
+            if (textured) {
+                at = put_text(at, number);
+            }
+            *at++ = '/';
+            at = put_text(at, number);
+        }
+        *at++ = '\n';
+        out.used(at);
+    }
+}
+
+} // namespace
+
+void write_obj(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
+    out.put(
+        fmt::format("# {}\n# {}\n# metres, +Y up\n", one_line(info.generator), origin_line(info)));
+    if (!info.mtl_name.empty()) {
+        // What follows the keyword is the name, blanks included.
+        out.put(fmt::format("mtllib {}\n", one_line(info.mtl_name)));
+    }
+    out.put("o plant\n");
+    for (std::size_t i = 0; i < mesh.positions.size() && !out.stopped(); ++i) {
+        const glm::vec3& p = mesh.positions[i];
+        put_line<3>(out, "v", {p.x, p.y, p.z});
+    }
+    const bool textured = is_complete(mesh, mesh.texture_coordinates);
+    for (std::size_t i = 0; textured && i < mesh.positions.size() && !out.stopped(); ++i) {
+        const glm::vec2& t = mesh.texture_coordinates[i];
+        put_line<2>(out, "vt", {t.x, 1.0F - t.y});
+    }
+    for (std::size_t i = 0; i < mesh.positions.size() && !out.stopped(); ++i) {
+        const glm::vec3& n = mesh.normals[i];
+        put_line<3>(out, "vn", {n.x, n.y, n.z});
+    }
+    const std::vector<std::string> words = material_words(mesh);
+    TriangleReader indices(mesh.indices);
+    for (const MeshPart& part : mesh.parts) {
+        out.put(fmt::format("usemtl {}\n", words[part.material]));
+        put_faces(indices, part, textured, out);
+    }
+}
+
+ExportStatus write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink) {
+    if (triangle_count(mesh) == 0) {
+        return ExportStatus::Nothing;
+    }
+    try {
+        PieceWriter out(sink);
+        out.put(fmt::format("# {}\n# {}\n", one_line(info.generator), origin_line(info)));
+        const std::vector<std::string> words = material_words(mesh);
+        const Pictures pictures = find_pictures(mesh, ExportFormat::Obj, info);
+        const auto put_map = [&](const char* keyword, const std::optional<std::size_t>& number) {
+            if (number) { // as with mtllib, blanks are part of the name
+                out.put(fmt::format("{} {}\n", keyword, pictures.list[*number].name));
+            }
+        };
+        for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+            const MaterialPictures& shown = pictures.of_materials[i];
+            // Multiplied by the picture, which has the colour in it.
+            const glm::vec4 colour = shown.colour
+                                         ? glm::vec4(1.0F, 1.0F, 1.0F, mesh.materials[i].colour.a)
+                                         : mesh.materials[i].colour;
+            out.put(fmt::format("\nnewmtl {}\nKa 0 0 0\nKd {:.4f} {:.4f} {:.4f}\nKs 0 0 0\n"
+                                "d {}\nillum 1\n",
+                                words[i], srgb(colour.r), srgb(colour.g), srgb(colour.b),
+                                colour.a));
+            put_map("map_Kd", shown.colour);
+            put_map("map_d", shown.opacity);
+        }
+        return out.finish() ? ExportStatus::Ok : ExportStatus::Stopped;
+    } catch (const std::bad_alloc&) {
+        return ExportStatus::OutOfMemory;
+    }
+}
+
+} // namespace lsys

@@ -1,0 +1,56 @@
+// OFF (Geomview's object file format, http://www.geomview.org/docs/html/OFF.html) and OFF+, which
+// L3D reads and writes: `x y z u v` for a vertex, and at the end of a face 1 if it is of a leaf,
+// else 0. Neither has a word for units or axes. v goes upwards.
+#include "runtime/export/impl/formats.h"
+#include "runtime/export/impl/text.h"
+
+#include <fmt/format.h>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::size_t kLineBytes = 8 + 6 * (kNumberBytes + 1);
+
+} // namespace
+
+void write_off(const Mesh& mesh, bool plus, PieceWriter& out) {
+    out.put(fmt::format("OFF\n{} {} 0\n", mesh.positions.size(), triangle_count(mesh)));
+    const bool textured = is_complete(mesh, mesh.texture_coordinates);
+    for (std::size_t i = 0; i < mesh.positions.size() && !out.stopped(); ++i) {
+        const glm::vec3& p = mesh.positions[i];
+        char* at = put_number(out.room(kLineBytes), p.x);
+        *at++ = ' ';
+        at = put_number(at, p.y);
+        *at++ = ' ';
+        at = put_number(at, p.z);
+        if (plus) {
+            const glm::vec2 t = textured ? mesh.texture_coordinates[i] : glm::vec2(0.0F, 1.0F);
+            *at++ = ' ';
+            at = put_number(at, t.x);
+            *at++ = ' ';
+            at = put_number(at, 1.0F - t.y);
+        }
+        *at++ = '\n';
+        out.used(at);
+    }
+    TriangleReader indices(mesh.indices);
+    for (const MeshPart& part : mesh.parts) {
+        const bool leaf = mesh.materials[part.material].kind == MaterialKind::Leaf;
+        for (std::uint64_t i = 0; i + 2 < part.index_count && !out.stopped(); i += 3) {
+            char* at = out.room(kLineBytes);
+            *at++ = '3';
+            for (std::uint64_t corner = i; corner < i + 3; ++corner) {
+                *at++ = ' ';
+                at = put_number(at, std::uint64_t{indices[part.first_index + corner]});
+            }
+            if (plus) {
+                at = put_text(at, leaf ? " 1" : " 0");
+            }
+            *at++ = '\n';
+            out.used(at);
+        }
+    }
+}
+
+} // namespace lsys

@@ -1,0 +1,159 @@
+#include "runtime/export/impl/pictures.h"
+
+#include "runtime/base/workers.h"
+#include "runtime/export/impl/formats.h"
+#include "runtime/export/impl/text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <new>
+#include <stdexcept>
+
+namespace lsys {
+
+namespace {
+
+bool shows_texture(const Mesh& mesh, const Material& material) {
+    return material.textured && (material.picture != nullptr || has_texture(material.kind)) &&
+           is_complete(mesh, mesh.texture_coordinates);
+}
+
+bool is_in_use(const Mesh& mesh, std::size_t material) {
+    return std::any_of(mesh.parts.begin(), mesh.parts.end(), [material](const MeshPart& part) {
+        return part.material == material && part.index_count >= 3;
+    });
+}
+
+/// The picture of that kind, material and colour, which is there only once.
+std::size_t number_of(std::vector<Picture>& list, const Picture& wanted) {
+    const auto found = std::find_if(list.begin(), list.end(), [&wanted](const Picture& picture) {
+        return picture.kind == wanted.kind && picture.material == wanted.material &&
+               picture.tint == wanted.tint && picture.file == wanted.file;
+    });
+    if (found != list.end()) {
+        return static_cast<std::size_t>(found - list.begin());
+    }
+    std::vector<std::string> names;
+    names.reserve(list.size());
+    for (const Picture& picture : list) {
+        names.push_back(picture.name);
+    }
+    list.push_back(wanted);
+    list.back().name = unlike(names, wanted.name);
+    return list.size() - 1;
+}
+
+/// IEC 61966-2-1, of a byte.
+float linear(std::uint8_t value) {
+    const float c = static_cast<float>(value) / 255.0F;
+    return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
+}
+
+void tint(Texture& texture, const glm::vec3& colour) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        std::array<std::uint8_t, 256> tinted{};
+        for (std::size_t value = 0; value < tinted.size(); ++value) {
+            tinted[value] = srgb_byte(colour[static_cast<int>(channel)] *
+                                      linear(static_cast<std::uint8_t>(value)));
+        }
+        for (std::size_t i = channel; i < texture.texels.size(); i += 4) {
+            texture.texels[i] = tinted[texture.texels[i]];
+        }
+    }
+}
+
+Texture paint(const Picture& picture) {
+    Texture texture = picture.kind == PictureKind::Relief ? bark_normals()
+                      : picture.file != nullptr           ? *picture.file
+                                                          : material_texture(picture.material);
+    if (picture.kind == PictureKind::Opacity) {
+        for (std::size_t i = 0; i < texture.texels.size(); i += 4) {
+            std::fill_n(texture.texels.begin() + static_cast<std::ptrdiff_t>(i), 3,
+                        texture.texels[i + 3]);
+        }
+    } else if (picture.kind == PictureKind::Colour && picture.tint != glm::vec3(1.0F)) {
+        tint(texture, picture.tint);
+    }
+    return texture;
+}
+
+} // namespace
+
+Pictures find_pictures(const Mesh& mesh, ExportFormat format, const ExportInfo& info) {
+    Pictures pictures;
+    pictures.of_materials.resize(mesh.materials.size());
+    const bool is_gltf = format == ExportFormat::Gltf || format == ExportFormat::Glb;
+    const bool is_obj = format == ExportFormat::Obj;
+    if (!info.textures ||
+        (!is_gltf && (info.picture_prefix.empty() || (!is_obj && format != ExportFormat::Usda)))) {
+        return pictures;
+    }
+    const auto name = [&](const std::string& what) {
+        return is_gltf ? what : one_line(info.picture_prefix) + '.' + identifier(what) + ".png";
+    };
+    for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+        const Material& material = mesh.materials[i];
+        if (!shows_texture(mesh, material) || !is_in_use(mesh, i)) {
+            continue;
+        }
+        const bool bark = material.kind == MaterialKind::Bark;
+        Picture wanted;
+        wanted.material = material.kind;
+        wanted.file = material.picture;
+        const std::string what = wanted.file != nullptr ? material.name : bark ? "bark" : "leaf";
+        MaterialPictures& shown = pictures.of_materials[i];
+        wanted.tint = is_gltf ? glm::vec3(1.0F) : glm::vec3(material.colour);
+        wanted.name = name(is_gltf ? what : material.name);
+        shown.colour = number_of(pictures.list, wanted);
+        wanted.tint = glm::vec3(1.0F);
+        if (is_obj && material.cut_out) {
+            wanted.kind = PictureKind::Opacity;
+            wanted.name = name(what + " opacity");
+            shown.opacity = number_of(pictures.list, wanted);
+        }
+        if (!is_obj && bark && (!is_gltf || is_complete(mesh, mesh.tangents))) {
+            wanted.kind = PictureKind::Relief;
+            wanted.name = name("bark normals");
+            shown.relief = number_of(pictures.list, wanted);
+        }
+    }
+    return pictures;
+}
+
+std::vector<std::string> encode_pictures(const std::vector<Picture>& pictures,
+                                         std::uint32_t threads) {
+    std::vector<std::string> files(pictures.size());
+    Workers workers(threads);
+    for_each_piece(workers, pictures.size(),
+                   [&](std::uint64_t i) { files[i] = encode_png(paint(pictures[i])); });
+    const bool all = std::none_of(files.begin(), files.end(),
+                                  [](const std::string& file) { return file.empty(); });
+    if (!all) {
+        throw std::bad_alloc();
+    }
+    return files;
+}
+
+ExportStatus make_picture_files(const Mesh& mesh,
+                                ExportFormat format,
+                                const ExportInfo& info,
+                                std::vector<PictureFile>& files) {
+    try {
+        files.clear();
+        if (format == ExportFormat::Gltf || format == ExportFormat::Glb) {
+            return ExportStatus::Ok; // which has them in it
+        }
+        const Pictures pictures = find_pictures(mesh, format, info);
+        std::vector<std::string> encoded = encode_pictures(pictures.list, info.threads);
+        for (std::size_t i = 0; i < encoded.size(); ++i) {
+            files.push_back({pictures.list[i].name, std::move(encoded[i])});
+        }
+        return ExportStatus::Ok;
+    } catch (const std::bad_alloc&) {
+    } catch (const std::length_error&) {
+    }
+    return ExportStatus::OutOfMemory;
+}
+
+} // namespace lsys

@@ -1,0 +1,86 @@
+// PLY, binary, little endian (Turk, "The PLY polygon file format", 1994). Colours are sRGB; v of
+// texture coordinates goes upwards, as in the readers that know `s` and `t`.
+#include "runtime/export/impl/formats.h"
+#include "runtime/export/impl/text.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace lsys {
+
+static_assert(std::endian::native == std::endian::little, "arrays are written as they lie");
+
+namespace {
+
+/// Colours of the palette as bytes, as far as the mesh uses it.
+std::vector<std::array<std::uint8_t, 3>> palette_bytes(const Mesh& mesh) {
+    std::uint32_t last = 0;
+    for (const std::uint16_t colour : mesh.colours) {
+        last = std::max<std::uint32_t>(last, colour);
+    }
+    std::vector<std::array<std::uint8_t, 3>> bytes;
+    for (std::uint32_t i = 0; i <= last; ++i) {
+        const glm::vec3 colour = palette_colour(i);
+        bytes.push_back({srgb_byte(colour.r), srgb_byte(colour.g), srgb_byte(colour.b)});
+    }
+    return bytes;
+}
+
+template <typename T>
+char* put_bytes(char* at, const T& value) {
+    std::memcpy(at, &value, sizeof value);
+    return at + sizeof value;
+}
+
+} // namespace
+
+void write_ply(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
+    const bool textured = is_complete(mesh, mesh.texture_coordinates);
+    const bool coloured = is_complete(mesh, mesh.colours);
+    // `int` is what every reader knows.
+    const bool small = mesh.positions.size() <= std::numeric_limits<std::int32_t>::max();
+    out.put(fmt::format("ply\nformat binary_little_endian 1.0\ncomment {}\ncomment {}\n"
+                        "comment metres, +Y up\nelement vertex {}\n"
+                        "property float x\nproperty float y\nproperty float z\n"
+                        "property float nx\nproperty float ny\nproperty float nz\n{}{}"
+                        "element face {}\nproperty list uchar {} vertex_indices\nend_header\n",
+                        one_line(info.generator), origin_line(info), mesh.positions.size(),
+                        textured ? "property float s\nproperty float t\n" : "",
+                        coloured ? "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                                 : "",
+                        triangle_count(mesh), small ? "int" : "uint"));
+
+    const std::vector<std::array<std::uint8_t, 3>> palette =
+        coloured ? palette_bytes(mesh) : std::vector<std::array<std::uint8_t, 3>>{};
+    constexpr std::size_t kVertexBytes = 2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 3;
+    for (std::size_t i = 0; i < mesh.positions.size() && !out.stopped(); ++i) {
+        char* at = put_bytes(out.room(kVertexBytes), mesh.positions[i]);
+        at = put_bytes(at, mesh.normals[i]);
+        if (textured) {
+            const glm::vec2& t = mesh.texture_coordinates[i];
+            at = put_bytes(at, glm::vec2(t.x, 1.0F - t.y));
+        }
+        if (coloured) {
+            at = put_bytes(at, palette[mesh.colours[i]]);
+        }
+        out.used(at);
+    }
+    constexpr std::size_t kFaceBytes = 1 + 3 * sizeof(std::uint32_t);
+    TriangleReader indices(mesh.indices);
+    for (const MeshPart& part : mesh.parts) {
+        std::uint64_t corner = part.first_index;
+        for (std::uint64_t i = 0; i < part.index_count / 3 && !out.stopped(); ++i, corner += 3) {
+            const std::array corners{indices[corner], indices[corner + 1], indices[corner + 2]};
+            char* const at = out.room(kFaceBytes);
+            *at = 3;
+            out.used(put_bytes(at + 1, corners));
+        }
+    }
+}
+
+} // namespace lsys

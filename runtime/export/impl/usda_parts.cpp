@@ -1,0 +1,125 @@
+#include "runtime/export/impl/usda_parts.h"
+
+#include "runtime/export/impl/pictures.h"
+
+namespace lsys {
+
+namespace {
+
+/// Between signs of an asset path, of which a name with such a sign needs three.
+std::string asset_path(const std::string& name) {
+    if (name.find('@') == std::string::npos) {
+        return fmt::format("@./{}@", name);
+    }
+    std::string path = name;
+    for (std::size_t at = 0; (at = path.find("@@@", at)) != std::string::npos; at += 4) {
+        path.insert(at, 1, '\\');
+    }
+    return fmt::format("@@@./{}@@@", path);
+}
+
+/// A shader that reads a picture at the texture coordinates.
+void put_picture(const Picture& picture,
+                 std::string_view shader,
+                 const std::string& path,
+                 PieceWriter& out) {
+    const bool relief = picture.kind == PictureKind::Relief;
+    const char* const wrap = picture.material == MaterialKind::Leaf ? "clamp" : "repeat";
+    out.put(fmt::format("\n            def Shader \"{0}\"\n"
+                        "            {{\n"
+                        "                uniform token info:id = \"UsdUVTexture\"\n"
+                        "                asset inputs:file = {1}\n"
+                        "                token inputs:sourceColorSpace = \"{2}\"\n"
+                        "                token inputs:wrapS = \"{3}\"\n"
+                        "                token inputs:wrapT = \"{3}\"\n"
+                        "                float2 inputs:st.connect = <{4}/Place.outputs:result>\n"
+                        "{5}"
+                        "                float3 outputs:rgb\n"
+                        "                float outputs:a\n"
+                        "            }}\n",
+                        shader, asset_path(picture.name), relief ? "raw" : "sRGB", wrap, path,
+                        relief ? "                float4 inputs:scale = (2, 2, 2, 1)\n"
+                                 "                float4 inputs:bias = (-1, -1, -1, 0)\n"
+                               : ""));
+}
+
+void put_material(const Material& material,
+                  const MaterialPictures& shown,
+                  const std::vector<Picture>& pictures,
+                  std::string_view root,
+                  const std::string& name,
+                  PieceWriter& out) {
+    const std::string path = fmt::format("{}/Materials/{}", root, name);
+    const glm::vec4& colour = material.colour;
+    out.put(fmt::format("        def Material \"{0}\"\n"
+                        "        {{\n"
+                        "            token outputs:surface.connect = "
+                        "<{1}/Surface.outputs:surface>\n\n"
+                        "            def Shader \"Surface\"\n"
+                        "            {{\n"
+                        "                uniform token info:id = \"UsdPreviewSurface\"\n",
+                        name, path));
+    if (shown.colour) {
+        out.put(fmt::format(
+            "                color3f inputs:diffuseColor.connect = <{}/Picture.outputs:rgb>\n",
+            path));
+    } else {
+        out.put(fmt::format("                color3f inputs:diffuseColor = ({}, {}, {})\n",
+                            colour.r, colour.g, colour.b));
+    }
+    if (shown.colour && material.cut_out) {
+        out.put(fmt::format("                float inputs:opacity.connect = "
+                            "<{}/Picture.outputs:a>\n"
+                            "                float inputs:opacityThreshold = 0.5\n",
+                            path));
+    } else {
+        out.put(fmt::format("                float inputs:opacity = {}\n", colour.a));
+    }
+    if (shown.relief) {
+        out.put(fmt::format(
+            "                normal3f inputs:normal.connect = <{}/Relief.outputs:rgb>\n", path));
+    }
+    out.put("                float inputs:roughness = 0.9\n"
+            "                token outputs:surface\n"
+            "            }\n");
+    if (shown.colour) {
+        out.put("\n            def Shader \"Place\"\n"
+                "            {\n"
+                "                uniform token info:id = \"UsdPrimvarReader_float2\"\n"
+                "                string inputs:varname = \"st\"\n"
+                "                float2 outputs:result\n"
+                "            }\n");
+        put_picture(pictures[*shown.colour], "Picture", path, out);
+    }
+    if (shown.relief) {
+        put_picture(pictures[*shown.relief], "Relief", path, out);
+    }
+    out.put("        }\n");
+}
+
+} // namespace
+
+std::vector<std::string> usda_part_names(const Mesh& mesh) {
+    std::vector<std::string> names;
+    for (const MeshPart& part : mesh.parts) {
+        names.push_back(unlike(names, identifier(mesh.materials[part.material].name)));
+    }
+    return names;
+}
+
+void put_usda_materials(const Mesh& mesh,
+                        const std::vector<std::string>& names,
+                        const ExportInfo& info,
+                        std::string_view root,
+                        PieceWriter& out) {
+    const Pictures pictures = find_pictures(mesh, ExportFormat::Usda, info);
+    out.put("\n    def Scope \"Materials\"\n    {\n");
+    for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+        const std::uint32_t material = mesh.parts[i].material;
+        put_material(mesh.materials[material], pictures.of_materials[material], pictures.list, root,
+                     names[i], out);
+    }
+    out.put("    }\n");
+}
+
+} // namespace lsys

@@ -1,0 +1,99 @@
+#include "runtime/forest/forest.h"
+
+#include "runtime/base/workers.h"
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::uint64_t kTreesOfPiece = 4096;
+
+/// Mixes the bits of a branch so that sums of them tell sets of branches apart.
+std::uint64_t digest_of(const Tree& tree, std::uint32_t node, const BranchInstance& branch) {
+    const auto bits = [](float a, float b) {
+        return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 |
+               std::bit_cast<std::uint32_t>(b);
+    };
+    constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;
+    std::uint64_t mixed = (std::uint64_t{tree.number} << 32 | node) * kOdd;
+    mixed ^= bits(branch.position.x, branch.position.y);
+    mixed *= kOdd;
+    mixed ^= bits(branch.position.z, branch.scale) + (mixed >> 31);
+    mixed *= kOdd;
+    mixed ^= bits(branch.rotation.w, branch.rotation.x) + (mixed >> 29);
+    mixed *= kOdd;
+    mixed ^= bits(branch.rotation.y, branch.rotation.z) + (mixed >> 30);
+    mixed *= kOdd;
+    mixed ^= branch.instance + (mixed >> 32);
+    return mixed * kOdd;
+}
+
+ForestCounts count_trees(const Forest& forest, std::span<const Tree> trees) {
+    ForestCounts counts;
+    const InstanceCache* last = nullptr;
+    std::optional<TreeExpander> expander;
+    for (const Tree& tree : trees) {
+        const InstanceCache& cache = forest.cache_of(tree);
+        if (&cache != last) {
+            expander.emplace(cache, forest.key);
+            last = &cache;
+        }
+        std::uint32_t node = 0;
+        expander->expand(tree, [&](const BranchInstance& branch) {
+            const DrawnCounts& size = cache.instances[branch.instance].size;
+            counts.segments += size.segments;
+            counts.objects += size.objects;
+            counts.polygons += size.polygons;
+            counts.digest += digest_of(tree, node++, branch);
+        });
+        counts.branches += node;
+        counts.most_branches = std::max(counts.most_branches, node);
+    }
+    counts.trees = trees.size();
+    return counts;
+}
+
+} // namespace
+
+void ForestCounts::add(const ForestCounts& other) {
+    trees += other.trees;
+    branches += other.branches;
+    segments += other.segments;
+    objects += other.objects;
+    polygons += other.polygons;
+    most_branches = std::max(most_branches, other.most_branches);
+    digest += other.digest;
+}
+
+std::uint64_t piece_count(const Forest& forest) {
+    return (forest.trees.size() + kTreesOfPiece - 1) / kTreesOfPiece;
+}
+
+void for_each_piece(const Forest& forest,
+                    std::uint32_t threads,
+                    const std::function<void(std::uint64_t, std::span<const Tree>)>& visit) {
+    Workers workers(threads);
+    const std::span<const Tree> trees(forest.trees);
+    workers.for_each(piece_count(forest), [&](std::uint64_t piece) {
+        const std::uint64_t begin = piece * kTreesOfPiece;
+        visit(piece, trees.subspan(begin, std::min(kTreesOfPiece, trees.size() - begin)));
+    });
+}
+
+ForestCounts count_forest(const Forest& forest, std::uint32_t threads) {
+    std::vector<ForestCounts> parts(piece_count(forest));
+    for_each_piece(forest, threads, [&](std::uint64_t piece, std::span<const Tree> trees) {
+        parts[piece] = count_trees(forest, trees);
+    });
+    ForestCounts counts;
+    for (const ForestCounts& part : parts) {
+        counts.add(part);
+    }
+    return counts;
+}
+
+} // namespace lsys

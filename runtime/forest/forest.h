@@ -1,0 +1,74 @@
+// Forest: species with their instance caches, and trees as numbers. Nothing of a tree is stored but
+// its record; its branches are made when somebody asks for them.
+#pragma once
+
+#include "runtime/base/large_vector.h"
+#include "runtime/forest/instance_cache.h"
+#include "runtime/forest/tree.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+/// Plants of one species with one number of generations.
+struct ForestStage {
+    std::uint32_t generations = 0;
+    InstanceCache cache;
+};
+
+struct ForestSpecies {
+    std::string name;
+    std::vector<ForestStage> stages; // by rising generations; at least one
+    /// Years that a plant needs for each stage after the first; 0: all plants are of the last.
+    float years_of_stage = 0.0F;
+};
+
+struct Forest {
+    std::uint64_t key = 0;
+    std::vector<ForestSpecies> species; // Tree::species counts them
+    LargeVector<Tree> trees;
+
+    /// In ForestSpecies::stages of the tree's species.
+    [[nodiscard]] std::uint32_t stage_of(const Tree& tree) const {
+        const ForestSpecies& kind = species[tree.species];
+        const auto last = static_cast<std::uint32_t>(kind.stages.size()) - 1;
+        if (kind.years_of_stage <= 0.0F || tree.age == 0) {
+            return last;
+        }
+        const float stage = static_cast<float>(tree.age) / kind.years_of_stage;
+        return stage >= static_cast<float>(last) ? last : static_cast<std::uint32_t>(stage);
+    }
+    [[nodiscard]] const InstanceCache& cache_of(const Tree& tree) const {
+        return species[tree.species].stages[stage_of(tree)].cache;
+    }
+};
+
+struct ForestCounts {
+    std::uint64_t trees = 0;
+    std::uint64_t branches = 0; // instances, whole plants included
+    std::uint64_t segments = 0;
+    std::uint64_t objects = 0;
+    std::uint64_t polygons = 0;
+    std::uint32_t most_branches = 0; // of one tree
+    /// Changes with any branch of any tree: its place, turn, scale or instance. The same for any
+    /// number of threads and any order.
+    std::uint64_t digest = 0;
+
+    void add(const ForestCounts& other);
+};
+
+/// Trees in pieces, on several threads: visit(piece, trees) once for each. 0 threads: as many as
+/// the machine has.
+void for_each_piece(const Forest& forest,
+                    std::uint32_t threads,
+                    const std::function<void(std::uint64_t, std::span<const Tree>)>& visit);
+[[nodiscard]] std::uint64_t piece_count(const Forest& forest);
+
+/// Expands every tree. Time is linear in the branches, memory does not grow with the trees.
+[[nodiscard]] ForestCounts count_forest(const Forest& forest, std::uint32_t threads);
+
+} // namespace lsys

@@ -1,0 +1,231 @@
+// InstanceCache: the branches of a few hero plants of an instanced system, from which any number of
+// distinct plants are put together (Kenwood, Gain and Marais 2014; LANGUAGE.md section 9). An
+// instance is a part of the heroes' common skeleton with an entry, and exits where other instances
+// go on. What can stand for what is told by a slot: all instances with one key.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "runtime/base/random.h"
+#include "runtime/derive/derive.h"
+#include "runtime/forest/tree.h"
+#include "runtime/turtle/skeleton.h"
+#include "runtime/turtle/turtle.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+/// Where another instance goes on, seen from the entry of the one that holds it.
+struct InstanceExit {
+    glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
+    glm::vec3 position{}; // m
+    std::uint32_t slot = 0;
+    std::uint32_t order = 0; // brackets between
+};
+
+/// A run of what the heroes drew.
+struct DrawnRange {
+    DrawnCounts begin;
+    DrawnCounts end;
+};
+
+/// A segment of the heroes at whose end a branch was passed over.
+struct InstanceFork {
+    std::uint32_t segment = 0;
+    std::uint32_t slot = 0; // of what goes on there
+};
+
+struct Instance {
+    std::uint32_t slot = 0;
+    std::uint32_t hero = 0;
+    std::uint32_t first_exit = 0; // in InstanceCache::exits
+    std::uint32_t exit_count = 0;
+    std::uint32_t first_range = 0; // in InstanceCache::ranges
+    std::uint32_t range_count = 0;
+    DrawnCounts size;                     // of its ranges together
+    glm::dquat frame{1.0, 0.0, 0.0, 0.0}; // of the turtle at its entry, in the skeleton
+    glm::dvec3 position{};
+    std::uint32_t order = 0; // of the branch in its hero; of the segments there alike
+};
+
+/// The instances of one key; what was met while the heroes were drawn.
+struct InstanceSlot {
+    std::uint32_t id = 0; // 0: the axiom, whole plants
+    std::uint32_t age = 0;
+    std::uint32_t first_variant = 0; // in InstanceCache::variants
+    std::uint32_t variant_count = 0;
+    std::uint64_t hits = 0;     // branches that were to be taken and could be
+    std::uint64_t misses = 0;   // that were recorded because there was none to take
+    std::uint64_t recorded = 0; // without the misses
+    std::uint64_t dropped = 0;  // not kept, because of the cap
+};
+
+struct InstanceCache {
+    Skeleton skeleton; // of all heroes, one after the other
+    std::vector<Instance> instances;
+    std::vector<InstanceSlot> slots; // 0: of whole plants
+    std::vector<std::uint32_t> variants;
+    std::vector<InstanceExit> exits;
+    std::vector<DrawnRange> ranges;
+    std::vector<InstanceFork> forks; // where the skeleton lacks a branch
+    std::uint32_t heroes = 0;
+
+    /// Without the skeleton.
+    [[nodiscard]] std::uint64_t byte_count() const {
+        return instances.size() * sizeof(Instance) + slots.size() * sizeof(InstanceSlot) +
+               variants.size() * sizeof(std::uint32_t) + exits.size() * sizeof(InstanceExit) +
+               ranges.size() * sizeof(DrawnRange) + forks.size() * sizeof(InstanceFork);
+    }
+};
+
+struct CacheOptions {
+    std::uint32_t heroes = 10; // at least 1
+    std::uint32_t generations = 0;
+    std::uint64_t seed = 0; // hero k has seed + k
+    std::uint32_t cap = 0;  // most instances of one key; 0: any number
+    /// Part of the first value of its kind by which values of one key may differ; 0: not at all.
+    float tolerance = 0.0F;
+    /// By id: what is drawn depends on where up is, so the key says where that is.
+    std::vector<bool> knows_up;
+    std::uint32_t threads = 0;
+    Limits limits;                               // of each word
+    std::uint64_t max_bytes = ~std::uint64_t{0}; // of the skeleton
+    std::vector<float> mesh_lengths;             // as TurtleOptions
+    const std::atomic<bool>* cancelled = nullptr;
+};
+
+struct CacheOutcome {
+    DeriveStatus derived = DeriveStatus::Ok;
+    TurtleStatus drawn = TurtleStatus::Ok;
+    RuntimeError error;     // where derived is Error, or drawn NotInterpreted
+    LimitReport limit;      // where it is Limit or OutOfMemory
+    std::uint32_t hero = 0; // that could not be made
+    std::array<TurtleFault, kTurtleFaultKinds> faults{}; // of all heroes
+
+    [[nodiscard]] bool fine() const {
+        return derived == DeriveStatus::Ok && drawn == TurtleStatus::Ok;
+    }
+};
+
+/// Derives and draws the heroes. `bytecode` is of an instanced system
+/// (compiler/instancing/impl/instancing_pass.h); another one gives a cache of whole plants. The
+/// cache is empty unless all is fine.
+[[nodiscard]] CacheOutcome
+make_instance_cache(const Bytecode& bytecode, const CacheOptions& options, InstanceCache& cache);
+
+/// An instance where it stands in a plant.
+struct BranchInstance {
+    glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
+    glm::vec3 position{}; // m
+    float scale = 1.0F;
+    std::uint32_t instance = 0;
+    std::uint32_t order = 0; // of the branch: brackets around it, its own included
+};
+
+/// Puts trees together. One for each thread.
+class TreeExpander {
+public:
+    /// `key`: of the forest. `cache` outlives the expander.
+    TreeExpander(const InstanceCache& cache, std::uint64_t key) : cache_(cache), key_(key) {}
+
+    /// Calls visit(BranchInstance) for each instance of the tree, depth first, exits in their
+    /// order. A function of cache, key and tree alone. Returns how many.
+    template <typename Visit>
+    std::uint32_t expand(const Tree& tree, Visit&& visit);
+    /// Calls visit(instance) where expand() calls visit(BranchInstance), in a third of the time.
+    template <typename Visit>
+    std::uint32_t expand_instances(const Tree& tree, Visit&& visit);
+    /// The instance that expand() visits first: of the whole plant.
+    [[nodiscard]] std::uint32_t root_instance(const Tree& tree) {
+        return choose(cache_.slots[0], tree.number, 0);
+    }
+
+private:
+    struct Pending {
+        glm::quat rotation;
+        glm::vec3 position;
+        std::uint32_t slot;
+        std::uint32_t order;
+    };
+    /// What waits to be visited, the next one last. Room is made for many at a time, because most
+    /// instances add but one or two.
+    template <typename T>
+    class Stack {
+    public:
+        [[nodiscard]] bool empty() const { return count_ == 0; }
+        T pop() { return items_[--count_]; }
+        /// Where to put the next `count`.
+        T* add(std::size_t count) {
+            if (count > items_.size() - count_) {
+                items_.resize(2 * (count_ + count));
+            }
+            count_ += count;
+            return items_.data() + count_ - count;
+        }
+        void clear() { count_ = 0; }
+
+    private:
+        std::vector<T> items_;
+        std::size_t count_ = 0;
+    };
+
+    [[nodiscard]] std::uint32_t
+    choose(const InstanceSlot& slot, std::uint32_t tree, std::uint32_t node);
+    void add_exits(const Instance& instance, const BranchInstance& at);
+
+    const InstanceCache& cache_;
+    std::uint64_t key_;
+    Stack<Pending> pending_;
+    Stack<std::uint32_t> pending_slots_;           // of expand_instances()
+    std::array<std::uint32_t, kBlockRun> draws_{}; // of the tree's nodes around the last one
+};
+
+/// The transform that puts a tree where it stands.
+[[nodiscard]] BranchInstance root_of(const Tree& tree);
+
+template <typename Visit>
+std::uint32_t TreeExpander::expand(const Tree& tree, Visit&& visit) {
+    BranchInstance at = root_of(tree);
+    pending_.clear();
+    *pending_.add(1) = {at.rotation, at.position, 0, 0};
+    std::uint32_t node = 0;
+    while (!pending_.empty()) {
+        const Pending next = pending_.pop();
+        const InstanceSlot& slot = cache_.slots[next.slot];
+        at.rotation = next.rotation;
+        at.position = next.position;
+        at.order = next.order;
+        at.instance = choose(slot, tree.number, node++);
+        add_exits(cache_.instances[at.instance], at);
+        visit(at);
+    }
+    return node;
+}
+
+template <typename Visit>
+std::uint32_t TreeExpander::expand_instances(const Tree& tree, Visit&& visit) {
+    pending_slots_.clear();
+    *pending_slots_.add(1) = 0;
+    std::uint32_t node = 0;
+    while (!pending_slots_.empty()) {
+        const std::uint32_t number =
+            choose(cache_.slots[pending_slots_.pop()], tree.number, node++);
+        const Instance& instance = cache_.instances[number];
+        const InstanceExit* const exits = cache_.exits.data() + instance.first_exit;
+        std::uint32_t* const slots = pending_slots_.add(instance.exit_count);
+        for (std::uint32_t i = 0; i < instance.exit_count; ++i) {
+            slots[i] = exits[instance.exit_count - 1 - i].slot;
+        }
+        visit(number);
+    }
+    return node;
+}
+
+} // namespace lsys

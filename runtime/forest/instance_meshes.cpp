@@ -1,0 +1,319 @@
+#include "runtime/forest/instance_meshes.h"
+
+#include "grammar/base/contract.h"
+#include "runtime/base/workers.h"
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max() - 1;
+constexpr std::uint64_t kInstancesOfPiece = 256;
+
+/// Slots that a tree can come to.
+std::vector<bool> find_reached(const InstanceCache& cache) {
+    std::vector<bool> reached(cache.slots.size());
+    std::vector<std::uint32_t> pending;
+    if (!cache.slots.empty()) {
+        reached[0] = true;
+        pending.push_back(0);
+    }
+    while (!pending.empty()) {
+        const InstanceSlot& slot = cache.slots[pending.back()];
+        pending.pop_back();
+        for (std::uint32_t v = 0; v < slot.variant_count; ++v) {
+            const Instance& instance = cache.instances[cache.variants[slot.first_variant + v]];
+            for (std::uint32_t e = 0; e < instance.exit_count; ++e) {
+                const std::uint32_t next = cache.exits[instance.first_exit + e].slot;
+                if (!reached[next]) {
+                    reached[next] = true;
+                    pending.push_back(next);
+                }
+            }
+        }
+    }
+    return reached;
+}
+
+/// Whether an instance draws a segment that begins at its entry, where its parent ends.
+bool draws_at_entry(const InstanceCache& cache, const Instance& instance) {
+    for (std::uint32_t r = 0; r < instance.range_count; ++r) {
+        const DrawnRange& range = cache.ranges[instance.first_range + r];
+        const std::uint32_t first = cache.ranges[instance.first_range].begin.segments;
+        for (std::uint32_t i = range.begin.segments; i < range.end.segments; ++i) {
+            const Segment& segment = cache.skeleton.segments[i];
+            if (segment.parent < first || segment.parent == kNoSegment) {
+                if (segment.linked) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
+/// For each slot: whether what stands for it begins with a segment, its own or that of an instance
+/// at one of its exits.
+std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
+    std::vector<bool> begins(cache.slots.size());
+    // Exits at an entry are few, and hang together in chains as long as brackets are deep.
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (std::size_t s = 0; s < cache.slots.size(); ++s) {
+            const InstanceSlot& slot = cache.slots[s];
+            if (begins[s] || slot.variant_count == 0) {
+                continue;
+            }
+            const Instance& instance = cache.instances[cache.variants[slot.first_variant]];
+            bool found = draws_at_entry(cache, instance);
+            for (std::uint32_t e = 0; e < instance.exit_count && !found; ++e) {
+                const InstanceExit& exit = cache.exits[instance.first_exit + e];
+                found = begins[exit.slot] && exit.position == glm::vec3(0.0F);
+            }
+            begins[s] = found;
+            changed = changed || found;
+        }
+    }
+    return begins;
+}
+
+/// The heroes' skeleton with its forks, in which every object and polygon has a number of its own
+/// for a parent: what was drawn is numbered segments first, then polygons, then objects.
+Skeleton number_what_was_drawn(const InstanceCache& cache) {
+    Skeleton skeleton = cache.skeleton;
+    const std::vector<bool> begins = find_slots_with_segments(cache);
+    for (const InstanceFork& fork : cache.forks) {
+        skeleton.segments[fork.segment].forked =
+            skeleton.segments[fork.segment].forked || begins[fork.slot];
+    }
+    auto number = static_cast<std::uint32_t>(skeleton.segments.size());
+    for (Polygon& polygon : skeleton.polygons) {
+        polygon.parent = number++;
+    }
+    for (PlacedObject& object : skeleton.objects) {
+        object.parent = number++;
+    }
+    return skeleton;
+}
+
+/// The triangles of each thing drawn, in the order of the mesh.
+struct Owners {
+    LargeVector<std::uint32_t> first; // of each thing; at its end, the number of triangles
+    LargeVector<std::uint32_t> triangles;
+};
+
+Owners find_owners(const Mesh& mesh, std::span<const std::uint32_t> indices, std::uint64_t things) {
+    const std::uint64_t count = indices.size() / 3;
+    const auto owner = [&](std::uint64_t triangle) {
+        const std::uint32_t thing = mesh.segments[indices[3 * triangle]][0];
+        LSYS_CHECK(thing < things, thing, things);
+        return thing;
+    };
+    Owners owners;
+    owners.first.assign(things + 1, 0);
+    owners.triangles.resize(count);
+    for (std::uint64_t t = 0; t < count; ++t) {
+        ++owners.first[owner(t)];
+    }
+    std::uint32_t sum = 0;
+    for (std::uint32_t& first : owners.first) {
+        sum += std::exchange(first, sum);
+    }
+    for (std::uint64_t t = 0; t < count; ++t) {
+        owners.triangles[owners.first[owner(t)]++] = static_cast<std::uint32_t>(t);
+    }
+    for (std::uint64_t i = things; i > 0; --i) { // back to where they began
+        owners.first[i] = owners.first[i - 1];
+    }
+    owners.first[0] = 0;
+    return owners;
+}
+
+class ListWriter {
+public:
+    ListWriter(const InstanceCache& cache, const Mesh& mesh)
+        : cache_(cache), mesh_(mesh), indices_(mesh.indices.expanded()),
+          segments_(cache.skeleton.segments.size()), polygons_(cache.skeleton.polygons.size()),
+          owners_(
+              find_owners(mesh, indices_, segments_ + polygons_ + cache.skeleton.objects.size())) {}
+
+    /// Indices of an instance by part of the mesh.
+    void count(const Instance& instance, std::span<std::uint64_t> counts) const {
+        visit(instance, [&](std::size_t part, std::uint32_t) { counts[part] += 3; });
+    }
+    /// `at`: where the indices of each part go on.
+    void write(const Instance& instance,
+               std::span<std::uint64_t> at,
+               LargeVector<std::uint32_t>& indices) const {
+        visit(instance, [&](std::size_t part, std::uint32_t triangle) {
+            const auto from =
+                indices_.begin() + static_cast<std::ptrdiff_t>(std::uint64_t{3} * triangle);
+            std::copy(from, from + 3, indices.begin() + static_cast<std::ptrdiff_t>(at[part]));
+            at[part] += 3;
+        });
+    }
+
+private:
+    template <typename Visit>
+    void visit(const Instance& instance, const Visit& visit) const {
+        for (std::uint32_t r = 0; r < instance.range_count; ++r) {
+            const DrawnRange& range = cache_.ranges[instance.first_range + r];
+            visit_run(range.begin.segments, range.end.segments, visit);
+            visit_run(segments_ + range.begin.polygons, segments_ + range.end.polygons, visit);
+            visit_run(segments_ + polygons_ + range.begin.objects,
+                      segments_ + polygons_ + range.end.objects, visit);
+        }
+    }
+    template <typename Visit>
+    void visit_run(std::uint64_t begin, std::uint64_t end, const Visit& visit) const {
+        std::size_t part = 0;
+        for (std::uint64_t thing = begin; thing < end; ++thing) {
+            for (std::uint32_t i = owners_.first[thing]; i < owners_.first[thing + 1]; ++i) {
+                const std::uint64_t index = std::uint64_t{3} * owners_.triangles[i];
+                part = index < mesh_.parts[part].first_index ? 0 : part;
+                while (index >= mesh_.parts[part].first_index + mesh_.parts[part].index_count) {
+                    ++part;
+                }
+                visit(part, owners_.triangles[i]);
+            }
+        }
+    }
+
+    const InstanceCache& cache_;
+    const Mesh& mesh_;
+    LargeVector<std::uint32_t> indices_; // of the mesh
+    std::uint64_t segments_;
+    std::uint64_t polygons_;
+    Owners owners_;
+};
+
+/// Lists the instances' triangles in place of the heroes'.
+InstanceMeshStatus
+list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceMeshes& meshes) {
+    Mesh& mesh = meshes.mesh;
+    if (mesh.indices.size() / 3 > kMost) {
+        return InstanceMeshStatus::TooManyVertices;
+    }
+    const ListWriter lists(cache, mesh);
+    mesh.segments = {};
+    const std::vector<bool> reached = find_reached(cache);
+    const std::size_t heroes_parts = mesh.parts.size();
+    Workers workers(options.threads);
+    const auto for_each_reached = [&](const auto& visit) {
+        const std::uint64_t pieces =
+            (cache.instances.size() + kInstancesOfPiece - 1) / kInstancesOfPiece;
+        workers.for_each(pieces, [&](std::uint64_t piece) {
+            const std::uint64_t end =
+                std::min<std::uint64_t>((piece + 1) * kInstancesOfPiece, cache.instances.size());
+            for (std::uint64_t i = piece * kInstancesOfPiece; i < end; ++i) {
+                if (reached[cache.instances[i].slot]) {
+                    visit(i, cache.instances[i]);
+                }
+            }
+        });
+    };
+    LargeVector<std::uint64_t> places;
+    places.assign(cache.instances.size() * heroes_parts, 0);
+    const auto places_of = [&](std::uint64_t instance) {
+        return std::span(places).subspan(instance * heroes_parts, heroes_parts);
+    };
+    for_each_reached(
+        [&](std::uint64_t i, const Instance& instance) { lists.count(instance, places_of(i)); });
+
+    std::vector<MeshPart> parts;
+    std::uint64_t indices = 0;
+    for (std::uint64_t i = 0; i < cache.instances.size(); ++i) {
+        meshes.first_part.push_back(static_cast<std::uint32_t>(parts.size()));
+        const std::span<std::uint64_t> of_instance = places_of(i);
+        for (std::size_t part = 0; part < heroes_parts; ++part) {
+            if (of_instance[part] > 0) {
+                parts.push_back({mesh.parts[part].material, indices, of_instance[part]});
+            }
+            indices += std::exchange(of_instance[part], indices);
+        }
+    }
+    meshes.first_part.push_back(static_cast<std::uint32_t>(parts.size()));
+    if (parts.size() > kMost) {
+        return InstanceMeshStatus::TooManyVertices;
+    }
+    const std::uint64_t vertex_bytes = mesh.byte_count() - mesh.indices.byte_count();
+    if (indices > options.max_bytes / sizeof(std::uint32_t) ||
+        vertex_bytes + indices * sizeof(std::uint32_t) > options.max_bytes) {
+        return InstanceMeshStatus::Limit;
+    }
+    LargeVector<std::uint32_t> listed;
+    listed.resize(indices);
+    for_each_reached([&](std::uint64_t i, const Instance& instance) {
+        lists.write(instance, places_of(i), listed);
+    });
+    mesh.indices = std::move(listed);
+    mesh.parts = std::move(parts);
+    return InstanceMeshStatus::Ok;
+}
+
+InstanceMeshStatus build(const InstanceCache& cache,
+                         const std::vector<UserMesh>& user_meshes,
+                         MeshOptions options,
+                         InstanceMeshes& meshes) {
+    if (options.method == MeshMethod::Boxes) {
+        return InstanceMeshStatus::Joined;
+    }
+    const Skeleton& heroes = cache.skeleton;
+    if (std::uint64_t{heroes.segments.size()} + heroes.objects.size() + heroes.polygons.size() >
+        kMost) {
+        return InstanceMeshStatus::TooManyVertices;
+    }
+    options.segments = true;
+    switch (make_mesh(number_what_was_drawn(cache), user_meshes, options, meshes.mesh)) {
+    case MeshStatus::Ok:
+        return list_instances(cache, options, meshes);
+    case MeshStatus::TooManyVertices:
+        return InstanceMeshStatus::TooManyVertices;
+    case MeshStatus::Limit:
+        return InstanceMeshStatus::Limit;
+    case MeshStatus::OutOfMemory:
+        break;
+    }
+    return InstanceMeshStatus::OutOfMemory;
+}
+
+} // namespace
+
+InstanceMeshStatus make_instance_meshes(const InstanceCache& cache,
+                                        const std::vector<UserMesh>& user_meshes,
+                                        const MeshOptions& options,
+                                        InstanceMeshes& meshes) {
+    meshes = {};
+    InstanceMeshStatus status = InstanceMeshStatus::OutOfMemory;
+    try {
+        status = build(cache, user_meshes, options, meshes);
+    } catch (const std::bad_alloc&) {
+        status = InstanceMeshStatus::OutOfMemory;
+    } catch (const std::length_error&) {
+        status = InstanceMeshStatus::OutOfMemory;
+    }
+    if (status != InstanceMeshStatus::Ok) {
+        meshes = {};
+    }
+    return status;
+}
+
+InstancePose pose_of(const BranchInstance& branch, const Instance& instance) {
+    const glm::dquat rotation =
+        glm::normalize(glm::dquat(branch.rotation) * glm::conjugate(instance.frame));
+    InstancePose pose;
+    pose.rotation = glm::quat(rotation);
+    pose.translation = glm::vec3(glm::dvec3(branch.position) - static_cast<double>(branch.scale) *
+                                                                   (rotation * instance.position));
+    pose.scale = branch.scale;
+    return pose;
+}
+
+} // namespace lsys

@@ -1,0 +1,120 @@
+#include "runtime/meshing/impl/axes.h"
+
+#include "runtime/base/workers.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::size_t kRange = std::size_t{1} << 16; // segments
+
+float straightness(const Segment& a, const Segment& b) {
+    return glm::dot(direction(a.frame), direction(b.frame));
+}
+
+/// Lets `child` continue its parent, which joins it, if none does so better.
+void follow(const Skeleton& skeleton, std::uint32_t child, LargeVector<std::uint32_t>& nexts) {
+    const Segment& segment = skeleton.segments[child];
+    const Segment& parent = skeleton.segments[segment.parent];
+    std::uint32_t& next = nexts[segment.parent];
+    if (parent.order != segment.order) {
+        next = next == kNoSegment ? kForked : next;
+    } else if (next >= kForked ||
+               straightness(parent, segment) > straightness(parent, skeleton.segments[next])) {
+        next = child;
+    }
+}
+
+/// A range of segments. What continues a segment of an earlier range waits until all are done, so
+/// that the children of each come in their order.
+class Range {
+public:
+    Range(std::size_t begin, std::size_t end) : begin_(begin), end_(end) {}
+
+    void find(const Skeleton& skeleton, LargeVector<std::uint32_t>& nexts) {
+        std::uint32_t last_colour = ~std::uint32_t{0};
+        for (auto i = static_cast<std::uint32_t>(begin_); i < end_; ++i) {
+            const Segment& segment = skeleton.segments[i];
+            nexts[i] = segment.forked ? kForked : kNoSegment;
+            if (segment.colour != last_colour) {
+                last_colour = segment.colour;
+                add_colour(segment.colour);
+            }
+            if (segment.parent >= i || !joins(skeleton.segments[segment.parent], segment)) {
+                continue;
+            }
+            if (segment.parent < begin_) {
+                late_.push_back(i);
+            } else {
+                follow(skeleton, i, nexts);
+            }
+        }
+    }
+
+    [[nodiscard]] const std::vector<std::uint32_t>& late() const { return late_; }
+    /// Those that segments have.
+    [[nodiscard]] const std::vector<std::uint16_t>& colours() const { return colours_; }
+
+private:
+    void add_colour(std::uint16_t colour) {
+        used_.resize(std::max(used_.size(), colour + std::size_t{1}));
+        if (!used_[colour]) {
+            used_[colour] = true;
+            colours_.push_back(colour);
+        }
+    }
+
+    std::size_t begin_;
+    std::size_t end_;
+    std::vector<std::uint32_t> late_;
+    std::vector<std::uint16_t> colours_;
+    std::vector<bool> used_; // of colours
+};
+
+} // namespace
+
+bool joins(const Segment& parent, const Segment& child) {
+    if (!child.linked) {
+        return false;
+    }
+    const glm::vec3 end = parent.base + parent.length * direction(parent.frame);
+    const glm::vec3 gap = glm::abs(end - child.base);
+    const glm::vec3 place = glm::abs(child.base);
+    const float far = std::max(std::max(place.x, place.y), place.z);
+    return std::max(std::max(gap.x, gap.y), gap.z) <=
+           1e-2F * (parent.length + child.base_radius) + 1e-5F * far;
+}
+
+Axes find_axes(const Skeleton& skeleton, Workers& workers) {
+    const std::size_t segments = skeleton.segments.size();
+    Axes axes;
+    axes.next.resize(segments);
+    std::vector<Range> ranges;
+    for (std::size_t begin = 0; begin < segments; begin += kRange) {
+        ranges.emplace_back(begin, std::min(begin + kRange, segments));
+    }
+    for_each_piece(workers, ranges.size(),
+                   [&](std::uint64_t i) { ranges[i].find(skeleton, axes.next); });
+    std::vector<bool> used(std::size_t{1} << 16);
+    for (const Range& range : ranges) {
+        for (const std::uint32_t child : range.late()) {
+            follow(skeleton, child, axes.next);
+        }
+        for (const std::uint16_t colour : range.colours()) {
+            used[colour] = true;
+        }
+    }
+    for (std::uint32_t colour = 0; colour < used.size(); ++colour) {
+        if (used[colour]) {
+            axes.colours.push_back(static_cast<std::uint16_t>(colour));
+        }
+    }
+    return axes;
+}
+
+} // namespace lsys

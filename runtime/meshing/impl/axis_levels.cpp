@@ -1,0 +1,75 @@
+#include "runtime/meshing/impl/axis_levels.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lsys {
+
+namespace {
+
+// Joints that one edge may stand for: keeps the search linear.
+constexpr std::size_t kMostLeftOut = 32;
+
+/// Whether the edge from joint `first` to joint `last` may stand for those between.
+bool stands_for(const LargeVector<Joint>& joints,
+                std::size_t first,
+                std::size_t last,
+                float tolerance) {
+    double whole = 0.0;
+    for (std::size_t k = first; k < last; ++k) {
+        whole += static_cast<double>(joints[k].length);
+    }
+    const Joint& a = joints[first];
+    const Joint& b = joints[last];
+    double length = 0.0;
+    for (std::size_t k = first + 1; k < last; ++k) {
+        length += static_cast<double>(joints[k - 1].length);
+        const Joint& joint = joints[k];
+        const float part = static_cast<float>(length / whole);
+        const float bound = tolerance * joint.radius;
+        const glm::vec3 off = joint.centre - (a.centre + part * (b.centre - a.centre));
+        const float thicker = joint.radius - (a.radius + part * (b.radius - a.radius));
+        // Compared by coordinate: squares of what is huge are infinite.
+        if (!(std::max({std::abs(off.x), std::abs(off.y), std::abs(off.z), std::abs(thicker)}) <=
+              bound) ||
+            joint.colour != a.colour || joint.sides != a.sides) {
+            return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+void aim(Joint& from, const glm::vec3& to) {
+    const glm::dvec3 way = glm::dvec3(to) - glm::dvec3(from.centre);
+    const double length = glm::length(way);
+    from.heading = glm::vec3(way / length);
+    from.length = static_cast<float>(
+        std::min(length, static_cast<double>(std::numeric_limits<float>::max())));
+}
+
+void leave_out_joints(LargeVector<Joint>& joints, LargeVector<Joint>& spare, float tolerance) {
+    spare.clear();
+    std::size_t first = 0;
+    while (first + 1 < joints.size()) {
+        spare.push_back(joints[first]);
+        std::size_t last = first + 1;
+        while (last + 1 < joints.size() && last + 1 - first <= kMostLeftOut &&
+               stands_for(joints, first, last + 1, tolerance)) {
+            ++last;
+        }
+        if (last > first + 1) {
+            aim(spare.back(), joints[last].centre);
+        }
+        first = last;
+    }
+    spare.push_back(joints.back());
+    spare.back().heading = spare[spare.size() - 2].heading;
+    joints.swap(spare);
+}
+
+} // namespace lsys

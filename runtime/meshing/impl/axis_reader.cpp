@@ -1,0 +1,384 @@
+#include "runtime/meshing/impl/axis_reader.h"
+
+#include "runtime/meshing/impl/axis_levels.h"
+#include "runtime/meshing/impl/directions.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsys {
+
+namespace {
+
+// What lies nearer than this part of its coordinates is one point, in floats.
+constexpr float kResolution = 4e-6F;
+// A radius below this part of the coordinates is none; one that is larger is at least so large that
+// corners are apart.
+constexpr float kNoRadius = 1e-8F;
+constexpr float kRadiusOfSide = 4e-7F;
+// A ring is at least this part of what is around it, so that its triangles have an area.
+constexpr float kThinnest = 1e-9F;
+constexpr float kLeastRadius = 1e-36F;
+constexpr float kGreatestRadius = 1e36F;
+constexpr std::uint32_t kMostLevels = 8;
+// Part of the parent's inner radius that the hidden ring of a branch may fill.
+constexpr float kHidden = 0.9F;
+constexpr float kThickestBranch = 1.5F; // in radii of the parent; above, the base is closed
+constexpr float kCollarSlope = 0.13F;
+constexpr float kLeastSine = 0.5F;      // of the angle of a branch, that a collar allows for
+constexpr float kMostOfEdge = 0.7F;     // that a collar may take
+constexpr float kMostParts = 16.0F;     // of an edge that is cut for noise
+constexpr std::size_t kExtraJoints = 2; // of a run: a collar and the tip
+
+float greatest_coordinate(const glm::vec3& v) {
+    return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
+}
+
+/// The radius as it can be drawn around `centre`; 0 if it cannot.
+float drawn_radius(float radius, const glm::vec3& centre, std::uint32_t sides) {
+    const float far = greatest_coordinate(centre);
+    if (!(radius > std::max(kNoRadius * far, kLeastRadius))) {
+        return 0.0F;
+    }
+    return std::min(std::max(radius, kRadiusOfSide * static_cast<float>(sides) * far),
+                    kGreatestRadius);
+}
+
+bool thick_beside(float radius, const Joint& before, float length) {
+    return radius >= kThinnest * std::max(std::max(before.radius, before.length), length);
+}
+
+/// One at a joint that bends by at most 60 degrees, two by at most 120, else three.
+std::uint8_t rings_of_bend(const glm::vec3& before, const glm::vec3& after) {
+    const float cosine = glm::dot(before, after);
+    return cosine >= 0.5F ? 1 : cosine >= -0.5F ? 2 : 3;
+}
+
+bool coincide(const glm::vec3& a, const glm::vec3& b, float radius) {
+    return !(greatest_coordinate(b - a) > kResolution * (greatest_coordinate(a) + radius));
+}
+
+/// An odd number near `sides`. The width of a polygon varies with the view by 1 / cos(pi / 2n) for
+/// odd n and by 1 / cos(pi / n) for even n: five sides are nearer to round than eight, three than
+/// six.
+std::uint32_t fewer_sides(std::uint32_t sides) {
+    return sides <= 3 ? 3 : sides == 4 ? 5 : (sides - 1) | 1U;
+}
+
+/// Both lines of the cache that it may lie in.
+void prefetch(const Segment& segment) {
+    __builtin_prefetch(&segment);
+    __builtin_prefetch(&segment.forked);
+}
+
+} // namespace
+
+AxisReader::AxisReader(const Skeleton& skeleton, const Axes& axes, const MeshOptions& options)
+    : skeleton_(skeleton), axes_(axes), options_(options) {
+    const std::uint32_t level = std::min(options.level, kMostLevels);
+    if (options.deviation > 0.0F) {
+        counts_.emplace(options.deviation);
+    }
+    for (std::uint32_t i = 0; i < sides_.size(); ++i) {
+        const std::uint32_t whole = usable_sides(options.sides != 0 ? options.sides : i);
+        const std::uint32_t fewer = level == 0 ? whole : fewer_sides(whole >> level);
+        sides_[i] = static_cast<std::uint8_t>(counts_ ? whole : fewer);
+        widening_[i] = counts_ ? 1.0F : widening(whole, fewer);
+        most_sides_[whole] = static_cast<std::uint8_t>(fewer);
+    }
+}
+
+void AxisReader::start(std::uint32_t first_segment) {
+    segment_ = first_segment;
+    attached_ = true;
+    std::size_t segments = 0;
+    for (std::uint32_t at = first_segment; at < kForked; at = axes_.next[at]) {
+        ++segments;
+    }
+    joints_.clear();
+    if (const std::size_t joints = segments + kExtraJoints; joints > joints_.capacity()) {
+        // At once: growing would take as much fresh memory again.
+        joints_.reserve(std::max(joints, 2 * joints_.capacity()));
+    }
+}
+
+bool AxisReader::next(Run& run) {
+    while (segment_ < kForked) {
+        if (read(run)) {
+            return true;
+        }
+        attached_ = false;
+    }
+    return false;
+}
+
+/// Reads joints up to where nothing is drawn or the axis ends. False: there are none.
+bool AxisReader::read(Run& run) {
+    joints_.clear();
+    stale_ = false;
+    plain_ = true;
+    flare_ = {};
+    const Segment* last = nullptr;
+    bool pointed = false;
+    std::uint32_t at = segment_;
+    for (std::uint32_t after = 0; at < kForked; at = after) {
+        after = axes_.next[at];
+        if (after < kForked) {
+            prefetch(skeleton_.segments[after]); // what branches off lies between
+        }
+        const Segment& segment = skeleton_.segments[at];
+        if (!(segment.length > 0.0F)) {
+            continue;
+        }
+        const float wider = widening_[segment.sides];
+        const float radius =
+            drawn_radius(segment.base_radius * wider, segment.base, sides_of(segment));
+        const bool draws = radius > 0.0F || drawn_radius(segment.tip_radius * wider, segment.base,
+                                                         sides_of(segment)) > 0.0F;
+        pointed = last != nullptr && radius == 0.0F;
+        if (pointed || (last != nullptr && !draws)) {
+            pointed = draws;
+            break;
+        }
+        if (!draws) {
+            attached_ = false;
+            continue;
+        }
+        if (last == nullptr) {
+            run.first_segment = at;
+        }
+        add(segment, radius);
+        last = &segment;
+    }
+    segment_ = at;
+    if (last == nullptr) {
+        return false;
+    }
+    const glm::vec3 end = tip(*last);
+    const float end_radius =
+        pointed ? 0.0F
+                : drawn_radius(last->tip_radius * widening_[last->sides], end, sides_of(*last));
+    if (!add_end(end, end_radius)) {
+        return false;
+    }
+    run.side = side_of(skeleton_, run.first_segment);
+    run.end = joints_.back().radius == 0.0F ? TubeEnd::Point
+              : at == kForked               ? TubeEnd::Ball
+                                            : TubeEnd::Blunt;
+    const bool open = attached_ && begins_in_parent(run);
+    run.begin = joints_.front().radius == 0.0F ? TubeEnd::Point
+                : open                         ? TubeEnd::Open
+                                               : TubeEnd::Flat;
+    attached_ = false;
+    if (options_.level > 0) {
+        const float tolerance =
+            std::min(0.05F * static_cast<float>(1U << std::min(options_.level, kMostLevels)), 0.5F);
+        leave_out_joints(joints_, spare_, tolerance);
+    }
+    if (options_.bark_noise > 0.0F) {
+        subdivide();
+    }
+    if (counts_) {
+        fit_sides();
+        joints_.front().radius =
+            open ? std::min(joints_.front().radius, hidden_) : joints_.front().radius;
+        run.radii = radii_;
+    }
+    if (!plain_ || counts_ || options_.level > 0 || options_.bark_noise > 0.0F) {
+        set_rings();
+    }
+    run.joints = joints_;
+    return true;
+}
+
+void AxisReader::add(const Segment& segment, float radius) {
+    glm::vec3 centre = segment.base;
+    if (!joints_.empty()) {
+        Joint& before = joints_.back();
+        if (coincide(before.centre, centre, radius)) {
+            centre = before.centre;
+            joints_.pop_back();
+            stale_ = true;
+            plain_ = false;
+        } else if (stale_) {
+            aim(before, centre);
+            stale_ = false;
+        }
+    }
+    // In place: a joint made elsewhere is copied while its parts are still on their way.
+    Joint& joint = joints_.emplace_back();
+    joint.centre = centre;
+    joint.radius = radius;
+    joint.heading = direction(segment.frame);
+    joint.length = segment.length;
+    joint.colour = segment.colour;
+    joint.sides = sides_of(segment);
+    if (joints_.size() > 1) {
+        const Joint& before = joints_[joints_.size() - 2];
+        joint.rings = rings_of_bend(before.heading, joint.heading);
+        plain_ = plain_ && thick_beside(radius, before, joint.length) &&
+                 before.radius >= kThinnest * radius;
+    }
+}
+
+/// False: nothing is long or thick enough to be drawn.
+bool AxisReader::add_end(const glm::vec3& centre, float radius) {
+    while (joints_.size() > 1 && coincide(joints_.back().centre, centre, joints_.back().radius)) {
+        joints_.pop_back();
+        stale_ = true;
+        plain_ = false;
+    }
+    Joint& before = joints_.back();
+    if (coincide(before.centre, centre, std::max(before.radius, radius)) ||
+        (joints_.size() == 1 && before.radius == 0.0F && radius == 0.0F)) {
+        return false;
+    }
+    if (stale_) {
+        aim(before, centre);
+    }
+    Joint end = before;
+    end.centre = centre;
+    end.radius = radius;
+    end.length = 0.0F;
+    end.rings = 1;
+    plain_ = plain_ && (radius == 0.0F || thick_beside(radius, before, 0.0F)) &&
+             before.radius >= kThinnest * std::max(radius, before.length);
+    joints_.push_back(end);
+    if (joints_.front().radius == 0.0F) { // a pointed end has the sides of the ring beside it
+        joints_.front().sides = joints_[1].sides;
+    }
+    return true;
+}
+
+/// Whether the base lies within the tube that the axis branches from, and if so, fits it in.
+bool AxisReader::begins_in_parent(Run& run) {
+    const Segment& child = skeleton_.segments[run.first_segment];
+    if (child.parent >= run.first_segment) {
+        return false;
+    }
+    const Segment& parent = skeleton_.segments[child.parent];
+    if (!joins(parent, child)) {
+        return false;
+    }
+    const std::uint32_t after = axes_.next[child.parent];
+    float radius = widening_[parent.sides] *
+                   (after < kForked ? skeleton_.segments[after].base_radius : parent.tip_radius);
+    std::uint32_t sides = sides_of(parent);
+    if (counts_) {
+        sides = counts_->at(radius, most_sides_[sides_of(parent)]);
+        radius *= counts_->widening(sides_of(parent), sides);
+    }
+    const float hidden = kHidden * inner_radius(sides) * radius;
+    Joint& base = joints_.front();
+    if (!(parent.length > 0.0F) || base.radius > kThickestBranch * radius ||
+        drawn_radius(hidden, base.centre, base.sides) == 0.0F) {
+        return false;
+    }
+    if (options_.level == 0) {
+        add_collar(parent, radius);
+    }
+    joints_.front().radius = std::min(joints_.front().radius, hidden);
+    hidden_ = hidden;
+    flare_[0] = std::min(flare_[0], hidden);
+    return true;
+}
+
+/// A branch is wider where it leaves its parent: a ring more makes a cone of its first piece.
+void AxisReader::add_collar(const Segment& parent, float parent_radius) {
+    Joint& base = joints_[0];
+    const float cosine = glm::dot(heading(parent.frame), base.heading);
+    const float sine = std::sqrt(std::max(1.0F - cosine * cosine, kLeastSine * kLeastSine));
+    const float reach = parent_radius / sine + 1.5F * base.radius;
+    if (!(reach < kMostOfEdge * base.length) || base.radius == 0.0F ||
+        coincide(base.centre, base.centre + reach * base.heading, base.radius)) {
+        return;
+    }
+    if (counts_ && !(options_.bark_noise > 0.0F)) {
+        // A plant that bends keeps its numbers of sides: they are those of the longest collar.
+        const float longest = parent_radius / kLeastSine + 1.5F * base.radius;
+        const float widest = std::max(joints_[1].radius - base.radius, 0.0F);
+        flare_ = {base.radius + kCollarSlope * longest,
+                  base.radius + widest * std::min(longest / base.length, 1.0F)};
+    }
+    Joint collar = base;
+    collar.centre = base.centre + reach * base.heading;
+    collar.radius += (joints_[1].radius - base.radius) * (reach / base.length);
+    collar.length = base.length - reach;
+    base.length = reach;
+    base.radius += kCollarSlope * reach;
+    joints_.insert(joints_.begin() + 1, collar);
+}
+
+/// Cuts edges into pieces about as long as the tube is thick, so that noise has rings to move.
+void AxisReader::subdivide() {
+    spare_.clear();
+    for (std::size_t i = 0; i + 1 < joints_.size(); ++i) {
+        const Joint& from = joints_[i];
+        const Joint& to = joints_[i + 1];
+        const float thickness = std::max(from.radius, to.radius) *
+                                static_cast<float>(1U << std::min(options_.level, kMostLevels));
+        const float parts =
+            std::clamp(std::ceil(from.length / (2.0F * thickness)), 1.0F, kMostParts);
+        const float piece = from.length / parts;
+        for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(parts); ++k) {
+            Joint joint = from;
+            const float share = static_cast<float>(k) / parts;
+            joint.centre = from.centre + share * (to.centre - from.centre);
+            joint.radius = from.radius + share * (to.radius - from.radius);
+            joint.length = piece;
+            if (k > 0 && (coincide(spare_.back().centre, joint.centre, joint.radius) ||
+                          coincide(joint.centre, to.centre, joint.radius) ||
+                          drawn_radius(joint.radius, joint.centre, joint.sides) == 0.0F)) {
+                spare_.back().length += piece;
+                continue;
+            }
+            spare_.push_back(joint);
+        }
+    }
+    spare_.push_back(joints_.back());
+    joints_.swap(spare_);
+}
+
+/// Sides by radius, for joints that have all that they can have.
+void AxisReader::fit_sides() {
+    radii_.clear();
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+        Joint& joint = joints_[i];
+        radii_.push_back(joint.radius);
+        const bool flares = i < flare_.size() && flare_[i] > 0.0F;
+        const std::uint32_t sides =
+            counts_->at(flares ? flare_[i] : joint.radius, most_sides_[joint.sides]);
+        joint.radius =
+            std::min(joint.radius * counts_->widening(joint.sides, sides), kGreatestRadius);
+        joint.sides = static_cast<std::uint8_t>(sides);
+    }
+    // A pointed end has the sides of the ring beside it.
+    if (joints_.front().radius == 0.0F) {
+        joints_.front().sides = joints_[1].sides;
+    }
+    if (joints_.back().radius == 0.0F) {
+        joints_.back().sides = joints_[joints_.size() - 2].sides;
+    }
+}
+
+/// For joints that are not plain: how they bend, and none too thin for its neighbours.
+void AxisReader::set_rings() {
+    const std::size_t last = joints_.size() - 1;
+    for (std::size_t i = 0; i <= last; ++i) {
+        Joint& joint = joints_[i];
+        const Joint& before = joints_[i == 0 ? 0 : i - 1];
+        const Joint& after = joints_[i == last ? i : i + 1];
+        joint.rings =
+            i == 0 || i == last ? std::uint8_t{1} : rings_of_bend(before.heading, joint.heading);
+        if (joint.radius > 0.0F) {
+            const float around = std::max(std::max(before.length, joint.length),
+                                          std::max(before.radius, after.radius));
+            joint.radius = std::max(joint.radius, std::min(kThinnest * around, kGreatestRadius));
+        }
+    }
+}
+
+} // namespace lsys

@@ -1,0 +1,253 @@
+#include "runtime/meshing/impl/box_writer.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+// Signs of right and up at the corners of a square.
+constexpr std::array<glm::vec2, 4> kCorners{{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
+// There and back around a branch, so that there is no seam.
+constexpr std::array<float, 4> kAround{0.0F, 0.5F, 1.0F, 0.5F};
+// How much of a side the parts take that it is divided into.
+constexpr float kInner = 0.85F;
+
+/// `v`, turned the shortest way that turns unit vector `from` into unit vector `to`.
+glm::vec3 transported(const glm::vec3& v, const glm::vec3& from, const glm::vec3& to) {
+    const glm::vec3 axis = glm::cross(from, to);
+    const float cosine = glm::dot(from, to);
+    if (cosine < -0.9999F) {
+        return v;
+    }
+    return cosine * v + glm::cross(axis, v) + axis * (glm::dot(axis, v) / (1.0F + cosine));
+}
+
+/// Unit vectors across `normal`, of which the first is nearest to `right`.
+void set_axes(BoxSocket& socket, const glm::vec3& right, const glm::vec3& normal) {
+    socket.normal = normal;
+    socket.right = glm::normalize(right - glm::dot(right, normal) * normal);
+    socket.up = glm::cross(normal, socket.right);
+}
+
+} // namespace
+
+std::uint32_t BoxWriter::add_vertex(const glm::vec3& position, float u, float v) {
+    mesh_.positions.push_back(position);
+    mesh_.texture_coordinates.emplace_back(u, v);
+    return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
+}
+
+void BoxWriter::add_face(std::span<const std::uint32_t> corners) {
+    mesh_.corners.insert(mesh_.corners.end(), corners.begin(), corners.end());
+    mesh_.face_ends.push_back(static_cast<std::uint32_t>(mesh_.corners.size()));
+    mesh_.colours.push_back(segment_->colour);
+    mesh_.segments.push_back(number_);
+}
+
+void BoxWriter::begin_segment(const Segment& segment, std::uint32_t number, float half) {
+    segment_ = &segment;
+    number_ = number;
+    distance_ = 0.0F;
+    // The picture goes half around, and is as high as it is wide.
+    v_per_length_ = 1.0F / (4.0F * half);
+}
+
+void BoxWriter::place_ring(float distance,
+                           const glm::vec3& direction,
+                           float half,
+                           BoxSocket& ring) {
+    const glm::vec3 centre = segment_->base + distance * heading(segment_->frame);
+    ring.between = BoxSocket{}.between;
+    ring.reach = 0.0F;
+    ring.v = end_.v - (distance - distance_) * v_per_length_;
+    for (std::size_t i = 0; i < 4; ++i) {
+        ring.corners[i] =
+            add_vertex(centre + half * (kCorners[i].x * ring.right + kCorners[i].y * ring.up),
+                       kAround[i], ring.v);
+    }
+    ring.normal = direction;
+}
+
+void BoxWriter::begin_root(float half) {
+    end_ = {};
+    const glm::vec3 along = heading(segment_->frame);
+    set_axes(end_, segment_->frame * glm::vec3(1.0F, 0.0F, 0.0F), along);
+    place_ring(0.0F, along, half, end_);
+    add_face(std::array{end_.corners[3], end_.corners[2], end_.corners[1], end_.corners[0]});
+}
+
+void BoxWriter::begin_at(const BoxSocket& socket) {
+    end_ = socket;
+    distance_ = socket.reach;
+}
+
+void BoxWriter::add_ring(float distance, const glm::vec3& direction, float half) {
+    BoxSocket ring;
+    const glm::vec3 across = glm::normalize(direction);
+    set_axes(ring, transported(end_.right, end_.normal, across), across);
+    place_ring(distance, across, half, ring);
+    join(end_, ring);
+    end_ = ring;
+    distance_ = distance;
+}
+
+/// Faces between two rings, each with the corner at its start that sees all of it.
+void BoxWriter::join(const BoxSocket& from, const BoxSocket& to) {
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t j = (i + 1) % 4;
+        if (from.between[i] == BoxSocket::kNone) {
+            add_face(std::array{to.corners[i], from.corners[i], from.corners[j], to.corners[j]});
+        } else {
+            add_face(std::array{to.corners[i], from.corners[i], from.between[i], from.corners[j],
+                                to.corners[j]});
+        }
+    }
+}
+
+BoxJoint BoxWriter::add_joint(float distance, const glm::vec3& direction, float half) {
+    BoxJoint joint;
+    BoxSocket& top = joint.sides[4];
+    set_axes(top, transported(end_.right, end_.normal, direction), direction);
+    place_ring(distance, direction, half, top);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t j = (i + 1) % 4;
+        BoxSocket& side = joint.sides[i];
+        side.corners = {end_.corners[i], end_.corners[j], top.corners[j], top.corners[i]};
+        const glm::vec2 out = 0.5F * (kCorners[i] + kCorners[j]);
+        side.normal = out.x * top.right + out.y * top.up;
+        side.up = -direction;
+        side.right = glm::cross(side.up, side.normal);
+        side.v = 0.5F * (end_.v + top.v);
+    }
+    return joint;
+}
+
+void BoxWriter::close() {
+    add_face(end_.corners);
+}
+
+void BoxWriter::cut_tiles(const Tile& tile, std::span<const glm::vec2> places) {
+    if (tile.count <= 1) {
+        tiles_.push_back(tile);
+        return;
+    }
+    const auto begin = tile_order_.begin() + static_cast<std::ptrdiff_t>(tile.first);
+    const auto end = begin + static_cast<std::ptrdiff_t>(tile.count);
+    glm::vec2 low = places[*begin];
+    glm::vec2 high = low;
+    for (auto at = begin; at != end; ++at) {
+        low = glm::min(low, places[*at]);
+        high = glm::max(high, places[*at]);
+    }
+    const int axis = high.x - low.x >= high.y - low.y ? 0 : 1;
+    std::sort(begin, end, [&](std::size_t a, std::size_t b) {
+        return places[a][axis] != places[b][axis] ? places[a][axis] < places[b][axis] : a < b;
+    });
+    const float middle = 0.5F * (tile.low[axis] + tile.high[axis]);
+    Tile lower = tile;
+    lower.count = tile.count / 2;
+    lower.high[axis] = middle;
+    Tile upper = tile;
+    upper.first += lower.count;
+    upper.count -= lower.count;
+    upper.low[axis] = middle;
+    // At most two levels, since at most kMostOnSide segments grow here.
+    cut_tiles(lower, places);
+    cut_tiles(upper, places);
+}
+
+/// The vertex at a place within a side, -1 to 1 in both directions.
+std::uint32_t BoxWriter::tile_corner(const BoxSocket& side, const glm::vec2& place) {
+    const auto found = std::find(tile_corners_.begin(), tile_corners_.end(), place);
+    if (found != tile_corners_.end()) {
+        return tile_vertices_[static_cast<std::size_t>(found - tile_corners_.begin())];
+    }
+    const glm::vec2 at = 0.5F + 0.5F * kInner * place;
+    const std::array<float, 4> weights{at.x * at.y, (1.0F - at.x) * at.y,
+                                       (1.0F - at.x) * (1.0F - at.y), at.x * (1.0F - at.y)};
+    glm::vec3 position(0.0F);
+    glm::vec2 texture_coordinate(0.0F);
+    for (std::size_t i = 0; i < 4; ++i) {
+        position += weights[i] * mesh_.positions[side.corners[i]];
+        texture_coordinate += weights[i] * mesh_.texture_coordinates[side.corners[i]];
+    }
+    tile_corners_.push_back(place);
+    tile_vertices_.push_back(add_vertex(position, texture_coordinate.x, texture_coordinate.y));
+    return tile_vertices_.back();
+}
+
+/// The face between an edge of a side and the tiles along it.
+void BoxWriter::add_border(const BoxSocket& side, std::size_t edge) {
+    const glm::vec2 from = kCorners[edge];
+    const glm::vec2 to = kCorners[(edge + 1) % 4];
+    std::vector<std::pair<float, std::uint32_t>> inner;
+    for (std::size_t i = 0; i < tile_corners_.size(); ++i) {
+        const glm::vec2& at = tile_corners_[i];
+        if ((from.x == to.x && at.x == from.x) || (from.y == to.y && at.y == from.y)) {
+            inner.emplace_back(-glm::dot(at, to - from), tile_vertices_[i]);
+        }
+    }
+    std::sort(inner.begin(), inner.end());
+    std::vector<std::uint32_t> corners{side.corners[edge], side.corners[(edge + 1) % 4]};
+    for (const auto& [order, vertex] : inner) {
+        corners.push_back(vertex);
+    }
+    add_face(corners);
+}
+
+std::span<const BoxSocket> BoxWriter::divide(const BoxSocket& side,
+                                             std::span<const glm::vec2> places) {
+    sockets_.assign(places.size(), side);
+    if (places.empty()) {
+        add_face(side.corners);
+    }
+    if (places.size() <= 1) {
+        return sockets_;
+    }
+    tile_order_.resize(places.size());
+    std::iota(tile_order_.begin(), tile_order_.end(), std::size_t{0});
+    tiles_.clear();
+    tile_corners_.clear();
+    tile_vertices_.clear();
+    cut_tiles({.low = glm::vec2(-1.0F), .high = glm::vec2(1.0F), .count = places.size()}, places);
+    const auto corner_place = [](const Tile& tile, std::size_t i) {
+        return glm::vec2(kCorners[i].x > 0.0F ? tile.high.x : tile.low.x,
+                         kCorners[i].y > 0.0F ? tile.high.y : tile.low.y);
+    };
+    for (const Tile& tile : tiles_) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            sockets_[tile_order_[tile.first]].corners[i] = tile_corner(side, corner_place(tile, i));
+        }
+    }
+    for (const Tile& tile : tiles_) {
+        BoxSocket& socket = sockets_[tile_order_[tile.first]];
+        for (std::size_t i = 0; i < 4; ++i) {
+            // A corner of a neighbour on this edge: they are halves, so it is in the middle.
+            const glm::vec2 middle =
+                0.5F * (corner_place(tile, i) + corner_place(tile, (i + 1) % 4));
+            const auto found = std::find(tile_corners_.begin(), tile_corners_.end(), middle);
+            if (found != tile_corners_.end()) {
+                socket.between[i] =
+                    tile_vertices_[static_cast<std::size_t>(found - tile_corners_.begin())];
+            }
+        }
+    }
+    for (std::size_t edge = 0; edge < 4; ++edge) {
+        add_border(side, edge);
+    }
+    return sockets_;
+}
+
+PolygonMesh BoxWriter::take() {
+    return std::move(mesh_);
+}
+
+} // namespace lsys

@@ -1,0 +1,85 @@
+// BoxWriter: rings of four corners and the faces between them, which are always those of a closed
+// mesh once every segment is closed and every side of a joint is divided.
+#pragma once
+
+#include "runtime/meshing/impl/catmull_clark.h"
+#include "runtime/turtle/skeleton.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+inline constexpr std::size_t kMostOnSide = 4; // children that a side of a joint is divided for
+
+/// An open square that a segment grows out of, seen from outside: its corners lie at (right, up) =
+/// (+, +), (-, +), (-, -), (+, -). Between two corners there may be a vertex of a neighbour.
+struct BoxSocket {
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+    std::array<std::uint32_t, 4> corners{};
+    std::array<std::uint32_t, 4> between{kNone, kNone, kNone, kNone}; // after each corner
+    glm::vec3 right{};
+    glm::vec3 up{};
+    glm::vec3 normal{};
+    float reach = 0.0F; // from the base of the segment to the square
+    float v = 0.0F;     // texture coordinate there
+};
+
+/// Sides 0 to 3 go around, side 4 is the top.
+struct BoxJoint {
+    std::array<BoxSocket, 5> sides;
+};
+
+class BoxWriter {
+public:
+    /// What follows belongs to `segment`, of this number, whose box begins with this half side.
+    void begin_segment(const Segment& segment, std::uint32_t number, float half);
+    void begin_root(float half);
+    void begin_at(const BoxSocket& socket);
+    /// A ring across `direction`, at a distance from the base of the segment, joined to what is
+    /// there.
+    void add_ring(float distance, const glm::vec3& direction, float half);
+    /// A ring that is not joined yet: the sides between are those of a joint.
+    [[nodiscard]] BoxJoint add_joint(float distance, const glm::vec3& direction, float half);
+    /// Where the next segment grows on.
+    [[nodiscard]] const BoxSocket& end_socket() const { return end_; }
+    void close();
+    /// Divides a side for segments that grow towards these places in (right, up); a socket for
+    /// each, valid until the next call. Without any, closes the side.
+    [[nodiscard]] std::span<const BoxSocket> divide(const BoxSocket& side,
+                                                    std::span<const glm::vec2> places);
+
+    [[nodiscard]] PolygonMesh take();
+
+private:
+    struct Tile {
+        glm::vec2 low;
+        glm::vec2 high;
+        std::size_t first = 0; // in tile_order_
+        std::size_t count = 0;
+    };
+    std::uint32_t add_vertex(const glm::vec3& position, float u, float v);
+    void add_face(std::span<const std::uint32_t> corners);
+    void place_ring(float distance, const glm::vec3& direction, float half, BoxSocket& ring);
+    void join(const BoxSocket& from, const BoxSocket& to);
+    void cut_tiles(const Tile& tile, std::span<const glm::vec2> places);
+    std::uint32_t tile_corner(const BoxSocket& side, const glm::vec2& place);
+    void add_border(const BoxSocket& side, std::size_t edge);
+
+    PolygonMesh mesh_;
+    const Segment* segment_ = nullptr;
+    std::uint32_t number_ = kNoSegment; // of segment_
+    BoxSocket end_;
+    float distance_ = 0.0F; // of end_
+    float v_per_length_ = 0.0F;
+
+    std::vector<std::size_t> tile_order_; // places, by tiles
+    std::vector<Tile> tiles_;
+    std::vector<glm::vec2> tile_corners_;
+    std::vector<std::uint32_t> tile_vertices_;
+    std::vector<BoxSocket> sockets_;
+};
+
+} // namespace lsys

@@ -1,0 +1,200 @@
+#include "runtime/meshing/impl/boxes.h"
+
+#include "grammar/base/contract.h"
+#include "runtime/base/workers.h"
+#include "runtime/meshing/impl/box_joints.h"
+#include "runtime/meshing/impl/catmull_clark.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+// Subdivision leaves 0.65 of the half diagonal of a square tube; this makes it the radius. An
+// unsmoothed box has the cross-section's area.
+constexpr float kSmoothedWidth = 1.075F;
+constexpr float kBoxWidth = 0.886F;
+constexpr std::uint64_t kMostCorners = std::uint64_t{1} << 31;
+constexpr std::uint64_t kMostSegments = 100'000'000;
+constexpr std::uint64_t kVerticesOfPiece = 1U << 14;
+
+/// Faces by the part they belong to, as triangles.
+struct Parts {
+    std::vector<MeshBuilder::PartSize> sizes;   // by rising material
+    std::vector<std::span<std::uint32_t>> room; // for the indices of each
+    std::map<std::uint16_t, std::size_t> of_colour;
+};
+
+/// Sizes after `steps` steps, each of which makes quads, four of one or one for each corner.
+Parts find_parts(const PolygonMesh& mesh, std::uint32_t steps) {
+    std::map<MaterialKey, std::uint64_t> sizes;
+    std::uint32_t begin = 0;
+    for (std::size_t face = 0; face < mesh.face_ends.size(); ++face) {
+        const std::uint64_t corners = mesh.face_ends[face] - begin;
+        sizes[wood_material(mesh.colours[face])] +=
+            steps > 0 ? 6 * corners << (2 * (steps - 1)) : 3 * (corners - 2);
+        begin = mesh.face_ends[face];
+    }
+    Parts parts;
+    for (const auto& [material, count] : sizes) {
+        parts.of_colour[material.palette] = parts.sizes.size();
+        parts.sizes.push_back({.material = material, .index_count = count});
+    }
+    return parts;
+}
+
+glm::vec3 face_area(const PolygonMesh& mesh, std::uint32_t begin, std::uint32_t end) {
+    const glm::vec3& first = mesh.positions[mesh.corners[begin]];
+    if (end - begin == 4) {
+        return glm::cross(mesh.positions[mesh.corners[begin + 2]] - first,
+                          mesh.positions[mesh.corners[begin + 3]] -
+                              mesh.positions[mesh.corners[begin + 1]]);
+    }
+    glm::vec3 area(0.0F);
+    for (std::uint32_t i = begin + 1; i + 1 < end; ++i) {
+        area += glm::cross(mesh.positions[mesh.corners[i]] - first,
+                           mesh.positions[mesh.corners[i + 1]] - first);
+    }
+    return area;
+}
+
+glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
+    const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    return largest > 0.0F ? glm::normalize(v / largest) : otherwise;
+}
+
+/// Normal, tangent along rising u and colour of a vertex, from the faces around it.
+void write_vertex(const CatmullClark& surface, std::uint32_t vertex, const MeshBlock& block) {
+    const PolygonMesh& mesh = surface.mesh();
+    glm::vec3 area(0.0F);
+    glm::vec3 tangent(0.0F);
+    glm::vec3 edge(0.0F);
+    std::uint32_t lowest = 0xFFFFFFFFu;
+    VertexSegments segments{0xFFFFFFFFu, 0};
+    float tangents = 0.0F; // the sum of sizes
+    float mirrored = 0.0F;
+    surface.visit_faces(vertex, [&](std::uint32_t face, std::uint32_t half) {
+        const std::uint32_t begin = face == 0 ? 0 : mesh.face_ends[face - 1];
+        area += face_area(mesh, begin, mesh.face_ends[face]);
+        lowest = std::min(lowest, face);
+        if (!block.segments.empty()) {
+            segments[0] = std::min(segments[0], mesh.segments[face]);
+            segments[1] = std::max(segments[1], mesh.segments[face]);
+        }
+        if (block.tangents.empty()) {
+            return;
+        }
+        const std::uint32_t b = mesh.corners[surface.next(half)];
+        const std::uint32_t c = mesh.corners[surface.previous(half)];
+        const glm::vec3 p = mesh.positions[b] - mesh.positions[vertex];
+        const glm::vec3 q = mesh.positions[c] - mesh.positions[vertex];
+        const glm::vec2 s = mesh.texture_coordinates[b] - mesh.texture_coordinates[vertex];
+        const glm::vec2 t = mesh.texture_coordinates[c] - mesh.texture_coordinates[vertex];
+        const float turn = s.x * t.y - s.y * t.x;
+        const glm::vec3 along_u = (turn < 0.0F ? -1.0F : 1.0F) * (p * t.y - q * s.y);
+        mirrored += turn;
+        tangent += along_u;
+        tangents += std::abs(along_u.x) + std::abs(along_u.y) + std::abs(along_u.z);
+        edge = p;
+    });
+    const glm::vec3 normal = unit_or(area, glm::vec3(0.0F, 1.0F, 0.0F));
+    const glm::vec3 across = edge - glm::dot(edge, normal) * normal;
+    tangent -= glm::dot(tangent, normal) * normal;
+    // Where u turns back, there is none.
+    tangent *= glm::length(tangent) > 1e-3F * tangents ? 1.0F : 0.0F;
+    const glm::vec3 any = std::abs(normal.x) < 0.6F ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
+    const glm::vec3 fallback =
+        unit_or(across, glm::normalize(any - glm::dot(any, normal) * normal));
+    block.set(vertex,
+              {.position = mesh.positions[vertex],
+               .normal = normal,
+               .texture_coordinate = mesh.texture_coordinates[vertex],
+               // With v downwards, what is not mirrored turns clockwise.
+               .tangent = glm::vec4(unit_or(tangent, fallback), mirrored > 0.0F ? -1.0F : 1.0F),
+               .palette = mesh.colours[lowest]});
+    if (!block.segments.empty()) {
+        block.segments[vertex] = segments;
+    }
+}
+
+/// Writes fans from the first corner, of quads over the shorter diagonal, to the front of `room`.
+void write_face(const PolygonMesh& mesh,
+                std::uint32_t begin,
+                std::uint32_t end,
+                std::uint32_t first_vertex,
+                std::span<std::uint32_t>& room) {
+    const auto corner = [&](std::uint32_t i) { return mesh.corners[begin + i % (end - begin)]; };
+    const auto apart = [&](std::uint32_t i, std::uint32_t j) {
+        const glm::vec3 way = mesh.positions[corner(j)] - mesh.positions[corner(i)];
+        return glm::dot(way, way);
+    };
+    const std::uint32_t first = end - begin == 4 && apart(1, 3) < apart(0, 2) ? 1 : 0;
+    for (std::uint32_t i = 1; i + 1 < end - begin; ++i) {
+        for (const std::uint32_t at : {first, first + i, first + i + 1}) {
+            room.front() = first_vertex + corner(at);
+            room = room.subspan(1);
+        }
+    }
+}
+
+void write(const CatmullClark& surface, Parts& parts, Workers& workers, const MeshBlock& block) {
+    const PolygonMesh& mesh = surface.mesh();
+    const std::uint64_t vertices = mesh.positions.size();
+    workers.for_each((vertices + kVerticesOfPiece - 1) / kVerticesOfPiece, [&](std::uint64_t i) {
+        const std::uint64_t end = std::min(vertices, (i + 1) * kVerticesOfPiece);
+        for (std::uint64_t vertex = i * kVerticesOfPiece; vertex < end; ++vertex) {
+            write_vertex(surface, static_cast<std::uint32_t>(vertex), block);
+        }
+    });
+    std::uint32_t begin = 0;
+    for (std::size_t face = 0; face < mesh.face_ends.size(); ++face) {
+        const std::size_t part =
+            parts.of_colour.size() == 1 ? 0 : parts.of_colour.find(mesh.colours[face])->second;
+        write_face(mesh, begin, mesh.face_ends[face], block.first_vertex, parts.room[part]);
+        begin = mesh.face_ends[face];
+    }
+}
+
+} // namespace
+
+void append_boxes(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder) {
+    const std::uint32_t steps =
+        options.subdivisions > options.level ? options.subdivisions - options.level : 0;
+    PolygonMesh boxes;
+    if (skeleton.segments.size() <= kMostSegments) {
+        boxes = make_boxes(skeleton, steps > 0 ? kSmoothedWidth : kBoxWidth);
+    }
+    const MeshCounts counts = refined_counts(boxes, steps);
+    MeshBlock block;
+    if (skeleton.segments.size() > kMostSegments || counts.corners >= kMostCorners) {
+        // More vertices than there can be.
+        (void)builder.place_parts({}, ~std::uint64_t{0}, block);
+        return;
+    }
+    if (counts.corners == 0) {
+        return;
+    }
+    Parts parts = find_parts(boxes, steps);
+    if (!builder.reserve_parts(parts.sizes, counts.vertices, block, parts.room)) {
+        return;
+    }
+    Workers workers(options.threads);
+    CatmullClark surface(std::move(boxes), workers);
+    LSYS_CHECK(surface.closed());
+    for (std::uint32_t i = 0; i < steps; ++i) {
+        surface.refine();
+    }
+    write(surface, parts, workers, block);
+}
+
+} // namespace lsys

@@ -1,0 +1,14 @@
+// Boxes joined and smoothed: MeshMethod::Boxes.
+#pragma once
+
+#include "runtime/meshing/impl/mesh_builder.h"
+#include "runtime/meshing/mesh.h"
+
+namespace lsys {
+
+/// Appends all segments, as the first that `builder` is given. Each plant is one closed surface,
+/// subdivided MeshOptions::subdivisions times less the level. Texture coordinates: u goes there and
+/// back around a branch, v down along it. What did not fit, the builder's status says.
+void append_boxes(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder);
+
+} // namespace lsys

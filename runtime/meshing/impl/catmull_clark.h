@@ -1,0 +1,89 @@
+// Catmull-Clark subdivision of closed meshes (Catmull & Clark 1978, "Recursively generated B-spline
+// surfaces on arbitrary topological meshes"), on half-edges whose children are known by their
+// number (Dupuy & Vanhoey 2021, "A Halfedge Refinement Rule for Parallel Catmull-Clark
+// Subdivision"). Each element is computed from those around it, so threads do not show.
+#pragma once
+
+#include "runtime/base/large_vector.h"
+#include "runtime/base/workers.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+/// Faces of any number of corners, counter-clockwise seen from outside. Texture coordinates are
+/// one for each vertex and are smoothed with the positions.
+struct PolygonMesh {
+    LargeVector<glm::vec3> positions;
+    LargeVector<glm::vec2> texture_coordinates;
+    LargeVector<std::uint32_t> corners;   // of all faces, one after the other
+    LargeVector<std::uint32_t> face_ends; // in corners
+    LargeVector<std::uint16_t> colours;   // of faces
+    LargeVector<std::uint32_t> segments;  // of faces; may be empty
+};
+
+struct MeshCounts {
+    std::uint64_t vertices = 0;
+    std::uint64_t edges = 0;
+    std::uint64_t faces = 0;
+    std::uint64_t corners = 0;
+};
+/// What `steps` steps make of a closed mesh; no more than is needed to see that it is too much.
+[[nodiscard]] MeshCounts refined_counts(const PolygonMesh& mesh, std::uint32_t steps);
+
+/// A closed mesh and its steps of subdivision.
+class CatmullClark {
+public:
+    /// The corners of `mesh` are less than 2^31.
+    CatmullClark(PolygonMesh mesh, Workers& workers);
+
+    /// Whether every edge is that of two faces, in opposite directions. The rest asks for it.
+    [[nodiscard]] bool closed() const { return closed_; }
+    /// One step. The corners are less than 2^29 before it.
+    void refine();
+    [[nodiscard]] const PolygonMesh& mesh() const { return mesh_; }
+
+    /// Calls visit(face, corner) for the faces around a vertex; `corner` is where it has it.
+    template <typename Visit>
+    void visit_faces(std::uint32_t vertex, const Visit& visit) const {
+        const std::uint32_t first = vertex_half_[vertex];
+        std::uint32_t half = first;
+        do {
+            visit(face_of(half), half);
+            half = twins_[previous(half)];
+        } while (half != first);
+    }
+    [[nodiscard]] std::uint32_t next(std::uint32_t half) const;
+    [[nodiscard]] std::uint32_t previous(std::uint32_t half) const;
+
+private:
+    [[nodiscard]] std::uint32_t face_of(std::uint32_t half) const {
+        return quads_ ? half / 4 : faces_[half];
+    }
+    [[nodiscard]] std::uint32_t face_begin(std::uint32_t face) const {
+        return face == 0 ? 0 : mesh_.face_ends[face - 1];
+    }
+    void find_twins();
+    void place_vertices(PolygonMesh& to);
+    template <typename T>
+    void smooth(const LargeVector<T>& from, LargeVector<T>& to);
+    template <typename Piece>
+    void for_each(std::uint64_t count, const Piece& piece);
+
+    // A half-edge goes from a corner of a face to the next one and has the corner's number.
+    PolygonMesh mesh_;
+    Workers& workers_;
+    bool closed_ = false;
+    bool quads_ = false;               // all faces have four corners, in order of their number
+    LargeVector<std::uint32_t> faces_; // of half-edges, unless they are quads
+    LargeVector<std::uint32_t> twins_; // of half-edges
+    LargeVector<std::uint32_t> edges_; // of half-edges
+    LargeVector<std::uint32_t> edge_half_;
+    LargeVector<std::uint32_t> vertex_half_; // one that begins there
+};
+
+} // namespace lsys

@@ -1,0 +1,86 @@
+// Unit directions of the corners of regular polygons, as constants: the same bits on every machine,
+// whatever its mathematical library makes of a cosine.
+#pragma once
+
+#include "runtime/turtle/turtle.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace lsys {
+
+struct Direction {
+    float cosine = 1.0F;
+    float sine = 0.0F;
+};
+
+namespace detail {
+
+/// cos and sin of 2 pi turns / parts, for at most an eighth of a turn, by their series.
+constexpr Direction direction_in_octant(std::uint32_t turns, std::uint32_t parts) {
+    const double angle = 6.283185307179586476925 * turns / parts;
+    double cosine = 1.0;
+    double sine = angle;
+    double term = 1.0;
+    for (int k = 1; k < 20; ++k) {
+        term *= angle / k;
+        if (k == 1) {
+            continue;
+        }
+        const double sign = (k / 2) % 2 == 0 ? 1.0 : -1.0;
+        (k % 2 == 0 ? cosine : sine) += sign * term;
+    }
+    return {static_cast<float>(cosine), static_cast<float>(sine)};
+}
+
+/// Symmetric to the bit: everything comes from the first octant.
+constexpr Direction direction_of(std::uint32_t corner, std::uint32_t sides) {
+    if (corner == sides) {
+        return {1.0F, 0.0F};
+    }
+    if (2 * corner > sides) { // the lower half
+        const Direction mirrored = direction_of(sides - corner, sides);
+        return {mirrored.cosine, -mirrored.sine};
+    }
+    if (4 * corner > sides) { // the left quarter
+        const Direction mirrored = direction_of(sides - 2 * corner, 2 * sides);
+        return {-mirrored.cosine, mirrored.sine};
+    }
+    if (8 * corner > sides) {
+        const Direction swapped = direction_in_octant(sides - 4 * corner, 4 * sides);
+        return {swapped.sine, swapped.cosine};
+    }
+    return direction_in_octant(corner, sides);
+}
+
+constexpr std::size_t first_direction(std::uint32_t sides) {
+    return sides * (sides + std::size_t{1}) / 2 - kMinSides * (kMinSides + std::size_t{1}) / 2;
+}
+
+constexpr auto make_directions() {
+    std::array<Direction, first_direction(kMaxSides + 1)> table{};
+    for (std::uint32_t sides = kMinSides; sides <= kMaxSides; ++sides) {
+        for (std::uint32_t corner = 0; corner <= sides; ++corner) {
+            table[first_direction(sides) + corner] = direction_of(corner, sides);
+        }
+    }
+    return table;
+}
+
+inline constexpr auto kDirections = make_directions();
+
+} // namespace detail
+
+/// The `sides` + 1 corners of a polygon of kMinSides to kMaxSides sides; the last is the first.
+[[nodiscard]] inline const Direction* directions(std::uint32_t sides) {
+    return detail::kDirections.data() + detail::first_direction(sides);
+}
+
+/// A number of sides that there are directions for; 0 stands for 8.
+[[nodiscard]] constexpr std::uint32_t usable_sides(std::uint32_t sides) {
+    return sides == 0 ? 8 : std::clamp(sides, kMinSides, kMaxSides);
+}
+
+} // namespace lsys

@@ -1,0 +1,189 @@
+#include "runtime/meshing/impl/objects.h"
+
+#include "runtime/base/workers.h"
+#include "runtime/meshing/impl/droop.h"
+#include "runtime/meshing/impl/groups.h"
+#include "runtime/meshing/shapes.h"
+
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <new>
+#include <optional>
+#include <span>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::uint64_t kVerticesOfPiece = 1U << 15;
+
+/// Kind, file and colour in one number, in the order of parts.
+std::uint64_t key_of(const PlacedObject& object, std::size_t file_count) {
+    if (object.size == 0.0F ||
+        (object.kind == TurtleOperation::MeshFile && object.mesh_file >= file_count)) {
+        return kNoGroup;
+    }
+    const std::uint64_t file = object.kind == TurtleOperation::MeshFile ? object.mesh_file : 0;
+    return std::uint64_t{static_cast<std::uint8_t>(object.kind)} << 48 | file << 16 | object.colour;
+}
+
+/// Writes one part of a shape for many objects.
+struct Instances {
+    const Skeleton& skeleton;
+    std::span<const std::uint32_t> items; // objects
+    const ShapePart& part;
+    std::uint16_t palette;
+    float droop;
+    MeshBlock block;
+
+    void write(std::uint64_t first, std::uint64_t end) const;
+
+private:
+    void write_indices(std::uint64_t item, bool mirrored) const;
+};
+
+void Instances::write_indices(std::uint64_t item, bool mirrored) const {
+    const std::size_t count = part.indices.size();
+    const auto base = static_cast<std::uint32_t>(block.first_vertex + item * part.positions.size());
+    std::uint32_t* const out = block.indices.data() + item * count;
+    if (!mirrored) {
+        for (std::size_t i = 0; i < count; ++i) {
+            out[i] = base + part.indices[i];
+        }
+        return;
+    }
+    for (std::size_t i = 0; i < count; i += 3) {
+        out[i] = base + part.indices[i];
+        out[i + 1] = base + part.indices[i + 2];
+        out[i + 2] = base + part.indices[i + 1];
+    }
+}
+
+void Instances::write(std::uint64_t first, std::uint64_t end) const {
+    const std::size_t count = part.positions.size();
+    std::optional<Droop> bending;
+    ShapePart bent;
+    if (droop > 0.0F) {
+        bending.emplace(part);
+        bent = part;
+    }
+    const ShapePart& source = droop > 0.0F ? bent : part;
+    for (std::uint64_t item = first; item < end; ++item) {
+        const PlacedObject& object = skeleton.objects[items[item]];
+        if (bending) {
+            bending->bend(part, object.frame, droop, bent);
+        }
+        // A negative size turns an object inside out.
+        const bool mirrored = object.size < 0.0F;
+        const glm::mat3 turn = glm::mat3_cast(object.frame);
+        const glm::mat3 turn_and_scale = object.size * turn;
+        const std::uint64_t at = item * count;
+        for (std::size_t i = 0; i < count; ++i) {
+            block.positions[at + i] = object.position + turn_and_scale * source.positions[i];
+            const glm::vec3 normal = turn * source.normals[i];
+            block.normals[at + i] = mirrored ? -normal : normal;
+        }
+        if (!block.texture_coordinates.empty()) {
+            std::copy(source.texture_coordinates.begin(), source.texture_coordinates.end(),
+                      block.texture_coordinates.begin() + static_cast<std::ptrdiff_t>(at));
+        }
+        if (!block.tangents.empty()) {
+            for (std::size_t i = 0; i < count; ++i) {
+                const glm::vec3 tangent = turn * glm::vec3(source.tangents[i]);
+                block.tangents[at + i] = mirrored ? glm::vec4(-tangent, -source.tangents[i].w)
+                                                  : glm::vec4(tangent, source.tangents[i].w);
+            }
+        }
+        if (!block.colours.empty()) {
+            std::fill_n(block.colours.begin() + static_cast<std::ptrdiff_t>(at), count, palette);
+        }
+        if (!block.segments.empty()) {
+            std::fill_n(block.segments.begin() + static_cast<std::ptrdiff_t>(at), count,
+                        VertexSegments{object.parent, object.parent});
+        }
+        write_indices(item, mirrored);
+    }
+}
+
+void write_all(Workers& workers, const Instances& instances) {
+    const std::uint64_t count = instances.items.size();
+    const std::uint64_t size =
+        std::max<std::uint64_t>(1, kVerticesOfPiece / instances.part.positions.size());
+    std::atomic<bool> failed{false};
+    workers.for_each((count + size - 1) / size, [&](std::uint64_t piece) {
+        try {
+            instances.write(piece * size, std::min(count, (piece + 1) * size));
+        } catch (const std::bad_alloc&) {
+            failed = true;
+        }
+    });
+    if (failed) {
+        throw std::bad_alloc();
+    }
+}
+
+} // namespace
+
+void append_objects(const Skeleton& skeleton,
+                    const std::vector<UserMesh>& user_meshes,
+                    const MeshOptions& options,
+                    MeshBuilder& builder) {
+    // Leaves of the program L3D are drawn with its segments.
+    const auto is_drawn = [&](const PlacedObject& object) {
+        return !(skeleton.of_program && options.method == MeshMethod::Tubes &&
+                 object.kind == TurtleOperation::Leaf);
+    };
+    const Groups groups = group_items(skeleton.objects.size(), [&](std::uint64_t i) {
+        return is_drawn(skeleton.objects[i]) ? key_of(skeleton.objects[i], user_meshes.size())
+                                             : kNoGroup;
+    });
+    std::vector<std::shared_ptr<const Texture>> pictures;
+    for (const UserMesh& mesh : user_meshes) {
+        pictures.push_back(mesh.picture);
+    }
+    builder.set_pictures(std::move(pictures));
+    Workers workers(options.threads);
+    Shape shape;
+    std::uint64_t shape_key = kNoGroup;
+    for (const Group& group : groups.groups) {
+        const std::span<const std::uint32_t> items =
+            std::span(groups.items).subspan(group.first, group.count);
+        if (group.key >> 16 != shape_key) {
+            shape_key = group.key >> 16;
+            const PlacedObject& object = skeleton.objects[items.front()];
+            shape = object.kind == TurtleOperation::MeshFile
+                        ? make_shape(user_meshes[object.mesh_file])
+                        : make_shape(object.kind, options.level);
+            for (ShapePart& part : shape.parts) {
+                if (part.material.textured && object.kind == TurtleOperation::MeshFile) {
+                    part.material.picture = static_cast<std::uint16_t>(object.mesh_file + 1);
+                }
+            }
+        }
+        const auto colour = static_cast<std::uint16_t>(group.key & 0xFFFFu);
+        for (const ShapePart& part : shape.parts) {
+            if (part.positions.empty()) {
+                continue;
+            }
+            MaterialKey material = part.material;
+            if (colour != 0 && part.takes_colour) {
+                material.palette = colour;
+            }
+            MeshBlock block;
+            if (!builder.reserve(builder.part(material), items.size() * part.positions.size(),
+                                 items.size() * part.indices.size(), block)) {
+                return;
+            }
+            write_all(workers, {.skeleton = skeleton,
+                                .items = items,
+                                .part = part,
+                                .palette = material.palette,
+                                .droop = shape.droops ? std::min(options.droop, 1.0F) : 0.0F,
+                                .block = block});
+        }
+    }
+}
+
+} // namespace lsys

@@ -1,0 +1,46 @@
+// How round a polygon is, and how many sides are round enough.
+#pragma once
+
+#include "runtime/turtle/turtle.h"
+
+#include <array>
+#include <cstdint>
+
+namespace lsys {
+
+/// Half of a side of the polygon with unit corners: sin(pi / sides).
+[[nodiscard]] float half_side(std::uint32_t sides);
+/// From its centre to the middle of a side: cos(pi / sides).
+[[nodiscard]] float inner_radius(std::uint32_t sides);
+/// What a polygon of `fewer` sides is widened by. The mean width of a convex shape is its
+/// circumference / pi (Cauchy), so it is as wide as one of `sides` sides if it is as long around.
+[[nodiscard]] float widening(std::uint32_t sides, std::uint32_t fewer);
+
+/// Sides by radius: how many of them keep a polygon within a distance of its circle.
+class SideCounts {
+public:
+    /// `deviation` > 0, in the unit of radii.
+    explicit SideCounts(float deviation);
+
+    /// The smallest odd number for which radius * (1 - cos(pi / sides)) is at most the deviation,
+    /// and `most` if that is less. Does not fall where the radius rises. Widened, the polygon
+    /// deviates by less: its corners from outside, its sides from inside.
+    [[nodiscard]] std::uint32_t at(float radius, std::uint32_t most) const {
+        std::uint32_t sides = kMinSides;
+        while (sides < most && !(radius <= reach_[sides])) {
+            sides += 2;
+        }
+        return sides < most ? sides : most;
+    }
+
+    /// As the function above, from a table.
+    [[nodiscard]] float widening(std::uint32_t sides, std::uint32_t fewer) const {
+        return half_around_[sides] / half_around_[fewer];
+    }
+
+private:
+    std::array<float, kMaxSides + 1> reach_{};       // the greatest radius for so many sides
+    std::array<float, kMaxSides + 1> half_around_{}; // half of the circumference
+};
+
+} // namespace lsys

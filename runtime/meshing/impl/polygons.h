@@ -1,0 +1,15 @@
+// Polygons of the turtle as flat two-sided surfaces.
+#pragma once
+
+#include "runtime/meshing/impl/mesh_builder.h"
+#include "runtime/meshing/mesh.h"
+
+namespace lsys {
+
+/// Appends every polygon, triangulated in the plane that fits it best, with one normal, on the side
+/// of the turtle's up vector at its `{`. Texture coordinates go over its box in that plane, v down
+/// along the turtle's heading. Palette index 0 means leaf green. Polygons without area are left
+/// out. What did not fit, the builder's status says.
+void append_polygons(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder);
+
+} // namespace lsys

@@ -1,0 +1,136 @@
+// The part of TubeWriter that fills arrays.
+#include "runtime/meshing/impl/bark_noise.h"
+#include "runtime/meshing/impl/directions.h"
+#include "runtime/meshing/impl/lanes.h"
+#include "runtime/meshing/impl/tube_writer.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsys {
+
+namespace {
+
+/// An ellipse in space, or the cone of directions across it.
+struct Ellipse {
+    Lanes centre;
+    Lanes at_cosine;
+    Lanes at_sine;
+
+    [[nodiscard]] Lanes at(Lanes cosine, Lanes sine) const {
+        return centre + (cosine * at_cosine + sine * at_sine);
+    }
+};
+
+/// Writes `columns` vectors of both, three floats each. All but the last are written as four, the
+/// fourth of which the next one covers.
+void put_ellipses(glm::vec3* positions,
+                  const Ellipse& position,
+                  glm::vec3* normals,
+                  const Ellipse& normal,
+                  const Direction* at,
+                  std::uint32_t columns) {
+    const std::uint32_t last = columns - 1;
+    for (std::uint32_t i = 0; i < last; ++i) {
+        const Lanes cosine = lanes(at[i].cosine);
+        const Lanes sine = lanes(at[i].sine);
+        store_four(positions + i, position.at(cosine, sine));
+        store_four(normals + i, normal.at(cosine, sine));
+    }
+    const Lanes cosine = lanes(at[last].cosine);
+    const Lanes sine = lanes(at[last].sine);
+    store_three(positions + last, position.at(cosine, sine));
+    store_three(normals + last, normal.at(cosine, sine));
+}
+
+} // namespace
+
+void TubeWriter::put_ring(const Ring& ring) {
+    const std::uint64_t first = at_.vertex;
+    const std::uint32_t columns = columns_of(ring.sides, options_);
+    at_.vertex += columns;
+    if (noise_ != nullptr) {
+        put_noise(ring, first);
+    } else {
+        const float part =
+            ring.slope == 0.0F ? 1.0F : 1.0F / std::sqrt(1.0F + ring.slope * ring.slope);
+        const Ellipse position{lanes(ring.centre), lanes(ring.radius * ring.wide_normal),
+                               lanes(ring.radius * ring.wide_binormal)};
+        const Ellipse normal{lanes((-ring.slope * part) * ring.tangent), lanes(part * ring.normal),
+                             lanes(part * ring.binormal)};
+        put_ellipses(block_.positions.data() + first, position, block_.normals.data() + first,
+                     normal, directions(ring.sides), columns);
+    }
+    if (seam_) {
+        put_textured(ring, first);
+    }
+    if (options_.colours) {
+        std::fill_n(block_.colours.data() + first, columns, ring.colour);
+    }
+}
+
+void TubeWriter::put_textured(const Ring& ring, std::uint64_t first) {
+    const std::uint32_t columns = ring.sides + 1;
+    if (options_.texture_coordinates) {
+        glm::vec2* to = block_.texture_coordinates.data() + first;
+        const float v = v_of(ring.arc);
+        const float step = 1.0F / static_cast<float>(ring.sides);
+        for (std::uint32_t i = 0; i < columns; ++i) {
+            to[i] = {static_cast<float>(i) * step, v};
+        }
+        to[ring.sides].x = 1.0F;
+    }
+    if (!options_.tangents) {
+        return;
+    }
+    glm::vec4* to = block_.tangents.data() + first;
+    const Direction* at = directions(ring.sides);
+    if (noise_ == nullptr) {
+        const Lanes a = lanes(ring.normal);
+        const Lanes b = lanes(ring.binormal);
+        const Lanes sign = lanes(glm::vec3(0.0F), 1.0F);
+        for (std::uint32_t i = 0; i < columns; ++i) {
+            store_four(to + i, sign + (lanes(at[i].cosine) * b - lanes(at[i].sine) * a));
+        }
+        return;
+    }
+    for (std::uint32_t i = 0; i < columns; ++i) {
+        const glm::vec3& normal = block_.normals[first + i];
+        const glm::vec3 around = at[i].cosine * ring.binormal - at[i].sine * ring.normal;
+        to[i] = glm::vec4(glm::normalize(around - normal * glm::dot(normal, around)), 1.0F);
+    }
+}
+
+void TubeWriter::put_noise(const Ring& ring, std::uint64_t first) {
+    const Direction* at = directions(ring.sides);
+    const float amount = std::min(options_.bark_noise, 0.9F);
+    for (std::uint32_t i = 0; i < ring.sides; ++i) {
+        const glm::vec3 out = at[i].cosine * ring.normal + at[i].sine * ring.binormal;
+        const glm::vec3 around = at[i].cosine * ring.binormal - at[i].sine * ring.normal;
+        const NoiseSample noise =
+            noise_->at(static_cast<float>(i) / static_cast<float>(ring.sides), ring.arc);
+        const float factor = 1.0F + amount * noise.value;
+        const glm::vec3 offset = at[i].cosine * ring.wide_normal + at[i].sine * ring.wide_binormal;
+        const float along =
+            std::clamp(ring.slope * factor + ring.radius * amount * noise.by_length, -8.0F, 8.0F);
+        block_.positions[first + i] = ring.centre + (ring.radius * factor) * offset;
+        block_.normals[first + i] = glm::normalize(out - along * ring.tangent -
+                                                   (amount * noise.by_angle / factor) * around);
+    }
+    if (seam_) {
+        block_.positions[first + ring.sides] = block_.positions[first];
+        block_.normals[first + ring.sides] = block_.normals[first];
+    }
+}
+
+void TubeWriter::put_tip(const glm::vec3& position, const glm::vec3& normal, const Ring& ring) {
+    block_.set(at_.vertex++, {.position = position,
+                              .normal = normal,
+                              .texture_coordinate = {0.5F, v_of(ring.arc)},
+                              .tangent = glm::vec4(ring.normal, 1.0F),
+                              .palette = ring.colour});
+}
+
+} // namespace lsys

@@ -1,0 +1,40 @@
+// TubeTriangles: the triangles of runs, and the number of vertices, before a vertex is made. What a
+// TubeWriter writes lies in the same order.
+#pragma once
+
+#include "runtime/meshing/impl/axis_reader.h"
+#include "runtime/meshing/triangle_list.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+/// Index of each colour in Axes::colours.
+using ColourSlots = std::vector<std::uint32_t>;
+
+class TubeTriangles {
+public:
+    /// Appends to the list of each slot.
+    TubeTriangles(const MeshOptions& options,
+                  const ColourSlots& slots,
+                  std::span<TriangleList> lists);
+
+    void add(const Run& run);
+
+    /// Of all runs so far.
+    [[nodiscard]] std::uint64_t vertices() const { return vertices_; }
+
+private:
+    RingCorners add_ring(std::uint32_t sides);
+    void link(TriangleList& list, std::uint32_t sides);
+
+    const ColourSlots& slots_;
+    std::span<TriangleList> lists_;
+    bool seam_;
+    std::uint64_t vertices_ = 0;
+    RingCorners last_; // ring
+};
+
+} // namespace lsys

@@ -1,0 +1,85 @@
+// TubeWriter: the vertices of rings for the runs of axes. The normal is carried from edge to edge
+// by double reflection (Wang, Juettler, Zheng and Liu, "Computation of rotation minimizing frames",
+// ACM TOG 27(1), 2008, section 4), so that a tube does not twist where the turtle rolls. It lies
+// across the edge, so the first reflection, along the edge, leaves it as it is; the second, in the
+// plane that halves the bend, is what remains. Corners of neighbouring rings are joined by lines
+// that are parallel to the edge between them.
+#pragma once
+
+#include "runtime/meshing/impl/axis_reader.h"
+#include "runtime/meshing/impl/mesh_builder.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace lsys {
+
+class BarkNoise;
+
+/// Vertices of a ring: one more than sides where texture coordinates begin and end.
+[[nodiscard]] inline std::uint32_t columns_of(std::uint32_t sides, const MeshOptions& options) {
+    return sides + (options.texture_coordinates || options.tangents ? 1U : 0U);
+}
+
+class TubeWriter {
+public:
+    /// Writes from vertex `vertex` of the block on.
+    TubeWriter(const MeshBlock& block, const MeshOptions& options, std::uint64_t vertex);
+
+    /// Where the writing of a run is between two joints, and the frame there.
+    struct Place {
+        std::size_t joint = 0; // the next one
+        std::uint64_t vertex = 0;
+        double arc = 0.0;
+        double circumference = 0.0; // at the mean radius, where it is needed
+        glm::vec3 normal{}; // across the edge to the joint: where the first corner is seen from it
+        std::uint32_t steps = 0;
+    };
+
+    void write(const Run& run);
+    [[nodiscard]] Place begin(const Run& run) const;
+    /// Writes what begins before joint `end`; the place moves there.
+    void write(const Run& run, Place& place, std::size_t end);
+    /// Moves the place as write() does up to a joint of the run, and writes nothing.
+    void skip(const Run& run, Place& place, std::size_t end) const;
+
+    [[nodiscard]] std::uint64_t vertex() const { return at_.vertex; }
+
+private:
+    /// Where a ring lies and how: across the tangent, as an ellipse.
+    struct Ring {
+        glm::vec3 centre{};
+        float radius = 0.0F;
+        float slope = 0.0F; // of the radius by arc length
+        glm::vec3 tangent{};
+        glm::vec3 normal{}; // unit; seen from the axis, the first corner lies there
+        glm::vec3 binormal{};
+        glm::vec3 wide_normal{}; // the normal and the binormal, stretched along the bend
+        glm::vec3 wide_binormal{};
+        double arc = 0.0;
+        std::uint32_t sides = 0;
+        std::uint16_t colour = 0;
+    };
+
+    void go(const Run& run, std::size_t end);
+    void set_straight(const glm::vec3& edge, Ring& ring) const;
+    void set_mitred(const glm::vec3& in, const glm::vec3& out, Ring& ring) const;
+    static void carry(const glm::vec3& in, const glm::vec3& out, Place& place);
+    void bend(const Joint& before, const Joint& joint, Ring& ring);
+    void put_ring(const Ring& ring);
+    void put_textured(const Ring& ring, std::uint64_t first);
+    void put_noise(const Ring& ring, std::uint64_t first);
+    void put_tip(const glm::vec3& position, const glm::vec3& normal, const Ring& ring);
+    void close(const Run& run, Ring& ring);
+    [[nodiscard]] float v_of(double arc) const { return static_cast<float>(-arc * v_scale_); }
+
+    MeshBlock block_;
+    const MeshOptions& options_;
+    bool seam_;
+    Place at_;
+    // Of the run that is being written:
+    double v_scale_ = 0.0;
+    const BarkNoise* noise_ = nullptr;
+};
+
+} // namespace lsys

@@ -1,0 +1,297 @@
+#include "runtime/meshing/impl/tubes.h"
+
+#include "grammar/base/contract.h"
+#include "runtime/base/workers.h"
+#include "runtime/meshing/impl/axes.h"
+#include "runtime/meshing/impl/axis_reader.h"
+#include "runtime/meshing/impl/tube_triangles.h"
+#include "runtime/meshing/impl/tube_writer.h"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::uint64_t kPieces = 64;
+constexpr std::uint64_t kLeastOfPiece = 4096; // segments
+constexpr std::uint64_t kMostOfPiece = std::uint64_t{1} << 17;
+constexpr std::uint64_t kMostLists = std::uint64_t{1} << 20; // of pieces and colours
+constexpr std::size_t kJointsOfSegment = 2; // about, with those of ends and collars
+constexpr std::size_t kJointsOfPart = 2048;
+constexpr std::size_t kLong = 4 * kJointsOfPart; // a run that is written in parts
+static_assert(kLong <= 0xFFFF);
+
+/// What makes a Run, beside its joints and their radii.
+struct KeptRun {
+    std::uint32_t first_segment = 0;
+    std::uint16_t joint_count = 0; // but of long ones
+    TubeEnd begin = TubeEnd::Flat;
+    TubeEnd end = TubeEnd::Blunt;
+};
+
+/// A run that threads share, with joints of its own. Frames go from joint to joint, so each part
+/// begins where the one before has found its end.
+struct LongRun {
+    std::size_t number = 0;      // in Piece::runs
+    std::size_t first_joint = 0; // in Piece::joints, of the next run
+    LargeVector<Joint> joints;
+    LargeVector<float> radii;
+    std::uint64_t first_vertex = 0; // of those of the piece
+    std::uint64_t end_vertex = 0;
+    std::vector<TubeWriter::Place> places; // where parts begin
+    std::atomic<std::size_t> known{1};     // of them
+};
+
+/// A range of segments, and what is drawn of the axes that begin there.
+struct Piece {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+    std::uint64_t vertices = 0;          // before: their number; after: where they start
+    std::vector<TriangleList> triangles; // of each colour
+    LargeVector<KeptRun> runs;
+    LargeVector<Joint> joints; // of all runs that are not long
+    LargeVector<float> radii;
+    std::vector<std::unique_ptr<LongRun>> long_runs;
+};
+
+std::vector<Piece> make_pieces(std::uint64_t segments, std::size_t colours) {
+    const std::uint64_t most =
+        std::max<std::uint64_t>(kMostLists / std::max<std::size_t>(colours, 1), 1);
+    const std::uint64_t size = std::max(std::clamp(segments / kPieces, kLeastOfPiece, kMostOfPiece),
+                                        (segments + most - 1) / most);
+    std::vector<Piece> pieces;
+    for (std::uint64_t begin = 0; begin < segments; begin += size) {
+        Piece& piece = pieces.emplace_back();
+        piece.begin = static_cast<std::uint32_t>(begin);
+        piece.end = static_cast<std::uint32_t>(std::min(begin + size, segments));
+        piece.triangles.resize(colours);
+    }
+    return pieces;
+}
+
+/// Reads all runs of a piece and makes their triangles.
+class PieceReader {
+public:
+    PieceReader(const Skeleton& skeleton,
+                const Axes& axes,
+                const MeshOptions& options,
+                const ColourSlots& slots,
+                Piece& piece)
+        : skeleton_(skeleton), axes_(axes), piece_(piece), reader_(skeleton, axes, options),
+          triangles_(options, slots, piece.triangles) {}
+
+    void read() {
+        Run run;
+        piece_.joints.reserve(kJointsOfSegment * (piece_.end - piece_.begin));
+        for (std::uint32_t i = piece_.begin; i < piece_.end; ++i) {
+            if (begins_axis(axes_, skeleton_.segments[i], i)) {
+                reader_.start(i);
+                while (reader_.next(run)) {
+                    keep(run);
+                }
+            }
+        }
+        piece_.vertices = triangles_.vertices();
+    }
+
+private:
+    void keep(const Run& run) {
+        const std::uint64_t first = triangles_.vertices();
+        triangles_.add(run);
+        const bool is_long = run.joints.size() >= kLong;
+        piece_.runs.push_back(
+            {.first_segment = run.first_segment,
+             .joint_count = static_cast<std::uint16_t>(is_long ? 0 : run.joints.size()),
+             .begin = run.begin,
+             .end = run.end});
+        if (!is_long) {
+            piece_.joints.insert(piece_.joints.end(), run.joints.begin(), run.joints.end());
+            piece_.radii.insert(piece_.radii.end(), run.radii.begin(), run.radii.end());
+            return;
+        }
+        LongRun& kept = *piece_.long_runs.emplace_back(std::make_unique<LongRun>());
+        kept.number = piece_.runs.size() - 1;
+        kept.first_joint = piece_.joints.size();
+        reader_.take(kept.joints, kept.radii);
+        kept.first_vertex = first;
+        kept.end_vertex = triangles_.vertices();
+    }
+
+    const Skeleton& skeleton_;
+    const Axes& axes_;
+    Piece& piece_;
+    AxisReader reader_;
+    TubeTriangles triangles_;
+};
+
+/// Some runs of a piece, or a part of one.
+struct Task {
+    Piece* piece = nullptr;
+    std::size_t first_run = 0;
+    std::size_t end_run = 0;
+    std::size_t first_joint = 0;
+    std::uint64_t first_vertex = 0;
+    std::uint64_t end_vertex = 0;
+    LongRun* shared = nullptr;
+    std::size_t part = 0;
+};
+
+/// In the order of vertices.
+std::vector<Task> make_tasks(std::vector<Piece>& pieces, std::uint64_t vertices) {
+    std::vector<Task> tasks;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        Piece& piece = pieces[i];
+        const std::uint64_t end = i + 1 < pieces.size() ? pieces[i + 1].vertices : vertices;
+        Task task{.piece = &piece, .first_vertex = piece.vertices};
+        for (const std::unique_ptr<LongRun>& longer : piece.long_runs) {
+            LongRun& run = *longer;
+            task.end_run = run.number;
+            task.end_vertex = piece.vertices + run.first_vertex;
+            tasks.push_back(task);
+            const std::size_t parts = (run.joints.size() + kJointsOfPart - 1) / kJointsOfPart;
+            run.places.resize(parts + 1);
+            for (std::size_t part = 0; part < parts; ++part) {
+                tasks.push_back({.piece = &piece,
+                                 .first_run = run.number,
+                                 .end_run = run.number + 1,
+                                 .first_vertex = piece.vertices + run.first_vertex,
+                                 .end_vertex = piece.vertices + run.end_vertex,
+                                 .shared = &run,
+                                 .part = part});
+            }
+            task.first_run = run.number + 1;
+            task.first_joint = run.first_joint;
+            task.first_vertex = piece.vertices + run.end_vertex;
+        }
+        task.end_run = piece.runs.size();
+        task.end_vertex = end;
+        tasks.push_back(task);
+    }
+    return tasks;
+}
+
+class TaskWriter {
+public:
+    /// `alone`: no other thread writes.
+    TaskWriter(const Skeleton& skeleton,
+               const MeshBlock& block,
+               const MeshOptions& options,
+               bool alone,
+               const Task& task)
+        : skeleton_(skeleton), alone_(alone), task_(task),
+          writer_(block, options, task.first_vertex) {}
+
+    void write() {
+        if (task_.shared != nullptr) {
+            write_part(*task_.shared);
+        } else {
+            write_runs();
+        }
+    }
+
+private:
+    [[nodiscard]] Run
+    run_of(const KeptRun& kept, std::span<const Joint> joints, std::span<const float> radii) const {
+        return {.joints = joints,
+                .radii = radii,
+                .begin = kept.begin,
+                .end = kept.end,
+                .side = side_of(skeleton_, kept.first_segment),
+                .first_segment = kept.first_segment};
+    }
+
+    /// Tells the next part where it begins before anything is written, if there is someone to tell.
+    void write_part(LongRun& shared) {
+        const Run run = run_of(task_.piece->runs[task_.first_run], shared.joints, shared.radii);
+        const std::size_t end = std::min((task_.part + 1) * kJointsOfPart, run.joints.size());
+        if (task_.part == 0) {
+            shared.places[0] = writer_.begin(run);
+        }
+        for (std::size_t known = shared.known; known <= task_.part; known = shared.known) {
+            shared.known.wait(known);
+        }
+        TubeWriter::Place& next = shared.places[task_.part + 1];
+        TubeWriter::Place place = shared.places[task_.part];
+        const bool others_wait = !alone_ && end < run.joints.size();
+        if (others_wait) {
+            next = place;
+            writer_.skip(run, next, end);
+            shared.known = task_.part + 2;
+            shared.known.notify_all();
+        }
+        writer_.write(run, place, end);
+        if (!others_wait) {
+            next = place;
+            shared.known = task_.part + 2;
+        }
+        LSYS_CHECK(end < run.joints.size() || writer_.vertex() == task_.end_vertex,
+                   writer_.vertex(), task_.end_vertex);
+    }
+
+    void write_runs() {
+        Piece& piece = *task_.piece;
+        std::size_t joint = task_.first_joint;
+        for (std::size_t i = task_.first_run; i < task_.end_run; ++i) {
+            const KeptRun& kept = piece.runs[i];
+            writer_.write(run_of(kept, std::span(piece.joints).subspan(joint, kept.joint_count),
+                                 std::span(piece.radii)
+                                     .subspan(piece.radii.empty() ? 0 : joint,
+                                              piece.radii.empty() ? 0 : kept.joint_count)));
+            joint += kept.joint_count;
+        }
+        // What was counted is what was written.
+        LSYS_CHECK(writer_.vertex() == task_.end_vertex, writer_.vertex(), task_.end_vertex);
+        if (piece.long_runs.empty()) {
+            piece.runs = {};
+            piece.joints = {};
+            piece.radii = {};
+        }
+    }
+
+    const Skeleton& skeleton_;
+    bool alone_;
+    const Task& task_;
+    TubeWriter writer_;
+};
+
+} // namespace
+
+void append_tubes(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder) {
+    Workers workers(options.threads);
+    const Axes axes = find_axes(skeleton, workers);
+    ColourSlots slots(axes.colours.empty() ? 0 : axes.colours.back() + std::size_t{1});
+    std::vector<MeshBuilder::WholePart> parts;
+    for (const std::uint16_t colour : axes.colours) {
+        slots[colour] = static_cast<std::uint32_t>(parts.size());
+        parts.push_back({.material = wood_material(colour), .triangles = {}});
+    }
+    std::vector<Piece> pieces = make_pieces(skeleton.segments.size(), parts.size());
+    for_each_piece(workers, pieces.size(), [&](std::uint64_t i) {
+        PieceReader(skeleton, axes, options, slots, pieces[i]).read();
+    });
+
+    std::uint64_t vertices = 0;
+    for (Piece& piece : pieces) {
+        for (std::size_t slot = 0; slot < parts.size(); ++slot) {
+            parts[slot].triangles.append(std::move(piece.triangles[slot]),
+                                         static_cast<std::uint32_t>(vertices));
+        }
+        vertices += std::exchange(piece.vertices, vertices);
+    }
+    MeshBlock block;
+    if (!builder.place_parts(std::move(parts), vertices, block)) {
+        return;
+    }
+    const std::vector<Task> tasks = make_tasks(pieces, vertices);
+    workers.for_each(tasks.size(), [&](std::uint64_t i) {
+        TaskWriter(skeleton, block, options, workers.count() == 1, tasks[i]).write();
+    });
+}
+
+} // namespace lsys

@@ -1,0 +1,88 @@
+#include "runtime/meshing/mesh.h"
+
+#include "runtime/meshing/impl/boxes.h"
+#include "runtime/meshing/impl/cylinders.h"
+#include "runtime/meshing/impl/mesh_builder.h"
+#include "runtime/meshing/impl/objects.h"
+#include "runtime/meshing/impl/polygons.h"
+#include "runtime/meshing/impl/program_shapes.h"
+#include "runtime/meshing/impl/ring_segments.h"
+#include "runtime/meshing/impl/tubes.h"
+
+#include <new>
+#include <stdexcept>
+
+namespace lsys {
+
+namespace {
+
+MeshStatus build(const Skeleton& skeleton,
+                 const std::vector<UserMesh>& user_meshes,
+                 const MeshOptions& options,
+                 Mesh& mesh) {
+    MeshBuilder builder(options, mesh);
+    if (skeleton.of_program && options.method == MeshMethod::Tubes) {
+        append_program_shapes(skeleton, builder);
+        append_objects(skeleton, user_meshes, options, builder); // the others
+        return builder.finish();
+    }
+    switch (options.method) {
+    case MeshMethod::Tubes:
+        append_tubes(skeleton, options, builder);
+        if (options.segments && builder.status() == MeshStatus::Ok) {
+            name_ring_segments(skeleton, options, builder.segments());
+        }
+        break;
+    case MeshMethod::Cylinders:
+        append_cylinders(skeleton, options, builder);
+        break;
+    case MeshMethod::Boxes:
+        append_boxes(skeleton, options, builder);
+        break;
+    }
+    append_polygons(skeleton, options, builder);
+    append_objects(skeleton, user_meshes, options, builder);
+    return builder.finish();
+}
+
+} // namespace
+
+MeshStatus make_mesh(const Skeleton& skeleton,
+                     const std::vector<UserMesh>& user_meshes,
+                     const MeshOptions& options,
+                     Mesh& mesh) {
+    try {
+        return build(skeleton, user_meshes, options, mesh);
+    } catch (const std::bad_alloc&) {
+        mesh = {};
+    } catch (const std::length_error&) {
+        mesh = {};
+    }
+    return MeshStatus::OutOfMemory;
+}
+
+glm::vec3 palette_colour(std::uint32_t index) {
+    // Grammars count colours up as a plant grows, so the first ones are those of wood and foliage.
+    static constexpr std::array<std::array<float, 3>, 25> kRound{{
+        {0.162F, 0.098F, 0.054F}, // bark
+        {0.082F, 0.235F, 0.028F}, // leaf
+        {0.095F, 0.252F, 0.031F}, // greens, from deep to light
+        {0.110F, 0.270F, 0.034F}, {0.126F, 0.289F, 0.037F}, {0.143F, 0.309F, 0.041F},
+        {0.161F, 0.330F, 0.045F}, {0.180F, 0.352F, 0.049F}, {0.201F, 0.375F, 0.053F},
+        {0.223F, 0.398F, 0.056F}, {0.247F, 0.421F, 0.059F}, {0.274F, 0.440F, 0.061F},
+        {0.303F, 0.455F, 0.062F}, {0.335F, 0.466F, 0.063F}, {0.368F, 0.472F, 0.064F},
+        {0.402F, 0.474F, 0.065F}, {0.381F, 0.212F, 0.105F}, // light brown
+        {0.604F, 0.027F, 0.034F},                           // red
+        {0.896F, 0.491F, 0.017F},                           // amber
+        {0.831F, 0.787F, 0.612F},                           // cream
+        {0.716F, 0.174F, 0.352F},                           // pink
+        {0.246F, 0.072F, 0.462F},                           // violet
+        {0.030F, 0.152F, 0.533F},                           // blue
+        {0.019F, 0.337F, 0.319F},                           // teal
+        {0.402F, 0.402F, 0.402F},                           // grey
+    }};
+    const std::size_t entry = index < kRound.size() ? index : 2 + (index - 2) % (kRound.size() - 2);
+    return {kRound[entry][0], kRound[entry][1], kRound[entry][2]};
+}
+
+} // namespace lsys

@@ -1,0 +1,133 @@
+// Mesh: triangles made from a skeleton. Arrays run in parallel; indices count vertices. Triangles
+// are counter-clockwise seen from outside. Metres, right-handed, +Y up; texture coordinates have v
+// downwards as glTF has it.
+#pragma once
+
+#include "runtime/meshing/triangle_list.h"
+#include "runtime/turtle/skeleton.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+struct Texture; // runtime/meshing/texture.h
+
+enum class MaterialKind : std::uint8_t { Bark, Leaf, Flower, Plain };
+
+/// What a part of a mesh looks like. Colours are linear RGBA, 0 to 1.
+struct Material {
+    std::string name;
+    MaterialKind kind = MaterialKind::Plain;
+    glm::vec4 colour{1.0F};
+    bool two_sided = false;
+    bool cut_out = false;  // texels below half opacity are not there
+    bool textured = false; // by `picture`, or that of its kind, see runtime/meshing/texture.h
+    std::shared_ptr<const Texture> picture = nullptr; // of a file; multiplied by the colour
+};
+
+/// Triangles of one material: indices[first_index, first_index + index_count).
+struct MeshPart {
+    std::uint32_t material = 0; // in Mesh::materials
+    std::uint64_t first_index = 0;
+    std::uint64_t index_count = 0;
+};
+
+/// The segments that carry a vertex, half each; twice the same where it is one, kNoSegment: none.
+using VertexSegments = std::array<std::uint32_t, 2>;
+
+struct Mesh {
+    LargeVector<glm::vec3> positions;
+    LargeVector<glm::vec3> normals;             // unit length
+    LargeVector<glm::vec2> texture_coordinates; // empty if not asked for
+    LargeVector<glm::vec4> tangents;            // empty if not asked for; w is the bitangent's sign
+    LargeVector<std::uint16_t> colours;   // palette index of each vertex; empty if not asked for
+    LargeVector<VertexSegments> segments; // empty if not asked for
+    TriangleList indices;
+    std::vector<MeshPart> parts; // one for each material in use, in order of indices
+    std::vector<Material> materials;
+
+    [[nodiscard]] std::uint64_t byte_count() const {
+        return positions.size() * sizeof(glm::vec3) + normals.size() * sizeof(glm::vec3) +
+               texture_coordinates.size() * sizeof(glm::vec2) +
+               tangents.size() * sizeof(glm::vec4) + colours.size() * sizeof(std::uint16_t) +
+               segments.size() * sizeof(VertexSegments) + indices.byte_count();
+    }
+};
+
+enum class MeshMethod : std::uint8_t {
+    Tubes,     // linked tubes along axes, joints shared
+    Cylinders, // one closed cylinder a segment (Crankshaw 2019)
+    Boxes,     // boxes joined and smoothed by Catmull-Clark subdivision (report of the .sys forest)
+};
+
+struct MeshOptions {
+    MeshMethod method = MeshMethod::Tubes;
+    /// 0 is the finest; each level has about half the sides and fewer rings of the one before.
+    std::uint32_t level = 0;
+    /// Sides of every cross-section; 0: as the skeleton says.
+    std::uint32_t sides = 0;
+    /// Of Tubes, in metres: each ring has as few sides as keep it so near to its circle, and at
+    /// most those of its level; 0: all have those of their level.
+    float deviation = 0.0F;
+    bool texture_coordinates = true;
+    bool tangents = true;
+    bool colours = true;
+    bool segments = false; // for a skin
+    /// Part of the radius by which smooth noise moves the bark (Baele and Warzee 2005); 0: none.
+    float bark_noise = 0.0F;
+    /// Bending of leaves by gravity, 0 (none) to 1 (they hang).
+    float droop = 0.0F;
+    std::uint32_t subdivisions = 2; // of Boxes
+    std::uint64_t max_bytes = ~std::uint64_t{0};
+    std::uint32_t threads = 0; // 0: as many as the machine has
+
+    friend bool operator==(const MeshOptions&, const MeshOptions&) = default;
+};
+
+enum class MeshStatus : std::uint8_t { Ok, TooManyVertices, Limit, OutOfMemory };
+
+/// A name in the text of a file.
+struct ObjName {
+    std::string name;
+    std::uint64_t offset = 0;
+};
+
+/// A mesh read from a file for `#object X "leaf.obj"`; extent along +Y gives the turtle its step.
+struct UserMesh {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec2> texture_coordinates;
+    std::vector<std::uint32_t> indices;
+    std::vector<ObjName> libraries;         // files of materials that it names
+    std::vector<ObjName> materials;         // of its faces, by their first; no name: of none
+    std::shared_ptr<const Texture> picture; // that all of it shows; may be none
+    std::vector<std::string> files;         // that were looked for to find it
+    [[nodiscard]] float length() const;     // greatest y, at least 0
+};
+
+/// Makes `mesh` from `skeleton`. `user_meshes` are those of Skeleton::mesh_files, in order. The
+/// same result for any number of threads. TooManyVertices: more than 2^32 - 1.
+[[nodiscard]] MeshStatus make_mesh(const Skeleton& skeleton,
+                                   const std::vector<UserMesh>& user_meshes,
+                                   const MeshOptions& options,
+                                   Mesh& mesh);
+
+/// The mesh of make_mesh() as text: a line of counts, then one for each part, vertex and triangle.
+[[nodiscard]] std::uint64_t line_count(const Mesh& mesh);
+/// Precondition: line < line_count().
+void append_line(const Mesh& mesh, std::uint64_t line, std::string& text);
+
+/// Colour of a palette index (linear RGB): 0 bark, 1 leaf green, 2 to 15 lighter and lighter
+/// greens, 16 to 24 light brown, red, amber, cream, pink, violet, blue, teal, grey; then again
+/// from 2.
+[[nodiscard]] glm::vec3 palette_colour(std::uint32_t index);
+
+} // namespace lsys

@@ -1,0 +1,91 @@
+#include "runtime/base/png_samples.h"
+#include "runtime/meshing/texture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lsys {
+
+namespace {
+
+/// What the first bytes say of a picture that is no PNG; empty: nothing.
+std::string_view other_format(std::string_view bytes) {
+    struct Known {
+        std::string_view begin;
+        std::string_view name;
+    };
+    constexpr std::array<Known, 6> kKnown = {{{"\xFF\xD8\xFF", "JPEG"},
+                                              {"GIF8", "GIF"},
+                                              {"BM", "BMP"},
+                                              {"RIFF", "WebP"},
+                                              {"II*", "TIFF"},
+                                              {"DDS ", "DDS"}}};
+    const auto found = std::find_if(kKnown.begin(), kKnown.end(), [&](const Known& known) {
+        return bytes.starts_with(known.begin);
+    });
+    return found == kKnown.end() ? std::string_view() : found->name;
+}
+
+float linear(std::uint8_t value) { // IEC 61966-2-1
+    const float c = static_cast<float>(value) / 255.0F;
+    return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
+}
+
+} // namespace
+
+Result<Texture> read_picture(std::string_view bytes) {
+    if (const std::string_view format = other_format(bytes); !format.empty()) {
+        return Error{fmt::format("it is a {}; only PNG is read", format)};
+    }
+    Result<PngSamples> read = read_png_samples(bytes, PngForm::Rgba, kMaxTexels, "picture");
+    if (!read) {
+        return read.error();
+    }
+    PngSamples& samples = read.value();
+    if (std::max(samples.columns, samples.rows) > kMaxTextureSide) {
+        return Error{fmt::format("a picture of {} by {} pixels; the most along a side is {}",
+                                 samples.columns, samples.rows, kMaxTextureSide)};
+    }
+    Texture texture;
+    texture.width = samples.columns;
+    texture.height = samples.rows;
+    texture.texels.assign(samples.bytes.begin(), samples.bytes.end());
+    return texture;
+}
+
+bool has_holes(const Texture& texture) {
+    for (std::size_t i = 3; i < texture.texels.size(); i += 4) {
+        if (texture.texels[i] < 128) {
+            return true;
+        }
+    }
+    return false;
+}
+
+glm::vec3 mean_colour(const Texture& texture) {
+    std::array<std::uint64_t, 768> counts{}; // of each value of each channel
+    std::uint64_t there = 0;
+    for (std::size_t i = 0; i + 3 < texture.texels.size(); i += 4) {
+        if (texture.texels[i + 3] >= 128) {
+            ++there;
+            for (std::size_t c = 0; c < 3; ++c) {
+                ++counts[256 * c + texture.texels[i + c]];
+            }
+        }
+    }
+    glm::vec3 mean(1.0F);
+    for (std::size_t c = 0; c < 3 && there != 0; ++c) {
+        double sum = 0.0;
+        for (std::size_t value = 0; value < 256; ++value) {
+            sum += static_cast<double>(counts[256 * c + value]) *
+                   static_cast<double>(linear(static_cast<std::uint8_t>(value)));
+        }
+        mean[static_cast<glm::length_t>(c)] = static_cast<float>(sum / static_cast<double>(there));
+    }
+    return mean;
+}
+
+} // namespace lsys

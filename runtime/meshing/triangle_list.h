@@ -1,0 +1,137 @@
+// TriangleList: the indices of a mesh, three for each triangle, where they are regular as the rule
+// that makes them. What a tube would need as indices is as large as its positions and normals; as
+// bands between rings and fans it is some bytes for a whole axis, and the memory of a large mesh
+// is what making it costs most of.
+#pragma once
+
+#include "runtime/base/large_vector.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace lsys {
+
+/// Corners that lie one after the other, the first of which is vertex `first`. With a seam there is
+/// one vertex more than sides, where the picture begins and ends; without, the first is the last.
+struct RingCorners {
+    std::uint32_t first = 0;
+    std::uint32_t sides = 0; // at most 255
+    bool seam = false;
+
+    [[nodiscard]] std::uint32_t columns() const { return sides + (seam ? 1U : 0U); }
+};
+
+class TriangleList {
+public:
+    TriangleList() = default;
+    // NOLINTNEXTLINE(google-explicit-constructor): indices are a list of triangles
+    TriangleList(LargeVector<std::uint32_t> indices) { append(std::move(indices)); }
+    TriangleList(std::initializer_list<std::uint32_t> indices);
+
+    /// In indices.
+    [[nodiscard]] std::uint64_t size() const { return size_; }
+    [[nodiscard]] bool empty() const { return size_ == 0; }
+    [[nodiscard]] std::uint64_t byte_count() const;
+
+    /// Slow: see TriangleReader, read() and expanded().
+    [[nodiscard]] std::uint32_t operator[](std::uint64_t index) const;
+    /// The indices from `first` on. Precondition: there are as many.
+    void read(std::uint64_t first, std::span<std::uint32_t> to) const;
+    [[nodiscard]] LargeVector<std::uint32_t> expanded() const;
+    /// Whether the indices are the same, however they are kept.
+    friend bool operator==(const TriangleList& a, const TriangleList& b);
+
+    void push_back(std::uint32_t index);
+    void append(LargeVector<std::uint32_t> indices);
+    /// All of `list`, whose vertices are counted from `first_vertex`.
+    void append(TriangleList list, std::uint32_t first_vertex);
+
+    /// Two triangles a side between each ring and the next, of `bands` + 1 rings of which `low` is
+    /// the first.
+    void append_bands(const RingCorners& low, std::uint32_t bands);
+    /// The triangles between two rings of different sides.
+    void append_uneven_band(const RingCorners& low, const RingCorners& high);
+    /// A triangle from each side of a ring to `point`, or with `each_its_own` to the vertices from
+    /// `point` on. `upwards`: the ring goes counter-clockwise seen from there.
+    void append_fan(const RingCorners& ring, std::uint32_t point, bool each_its_own, bool upwards);
+
+private:
+    enum class Shape : std::uint8_t { Bands, UnevenBand, Fan };
+
+    struct Patch {
+        std::uint32_t end = 0; // of its indices, counted within the block
+        std::uint32_t first = 0;
+        std::uint32_t second = 0; // the other ring, the point, or the last ring of bands
+        Shape shape = Shape::Bands;
+        std::uint8_t sides = 0;
+        std::uint8_t second_sides = 0;
+        bool seam : 1 = false;
+        bool each_its_own : 1 = false;
+        bool upwards : 1 = false;
+    };
+
+    /// Patches, or indices as they are.
+    struct Block {
+        std::uint64_t begin = 0; // of its indices
+        std::uint32_t first_vertex = 0;
+        std::vector<Patch> patches;
+        LargeVector<std::uint32_t> listed;
+
+        [[nodiscard]] std::uint64_t size() const {
+            return patches.empty() ? listed.size() : patches.back().end;
+        }
+    };
+    struct Pattern;
+
+    static void write_unit(const Patch& patch, std::uint32_t vertex, std::uint32_t* to);
+    static void read_patches(const Block& block,
+                             std::uint64_t first,
+                             std::span<std::uint32_t> to,
+                             Pattern& pattern);
+    void append_patch(Patch patch, std::uint32_t indices);
+
+    std::vector<Block> blocks_; // none of them empty
+    std::uint64_t size_ = 0;
+};
+
+/// Calls visit(first, indices) with as many at a time as a cache holds, in order.
+template <typename Visit>
+void for_each_chunk(const TriangleList& list, const Visit& visit) {
+    constexpr std::uint64_t kMost = 24576;
+    std::vector<std::uint32_t> chunk(std::min(kMost, list.size()));
+    for (std::uint64_t first = 0; first < list.size(); first += kMost) {
+        const std::span<std::uint32_t> part =
+            std::span(chunk).first(std::min(kMost, list.size() - first));
+        list.read(first, part);
+        visit(first, std::span<const std::uint32_t>(part));
+    }
+}
+
+/// Reads indices in about their order, some thousands at a time.
+class TriangleReader {
+public:
+    explicit TriangleReader(const TriangleList& list) : list_(list) {}
+
+    [[nodiscard]] std::uint32_t operator[](std::uint64_t index) {
+        if (index - first_ >= count_) {
+            fill(index);
+        }
+        return buffer_[index - first_];
+    }
+
+private:
+    void fill(std::uint64_t first);
+
+    const TriangleList& list_;
+    std::uint64_t first_ = 0;
+    std::uint64_t count_ = 0;
+    std::array<std::uint32_t, 3072> buffer_;
+};
+
+} // namespace lsys

@@ -1,0 +1,220 @@
+// Mass properties after Crankshaw 2019, section 6.2, who takes every segment for a cylinder that
+// turns about its end: here it is the truncated cone that is drawn, which is his where the radii
+// are equal. Mass is Segment::mass, which is the volume of that cone by the density unless the
+// author gave it.
+//
+// What is not a segment has no mass of its own in the grammar, but a crown without its leaves bends
+// too little. All of it is taken for thin sheets of `surface_mass`: an object of size s for s^2
+// square metres, half of its length away from where it begins; a polygon for its area, at the mean
+// of its corners. To the wind each shows half of that, the mean over directions.
+#include "runtime/physics/impl/bodies.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lsys {
+
+namespace {
+
+constexpr double kShown = 0.5; // part of a sheet that the wind sees
+
+double magnitude(float value) {
+    const auto greatest = static_cast<double>(std::numeric_limits<float>::max());
+    const auto given = static_cast<double>(value);
+    return given > 0.0 ? std::min(given, greatest) : 0.0;
+}
+
+double finite_or_0(double value) {
+    return std::isfinite(value) ? value : 0.0;
+}
+
+glm::dvec3 place_of(const glm::vec3& v) {
+    return {finite_or_0(static_cast<double>(v.x)), finite_or_0(static_cast<double>(v.y)),
+            finite_or_0(static_cast<double>(v.z))};
+}
+
+glm::dvec3 heading_of(const glm::quat& frame) {
+    const glm::dquat q(frame);
+    const double norm = glm::dot(q, q);
+    if (!(norm > 0.0) || !std::isfinite(norm)) {
+        return {0.0, 1.0, 0.0};
+    }
+    return glm::normalize(q * (1.0 / std::sqrt(norm))) * glm::dvec3(0.0, 1.0, 0.0);
+}
+
+/// Sums of a body while its loads come in.
+struct Load {
+    glm::dvec3 first_moment{0.0};
+    double sail = 0.0;
+};
+
+void order_by_depth(const Skeleton& rest, Bodies& out) {
+    const auto count = static_cast<std::uint32_t>(rest.segments.size());
+    const auto parent_of = [&](std::uint32_t segment) {
+        const std::uint32_t parent = rest.segments[segment].parent;
+        return parent < segment ? parent : kNoSegment;
+    };
+    // Children of each segment in order: those of s are children[ends[s] - count of s] ...
+    std::vector<std::uint32_t> ends(std::size_t{count} + 1, 0);
+    for (std::uint32_t s = 0; s < count; ++s) {
+        const std::uint32_t parent = parent_of(s);
+        ++ends[parent == kNoSegment ? count : parent];
+    }
+    const std::uint32_t root_count = ends[count];
+    std::vector<std::uint32_t> child_counts(ends.begin(), ends.end() - 1);
+    std::uint32_t before = 0;
+    for (std::uint32_t s = 0; s < count; ++s) {
+        const std::uint32_t own = ends[s];
+        ends[s] = before;
+        before += own;
+    }
+    std::vector<std::uint32_t> children(count - root_count);
+    out.bodies.resize(count);
+    out.segments.clear();
+    out.segments.reserve(count);
+    out.places.resize(count);
+    for (std::uint32_t s = 0; s < count; ++s) {
+        const std::uint32_t parent = parent_of(s);
+        if (parent == kNoSegment) {
+            out.segments.push_back(s);
+        } else {
+            children[ends[parent]++] = s;
+        }
+    }
+    std::uint32_t begin = 0;
+    while (begin < out.segments.size()) {
+        const auto end = static_cast<std::uint32_t>(out.segments.size());
+        out.level_ends.push_back(end);
+        for (std::uint32_t b = begin; b < end; ++b) {
+            const std::uint32_t s = out.segments[b];
+            out.places[s] = b;
+            Body& body = out.bodies[b];
+            body.parent = parent_of(s) == kNoSegment ? kNoSegment : out.places[parent_of(s)];
+            body.first_child = static_cast<std::uint32_t>(out.segments.size());
+            body.child_count = child_counts[s];
+            const auto first = children.begin() + (ends[s] - child_counts[s]);
+            out.segments.insert(out.segments.end(), first, first + child_counts[s]);
+        }
+        begin = end;
+    }
+}
+
+void add_segment(const Segment& segment, Body& body, Load& load) {
+    const double length = magnitude(segment.length);
+    const double base_radius = magnitude(segment.base_radius);
+    const double tip_radius = magnitude(segment.tip_radius);
+    const UnitCone cone = unit_cone(length, base_radius, tip_radius);
+    const glm::dvec3 axis = heading_of(segment.frame);
+    body.heading = glm::vec3(axis);
+    body.mass = magnitude(segment.mass);
+    body.spring = magnitude(segment.spring);
+    // across (1 - a a^T) + along a a^T
+    body.inertia = point_inertia(body.mass * (cone.across - cone.along), axis);
+    body.inertia.add_diagonal(body.mass * cone.along);
+    load.first_moment = body.mass * cone.centre * axis;
+    body.centre = cone.centre * axis;
+    const auto area = [](double value) {
+        return static_cast<float>(
+            std::min(value, static_cast<double>(std::numeric_limits<float>::max())));
+    };
+    body.side = area((base_radius + tip_radius) * length);
+    body.end = area(std::numbers::pi * std::max(base_radius, tip_radius) *
+                    std::max(base_radius, tip_radius));
+}
+
+void add_sheet(double area, double surface_mass, const glm::dvec3& place, Body& body, Load& load) {
+    if (!std::isfinite(area)) {
+        return;
+    }
+    const double mass = surface_mass * area;
+    body.mass += mass;
+    load.first_moment += mass * place;
+    body.inertia += point_inertia(mass, place);
+    load.sail += kShown * area;
+}
+
+} // namespace
+
+UnitCone unit_cone(double length, double base_radius, double tip_radius) {
+    const double a = base_radius;
+    const double b = tip_radius;
+    const double squares = a * a + a * b + b * b;
+    if (squares <= 0.0) {
+        return {.centre = length / 2.0, .across = length * length / 3.0, .along = 0.0};
+    }
+    // Integrals over the height of radius^2 times 1, height, height^2, and radius^2.
+    const double centre = length * (a * a + 2.0 * a * b + 3.0 * b * b) / (4.0 * squares);
+    const double height_squared =
+        length * length * (a * a + 3.0 * a * b + 6.0 * b * b) / (10.0 * squares);
+    const double radius_squared =
+        0.6 * (a * a * (a * a + a * b + b * b) + b * b * b * (a + b)) / squares;
+    return {.centre = centre,
+            .across = height_squared + 0.25 * radius_squared,
+            .along = 0.5 * radius_squared};
+}
+
+Bodies make_bodies(const Skeleton& rest, double surface_mass) {
+    Bodies out;
+    order_by_depth(rest, out);
+    std::vector<Load> loads(out.bodies.size());
+    for (std::size_t b = 0; b < out.bodies.size(); ++b) {
+        Body& body = out.bodies[b];
+        const Segment& segment = rest.segments[out.segments[b]];
+        add_segment(segment, body, loads[b]);
+        if (body.parent != kNoSegment) {
+            const Segment& parent = rest.segments[out.segments[body.parent]];
+            body.offset = place_of(segment.base) - place_of(parent.base);
+        }
+    }
+    for (const PlacedObject& object : rest.objects) {
+        if (object.parent < out.places.size()) {
+            const double size = magnitude(std::abs(object.size));
+            const glm::dvec3 place = place_of(object.position) -
+                                     place_of(rest.segments[object.parent].base) +
+                                     0.5 * size * heading_of(object.frame);
+            const std::uint32_t b = out.places[object.parent];
+            add_sheet(size * size, surface_mass, place, out.bodies[b], loads[b]);
+        }
+    }
+    for (const Polygon& polygon : rest.polygons) {
+        if (polygon.parent < out.places.size() && polygon.corner_count > 0) {
+            const glm::dvec3 base = place_of(rest.segments[polygon.parent].base);
+            const auto corner = [&](std::uint32_t c) {
+                return place_of(rest.corners[polygon.first_corner + c % polygon.corner_count]) -
+                       base;
+            };
+            glm::dvec3 sum(0.0);
+            glm::dvec3 normal(0.0); // Newell: twice the area long
+            for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
+                sum += corner(c);
+                normal += glm::cross(corner(c), corner(c + 1));
+            }
+            const std::uint32_t b = out.places[polygon.parent];
+            add_sheet(0.5 * glm::length(normal), surface_mass,
+                      sum / static_cast<double>(polygon.corner_count), out.bodies[b], loads[b]);
+        }
+    }
+    std::vector<double> carried(out.bodies.size(), 0.0); // mass of what is beyond
+    for (std::size_t b = out.bodies.size(); b-- > 0;) {
+        Body& body = out.bodies[b];
+        glm::dvec3 moment = loads[b].first_moment;
+        if (body.mass > 0.0) {
+            body.centre = moment / body.mass;
+        }
+        body.sail = static_cast<float>(std::min(loads[b].sail, 1e30));
+        carried[b] = body.mass;
+        for (std::uint32_t c = body.first_child; c < body.first_child + body.child_count; ++c) {
+            carried[b] += carried[c];
+            moment += carried[c] * out.bodies[c].offset;
+        }
+        body.moment = moment;
+    }
+    return out;
+}
+
+} // namespace lsys

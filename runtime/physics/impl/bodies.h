@@ -1,0 +1,55 @@
+// Bodies: the rigid bodies of a plant, one a segment, as they are at rest. A body is its segment
+// and the objects and polygons that the segment carries. Made once by plant_physics.cpp.
+#pragma once
+
+#include "runtime/physics/impl/symmetric.h"
+#include "runtime/turtle/skeleton.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+/// Vectors are in the axes of the world at rest, from the body's base.
+struct Body {
+    std::uint32_t parent = kNoSegment; // a body, before this one
+    std::uint32_t first_child = 0;     // bodies, behind this one
+    std::uint32_t child_count = 0;
+    glm::dvec3 offset{0.0}; // of the base, from the parent's base
+    glm::dvec3 centre{0.0}; // of mass
+    Symmetric inertia;      // about the base
+    double mass = 0.0;
+    double spring = 0.0;
+    /// Sum of mass times place over itself and what its children carry, as if each child's whole
+    /// load were at the child's base: kg m.
+    glm::dvec3 moment{0.0};
+    // The wind sees side * sin + end * cos + sail, by the angle between wind and heading.
+    glm::vec3 heading{0.0F, 1.0F, 0.0F};
+    float side = 0.0F; // m^2
+    float end = 0.0F;
+    float sail = 0.0F;
+};
+
+/// Bodies by depth, and within a depth by their parents, so that siblings are neighbours.
+struct Bodies {
+    std::vector<Body> bodies;
+    std::vector<std::uint32_t> segments;   // of each body
+    std::vector<std::uint32_t> places;     // the body of each segment
+    std::vector<std::uint32_t> level_ends; // for each depth, the end of its bodies
+};
+
+/// `surface_mass`: kg for each square metre of what is not a segment.
+[[nodiscard]] Bodies make_bodies(const Skeleton& rest, double surface_mass);
+
+/// A solid of uniform density about the middle of its base, for a mass of 1.
+struct UnitCone {
+    double centre = 0.0; // height of the centre of mass
+    double across = 0.0; // inertia about an axis in the base
+    double along = 0.0;  // about the axis from base to tip
+};
+/// The truncated cone of these radii: a cylinder where they are equal, a thin rod where both are 0.
+[[nodiscard]] UnitCone unit_cone(double length, double base_radius, double tip_radius);
+
+} // namespace lsys

@@ -1,0 +1,241 @@
+// The velocities at the end of a step, by elimination from the tips to the root and substitution
+// back: the articulated-body algorithm (Featherstone 2008, chapter 7) with ball joints, in absolute
+// angular velocities. Linear in the number of bodies, no recursion.
+//
+// Unknown are the spins w of the bodies; the base of a body moves with its parent, u = u_p + w_p x
+// r. Implicit Euler with the shape kept over the step is the minimum over w of
+//   sum of 1/2 (w, u) M (w, u) - (w, u) . (momentum + h force)         bodies
+//        + 1/2 (h c + h^2 k) |w - w_p|^2 + h k d . (w - w_p)           joints: damper, spring
+//        + 1/2 h^2 G |w|^2                                             weight and wind
+// where d is the joint's rotation vector. G is |g| |sum m r| over what the body carries, with each
+// child's whole load at the child's base, and so much again for the wind: the second derivative of
+// the weight's energy in absolute rotations has no coupling between bodies and is nowhere greater.
+// That of the spring's energy along a rotation is nowhere greater than k. So the minimum lies
+// downhill, however long the step. Forces::exactness puts the true second derivatives in their
+// place.
+#include "runtime/physics/impl/motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lsys {
+
+namespace {
+
+constexpr double kLeastInertia = 1e-13;        // of the trace: what rounding may take away
+constexpr double kMostTurn = std::numbers::pi; // in a step; what is faster cannot be shown
+
+/// The forms of a body itself and of its joint.
+struct Own {
+    Symmetric spin_spin;
+    Rows spin_velocity;
+    Symmetric velocity_velocity;
+    glm::dvec3 spin{0.0};
+    glm::dvec3 velocity{0.0};
+    glm::dvec3 wind{0.0};
+};
+
+/// Adds `factor` times the second derivative of the energy of a force at the end of `arm`, by
+/// rotations of the arm: -arm . force is their energy. See Forces::exactness.
+void add_stiffness(const glm::dvec3& arm,
+                   const glm::dvec3& force,
+                   double factor,
+                   double exactness,
+                   Symmetric& sum) {
+    sum.add_diagonal(factor * (1.0 - exactness) * glm::length(arm) * glm::length(force));
+    if (exactness == 0.0) {
+        return;
+    }
+    // arm . force - (arm force^T + force arm^T) / 2
+    const double f = factor * exactness;
+    sum.add_diagonal(f * glm::dot(arm, force));
+    sum += {-f * arm.x * force.x,
+            -f * arm.y * force.y,
+            -f * arm.z * force.z,
+            -0.5 * f * (arm.x * force.y + arm.y * force.x),
+            -0.5 * f * (arm.x * force.z + arm.z * force.x),
+            -0.5 * f * (arm.y * force.z + arm.z * force.y)};
+}
+
+Own own_forms(const Body& body,
+              const BodyMotion& motion,
+              const glm::dquat& turn,
+              const glm::dmat3& axes,
+              const Forces& forces) {
+    const double h = forces.step;
+    const glm::dvec3 centre = axes * body.centre;
+    const Symmetric inertia = rotated(body.inertia, axes);
+    const glm::dvec3& w = motion.spin;
+    const glm::dvec3 arm_velocity = glm::cross(w, centre);
+    const glm::dvec3 angular = inertia * w;
+    const double share = share_of_pull(w, h);
+
+    glm::dvec3 force = body.mass * forces.gravity;
+    double hold = 0.0;
+    Own own;
+    if (forces.drag > 0.0) {
+        hold = hold_of_wind(body, turn, motion.velocity + arm_velocity, forces);
+        own.wind = hold * forces.wind;
+        force += own.wind;
+    }
+    own.spin =
+        angular + body.mass * glm::cross(centre, motion.velocity) +
+        h * (glm::cross(centre, force - body.mass * motion.pull) - share * glm::cross(w, angular));
+    own.velocity = body.mass * (motion.velocity + arm_velocity) +
+                   h * (force - body.mass * (motion.pull + share * glm::cross(w, arm_velocity)));
+    const double heft = body.mass + h * hold;
+    own.spin_spin = inertia;
+    own.spin_spin += point_inertia(h * hold, centre);
+    add_stiffness(axes * body.moment, forces.gravity, h * h, forces.exactness, own.spin_spin);
+    if (forces.windy) {
+        add_stiffness(centre, own.wind, h * h, forces.exactness, own.spin_spin);
+    }
+    own.spin_velocity = cross_rows(heft * centre);
+    own.velocity_velocity.add_diagonal(heft);
+    return own;
+}
+
+/// Adds what a child is to its parent, whose base is `offset` before the child's.
+void add_child(const Reduced& child, const glm::dvec3& offset, const Forces& forces, Own& own) {
+    // M = spin_velocity + [r] velocity_velocity, rows; then
+    // spin_spin + M^T-like terms of u = u_p + w_p x r, see the head of this file.
+    const Rows n = rows_of(child.velocity_velocity);
+    const std::array<glm::dvec3, 3>& b = child.spin_velocity.row;
+    const std::array<glm::dvec3, 3> m = {b[0] - offset.z * n.row[1] + offset.y * n.row[2],
+                                         b[1] + offset.z * n.row[0] - offset.x * n.row[2],
+                                         b[2] - offset.y * n.row[0] + offset.x * n.row[1]};
+    const std::array<glm::dvec3, 3> left = {glm::cross(m[0], offset), glm::cross(m[1], offset),
+                                            glm::cross(m[2], offset)}; // rows of M [r]
+    const std::array<glm::dvec3, 3> right = {glm::cross(offset, b[0]), glm::cross(offset, b[1]),
+                                             glm::cross(offset, b[2])}; // columns of [r] B^T
+    own.spin_spin += child.spin_spin;
+    own.spin_spin += {right[0].x - left[0].x,
+                      right[1].y - left[1].y,
+                      right[2].z - left[2].z,
+                      0.5 * (right[1].x - left[0].y + right[0].y - left[1].x),
+                      0.5 * (right[2].x - left[0].z + right[0].z - left[2].x),
+                      0.5 * (right[2].y - left[1].z + right[1].z - left[2].y)};
+    for (std::size_t i = 0; i < 3; ++i) {
+        own.spin_velocity.row[i] += m[i];
+    }
+    own.velocity_velocity += child.velocity_velocity;
+    own.spin += child.spin + glm::cross(offset, child.velocity);
+    own.velocity += child.velocity;
+    if (forces.windy) {
+        own.wind += child.wind;
+        add_stiffness(offset, child.wind, forces.step * forces.step, forces.exactness,
+                      own.spin_spin);
+    }
+}
+
+/// Solves the body's own spin out of its forms.
+void eliminate(const Own& own,
+               const Body& body,
+               const BodyMotion& motion,
+               const Forces& forces,
+               JointSolution& solution,
+               Reduced& reduced) {
+    const double h = forces.step;
+    const double hooke = h * h * body.spring;
+    const glm::dvec3& bend = motion.bend;
+    Symmetric inertia = own.spin_spin;
+    inertia.add_diagonal(kLeastInertia * std::max(inertia.trace(), 0.0));
+    Symmetric joint;
+    joint.add_diagonal(h * forces.damping + hooke);
+    Rows twist; // the joint's coupling is joint + twist
+    if (forces.exactness > 0.0) {
+        // Half the square of exp(v) exp(bend) has the second derivative x cot x, x = |bend| / 2,
+        // across the bend; and exp(-w_p) exp(w) = exp(w - w_p - w_p x w / 2 ...).
+        const double half = 0.5 * glm::length(bend);
+        const double across = half > 1e-3 ? half / std::tan(half) : 1.0 - half * half / 3.0;
+        const double more = half > 1e-3 ? (1.0 - across) / (4.0 * half * half) : 1.0 / 12.0;
+        joint += scaled(point_inertia(-more, bend), forces.exactness * hooke);
+        twist = cross_rows(0.5 * forces.exactness * hooke * bend);
+    }
+    Symmetric sum = inertia;
+    sum += joint;
+    if (forces.exactness > 0.0 && !is_positive(sum)) {
+        const double more = 2.0 * std::abs(least_eigenvalue(sum));
+        inertia.add_diagonal(more);
+        sum.add_diagonal(more);
+    }
+    if (!(sum.trace() > 0.0)) { // nothing holds or moves it: it goes with its parent
+        joint.add_diagonal(1.0);
+        sum.add_diagonal(1.0);
+    }
+    const Symmetric inverse_sum = inverse(sum);
+    const glm::dvec3 torque = h * body.spring * bend;
+    const glm::dvec3 known = own.spin - torque;
+    const Rows from_velocity = product(inverse_sum, own.spin_velocity);
+    Rows from_parent = product(inverse_sum, rows_of(joint));
+
+    // joint - joint (inertia + joint)^-1 joint = joint (inertia + joint)^-1 inertia: nothing
+    // cancels
+    reduced.spin_spin = symmetric_product(from_parent, rows_of(inertia));
+    const glm::dvec3 bent = inverse_sum * torque;
+    reduced.spin = inertia * bent;
+    if (forces.exactness > 0.0) {
+        const Rows twisted = product(inverse_sum, twist);
+        reduced.spin_spin += scaled(symmetric_product(from_parent, twist), -2.0);
+        reduced.spin_spin += scaled(symmetric_product(twisted, twist), -1.0);
+        reduced.spin += twist * bent;
+        for (std::size_t i = 0; i < 3; ++i) {
+            from_parent.row[i] += twisted.row[i];
+        }
+    }
+    reduced.spin += from_parent.transposed_times(own.spin);
+    reduced.spin_velocity = transposed_product(from_parent, own.spin_velocity);
+    reduced.velocity_velocity = own.velocity_velocity;
+    reduced.velocity_velocity += scaled(symmetric_product(own.spin_velocity, from_velocity), -1.0);
+    reduced.velocity = own.velocity - from_velocity.transposed_times(known);
+    reduced.wind = own.wind;
+
+    solution.offset = inverse_sum * known;
+    solution.from_parent = from_parent;
+    solution.from_velocity = from_velocity;
+}
+
+} // namespace
+
+void solve_spins(Plant& plant, const Forces& forces, Workers& workers) {
+    const std::vector<Body>& bodies = plant.rest.bodies;
+    plant.schedule.inward(workers, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t) {
+        for (std::uint32_t b = end; b-- > begin;) {
+            const Body& body = bodies[b];
+            const glm::dquat& turn = plant.poses[b].turn;
+            const glm::dmat3 axes = glm::mat3_cast(turn);
+            Own own = own_forms(body, plant.motion[b], turn, axes, forces);
+            for (std::uint32_t c = body.first_child; c < body.first_child + body.child_count; ++c) {
+                add_child(plant.reduced[c & plant.reduced_mask], axes * bodies[c].offset, forces,
+                          own);
+            }
+            eliminate(own, body, plant.motion[b], forces, plant.solution[b],
+                      plant.reduced[b & plant.reduced_mask]);
+        }
+    });
+    plant.schedule.outward(workers, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t) {
+        for (std::uint32_t b = begin; b < end; ++b) {
+            const Body& body = bodies[b];
+            JointSolution& solution = plant.solution[b];
+            glm::dvec3 parent_spin(0.0);
+            glm::dvec3 velocity(0.0);
+            if (body.parent != kNoSegment) {
+                parent_spin = plant.solution[body.parent].spin;
+                velocity = plant.motion[body.parent].velocity +
+                           glm::cross(parent_spin, plant.poses[body.parent].turn * body.offset);
+            }
+            plant.motion[b].velocity = velocity;
+            solution.spin = solution.offset + solution.from_parent * parent_spin -
+                            solution.from_velocity * velocity;
+            const double turn = forces.step * glm::length(solution.spin);
+            if (!std::isfinite(turn)) {
+                solution.spin = parent_spin;
+            } else if (turn > kMostTurn) {
+                solution.spin *= kMostTurn / turn;
+            }
+        }
+    });
+}
+
+} // namespace lsys

@@ -1,0 +1,112 @@
+#include "runtime/physics/impl/motion.h"
+
+#include "runtime/physics/impl/rotation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsys {
+
+double hold_of_wind(const Body& body,
+                    const glm::dquat& turn,
+                    const glm::dvec3& velocity,
+                    const Forces& forces) {
+    const glm::dvec3 flow = forces.wind - velocity;
+    const double speed = glm::length(flow);
+    if (!(speed > 0.0)) {
+        return 0.0;
+    }
+    const double cosine =
+        std::min(std::abs(glm::dot(turn * glm::dvec3(body.heading), flow)) / speed, 1.0);
+    const double area = static_cast<double>(body.side) * std::sqrt(1.0 - cosine * cosine) +
+                        static_cast<double>(body.end) * cosine + static_cast<double>(body.sail);
+    return forces.drag * area * speed;
+}
+
+namespace {
+
+void move_body(Plant& plant,
+               const Forces& forces,
+               double duration,
+               double speed,
+               std::uint32_t b,
+               Energies& sum) {
+    const Body& body = plant.rest.bodies[b];
+    BodyMotion& motion = plant.motion[b];
+    const glm::dvec3 way = duration * plant.solution[b].spin;
+    const glm::dquat turn = glm::normalize(rotation_of(way) * plant.poses[b].turn);
+    glm::dvec3 shift(0.0);
+    const glm::dvec3 spin = speed * plant.solution[b].spin;
+    motion.spin = spin;
+    if (body.parent == kNoSegment) {
+        motion.velocity = glm::dvec3(0.0);
+        motion.pull = glm::dvec3(0.0);
+        motion.bend = vector_of(turn);
+    } else {
+        const BodyMotion& parent = plant.motion[body.parent];
+        const glm::dquat& parent_turn = plant.next_poses[body.parent].turn;
+        const glm::dvec3 offset = parent_turn * body.offset;
+        const glm::dvec3 around = glm::cross(parent.spin, offset);
+        shift = plant.next_poses[body.parent].shift + (offset - body.offset);
+        motion.velocity = parent.velocity + around;
+        motion.pull =
+            parent.pull + share_of_pull(parent.spin, forces.step) * glm::cross(parent.spin, around);
+        motion.bend = vector_of(turn * glm::conjugate(parent_turn));
+    }
+    plant.next_poses[b] = {turn, shift};
+    const glm::dvec3 centre = turn * body.centre;
+    const glm::dvec3 arm_velocity = glm::cross(spin, centre);
+    const glm::dvec3 own_spin = glm::conjugate(turn) * spin;
+    sum.motion +=
+        0.5 * (glm::dot(own_spin, body.inertia * own_spin) +
+               body.mass * glm::dot(motion.velocity, motion.velocity + 2.0 * arm_velocity));
+    const double stretched = 0.5 * body.spring * glm::dot(motion.bend, motion.bend);
+    const double lifted = -body.mass * glm::dot(forces.gravity, shift + (centre - body.centre));
+    sum.position += stretched + lifted;
+    sum.terms += stretched + std::abs(lifted);
+    if (forces.windy) {
+        const glm::dvec3 velocity = motion.velocity + arm_velocity;
+        const BodyPose& before = plant.poses[b];
+        const glm::dvec3 moved = shift - before.shift + centre - before.turn * body.centre;
+        sum.work +=
+            hold_of_wind(body, turn, velocity, forces) * glm::dot(forces.wind - velocity, moved);
+    }
+    sum.turn = std::max(sum.turn, glm::length(way));
+}
+
+} // namespace
+
+Energies
+move_bodies(Plant& plant, const Forces& forces, double duration, double speed, Workers& workers) {
+    std::vector<Energies> sums(plant.schedule.piece_count());
+    plant.schedule.outward(workers,
+                           [&](std::uint32_t begin, std::uint32_t end, std::uint32_t piece) {
+                               Energies sum;
+                               for (std::uint32_t b = begin; b < end; ++b) {
+                                   move_body(plant, forces, duration, speed, b, sum);
+                               }
+                               sums[piece] = sum;
+                           });
+    Energies total;
+    for (const Energies& sum : sums) {
+        total.motion += sum.motion;
+        total.position += sum.position;
+        total.terms += sum.terms;
+        total.work += sum.work;
+        total.turn = std::max(total.turn, sum.turn);
+    }
+    return total;
+}
+
+void scale_velocities(Plant& plant, double factor, Workers& workers) {
+    plant.schedule.outward(workers, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t) {
+        for (std::uint32_t b = begin; b < end; ++b) {
+            BodyMotion& motion = plant.motion[b];
+            motion.spin *= factor;
+            motion.velocity *= factor;
+            motion.pull *= factor * factor;
+        }
+    });
+}
+
+} // namespace lsys

@@ -1,0 +1,103 @@
+// Motion: where the bodies of a plant are and how fast they move, and what acts on them in a step.
+#pragma once
+
+#include "runtime/base/workers.h"
+#include "runtime/physics/impl/bodies.h"
+#include "runtime/physics/impl/schedule.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+/// What acts in one step.
+struct Forces {
+    double step = 0.0;       // s
+    glm::dvec3 gravity{0.0}; // m/s^2
+    double damping = 0.0;    // N m s/rad
+    glm::dvec3 wind{0.0};    // m/s
+    double drag = 0.0;       // half the air's density times the drag coefficient
+    bool windy = false;
+    /// 0: the stiffness of weight, wind and springs is taken for the greatest that it has in any
+    /// direction; 1: for what it is, which is negative in some; or between.
+    double exactness = 0.0;
+};
+
+/// How a body has turned since rest, and its base moved, in the axes of the world.
+struct BodyPose {
+    glm::dquat turn{1.0, 0.0, 0.0, 0.0};
+    glm::dvec3 shift{0.0};
+};
+
+/// In the axes of the world.
+struct BodyMotion {
+    glm::dvec3 bend{0.0};     // of its joint: rotation vector from rest, relative to the parent
+    glm::dvec3 spin{0.0};     // rad/s
+    glm::dvec3 velocity{0.0}; // of the base, m/s
+    glm::dvec3 pull{0.0};     // acceleration of the base if no spin changes, m/s^2
+};
+
+/// Angular velocities at the end of the step are offset + from_parent * (the parent's) -
+/// from_velocity * (velocity of the base).
+struct JointSolution {
+    glm::dvec3 offset{0.0};
+    Rows from_parent;
+    Rows from_velocity;
+    glm::dvec3 spin{0.0}; // what comes out
+};
+
+/// The part of a body and all beyond it, as its parent feels it: a quadratic form of the parent's
+/// spin and of the velocity of the body's base, and a linear form.
+struct Reduced {
+    Symmetric spin_spin;
+    Rows spin_velocity;
+    Symmetric velocity_velocity;
+    glm::dvec3 spin{0.0};
+    glm::dvec3 velocity{0.0};
+    glm::dvec3 wind{0.0}; // N, on all of it
+};
+
+struct Plant {
+    Bodies rest;
+    Schedule schedule;
+    std::vector<BodyPose> poses;
+    std::vector<BodyPose> next_poses;
+    std::vector<BodyMotion> motion;
+    std::vector<JointSolution> solution;
+    std::vector<Reduced> reduced; // a ring: body b is at b & reduced_mask
+    std::uint32_t reduced_mask = 0;
+};
+
+/// How much the wind takes hold of a body whose centre moves at `velocity`: N s/m.
+[[nodiscard]] double hold_of_wind(const Body& body,
+                                  const glm::dquat& turn,
+                                  const glm::dvec3& velocity,
+                                  const Forces& forces);
+
+/// Solution::spin of all bodies: the velocities at the end of an implicit step, if the plant kept
+/// its shape. Spoils Motion's velocity.
+void solve_spins(Plant& plant, const Forces& forces, Workers& workers);
+
+struct Energies {
+    double motion = 0.0;
+    double position = 0.0; // springs and weight; 0 at rest
+    double terms = 0.0;    // sum of the magnitudes of what makes up `position`
+    double work = 0.0;     // by the wind
+    double turn = 0.0;     // rad, greatest
+};
+/// Turns each body by `duration` seconds of the solved spins, into next_poses, and fills Motion for
+/// that place and `speed` times these spins.
+[[nodiscard]] Energies
+move_bodies(Plant& plant, const Forces& forces, double duration, double speed, Workers& workers);
+/// All velocities times `factor`.
+void scale_velocities(Plant& plant, double factor, Workers& workers);
+
+/// What is left of accelerations v^2 / r where a body turns so far in a step that they say nothing.
+[[nodiscard]] inline double share_of_pull(const glm::dvec3& spin, double step) {
+    return 1.0 / (1.0 + step * step * glm::dot(spin, spin));
+}
+
+} // namespace lsys

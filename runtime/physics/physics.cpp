@@ -1,0 +1,271 @@
+// Spring-joint physics of plants: Crankshaw 2019, chapter 6, after Barron, Sorge and Davis 2001,
+// "Real-time procedural animation of trees". As there, a segment turns about its base against a
+// spring, moved by weight, wind and a damper, and carries its children. Different are:
+// - Hooke's torque is -k d - c w with the relative angular velocity w. The thesis prints + for the
+//   damper, which would add energy.
+// - Wind is a velocity in m/s. Its force on a segment is 1/2 rho C A |v| v, where v is the wind
+// seen
+//   by the moving segment and A what it shows to it; the torque is lever x force as in the thesis.
+//   So still air brakes.
+// - A trunk feels the weight and the inertia of its crown: all joints are solved together.
+//
+// A step is implicit (physics/joints.cpp), which alone is not a proof: rotations are not linear,
+// and centrifugal terms are explicit. So a step is also checked. Let E be the energy allowed, at
+// first that of the start.
+//   1. The solved motion is taken for the whole step, else for a quarter, a sixteenth ... of it;
+//   the
+//      first is kept whose energy of position V, springs and weight, is at most E.
+//   2. If none is, the plant stands still in this step, which leaves V as it was, at most E.
+//   3. Velocities are scaled down where need be, so that V + energy of motion is at most E.
+//   4. E becomes that sum.
+// Energy of motion is never negative, so V + energy of motion never grows, whatever the grammar
+// says and whatever the solver did; with wind, by no more than its work. Sums of doubles are equal
+// only up to rounding: V may pass E by 1e-12 of the magnitudes it is made of, but not more the
+// longer it goes on, as E itself never rises. Step 1 nearly always takes the whole step: the solver
+// minimises a model of the energy that is above it (see there). Implicit Euler of its own accord
+// damps what the time step is too long to show.
+//
+// settle() takes long steps, each from standstill and without dampers. Each goes downhill, and the
+// nearer the end, the more of the true second derivative of the energy it uses: then it is Newton's
+// method, which doubles the digits with each round.
+#include "runtime/physics/physics.h"
+
+#include "runtime/physics/impl/motion.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lsys {
+
+namespace {
+
+constexpr double kDragCoefficient = 1.1; // of long cylinders and of plates, about
+constexpr int kTrials = 12;
+constexpr double kTrialShare = 0.25;
+constexpr double kRounding = 1e-12;
+constexpr double kLeastDoubt = 1e-3; // about the true stiffness in settle(), where there is any
+constexpr double kRestStep = 1e3;    // s, of rounds of settle(): inertia does not matter
+
+float finite_or(float value, float other) {
+    return std::isfinite(value) ? value : other;
+}
+float not_negative(float value) {
+    return std::max(finite_or(value, 0.0F), 0.0F);
+}
+
+/// What of the options counts.
+PhysicsOptions usable(PhysicsOptions options) {
+    options.gravity = finite_or(options.gravity, 0.0F);
+    glm::vec3& wind = options.wind.velocity;
+    wind = {finite_or(wind.x, 0.0F), finite_or(wind.y, 0.0F), finite_or(wind.z, 0.0F)};
+    options.wind.gust = not_negative(options.wind.gust);
+    options.damping = not_negative(options.damping);
+    options.time_step = std::clamp(finite_or(options.time_step, 1.0F / 60.0F), 1e-6F, 10.0F);
+    options.air_density = not_negative(options.air_density);
+    options.surface_mass = not_negative(options.surface_mass);
+    return options;
+}
+
+/// Between -1 and 1, smooth, 0 at time 0.
+double gust_at(double time) {
+    const double turns = 2.0 * std::numbers::pi * time;
+    return 0.6 * std::sin(turns / 3.1) + 0.4 * std::sin(turns / 1.3);
+}
+
+Forces forces_of(const PhysicsOptions& options) {
+    Forces forces;
+    forces.step = static_cast<double>(options.time_step);
+    forces.gravity = {0.0, -options.gravity, 0.0};
+    forces.damping = static_cast<double>(options.damping);
+    forces.wind = glm::dvec3(options.wind.velocity);
+    forces.drag = 0.5 * kDragCoefficient * static_cast<double>(options.air_density);
+    forces.windy = forces.drag > 0.0 && glm::length(forces.wind) > 0.0;
+    return forces;
+}
+
+Plant plant_of(const Skeleton& rest, double surface_mass) {
+    Plant plant;
+    plant.rest = make_bodies(rest, surface_mass);
+    const std::vector<std::uint32_t>& ends = plant.rest.level_ends;
+    plant.schedule = Schedule(ends);
+    std::uint32_t widest = 1; // two depths next to each other
+    for (std::size_t depth = 0; depth < ends.size(); ++depth) {
+        widest = std::max(widest, ends[depth] - (depth < 2 ? 0 : ends[depth - 2]));
+    }
+    const std::size_t count = plant.rest.bodies.size();
+    plant.reduced.resize(std::bit_ceil(widest));
+    plant.reduced_mask = std::bit_ceil(widest) - 1;
+    plant.poses.resize(count);
+    plant.next_poses.resize(count);
+    plant.motion.resize(count);
+    plant.solution.resize(count);
+    return plant;
+}
+
+} // namespace
+
+struct PlantPhysics::State {
+    State(const Skeleton& skeleton, const PhysicsOptions& given)
+        : rest(skeleton), options(usable(given)), forces(forces_of(options)),
+          workers(given.threads),
+          plant(plant_of(skeleton, static_cast<double>(options.surface_mass))) {}
+
+    Skeleton rest;
+    PhysicsOptions options;
+    Forces forces;
+    Workers workers;
+    Plant plant;
+    double time = 0.0;
+    double energy = 0.0; // never less than that of the plant, and equal but for rounding
+
+    /// Keeps place and velocities, and sees what energy that is.
+    void look() {
+        for (std::size_t b = 0; b < plant.motion.size(); ++b) {
+            plant.solution[b].spin = plant.motion[b].spin;
+        }
+        const Energies seen = move_bodies(plant, forces, 0.0, 1.0, workers);
+        energy = seen.position + seen.motion;
+    }
+
+    struct Step {
+        double share = 0.0; // of the solved motion that was taken
+        double turn = 0.0;  // rad, greatest
+    };
+    /// Makes a step; without `keep_velocity` it ends at standstill.
+    Step advance(const Forces& now, bool keep_velocity) {
+        solve_spins(plant, now, workers);
+        double share = 1.0;
+        for (int trial = 0; trial <= kTrials; ++trial) {
+            share = trial == kTrials ? 0.0 : share;
+            const Energies seen =
+                move_bodies(plant, now, share * now.step, keep_velocity ? share : 0.0, workers);
+            const double allowed = energy + std::max(now.windy ? seen.work : 0.0, 0.0);
+            const bool known = std::isfinite(seen.position + seen.motion);
+            if (share > 0.0 && !(known && seen.position <= allowed + kRounding * seen.terms)) {
+                share *= kTrialShare;
+                continue;
+            }
+            const double left = std::max(allowed - seen.position, 0.0);
+            double motion = seen.motion;
+            if (share > 0.0 && motion > left) {
+                scale_velocities(plant, std::sqrt(left / motion), workers);
+                motion = left;
+            }
+            energy = std::min(allowed, seen.position + motion);
+            plant.poses.swap(plant.next_poses);
+            return {share, seen.turn};
+        }
+        return {};
+    }
+};
+
+PlantPhysics::PlantPhysics(const Skeleton& rest, const PhysicsOptions& options)
+    : state_(std::make_unique<State>(rest, options)) {}
+
+PlantPhysics::~PlantPhysics() = default;
+
+void PlantPhysics::set(const PhysicsOptions& options) {
+    State& s = *state_;
+    const PhysicsOptions before = s.options;
+    s.options = usable(options);
+    s.options.threads = before.threads;
+    s.forces = forces_of(s.options);
+    if (s.options.surface_mass != before.surface_mass) {
+        s.plant.rest = make_bodies(s.rest, static_cast<double>(s.options.surface_mass));
+    }
+    s.look();
+}
+
+const PhysicsOptions& PlantPhysics::options() const {
+    return state_->options;
+}
+
+void PlantPhysics::step() {
+    State& s = *state_;
+    Forces now = s.forces;
+    const auto gust = static_cast<double>(s.options.wind.gust);
+    now.wind *= std::max(1.0 + gust * gust_at(s.time), 0.0);
+    s.advance(now, true);
+    s.time += now.step;
+}
+
+bool PlantPhysics::settle(double tolerance, std::uint32_t max_rounds) {
+    State& s = *state_;
+    Forces long_step = s.forces;
+    long_step.step = kRestStep;
+    long_step.damping = 0.0;
+    scale_velocities(s.plant, 0.0, s.workers);
+    s.look();
+    double doubt = 1.0;
+    for (std::uint32_t round = 0; round < max_rounds; ++round) {
+        const State::Step made = s.advance(long_step, false);
+        if (made.turn <= tolerance && made.share == 1.0) {
+            return true;
+        }
+        doubt = made.share == 1.0 ? (doubt > kLeastDoubt ? doubt * 0.25 : 0.0)
+                                  : std::clamp(doubt * 8.0, kLeastDoubt, 1.0);
+        long_step.exactness = 1.0 - doubt;
+    }
+    return false;
+}
+
+void PlantPhysics::reset() {
+    State& s = *state_;
+    s.plant.poses.assign(s.plant.poses.size(), BodyPose{});
+    s.plant.motion.assign(s.plant.motion.size(), BodyMotion{});
+    s.time = 0.0;
+    s.energy = 0.0;
+}
+
+double PlantPhysics::time() const {
+    return state_->time;
+}
+
+double PlantPhysics::energy() const {
+    return state_->energy;
+}
+
+const Skeleton& PlantPhysics::rest() const {
+    return state_->rest;
+}
+
+void PlantPhysics::pose(Skeleton& out) const {
+    const State& s = *state_;
+    out = s.rest;
+    const auto moved = [&](std::uint32_t segment, const glm::vec3& point) {
+        const BodyPose& pose = s.plant.poses[s.plant.rest.places[segment]];
+        const glm::dvec3 arm = glm::dvec3(point) - glm::dvec3(s.rest.segments[segment].base);
+        return glm::vec3(glm::dvec3(point) + pose.shift + (pose.turn * arm - arm));
+    };
+    const auto turned = [&](std::uint32_t segment, const glm::quat& frame) {
+        const glm::dquat& turn = s.plant.poses[s.plant.rest.places[segment]].turn;
+        return turn == glm::dquat(1.0, 0.0, 0.0, 0.0)
+                   ? frame
+                   : glm::quat(glm::normalize(turn * glm::dquat(frame)));
+    };
+    for (std::uint32_t i = 0; i < out.segments.size(); ++i) {
+        Segment& segment = out.segments[i];
+        segment.base = moved(i, segment.base);
+        segment.frame = turned(i, segment.frame);
+    }
+    for (PlacedObject& object : out.objects) {
+        if (object.parent < out.segments.size()) {
+            object.position = moved(object.parent, object.position);
+            object.frame = turned(object.parent, object.frame);
+        }
+    }
+    for (Polygon& polygon : out.polygons) {
+        if (polygon.parent < out.segments.size()) {
+            for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
+                glm::vec3& corner = out.corners[polygon.first_corner + c];
+                corner = moved(polygon.parent, corner);
+            }
+            polygon.frame = turned(polygon.parent, polygon.frame);
+        }
+    }
+}
+
+} // namespace lsys

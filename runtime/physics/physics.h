@@ -1,0 +1,73 @@
+// The physics of a plant: every segment of a skeleton is a rigid body on a spring joint at its
+// base (Crankshaw 2019, chapter 6, after Barron et al. 2001), bent by its weight and by wind.
+// Metres, kilograms, seconds, radians. Made from the skeleton at rest; gives bent skeletons.
+//
+// Always holds: everything is finite, whatever the skeleton says; without wind the energy never
+// grows, for any springs, masses, lengths and time step; the same numbers for any number of
+// threads. Why, and how a step is made: physics/plant_physics.cpp.
+#pragma once
+
+#include "runtime/turtle/skeleton.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <memory>
+
+namespace lsys {
+
+struct Wind {
+    glm::vec3 velocity{0.0F}; // m/s
+    /// Amplitude of gusts, as a part of the velocity: a smooth function of time; 0 is steady wind.
+    float gust = 0.0F;
+
+    friend bool operator==(const Wind&, const Wind&) = default;
+};
+
+/// What is not finite counts as 0, and so does what is negative where that has no meaning.
+struct PhysicsOptions {
+    float gravity = 9.81F; // m/s^2, downwards; 0: none
+    Wind wind;
+    float damping = 1.0F;           // N m s/rad, of every joint
+    float time_step = 1.0F / 60.0F; // s, 1e-6 to 10; not finite: 1/60
+    float air_density = 1.225F;     // kg/m^3; 0: neither wind nor drag
+    float surface_mass = 0.2F;      // kg/m^2, of leaves, flowers, other objects and polygons
+    std::uint32_t threads = 0;      // 0: as many as the machine has
+};
+
+class PlantPhysics {
+public:
+    /// The springs are relaxed in `rest`, where the plant starts without moving.
+    PlantPhysics(const Skeleton& rest, const PhysicsOptions& options);
+    ~PlantPhysics();
+    PlantPhysics(const PlantPhysics&) = delete;
+    PlantPhysics& operator=(const PlantPhysics&) = delete;
+
+    /// Other forces from now on, as from sliders; the motion goes on. `threads` stays as it was.
+    void set(const PhysicsOptions& options);
+    /// As they are in use.
+    [[nodiscard]] const PhysicsOptions& options() const;
+
+    /// One time step.
+    void step();
+    /// Goes to where the plant comes to rest in steady wind, without the time in between; ends
+    /// without motion. Returns whether, within `max_rounds`, no segment turned by more than
+    /// `tolerance` (radians) in a round.
+    bool settle(double tolerance, std::uint32_t max_rounds);
+    /// Back to rest, at time 0.
+    void reset();
+
+    [[nodiscard]] double time() const; // s, of all steps
+    /// J, of motion, springs and weight; 0 in the rest pose without motion.
+    [[nodiscard]] double energy() const;
+    [[nodiscard]] const Skeleton& rest() const;
+    /// The bent plant: `out` is the skeleton at rest with other bases, frames, positions and
+    /// corners. What has not moved is exactly as at rest.
+    void pose(Skeleton& out) const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace lsys

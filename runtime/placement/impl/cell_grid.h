@@ -1,0 +1,66 @@
+// CellGrid: squares of an unbounded grid, and numbers of 32 bits for the places within them. A
+// number holds the cell's row, its column and the place, so no two places share one; what does not
+// fit into 32 bits is refused.
+#pragma once
+
+#include "grammar/base/result.h"
+#include "runtime/terrain/region.h"
+
+#include <cstdint>
+
+namespace lsys {
+
+struct Cell {
+    std::int64_t column = 0; // along X; [side column, side (column + 1))
+    std::int64_t row = 0;    // along Z
+};
+
+class CellGrid {
+public:
+    /// `place_bits`: 2^place_bits places a cell; 32 - place_bits is even.
+    CellGrid(double side, std::uint32_t place_bits)
+        : side_(side), place_bits_(place_bits),
+          half_(std::int64_t{1} << ((32 - place_bits) / 2 - 1)) {}
+
+    [[nodiscard]] double side() const { return side_; }
+    [[nodiscard]] double x_of(const Cell& cell) const {
+        return side_ * static_cast<double>(cell.column);
+    }
+    [[nodiscard]] double z_of(const Cell& cell) const {
+        return side_ * static_cast<double>(cell.row);
+    }
+    [[nodiscard]] bool has_number(const Cell& cell) const {
+        return cell.column >= -half_ && cell.column < half_ && cell.row >= -half_ &&
+               cell.row < half_;
+    }
+    /// m from the origin up to which cells have a number, less `cells`.
+    [[nodiscard]] double reach(std::int64_t cells) const {
+        return side_ * static_cast<double>(half_ - cells);
+    }
+    /// Of the cell's first place. Precondition: has_number().
+    [[nodiscard]] std::uint32_t first_number(const Cell& cell) const {
+        const auto index =
+            static_cast<std::uint64_t>((cell.row + half_) * 2 * half_ + cell.column + half_);
+        return static_cast<std::uint32_t>(index << place_bits_);
+    }
+
+private:
+    double side_;
+    std::uint32_t place_bits_;
+    std::int64_t half_; // cells of each sign
+};
+
+/// Cells from `first` on.
+struct CellRange {
+    Cell first;
+    std::int64_t columns = 0;
+    std::int64_t rows = 0;
+};
+
+/// The cells that may have a place in `region`, which rounding can move by a step: those that touch
+/// it and one more on each side. Error: of these, or of `margin` cells around them, some have no
+/// number.
+[[nodiscard]] Result<CellRange>
+cells_of(const CellGrid& grid, const Region& region, std::int64_t margin);
+
+} // namespace lsys

@@ -1,0 +1,189 @@
+#include "runtime/placement/impl/check_options.h"
+
+#include "runtime/placement/impl/draws.h"
+#include "runtime/placement/impl/grey_sampler.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+namespace lsys {
+
+namespace {
+
+constexpr double kLeastSide = 0.25;     // m, of a region: several steps of binary32 anywhere
+constexpr double kLeastSpacing = 0.001; // m
+/// Places that a density map is asked about; a map may be black nearly everywhere.
+constexpr double kMaxMapPlaces = 1.0e9;
+/// Trees of a Poisson disk sample in a square of the spacing: random sequential adsorption covers
+/// 0.547 of the plane (Tanemura 1979) with discs of half the spacing.
+constexpr double kDiskTrees = 0.70;
+
+struct Bound {
+    std::string_view name;
+    double value;
+    double least;
+    double most;
+};
+
+bool within(const Bound& bound) {
+    return bound.value >= bound.least && bound.value <= bound.most; // not of what is no number
+}
+
+Result<Done> check_growth(std::size_t number, const SpeciesGrowth& growth) {
+    const auto wide = [](float value) { return static_cast<double>(value); };
+    const std::array<Bound, 8> bounds{
+        Bound{"greatest radius", wide(growth.greatest_radius), 0.01, 1000.0},
+        Bound{"growth rate", wide(growth.rate), 1.0e-4, wide(growth.greatest_radius)},
+        Bound{"tolerance of shade", wide(growth.tolerance), 0.0, 1.0},
+        Bound{"spread of vigour", wide(growth.vigour_spread), 0.0, 0.9},
+        Bound{"lifespan", static_cast<double>(growth.lifespan), 1.0, kMaxYears},
+        Bound{"maturity", static_cast<double>(growth.maturity), 1.0, 2.0 * kMaxYears},
+        Bound{"number of seeds", wide(growth.seeds), 0.0, kMaxSeeds - 2},
+        Bound{"distance of seeds", wide(growth.seed_distance), 0.0, 1.0e5},
+    };
+    for (const Bound& bound : bounds) {
+        if (!within(bound)) {
+            return Error{fmt::format("the {} of species {} is {}; it must be from {} to {}",
+                                     bound.name, number, bound.value, bound.least, bound.most)};
+        }
+    }
+    return Done{};
+}
+
+Result<Done> check_species(const PlacementOptions& options) {
+    if (options.species.empty() || options.species.size() > 65'536) {
+        return Error{
+            fmt::format("a placement of {} species; it takes 1 to 65,536", options.species.size())};
+    }
+    double shares = 0.0;
+    for (std::size_t i = 0; i < options.species.size(); ++i) {
+        const PlacementSpecies& species = options.species[i];
+        if (!(species.share >= 0.0 && std::isfinite(species.share))) {
+            return Error{fmt::format("the share of species {} is {}; it must be 0 or more", i,
+                                     species.share)};
+        }
+        shares += species.share;
+        if (!(species.least_scale > 0.0F && species.least_scale <= species.greatest_scale &&
+              std::isfinite(species.greatest_scale))) {
+            return Error{fmt::format(
+                "the scales of species {} are from {} to {}; they must be above 0 and in order", i,
+                species.least_scale, species.greatest_scale)};
+        }
+        if (!(species.lowest <= species.highest) || std::isnan(species.steepest)) {
+            return Error{fmt::format(
+                "species {} lives from {} to {} m and up to a slope of {}: that is no range", i,
+                species.lowest, species.highest, species.steepest)};
+        }
+        if (options.method == PlacementMethod::Domination) {
+            if (const Result<Done> checked = check_growth(i, species.growth); !checked) {
+                return checked.error();
+            }
+        }
+    }
+    if (!(shares > 0.0 && std::isfinite(shares))) {
+        return Error{"the shares of all species are 0"};
+    }
+    return Done{};
+}
+
+Result<Done> check_map(const PlacementOptions& options) {
+    const GreyMap* const map = options.density_map;
+    if (map == nullptr || map->columns == 0 || map->rows == 0 ||
+        map->values.size() != std::uint64_t{map->columns} * map->rows) {
+        return Error{"the placement needs a density map, and there is none"};
+    }
+    return options.map_region ? check_region(*options.map_region) : Result<Done>(Done{});
+}
+
+/// The number of trees to expect, or why there is none. Species that cannot live everywhere are not
+/// looked at.
+Result<double> expected_trees(const PlacementOptions& options) {
+    const auto check = [](const Bound& bound) -> Result<Done> {
+        if (!within(bound)) {
+            return Error{fmt::format("the {} of the placement is {}; it must be from {} to {}",
+                                     bound.name, bound.value, bound.least, bound.most)};
+        }
+        return Done{};
+    };
+    const Bound spacing{"spacing", options.spacing, kLeastSpacing, kFarthest};
+    const Bound density{"density", options.density, 1.0 / (kFarthest * kFarthest),
+                        1.0 / (kLeastSpacing * kLeastSpacing)};
+    const double area = options.region.area();
+    Result<Done> checked = Done{};
+    double trees = 0.0;
+    switch (options.method) {
+    case PlacementMethod::Uniform:
+        trees = static_cast<double>(options.count);
+        break;
+    case PlacementMethod::Domination:
+        if (options.years > kMaxYears) {
+            checked = Error{
+                fmt::format("{} years; a forest grows for at most {}", options.years, kMaxYears)};
+        }
+        trees = static_cast<double>(options.count);
+        break;
+    case PlacementMethod::Jittered:
+        checked = check(spacing);
+        trees = area / (options.spacing * options.spacing);
+        break;
+    case PlacementMethod::PoissonDisk:
+    case PlacementMethod::PoissonCells:
+        checked = check(spacing);
+        trees = kDiskTrees * area / (options.spacing * options.spacing);
+        break;
+    case PlacementMethod::UniformCells:
+        checked = check(density);
+        trees = area * options.density;
+        break;
+    case PlacementMethod::DensityMap:
+    case PlacementMethod::DensityCells: {
+        checked = check(density);
+        if (checked) {
+            checked = check_map(options);
+        }
+        if (!checked) {
+            break;
+        }
+        if (area * options.density > kMaxMapPlaces) {
+            checked = Error{fmt::format("a white density map would have {:.0f} trees; the most "
+                                        "that a map is asked about is {:.0f}",
+                                        area * options.density, kMaxMapPlaces)};
+            break;
+        }
+        const Region span = options.map_region.value_or(options.region);
+        trees = options.density * GreySampler(*options.density_map, span).integral(options.region);
+        break;
+    }
+    }
+    return checked ? Result<double>(trees) : Result<double>(checked.error());
+}
+
+} // namespace
+
+Result<double> check_placement(const PlacementOptions& options) {
+    if (const Result<Done> checked = check_region(options.region); !checked) {
+        return checked.error();
+    }
+    if (options.region.width < kLeastSide || options.region.depth < kLeastSide) {
+        return Error{fmt::format("a region of {} by {} m is too small for trees; the least is {} m",
+                                 options.region.width, options.region.depth, kLeastSide)};
+    }
+    if (const Result<Done> checked = check_species(options); !checked) {
+        return checked.error();
+    }
+    Result<double> trees = expected_trees(options);
+    if (!trees) {
+        return trees.error();
+    }
+    if (trees.value() > static_cast<double>(kMaxTrees)) {
+        return Error{fmt::format("about {:.0f} trees; one placement has at most {}", trees.value(),
+                                 kMaxTrees)};
+    }
+    return trees;
+}
+
+} // namespace lsys

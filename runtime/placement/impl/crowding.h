@@ -1,0 +1,29 @@
+// Which plants are dominated: those whose circle a stronger plant's circle meets.
+#pragma once
+
+#include "runtime/base/workers.h"
+#include "runtime/placement/domination.h"
+
+#include <span>
+
+namespace lsys {
+
+/// Of two plants, the one with the greater product of radius and vigour is stronger, else the one
+/// that sprouted first.
+[[nodiscard]] inline bool is_stronger(const ForestPlant& a, const ForestPlant& b) {
+    const float strength_a = a.radius * a.vigour;
+    const float strength_b = b.radius * b.vigour;
+    return strength_a > strength_b || (strength_a == strength_b && a.number < b.number);
+}
+
+[[nodiscard]] inline bool circles_meet(const ForestPlant& a, const ForestPlant& b) {
+    const auto dx = static_cast<double>(a.place.x - b.place.x);
+    const auto dz = static_cast<double>(a.place.y - b.place.y);
+    const double reach = static_cast<double>(a.radius) + static_cast<double>(b.radius);
+    return dx * dx + dz * dz < reach * reach;
+}
+
+/// Sets `dominated` of each plant.
+void find_dominated(const Region& region, std::span<ForestPlant> plants, Workers& workers);
+
+} // namespace lsys

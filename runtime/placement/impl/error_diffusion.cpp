@@ -1,0 +1,112 @@
+// DensityMap: a density map turned into places by error diffusion (Floyd and Steinberg 1976, "An
+// adaptive algorithm for spatial greyscale"), as Deussen et al. 1998, "Realistic modeling and
+// rendering of plant ecosystems", section 4.2, place plants. The region is cut into squares in
+// which white means one tree. Each square is given the mean of the map over it plus what its
+// neighbours owe; half a tree or more becomes one, at a drawn place in the square. The threshold is
+// drawn around a half and rows run to and fro (Ulichney 1988, "Dithering with blue noise"), which
+// breaks up the patterns of plain error diffusion and changes no sum.
+#include "runtime/placement/impl/draws.h"
+#include "runtime/placement/impl/grey_sampler.h"
+#include "runtime/placement/impl/methods.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+constexpr double kThresholdSpan = 0.5;
+constexpr std::uint64_t kPiece = 1024;
+
+struct Squares {
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+    double width = 0.0; // m
+    double depth = 0.0; // m
+};
+
+/// Of at most 1 / density square metres each.
+Squares squares_of(const Region& region, double density) {
+    Squares squares;
+    squares.columns = static_cast<std::uint32_t>(std::ceil(region.width * std::sqrt(density)));
+    squares.rows = static_cast<std::uint32_t>(std::ceil(region.depth * std::sqrt(density)));
+    squares.width = region.width / squares.columns;
+    squares.depth = region.depth / squares.rows;
+    return squares;
+}
+
+/// Numbers of the squares with a tree.
+LargeVector<std::uint32_t> diffuse(const PlacementOptions& options, const Squares& squares) {
+    const GreySampler grey(*options.density_map, options.map_region.value_or(options.region));
+    LargeVector<std::uint32_t> chosen;
+    // A square of margin on each side takes what is owed beyond the border.
+    std::vector<double> owed(squares.columns + 2);
+    std::vector<double> owed_next(squares.columns + 2);
+    for (std::uint32_t row = 0; row < squares.rows; ++row) {
+        const bool forth = (row & 1U) == 0;
+        std::fill(owed_next.begin(), owed_next.end(), 0.0);
+        for (std::uint32_t step = 0; step < squares.columns; ++step) {
+            const std::uint32_t column = forth ? step : squares.columns - 1 - step;
+            const std::size_t here = column + 1;
+            const std::size_t ahead = forth ? here + 1 : here - 1;
+            const std::size_t behind = forth ? here - 1 : here + 1;
+            const double trees =
+                options.density * grey.integral({options.region.x + column * squares.width,
+                                                 options.region.z + row * squares.depth,
+                                                 squares.width, squares.depth});
+            const std::uint32_t number = row * squares.columns + column;
+            const double wanted = trees + owed[here];
+            double left = wanted;
+            if (wanted > 0.5 * (1.0 - kThresholdSpan)) { // else no threshold is as low
+                const double threshold =
+                    0.5 + kThresholdSpan *
+                              (unit(placement_draws(options.key, number, kPlaceBlock)[3]) - 0.5);
+                if (wanted >= threshold) {
+                    chosen.push_back(number);
+                    left -= 1.0;
+                }
+            }
+            owed[ahead] += left * (7.0 / 16.0);
+            owed_next[behind] += left * (3.0 / 16.0);
+            owed_next[here] += left * (5.0 / 16.0);
+            owed_next[ahead] += left * (1.0 / 16.0);
+        }
+        // Nothing is lost at the border.
+        owed_next[1] += owed_next.front();
+        owed_next[squares.columns] += owed_next.back();
+        owed_next[forth ? squares.columns : 1] += owed[forth ? squares.columns + 1 : 0];
+        owed_next.front() = 0.0;
+        owed_next.back() = 0.0;
+        std::swap(owed, owed_next);
+    }
+    return chosen;
+}
+
+} // namespace
+
+void place_by_error_diffusion(const PlacementJob& job, Placement& placement) {
+    const PlacementOptions& options = job.options;
+    const Squares squares = squares_of(options.region, options.density);
+    const LargeVector<std::uint32_t> chosen = diffuse(options, squares);
+    const std::uint64_t pieces = (chosen.size() + kPiece - 1) / kPiece;
+    const auto piece = [&](std::uint64_t index, TreeChunk& chunk) {
+        const std::uint64_t end = std::min<std::uint64_t>(chosen.size(), (index + 1) * kPiece);
+        for (std::uint64_t i = index * kPiece; i < end; ++i) {
+            const std::uint32_t number = chosen[i];
+            const PhiloxBlock words = placement_draws(options.key, number, kPlaceBlock);
+            const std::uint32_t column = number % squares.columns;
+            const std::uint32_t row = number / squares.columns;
+            const double x = options.region.x + column * squares.width;
+            const double z = options.region.z + row * squares.depth;
+            job.maker.make(number, coordinate_within(x, squares.width, words[0]),
+                           coordinate_within(z, squares.depth, words[1]), chunk);
+        }
+    };
+    collect_trees(job.workers, pieces, piece, placement);
+}
+
+} // namespace lsys

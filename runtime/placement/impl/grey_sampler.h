@@ -1,0 +1,27 @@
+// GreySampler: a map stretched over a region, each pixel a rectangle of one grey. Beyond it all is
+// black.
+#pragma once
+
+#include "runtime/base/grey_map.h"
+#include "runtime/terrain/region.h"
+
+namespace lsys {
+
+class GreySampler {
+public:
+    GreySampler(const GreyMap& map, const Region& span);
+
+    /// 0 to 1, of the pixel at a place.
+    [[nodiscard]] double at(double x, double z) const;
+    /// The integral of 0 to 1 over `region`, in square metres; exact but for rounding. Takes time
+    /// in proportion to the pixels that `region` touches.
+    [[nodiscard]] double integral(const Region& region) const;
+
+private:
+    const GreyMap& map_;
+    Region span_;
+    double columns_per_metre_;
+    double rows_per_metre_;
+};
+
+} // namespace lsys

@@ -1,0 +1,54 @@
+// TreeMaker: from a place and a number to a tree: the species that lives there, direction, scale.
+#pragma once
+
+#include "runtime/base/random.h"
+#include "runtime/base/workers.h"
+#include "runtime/placement/placement.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace lsys {
+
+/// What one piece of work made.
+struct TreeChunk {
+    std::vector<Tree> trees;
+    std::uint64_t places = 0;
+    std::uint64_t refused = 0;
+};
+
+class TreeMaker {
+public:
+    TreeMaker(const PlacementOptions& options, const Terrain& terrain);
+
+    /// Adds the tree `number` at a place, or counts it as refused.
+    void make(std::uint32_t number, float x, float z, TreeChunk& chunk) const;
+    /// Whether `species` can live at a place.
+    [[nodiscard]] bool can_live(std::uint16_t species, float x, float z) const;
+    /// A tree of a species that is known, in all but its position and age.
+    [[nodiscard]] Tree looks_of(std::uint32_t number, std::uint16_t species) const;
+
+private:
+    static constexpr std::uint32_t kNoSpecies = 0xFFFFFFFFu;
+
+    [[nodiscard]] std::uint32_t
+    choose_species(std::uint32_t word, float x, float height, float z) const;
+    [[nodiscard]] Tree
+    dress(std::uint32_t number, std::uint16_t species, const PhiloxBlock& words) const;
+
+    const PlacementOptions& options_;
+    const Terrain& terrain_;
+    double shares_ = 0.0;
+    bool has_limits_ = false; // some species cannot live everywhere
+    bool has_steepest_ = false;
+};
+
+/// Appends the trees of pieces 0 ... pieces - 1, in that order, and sums up their reports. At no
+/// time there are more than a few pieces beside `placement`.
+void collect_trees(Workers& workers,
+                   std::uint64_t pieces,
+                   const std::function<void(std::uint64_t, TreeChunk&)>& piece,
+                   Placement& placement);
+
+} // namespace lsys

@@ -1,0 +1,45 @@
+// A TOML file as a tree of values with places in bytes. Keys stand in the order of the text.
+#pragma once
+
+#include "grammar/base/diagnostic.h"
+#include "grammar/base/source.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+enum class SceneValueKind : std::uint8_t { Table, List, Text, Whole, Real, Truth, Date };
+
+struct SceneEntry;
+
+struct SceneValue {
+    SceneValueKind kind = SceneValueKind::Table;
+    SourceSpan span;                 // of a table: its heading, or the whole of an inline one
+    std::int64_t whole = 0;          // Whole
+    double real = 0.0;               // Real, and Whole as near as it gets
+    std::string text;                // Text
+    std::vector<SceneValue> items;   // List
+    std::vector<SceneEntry> entries; // Table
+};
+
+struct SceneEntry {
+    std::string key;
+    SourceSpan key_span;
+    SceneValue value;
+};
+
+/// `a text`, `a list`, ...
+[[nodiscard]] std::string_view kind_text(SceneValueKind kind);
+
+/// The entry of `key`; nullptr: there is none.
+[[nodiscard]] const SceneEntry* find_entry(const SceneValue& table, std::string_view key);
+
+/// The table of the whole file. None, and a diagnostic, if the file is no TOML.
+[[nodiscard]] std::optional<SceneValue>
+read_toml(FileId file, const SourceMap& sources, Diagnostics& diagnostics);
+
+} // namespace lsys

@@ -1,0 +1,134 @@
+#include "runtime/derive/runtime_diagnostic.h"
+#include "runtime/scene/impl/table_reader.h"
+#include "runtime/scene/impl/tables.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace lsys {
+
+namespace {
+
+/// A method, and which keys it reads.
+struct MethodRow {
+    std::string_view name;
+    bool count = false;
+    bool spacing = false;
+    bool density = false;
+    bool map = false;
+    bool years = false;
+};
+
+// As PlacementMethod.
+constexpr std::array<MethodRow, 8> kMethods{{
+    {.name = "uniform", .count = true},
+    {.name = "poisson-disk", .spacing = true},
+    {.name = "density-map", .density = true, .map = true},
+    {.name = "domination", .count = true, .years = true},
+    {.name = "jittered", .spacing = true},
+    {.name = "uniform-cells", .density = true},
+    {.name = "poisson-cells", .spacing = true},
+    {.name = "density-cells", .density = true, .map = true},
+}};
+
+constexpr std::uint64_t kUsualCount = 1000;
+constexpr double kUsualSpacing = 5.0;  // m
+constexpr double kUsualDensity = 0.04; // 400 a hectare
+constexpr std::uint32_t kUsualYears = 100;
+constexpr double kLeastSpacing = 0.001; // m
+constexpr double kDiskTrees = 0.7;      // of PoissonDisk, in a square of the spacing
+
+/// What `because` says of keys that the method does not read.
+std::string keys_of(const MethodRow& method) {
+    std::string keys;
+    const auto add = [&](bool reads, std::string_view key) {
+        if (reads) {
+            keys += fmt::format("{}`{}`", keys.empty() ? "" : " and ", key);
+        }
+    };
+    add(method.count, "count");
+    add(method.spacing, "spacing");
+    add(method.density, "density");
+    add(method.map, "map");
+    add(method.years, "years");
+    return keys;
+}
+
+void check_disk(TableReader& reader, const PlacementOptions& placement) {
+    const double trees =
+        kDiskTrees * placement.region.area() / (placement.spacing * placement.spacing);
+    if (placement.method == PlacementMethod::PoissonDisk &&
+        trees > static_cast<double>(kMaxTrees)) {
+        reader.bad(reader.span_of("spacing"),
+                   fmt::format("about {} trees; one placement has at most {}",
+                               grouped_digits(static_cast<std::uint64_t>(trees)),
+                               grouped_digits(kMaxTrees)));
+    }
+}
+
+} // namespace
+
+void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& diagnostics) {
+    PlacementOptions& placement = scene.placement;
+    TableReader reader(table, "[placement]", diagnostics);
+    scene.span = reader.span();
+    std::array<std::string_view, kMethods.size()> names;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        names[i] = kMethods[i].name;
+    }
+    const auto found = reader.choice("method", names);
+    const bool any = reader.has("method") && !found; // no key can be told to be wrong then
+    placement.method = static_cast<PlacementMethod>(found.value_or(0));
+    placement.region = scene.terrain.region;
+    const MethodRow& method = kMethods[found.value_or(0)];
+    const std::string because =
+        fmt::format("the method `{}` reads {}", method.name, keys_of(method));
+    /// Whether the method reads `key`; if not, it must not be there.
+    const auto reads = [&](bool wanted, std::string_view key) {
+        if (!wanted) {
+            static_cast<void>(reader.entry(key));
+            if (!any) {
+                reader.refuse(key, because,
+                              reader.has("method") ? reader.span_of("method") : SourceSpan{});
+            }
+        }
+        return wanted;
+    };
+    placement.count = kUsualCount;
+    placement.spacing = kUsualSpacing;
+    placement.density = kUsualDensity;
+    placement.years = kUsualYears;
+    if (reads(method.count, "count")) {
+        placement.count = reader.whole("count", {1, kMaxTrees}).value_or(kUsualCount);
+    }
+    if (reads(method.spacing, "spacing")) {
+        if (const auto spacing = reader.number("spacing", {kLeastSpacing, kFarthest, false, "m"})) {
+            placement.spacing = *spacing;
+            check_disk(reader, placement);
+        }
+    }
+    if (reads(method.density, "density")) {
+        placement.density = reader
+                                .number("density", {1.0 / (kFarthest * kFarthest),
+                                                    1.0 / (kLeastSpacing * kLeastSpacing), false,
+                                                    "trees a square metre"})
+                                .value_or(kUsualDensity);
+    }
+    if (reads(method.map, "map")) {
+        if (auto map = reader.file("map")) {
+            scene.density_map = std::move(*map);
+        } else if (!reader.has("map")) {
+            reader.missing("map", fmt::format("the method is `{}`", method.name))
+                .help.emplace_back("name a picture beside the scene: `map = \"density.png\"`");
+        }
+        placement.map_region = placement.region;
+    }
+    if (reads(method.years, "years")) {
+        placement.years =
+            static_cast<std::uint32_t>(reader.whole("years", {0, kMaxYears}).value_or(kUsualYears));
+    }
+    reader.finish();
+}
+
+} // namespace lsys

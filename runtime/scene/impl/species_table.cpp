@@ -1,0 +1,284 @@
+#include "runtime/scene/impl/table_reader.h"
+#include "runtime/scene/impl/tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+constexpr std::uint64_t kMaxWhole32 = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint64_t kMaxWhole63 = std::numeric_limits<std::int64_t>::max();
+constexpr double kMaxFloat = std::numeric_limits<float>::max();
+constexpr std::size_t kMaxStages = 256;
+constexpr double kMaxSeedsOfYear = 254.0;
+
+/// `pine` of `trees/pine.lsys`.
+std::string stem_of(std::string_view path) {
+    path.remove_prefix(path.find_last_of('/') + 1); // npos + 1 is 0
+    const std::size_t dot = path.find_last_of('.');
+    return std::string(path.substr(0, dot == 0 ? std::string_view::npos : dot));
+}
+
+float float_of(double value) {
+    return static_cast<float>(value);
+}
+
+/// What is read of one species, and where.
+struct SpeciesReader {
+    TableReader reader;
+    SceneSpecies& species;
+    PlacementSpecies& placed;
+
+    float number(std::string_view key, const NumberRange& range, float usual) {
+        const std::optional<double> value = reader.number(key, range);
+        return value ? float_of(*value) : usual;
+    }
+    std::uint32_t whole(std::string_view key, WholeRange range, std::uint32_t usual) {
+        return static_cast<std::uint32_t>(reader.whole(key, range).value_or(usual));
+    }
+};
+
+void read_grammar(SpeciesReader& from) {
+    if (auto grammar = from.reader.file("grammar")) {
+        from.species.grammar = std::move(*grammar);
+        from.species.name = stem_of(from.species.grammar.path);
+    } else if (!from.reader.has("grammar")) {
+        from.reader.missing("grammar", "the species is to be drawn")
+            .help.emplace_back("name a grammar beside the scene: `grammar = \"pine.lsys\"`");
+    }
+    const auto optional_name = [&](std::string_view key, SceneName& name) {
+        if (auto text = from.reader.text(key)) {
+            name = {std::move(*text), from.reader.span_of(key)};
+        }
+    };
+    optional_name("dialect", from.species.dialect);
+    optional_name("system", from.species.system);
+    if (!from.species.system.text.empty()) {
+        from.species.name = from.species.system.text;
+    }
+    if (auto name = from.reader.text("name")) {
+        from.species.name = std::move(*name);
+    } else if (from.reader.has("name")) {
+        from.species.name.clear(); // it has one, which is reported
+    }
+    if (const SceneValue* const define = from.reader.table("define")) {
+        for (const SceneEntry& entry : define->entries) {
+            if (const auto value =
+                    from.reader.number_of(entry.value, fmt::format("`{}`", entry.key),
+                                          {-kMaxFloat, kMaxFloat, false, {}})) {
+                from.species.definitions.push_back({entry.key, float_of(*value), entry.key_span});
+            }
+        }
+    }
+}
+
+void read_stage_list(SpeciesReader& from) {
+    const SceneEntry* const list = from.reader.entry("stages");
+    if (list == nullptr) {
+        return;
+    }
+    const SceneValue& value = list->value;
+    if (value.kind != SceneValueKind::List) {
+        Diagnostic& error =
+            from.reader.bad(value.span, "`stages` must be a list of numbers of generations");
+        error.label = fmt::format("this is {}", kind_text(value.kind));
+        return;
+    }
+    if (value.items.empty() || value.items.size() > kMaxStages) {
+        from.reader.bad(value.span, fmt::format("`stages` has {} numbers; it takes 1 to {}",
+                                                value.items.size(), kMaxStages));
+        return;
+    }
+    for (const SceneValue& item : value.items) {
+        const auto stage = from.reader.whole_of(item, "a stage", {0, kMaxWhole32 - 1});
+        if (!stage) {
+            continue;
+        }
+        if (!from.species.stages.empty() && *stage <= from.species.stages.back()) {
+            from.reader.bad(item.span, fmt::format("stages rise: {} does not come after {}", *stage,
+                                                   from.species.stages.back()));
+            continue;
+        }
+        from.species.stages.push_back(static_cast<std::uint32_t>(*stage));
+    }
+}
+
+/// `n`, or `stages` with `years_of_stage` where plants have an age.
+void read_stages(SpeciesReader& from, bool ages) {
+    TableReader& reader = from.reader;
+    const auto generations = reader.whole("n", {0, kMaxWhole32 - 1});
+    read_stage_list(from);
+    const auto years = reader.number("years_of_stage", {0.0, kMaxYears, true, "years"});
+    if (!reader.has("stages")) {
+        if (generations) {
+            from.species.stages = {static_cast<std::uint32_t>(*generations)};
+        }
+        reader.refuse("years_of_stage", "the species has no `stages`", {});
+        return;
+    }
+    reader.refuse("n", "`stages` says how many generations there are", reader.span_of("stages"));
+    if (!ages) {
+        reader.refuse("stages", "plants have an age with the method `domination` alone", {});
+        return;
+    }
+    if (years) {
+        from.species.years_of_stage = float_of(*years);
+    } else if (!reader.has("years_of_stage") && from.species.stages.size() > 1) {
+        reader.missing("years_of_stage", "the species has `stages`")
+            .help.emplace_back("say how many years a plant needs for each: `years_of_stage = 10`");
+    }
+}
+
+void read_cache(SpeciesReader& from) {
+    CacheOptions& cache = from.species.cache;
+    cache.heroes = from.whole("heroes", {1, kMaxHeroes}, cache.heroes);
+    cache.seed = from.reader.whole("seed", {0, kMaxWhole63}).value_or(cache.seed);
+    cache.cap = from.whole("cache_cap", {0, kMaxWhole32}, cache.cap);
+    cache.tolerance = from.number("tolerance", {0.0, 1.0, false, {}}, cache.tolerance);
+    from.species.rho = from.number("rho", {0.0, 1.0, false, {}}, from.species.rho);
+}
+
+void read_place(SpeciesReader& from) {
+    PlacementSpecies& placed = from.placed;
+    placed.share = from.reader.number("share", {0.0, 1.0e9, false, {}}).value_or(placed.share);
+    if (const auto scale = from.reader.ordered_pair("scale", {1.0e-3, 1000.0, false, {}})) {
+        placed.least_scale = float_of((*scale)[0]);
+        placed.greatest_scale = float_of((*scale)[1]);
+    }
+    if (const auto altitude =
+            from.reader.ordered_pair("altitude", {-kUnbounded, kUnbounded, false, "m"})) {
+        placed.lowest = float_of((*altitude)[0]);
+        placed.highest = float_of((*altitude)[1]);
+    }
+    if (const auto slope = from.reader.number("slope", {0.0, 90.0, false, "degrees"});
+        slope && *slope < 90.0) {
+        placed.steepest = float_of(std::tan(*slope * (std::numbers::pi / 180.0)));
+    }
+}
+
+void read_growth(const SceneValue* table, PlacementSpecies& placed, Diagnostics& diagnostics) {
+    SpeciesGrowth& growth = placed.growth;
+    TableReader reader(table, "[species.growth]", diagnostics);
+    const auto number = [&](std::string_view key, const NumberRange& range, float& value) {
+        if (const auto found = reader.number(key, range)) {
+            value = float_of(*found);
+        }
+    };
+    const auto whole = [&](std::string_view key, WholeRange range, std::uint32_t& value) {
+        value = static_cast<std::uint32_t>(reader.whole(key, range).value_or(value));
+    };
+    number("greatest_radius", {0.01, 1000.0, false, "m"}, growth.greatest_radius);
+    number("rate", {1.0e-4, 1000.0, false, "m a year"}, growth.rate);
+    number("shade_tolerance", {0.0, 1.0, false, {}}, growth.tolerance);
+    number("vigour_spread", {0.0, 0.9, false, {}}, growth.vigour_spread);
+    whole("lifespan", {1, kMaxYears}, growth.lifespan);
+    whole("maturity", {1, std::uint64_t{2} * kMaxYears}, growth.maturity);
+    number("seeds", {0.0, kMaxSeedsOfYear, false, "a year"}, growth.seeds);
+    number("seed_distance", {0.0, 1.0e5, false, "m"}, growth.seed_distance);
+    if (growth.rate > growth.greatest_radius) {
+        const SourceSpan at = reader.span_of(reader.has("rate") ? "rate" : "greatest_radius");
+        reader.bad(at, fmt::format("plants grow by {} m in a year, farther than their greatest "
+                                   "radius of {} m",
+                                   growth.rate, growth.greatest_radius));
+    }
+    reader.finish();
+}
+
+void read_one(const SceneValue& table, Scene& scene, Diagnostics& diagnostics) {
+    SceneSpecies& species = scene.species.emplace_back();
+    PlacementSpecies& placed = scene.placement.species.emplace_back();
+    SpeciesReader from{TableReader(&table, "[[species]]", diagnostics), species, placed};
+    species.span = table.span;
+    const bool ages = scene.placement.method == PlacementMethod::Domination;
+    read_grammar(from);
+    read_stages(from, ages);
+    read_cache(from);
+    read_place(from);
+    read_growth(from.reader.table("growth"), placed, diagnostics);
+    if (!ages) {
+        from.reader.refuse("growth", "plants grow with the method `domination` alone", {});
+    }
+    from.reader.finish();
+}
+
+void check_names(const SceneValue& list, const Scene& scene, Diagnostics& diagnostics) {
+    std::map<std::string_view, std::size_t> first;
+    for (std::size_t i = 0; i < scene.species.size(); ++i) {
+        const SceneSpecies& species = scene.species[i];
+        if (species.name.empty()) {
+            continue; // a mistake of its own
+        }
+        const auto [other, is_new] = first.try_emplace(species.name, i);
+        if (is_new) {
+            continue;
+        }
+        const auto place = [&](std::size_t index) {
+            const SceneEntry* const name = find_entry(list.items[index], "name");
+            return name != nullptr ? name->value.span : scene.species[index].grammar.span;
+        };
+        Diagnostic& error =
+            diagnostics.add(DiagnosticCode::ConflictingSceneKeys, place(i),
+                            fmt::format("two species have the name `{}`", species.name));
+        error.labels.push_back({place(other->second), "the other"});
+        error.help.emplace_back("give one of them another `name`");
+    }
+}
+
+void check_shares(const SceneValue& list, const Scene& scene, Diagnostics& diagnostics) {
+    const bool none = std::all_of(scene.placement.species.begin(), scene.placement.species.end(),
+                                  [](const PlacementSpecies& one) { return one.share == 0.0; });
+    if (none) {
+        const SceneEntry* const share = find_entry(list.items.front(), "share");
+        diagnostics.add(DiagnosticCode::BadSceneValue, share->value.span,
+                        "the shares of all species are 0, so no tree can be of any");
+    }
+}
+
+} // namespace
+
+void read_species_list(const SceneValue& root, Scene& scene, Diagnostics& diagnostics) {
+    const SceneEntry* const entry = find_entry(root, "species");
+    if (entry == nullptr ||
+        (entry->value.kind == SceneValueKind::List && entry->value.items.empty())) {
+        const SourceSpan at = entry == nullptr
+                                  ? SourceSpan{root.span.file, root.span.begin, root.span.begin}
+                                  : entry->value.span;
+        diagnostics.add(DiagnosticCode::MissingSceneKey, at, "the scene has no `[[species]]`")
+            .help.emplace_back("add one: `[[species]]`, and below it `grammar = \"pine.lsys\"`");
+        return;
+    }
+    const SceneValue& list = entry->value;
+    const auto is_table = [](const SceneValue& item) { return item.kind == SceneValueKind::Table; };
+    if (list.kind != SceneValueKind::List ||
+        !std::all_of(list.items.begin(), list.items.end(), is_table)) {
+        Diagnostic& error =
+            diagnostics.add(DiagnosticCode::BadSceneValue,
+                            list.kind == SceneValueKind::Table ? list.span : entry->value.span,
+                            "`species` must be a list of tables");
+        error.label = fmt::format("this is {}", kind_text(list.kind));
+        error.help.emplace_back("each species begins with `[[species]]`, in two pairs of brackets");
+        return;
+    }
+    if (list.items.size() > kMaxSceneSpecies) {
+        diagnostics.add(
+            DiagnosticCode::BadSceneValue, list.items[kMaxSceneSpecies].span,
+            fmt::format("{} species; a scene has at most {}", list.items.size(), kMaxSceneSpecies));
+        return;
+    }
+    for (const SceneValue& item : list.items) {
+        read_one(item, scene, diagnostics);
+    }
+    check_names(list, scene, diagnostics);
+    check_shares(list, scene, diagnostics);
+}
+
+} // namespace lsys

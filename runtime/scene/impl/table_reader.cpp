@@ -1,0 +1,331 @@
+#include "runtime/scene/impl/table_reader.h"
+
+#include "runtime/derive/runtime_diagnostic.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+struct KeyPlace {
+    std::string_view key;
+    std::string_view table;
+};
+
+/// Keys that one table alone has: what stands elsewhere is told where it belongs.
+constexpr KeyPlace kPlaces[] = {
+    {"kind", "[terrain]"},
+    {"size", "[terrain]"},
+    {"origin", "[terrain]"},
+    {"octaves", "[terrain]"},
+    {"lacunarity", "[terrain]"},
+    {"gain", "[terrain]"},
+    {"feature", "[terrain]"},
+    {"height", "[terrain]"},
+    {"base", "[terrain]"},
+    {"map_size", "[terrain]"},
+    {"lowest", "[terrain]"},
+    {"highest", "[terrain]"},
+    {"filter", "[terrain]"},
+    {"grammar", "[[species]]"},
+    {"dialect", "[[species]]"},
+    {"system", "[[species]]"},
+    {"n", "[[species]]"},
+    {"stages", "[[species]]"},
+    {"years_of_stage", "[[species]]"},
+    {"define", "[[species]]"},
+    {"heroes", "[[species]]"},
+    {"rho", "[[species]]"},
+    {"cache_cap", "[[species]]"},
+    {"share", "[[species]]"},
+    {"scale", "[[species]]"},
+    {"altitude", "[[species]]"},
+    {"slope", "[[species]]"},
+    {"rate", "[species.growth]"},
+    {"greatest_radius", "[species.growth]"},
+    {"shade_tolerance", "[species.growth]"},
+    {"vigour_spread", "[species.growth]"},
+    {"lifespan", "[species.growth]"},
+    {"maturity", "[species.growth]"},
+    {"seeds", "[species.growth]"},
+    {"seed_distance", "[species.growth]"},
+    {"method", "[placement]"},
+    {"count", "[placement]"},
+    {"spacing", "[placement]"},
+    {"density", "[placement]"},
+    {"years", "[placement]"},
+    {"trees", "[painted]"},
+    {"erased", "[painted]"},
+    {"key", "the file, above its tables"},
+};
+
+/// Shortest that reads back equal; whole numbers with commas.
+std::string shown(double value) {
+    if (value == std::floor(value) && std::abs(value) < 1e15) {
+        return (value < 0.0 ? "-" : "") +
+               grouped_digits(static_cast<std::uint64_t>(std::abs(value)));
+    }
+    return fmt::format("{}", value);
+}
+
+std::string with_unit(std::string text, std::string_view unit) {
+    return unit.empty() ? text : fmt::format("{} {}", text, unit);
+}
+
+std::string range_text(const NumberRange& range) {
+    const bool open = std::isinf(range.most);
+    if (open && std::isinf(range.least)) {
+        return "be a number";
+    }
+    if (range.above) {
+        return open ? with_unit(fmt::format("be above {}", shown(range.least)), range.unit)
+                    : with_unit(fmt::format("be above {} and at most {}", shown(range.least),
+                                            shown(range.most)),
+                                range.unit);
+    }
+    return open ? with_unit(fmt::format("be {} or more", shown(range.least)), range.unit)
+                : with_unit(fmt::format("be from {} to {}", shown(range.least), shown(range.most)),
+                            range.unit);
+}
+
+std::string list_text(std::span<const std::string_view> names) {
+    return fmt::format("`{}`", fmt::join(names, "`, `"));
+}
+
+} // namespace
+
+const SceneEntry* TableReader::entry(std::string_view key) {
+    known_.push_back(key);
+    return table_ == nullptr ? nullptr : find_entry(*table_, key);
+}
+
+Diagnostic& TableReader::bad(SourceSpan span, std::string message) {
+    return diagnostics_.add(DiagnosticCode::BadSceneValue, span, std::move(message));
+}
+
+Diagnostic&
+TableReader::wrong_kind(const SceneValue& value, std::string_view what, std::string_view wanted) {
+    Diagnostic& error = bad(value.span, fmt::format("{} must be {}", what, wanted));
+    error.label = fmt::format("this is {}", kind_text(value.kind));
+    return error;
+}
+
+std::optional<double>
+TableReader::number_of(const SceneValue& value, std::string_view what, const NumberRange& range) {
+    if (value.kind != SceneValueKind::Whole && value.kind != SceneValueKind::Real) {
+        wrong_kind(value, what, "a number");
+        return std::nullopt;
+    }
+    const double number = value.real;
+    const bool enough = range.above ? number > range.least : number >= range.least;
+    if (!(enough && number <= range.most)) { // also of what is no number
+        bad(value.span,
+            fmt::format("{} is {}; it must {}", what, shown(number), range_text(range)));
+        return std::nullopt;
+    }
+    return number;
+}
+
+std::optional<std::uint64_t>
+TableReader::whole_of(const SceneValue& value, std::string_view what, WholeRange range) {
+    if (value.kind != SceneValueKind::Whole) {
+        wrong_kind(value, what, "a whole number");
+        return std::nullopt;
+    }
+    if (value.whole < 0 || static_cast<std::uint64_t>(value.whole) < range.least ||
+        static_cast<std::uint64_t>(value.whole) > range.most) {
+        const bool open = range.most >= std::uint64_t{1} << 53;
+        const NumberRange wide{static_cast<double>(range.least),
+                               open ? HUGE_VAL : static_cast<double>(range.most),
+                               false,
+                               {}};
+        bad(value.span,
+            fmt::format("{} is {}; it must {}", what, shown(value.real), range_text(wide)));
+        return std::nullopt;
+    }
+    return static_cast<std::uint64_t>(value.whole);
+}
+
+std::optional<double> TableReader::number(std::string_view key, const NumberRange& range) {
+    const SceneEntry* const found = entry(key);
+    return found == nullptr ? std::nullopt
+                            : number_of(found->value, fmt::format("`{}`", key), range);
+}
+
+std::optional<std::uint64_t> TableReader::whole(std::string_view key, WholeRange range) {
+    const SceneEntry* const found = entry(key);
+    return found == nullptr ? std::nullopt
+                            : whole_of(found->value, fmt::format("`{}`", key), range);
+}
+
+std::optional<std::string> TableReader::text(std::string_view key) {
+    const SceneEntry* const found = entry(key);
+    if (found == nullptr) {
+        return std::nullopt;
+    }
+    if (found->value.kind != SceneValueKind::Text) {
+        wrong_kind(found->value, fmt::format("`{}`", key), "a text");
+        return std::nullopt;
+    }
+    const std::string& text = found->value.text;
+    const bool plain = std::none_of(text.begin(), text.end(),
+                                    [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+    if (text.empty() || !plain) {
+        bad(found->value.span,
+            fmt::format("`{}` {}", key, plain ? "is empty" : "holds a control character"));
+        return std::nullopt;
+    }
+    return text;
+}
+
+std::optional<SceneFile> TableReader::file(std::string_view key) {
+    std::optional<std::string> path = text(key);
+    if (!path) {
+        return std::nullopt;
+    }
+    return SceneFile{std::move(*path), span_of(key)};
+}
+
+std::optional<std::size_t> TableReader::choice(std::string_view key,
+                                               std::span<const std::string_view> names) {
+    const std::optional<std::string> name = text(key);
+    if (!name) {
+        return std::nullopt;
+    }
+    const auto found = std::find(names.begin(), names.end(), *name);
+    if (found != names.end()) {
+        return static_cast<std::size_t>(found - names.begin());
+    }
+    const SourceSpan span = span_of(key);
+    Diagnostic& error = bad(span, fmt::format("there is no {} `{}`", key, *name));
+    if (const auto nearest = nearest_name(*name, {names.begin(), names.end()})) {
+        error.help.push_back(fmt::format("did you mean `{}`?", *nearest));
+        error.fixes.push_back({fmt::format("write `{}`", *nearest),
+                               {{span, fmt::format("\"{}\"", *nearest)}},
+                               false});
+    } else {
+        error.help.push_back(fmt::format("`{}` is one of {}", key, list_text(names)));
+    }
+    return std::nullopt;
+}
+
+std::optional<std::array<double, 2>>
+TableReader::pair(std::string_view key, const NumberRange& range, bool lone) {
+    const SceneEntry* const found = entry(key);
+    if (found == nullptr) {
+        return std::nullopt;
+    }
+    const SceneValue& value = found->value;
+    const std::string what = fmt::format("`{}`", key);
+    if (lone && (value.kind == SceneValueKind::Whole || value.kind == SceneValueKind::Real)) {
+        const std::optional<double> both = number_of(value, what, range);
+        return both ? std::optional(std::array<double, 2>{*both, *both}) : std::nullopt;
+    }
+    if (value.kind != SceneValueKind::List) {
+        wrong_kind(value, what, lone ? "a number or a list of two" : "a list of two numbers");
+        return std::nullopt;
+    }
+    if (value.items.size() != 2) {
+        bad(value.span,
+            fmt::format("{} must be a list of two numbers, not of {}", what, value.items.size()));
+        return std::nullopt;
+    }
+    const std::optional<double> first =
+        number_of(value.items[0], fmt::format("the first number of {}", what), range);
+    const std::optional<double> second =
+        number_of(value.items[1], fmt::format("the second number of {}", what), range);
+    return first && second ? std::optional(std::array<double, 2>{*first, *second}) : std::nullopt;
+}
+
+std::optional<std::array<double, 2>> TableReader::ordered_pair(std::string_view key,
+                                                               const NumberRange& range) {
+    const std::optional<std::array<double, 2>> ends = pair(key, range, false);
+    if (ends && (*ends)[0] > (*ends)[1]) {
+        bad(span_of(key), fmt::format("`{}` begins at {} and ends below it, at {}", key,
+                                      shown((*ends)[0]), shown((*ends)[1])));
+        return std::nullopt;
+    }
+    return ends;
+}
+
+const SceneValue* TableReader::table(std::string_view key) {
+    const SceneEntry* const found = entry(key);
+    if (found == nullptr) {
+        return nullptr;
+    }
+    if (found->value.kind != SceneValueKind::Table) {
+        wrong_kind(found->value, fmt::format("`{}`", key), "a table");
+        return nullptr;
+    }
+    return &found->value;
+}
+
+Diagnostic& TableReader::missing(std::string_view key, std::string_view why) {
+    SourceSpan at = span();
+    if (name_.empty()) {
+        at.end = at.begin; // the file has no heading to point at
+    }
+    Diagnostic& error = diagnostics_.add(DiagnosticCode::MissingSceneKey, at,
+                                         fmt::format("{} and has no `{}`", why, key));
+    return error;
+}
+
+void TableReader::refuse(std::string_view key, std::string_view because, SourceSpan cause) {
+    if (!has(key)) {
+        return;
+    }
+    Diagnostic& error =
+        diagnostics_.add(DiagnosticCode::ConflictingSceneKeys, find_entry(*table_, key)->key_span,
+                         fmt::format("`{}` says nothing here: {}", key, because));
+    if (cause.file != kNoFile) {
+        error.labels.push_back({cause, "this decides"});
+    }
+}
+
+SourceSpan TableReader::span_of(std::string_view key) const {
+    const SceneEntry* const found = table_ == nullptr ? nullptr : find_entry(*table_, key);
+    return found == nullptr ? span() : found->value.span;
+}
+
+void TableReader::finish() {
+    if (table_ == nullptr) {
+        return;
+    }
+    for (const SceneEntry& found : table_->entries) {
+        if (std::find(known_.begin(), known_.end(), found.key) != known_.end()) {
+            continue;
+        }
+        Diagnostic& error =
+            diagnostics_.add(DiagnosticCode::UnknownSceneKey, found.key_span,
+                             name_.empty() ? fmt::format("a scene has no key `{}`", found.key)
+                                           : fmt::format("`{}` has no key `{}`", name_, found.key));
+        const auto place =
+            std::find_if(std::begin(kPlaces), std::end(kPlaces),
+                         [&](const KeyPlace& other) { return other.key == found.key; });
+        if (place != std::end(kPlaces)) {
+            const bool is_table = place->table.starts_with('[');
+            error.help.push_back(is_table ? fmt::format("it belongs in `{}`", place->table)
+                                          : fmt::format("it belongs to {}", place->table));
+        } else if (found.key == "profile" || found.key == "turtle") {
+            error.help.emplace_back("a grammar names its turtle itself: `#set turtle abop;`");
+        } else if (const auto nearest = nearest_name(found.key, known_)) {
+            error.help.push_back(fmt::format("did you mean `{}`?", *nearest));
+            if (!has(*nearest)) {
+                error.fixes.push_back({fmt::format("write `{}`", *nearest),
+                                       {{found.key_span, std::string(*nearest)}},
+                                       false});
+            }
+        } else {
+            error.help.push_back(fmt::format("the keys are {}", list_text(known_)));
+        }
+    }
+}
+
+} // namespace lsys

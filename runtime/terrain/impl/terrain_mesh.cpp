@@ -1,0 +1,91 @@
+// A regular grid over the ground. Diagonals alternate, so that no direction is favoured.
+#include "runtime/base/workers.h"
+#include "runtime/terrain/terrain.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace lsys {
+
+namespace {
+
+float coordinate(double lowest, double side, std::uint32_t index, std::uint32_t cells) {
+    return static_cast<float>(lowest + side * (static_cast<double>(index) / cells));
+}
+
+} // namespace
+
+Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions& options) {
+    const std::uint64_t columns = options.columns;
+    const std::uint64_t rows = options.rows;
+    if (columns == 0 || rows == 0) {
+        return Error{fmt::format("a mesh of the ground of {} by {} cells; it takes at least 1 by 1",
+                                 columns, rows)};
+    }
+    if (columns * rows > kMaxTerrainCells) {
+        return Error{fmt::format("a mesh of the ground of {} by {} cells; the most is {}", columns,
+                                 rows, kMaxTerrainCells)};
+    }
+    if (!std::isfinite(options.texture_size) || options.texture_size < 0.0) {
+        return Error{fmt::format("a texture of the ground of {} m; it must be 0 or more",
+                                 options.texture_size)};
+    }
+    const Region& region = terrain.region();
+    const double texture_width = options.texture_size > 0.0 ? options.texture_size : region.width;
+    const double texture_depth = options.texture_size > 0.0 ? options.texture_size : region.depth;
+
+    Mesh mesh;
+    const std::uint64_t vertices = (columns + 1) * (rows + 1);
+    mesh.positions.resize(vertices);
+    mesh.normals.resize(vertices);
+    mesh.texture_coordinates.resize(vertices);
+    LargeVector<std::uint32_t> indices;
+    indices.resize(6 * columns * rows);
+
+    Workers workers(options.threads);
+    workers.for_each(rows + 1, [&](std::uint64_t row) {
+        const double part_z = static_cast<double>(row) / static_cast<double>(rows);
+        const float z =
+            coordinate(region.z, region.depth, static_cast<std::uint32_t>(row), options.rows);
+        for (std::uint32_t column = 0; column <= options.columns; ++column) {
+            const std::uint64_t vertex = row * (columns + 1) + column;
+            const float x = coordinate(region.x, region.width, column, options.columns);
+            const double part_x = static_cast<double>(column) / options.columns;
+            mesh.positions[vertex] = {x, terrain.height(x, z), z};
+            mesh.normals[vertex] = terrain.normal(x, z);
+            mesh.texture_coordinates[vertex] = {
+                static_cast<float>(part_x * region.width / texture_width),
+                static_cast<float>(part_z * region.depth / texture_depth)};
+        }
+        if (row == rows) {
+            return;
+        }
+        for (std::uint32_t column = 0; column < options.columns; ++column) {
+            const auto corner = static_cast<std::uint32_t>(row * (columns + 1) + column);
+            const std::uint32_t below = corner + options.columns + 1; // the next row, greater z
+            std::uint32_t* const to = indices.data() + 6 * (row * columns + column);
+            // Counter-clockwise from above: Z before X.
+            const bool falling = ((row + column) & 1U) == 0;
+            const std::array<std::uint32_t, 6> cell =
+                falling ? std::array<std::uint32_t, 6>{corner, below,     below + 1,
+                                                       corner, below + 1, corner + 1}
+                        : std::array<std::uint32_t, 6>{corner,     below, corner + 1,
+                                                       corner + 1, below, below + 1};
+            for (std::size_t i = 0; i < cell.size(); ++i) {
+                to[i] = cell[i];
+            }
+        }
+    });
+    mesh.indices = std::move(indices);
+    Material ground;
+    ground.name = "ground";
+    ground.colour = {0.12F, 0.10F, 0.05F, 1.0F};
+    mesh.materials.push_back(ground);
+    mesh.parts.push_back({0, 0, mesh.indices.size()});
+    return mesh;
+}
+
+} // namespace lsys

@@ -1,0 +1,199 @@
+#include "runtime/terrain/terrain.h"
+
+#include "runtime/base/random.h"
+#include "runtime/terrain/impl/interpolate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stb/stb_perlin.h>
+#include <string_view>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+constexpr double kPeriod = 256.0; // cells after which stb's noise repeats
+/// Part of the finest feature over which slopes are measured. Places within the noise are exact to
+/// 2^-17 of a cell, which leaves an error of 1 in 2,000 there.
+constexpr double kSlopePart = 1.0 / 32.0;
+constexpr double kLeastSlopeStep = 0.05; // m; binary32 is coarser than less of it far out
+/// The generation that the draws of terrains take; derivations never come to it.
+constexpr std::uint32_t kTerrainGeneration = 0xFFFFFFFCu;
+
+bool within(double value, double least, double most) {
+    return value >= least && value <= most; // false for what is no number
+}
+
+Result<Done> check_noise(const NoiseOptions& options) {
+    struct Bound {
+        std::string_view name;
+        double value;
+        double least;
+        double most;
+    };
+    const std::array<Bound, 6> bounds{
+        Bound{"octaves", static_cast<double>(options.octaves), 1.0, kMaxOctaves},
+        Bound{"lacunarity", options.lacunarity, 1.0, 8.0},
+        Bound{"gain", options.gain, 0.0, 1.0},
+        Bound{"feature size", options.feature, 1.0e-3, kFarthest},
+        Bound{"height", options.height, 0.0, kFarthest},
+        Bound{"base", options.base, -kFarthest, kFarthest},
+    };
+    for (const Bound& bound : bounds) {
+        if (!within(bound.value, bound.least, bound.most)) {
+            return Error{
+                fmt::format("the {} of the terrain's noise is {}; it must be from {} to {}",
+                            bound.name, bound.value, bound.least, bound.most)};
+        }
+    }
+    return Done{};
+}
+
+Result<Done> check_altitude(std::string_view name, double altitude) {
+    if (!within(altitude, -kFarthest, kFarthest)) {
+        return Error{fmt::format("the {} of the terrain is {} m; it must be from {} to {}", name,
+                                 altitude, -kFarthest, kFarthest)};
+    }
+    return Done{};
+}
+
+/// `cells` within the period of the noise.
+float wrapped(double cells) {
+    return static_cast<float>(cells - kPeriod * std::floor(cells / kPeriod));
+}
+
+} // namespace
+
+Result<Terrain> Terrain::flat(const Region& region, double altitude) {
+    if (const Result<Done> checked = check_region(region); !checked) {
+        return checked.error();
+    }
+    if (const Result<Done> checked = check_altitude("altitude", altitude); !checked) {
+        return checked.error();
+    }
+    Terrain terrain(region);
+    terrain.base_ = altitude;
+    return terrain;
+}
+
+Result<Terrain> Terrain::noise(const Region& region, const NoiseOptions& options) {
+    if (const Result<Done> checked = check_region(region); !checked) {
+        return checked.error();
+    }
+    if (const Result<Done> checked = check_noise(options); !checked) {
+        return checked.error();
+    }
+    Terrain terrain(region);
+    double scale = 1.0 / options.feature;
+    double height = 1.0;
+    double sum = 0.0;
+    for (std::uint32_t number = 0; number < options.octaves; ++number) {
+        // Octaves have places of their own within the noise: in common, their zeros would meet.
+        const PhiloxBlock words = draw_block(options.seed, kTerrainGeneration, number, 0);
+        terrain.octaves_.push_back({scale, static_cast<double>(words[0]) * (kPeriod * 0x1p-32),
+                                    static_cast<double>(words[1]) * (kPeriod * 0x1p-32),
+                                    static_cast<float>(words[2] >> 24U), height});
+        sum += height;
+        terrain.slope_step_ = std::max(kLeastSlopeStep, kSlopePart / scale);
+        scale *= options.lacunarity;
+        height *= options.gain;
+    }
+    for (Octave& octave : terrain.octaves_) {
+        octave.height *= 0.5 * options.height / sum; // noise is -1 to 1
+    }
+    terrain.base_ = options.base + 0.5 * options.height;
+    return terrain;
+}
+
+Result<Terrain>
+Terrain::height_map(const Region& region, GreyMap map, const HeightMapOptions& options) {
+    if (const Result<Done> checked = check_region(region); !checked) {
+        return checked.error();
+    }
+    if (map.columns < 2 || map.rows < 2 ||
+        map.values.size() != std::uint64_t{map.columns} * map.rows) {
+        return Error{fmt::format("a height map of {} by {} pixels; it takes at least 2 by 2",
+                                 map.columns, map.rows)};
+    }
+    const std::array<std::pair<std::string_view, double>, 2> altitudes{
+        std::pair{std::string_view("lowest height"), options.lowest},
+        std::pair{std::string_view("highest height"), options.highest}};
+    for (const auto& [name, altitude] : altitudes) {
+        if (const Result<Done> checked = check_altitude(name, altitude); !checked) {
+            return checked.error();
+        }
+    }
+    Terrain terrain(region);
+    terrain.base_ = options.lowest;
+    terrain.map_scale_ = (options.highest - options.lowest) / 65535.0;
+    const double cell = std::min(region.width / (map.columns - 1), region.depth / (map.rows - 1));
+    terrain.slope_step_ = std::max(kLeastSlopeStep, 0.5 * cell);
+    terrain.map_ = std::move(map);
+    terrain.filter_ = options.filter;
+    return terrain;
+}
+
+double Terrain::noise_height(double x, double z) const {
+    double height = 0.0;
+    for (const Octave& octave : octaves_) {
+        const float noise =
+            stb_perlin_noise3(wrapped(x * octave.scale + octave.shift_x), octave.layer,
+                              wrapped(z * octave.scale + octave.shift_z), 0, 0, 0);
+        height += octave.height * std::clamp(static_cast<double>(noise), -1.0, 1.0);
+    }
+    return height;
+}
+
+double Terrain::map_height(double x, double z) const {
+    const double column = (x - region_.x) / region_.width * (map_->columns - 1);
+    const double row = (z - region_.z) / region_.depth * (map_->rows - 1);
+    const double grey = filter_ == HeightFilter::Bicubic ? interpolate_bicubic(*map_, column, row)
+                                                         : interpolate_bilinear(*map_, column, row);
+    return map_scale_ * grey;
+}
+
+double Terrain::exact_height(double x, double z) const {
+    if (map_) {
+        return base_ + map_height(x, z);
+    }
+    return octaves_.empty() ? base_ : base_ + noise_height(x, z);
+}
+
+float Terrain::height(float x, float z) const {
+    return static_cast<float>(exact_height(static_cast<double>(x), static_cast<double>(z)));
+}
+
+std::array<double, 2> Terrain::gradient(float x, float z) const {
+    if (!map_ && octaves_.empty()) {
+        return {0.0, 0.0};
+    }
+    const auto px = static_cast<double>(x);
+    const auto pz = static_cast<double>(z);
+    const auto around = [&](double at, double lowest, double side) {
+        const double half = 0.5 * slope_step_;
+        return map_ ? std::array{std::clamp(at - half, lowest, lowest + side - half),
+                                 std::clamp(at + half, lowest + half, lowest + side)}
+                    : std::array{at - half, at + half};
+    };
+    const auto [left, right] = around(px, region_.x, region_.width);
+    const auto [back, front] = around(pz, region_.z, region_.depth);
+    return {(exact_height(right, pz) - exact_height(left, pz)) / (right - left),
+            (exact_height(px, front) - exact_height(px, back)) / (front - back)};
+}
+
+glm::vec3 Terrain::normal(float x, float z) const {
+    const auto [along_x, along_z] = gradient(x, z);
+    const double length = std::sqrt(along_x * along_x + along_z * along_z + 1.0);
+    return {static_cast<float>(-along_x / length), static_cast<float>(1.0 / length),
+            static_cast<float>(-along_z / length)};
+}
+
+float Terrain::slope(float x, float z) const {
+    const auto [along_x, along_z] = gradient(x, z);
+    return static_cast<float>(std::sqrt(along_x * along_x + along_z * along_z));
+}
+
+} // namespace lsys

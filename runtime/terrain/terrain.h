@@ -1,0 +1,110 @@
+// Terrain: the ground of a forest. One function gives its height; placement, meshes and picking all
+// call it, so that trees stand on what is drawn. Metres, +Y up.
+#pragma once
+
+#include "grammar/base/result.h"
+#include "runtime/base/grey_map.h"
+#include "runtime/meshing/mesh.h"
+#include "runtime/terrain/region.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace lsys {
+
+inline constexpr std::uint32_t kMaxOctaves = 16;
+
+/// Fractal noise: a sum of octaves of gradient noise (Perlin 2002, "Improving noise"; Ebert et al.
+/// 2003, "Texturing and Modeling", chapter 2).
+struct NoiseOptions {
+    std::uint64_t seed = 0;
+    std::uint32_t octaves = 6; // 1 to kMaxOctaves
+    double lacunarity = 2.0;   // features of an octave for one of that before, 1 to 8
+    double gain = 0.5;         // height of an octave by that before, 0 to 1
+    double feature = 250.0;    // m, between hills of the first octave
+    double height = 50.0; // m; heights lie in [base, base + height], most within its middle half
+    double base = 0.0;    // m
+
+    friend bool operator==(const NoiseOptions&, const NoiseOptions&) = default;
+};
+
+enum class HeightFilter : std::uint8_t {
+    Bilinear,
+    Bicubic, // Catmull-Rom (Keys 1981, a = -1/2); smooth, may pass the range of its samples a
+             // little
+};
+
+/// Black lies at `lowest`, white at `highest`. The middles of the outermost pixels lie upon the
+/// border of the ground, so columns - 1 cells span it.
+struct HeightMapOptions {
+    double lowest = 0.0;   // m
+    double highest = 50.0; // m
+    HeightFilter filter = HeightFilter::Bicubic;
+};
+
+class Terrain {
+public:
+    /// A level ground. Error: a bad region, an altitude that is no number or beyond kFarthest.
+    [[nodiscard]] static Result<Terrain> flat(const Region& region, double altitude = 0.0);
+    /// Goes on beyond `region`, the same wherever `region` lies. Error: also a bad option, which it
+    /// names.
+    [[nodiscard]] static Result<Terrain> noise(const Region& region, const NoiseOptions& options);
+    /// Goes on level beyond its border. Error: also fewer than 2 by 2 pixels.
+    [[nodiscard]] static Result<Terrain>
+    height_map(const Region& region, GreyMap map, const HeightMapOptions& options);
+
+    [[nodiscard]] const Region& region() const { return region_; }
+    /// m at a place in m. The same on every machine; finite within kFarthest.
+    [[nodiscard]] float height(float x, float z) const;
+    /// Of unit length, by differences over slope_step(), which do not reach beyond a height map.
+    [[nodiscard]] glm::vec3 normal(float x, float z) const;
+    /// Rise over run: 0 is level, 1 is 45 degrees. By the same differences.
+    [[nodiscard]] float slope(float x, float z) const;
+    /// m; the distance over which slopes are measured, from the finest feature.
+    [[nodiscard]] double slope_step() const { return slope_step_; }
+
+private:
+    struct Octave {
+        double scale = 0.0; // cells a metre
+        double shift_x = 0.0;
+        double shift_z = 0.0;
+        float layer = 0.0F; // of the noise, which is of three dimensions
+        double height = 0.0;
+    };
+
+    explicit Terrain(const Region& region) : region_(region) {}
+    [[nodiscard]] double exact_height(double x, double z) const;
+    [[nodiscard]] double noise_height(double x, double z) const;
+    [[nodiscard]] double map_height(double x, double z) const;
+    [[nodiscard]] std::array<double, 2> gradient(float x, float z) const;
+
+    Region region_;
+    double base_ = 0.0;
+    double map_scale_ = 0.0; // m for one grey value
+    double slope_step_ = 1.0;
+    std::vector<Octave> octaves_;
+    std::optional<GreyMap> map_;
+    HeightFilter filter_ = HeightFilter::Bilinear;
+};
+
+inline constexpr std::uint64_t kMaxTerrainCells = std::uint64_t{1} << 24; // 0.9 GB of mesh
+
+/// Cells of a mesh of the ground along X and Z.
+struct TerrainMeshOptions {
+    std::uint32_t columns = 256;
+    std::uint32_t rows = 256;
+    double texture_size = 0.0; // m of the ground for one texture; 0: one for the whole ground
+    std::uint32_t threads = 0; // 0: as many as the machine has
+};
+
+/// The terrain's region as two triangles a cell. Every vertex lies at height() of its x and z and
+/// has normal() there; u runs along X and v along Z. The same for any number of threads. Error: no
+/// cells, or more than kMaxTerrainCells.
+[[nodiscard]] Result<Mesh> make_terrain_mesh(const Terrain& terrain,
+                                             const TerrainMeshOptions& options);
+
+} // namespace lsys

@@ -1,0 +1,52 @@
+// What the turtle does for each code of a word, with all that is constant worked out once.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "runtime/turtle/turtle.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+inline constexpr std::uint32_t kTurtleArguments = 4;
+
+/// Cosine and sine of half an angle: what a rotation of a quaternion needs.
+struct HalfAngle {
+    double cosine = 1.0;
+    double sine = 0.0;
+};
+[[nodiscard]] HalfAngle half_angle(double degrees);
+
+/// The few things that most modules ask for, which the walk does itself.
+enum class QuickAction : std::uint8_t { None, Nothing, Yaw, Pitch, Roll, Forward, Save, Restore };
+
+struct Action {
+    QuickAction quick = QuickAction::None;
+    TurtleOperation operation = TurtleOperation::Nothing;
+    std::uint8_t given = 0;                          // arguments, of the first three
+    bool advances = false;                           // objects: by their length
+    std::uint32_t stored = 0;                        // parameters in the word, all of them
+    std::array<float, kTurtleArguments> arguments{}; // if none is stored
+    HalfAngle turn;                                  // rotations by a constant angle, signed
+    float unit_length = 1.0F;                        // objects
+    float usual_size = 1.0F;                         // of objects without a parameter
+    std::uint32_t mesh_file = 0;                     // in Skeleton::mesh_files
+    char character = '\0';                           // of a module whose name is one
+};
+
+struct ActionTable {
+    std::vector<Action> by_code;
+    std::vector<std::string> mesh_files;
+    bool reads_text = false; // a parenthesis may hold a parameter
+};
+
+/// Whether any module moves along the second heading.
+[[nodiscard]] bool uses_aside(const Bytecode& bytecode);
+
+/// Precondition: verified bytecode.
+[[nodiscard]] ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options);
+
+} // namespace lsys

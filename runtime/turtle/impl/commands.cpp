@@ -1,0 +1,428 @@
+#include "grammar/base/contract.h"
+#include "runtime/turtle/impl/state.h"
+
+namespace lsys {
+
+void Turtle::State::note(TurtleFaultKind kind) {
+    TurtleFault& known = faults[static_cast<std::size_t>(kind)];
+    if (known.count++ == 0) {
+        known.position = position;
+        known.code = code;
+    }
+}
+
+bool Turtle::State::is_fine_place() {
+    const Pose& p = now.pose;
+    // The comparison is false for what is not a number, too.
+    if (std::abs(p.x) <= kMaxFloat && std::abs(p.y) <= kMaxFloat && std::abs(p.z) <= kMaxFloat) {
+        return true;
+    }
+    return fault(TurtleFaultKind::NotFinite);
+}
+
+/// A segment of `length` from here on. `mass`: kg, or null where volume and density give it.
+bool Turtle::State::draw(
+    double length, float base_width, float tip_width, float spring, const float* mass) {
+    if (has_tropism) {
+        bend(now.pose, bytecode.settings.tropism);
+    }
+    if (!has_room(skeleton.segments)) {
+        return false;
+    }
+    const Pose base = now.pose;
+    advance(now.pose, length);
+    if (!is_fine_place()) {
+        return false;
+    }
+    if (!(base_width <= std::numeric_limits<float>::max())) {
+        return fault(TurtleFaultKind::NotFinite);
+    }
+    Segment& segment =
+        put_segment(base, static_cast<float>(std::abs(length)), base_width, tip_width, spring,
+                    mass != nullptr ? *mass : mass_of(length, base_width, tip_width));
+    if (length < 0.0) { // half a turn about the right axis
+        segment.frame = segment.frame * glm::quat(0.0F, 1.0F, 0.0F, 0.0F);
+    }
+    return true;
+}
+
+/// F and H: a whole or half of the length, and the physics' spring and mass.
+bool Turtle::State::forward(const Action& action, const float* arguments, float part) {
+    if (wide) {
+        return wide_forward(action, arguments, part);
+    }
+    const float length = (action.given > 0 ? arguments[0] : now.step) * part;
+    const float spring = action.given > 1 ? arguments[1] : bytecode.settings.spring;
+    const float width = relative ? 2.0F * std::abs(length) * now.width : now.width;
+    now.sides = of_program ? program_sides(now.width) : now.sides;
+    polygons.path(now.pose);
+    if (!draw(static_cast<double>(length), width, width * now.taper, spring,
+              action.given > 2 ? arguments + 2 : nullptr)) {
+        return false;
+    }
+    polygons.path(now.pose);
+    return true;
+}
+
+/// F of the .sys profile: length, base width, tip width.
+bool Turtle::State::tapered(const Action& action, const float* arguments) {
+    const float length = action.given > 0 ? arguments[0] : now.step;
+    const float base = action.given > 1 ? arguments[1] : now.width;
+    const float tip_width = action.given > 2 ? arguments[2] : base;
+    if (base < 0.0F || tip_width < 0.0F) {
+        note(TurtleFaultKind::NegativeWidth);
+    }
+    polygons.path(now.pose);
+    if (!draw(static_cast<double>(length), std::max(base, 0.0F), std::max(tip_width, 0.0F),
+              bytecode.settings.spring, nullptr)) {
+        return false;
+    }
+    polygons.path(now.pose);
+    return true;
+}
+
+bool Turtle::State::place(const Action& action, const float* arguments) {
+    if (!has_room(skeleton.objects)) {
+        return false;
+    }
+    const float size = action.given > 0 ? arguments[0] : action.usual_size;
+    PlacedObject object;
+    object.kind = action.operation;
+    object.mesh_file = action.mesh_file;
+    object.position = position_of(now.pose);
+    object.size = size;
+    object.frame = frame_of(now.pose);
+    object.parent = now.segment;
+    object.order = order();
+    object.colour = now.colour;
+    skeleton.objects.push_back(object);
+    if (action.advances) {
+        advance(now.pose, static_cast<double>(size) * static_cast<double>(action.unit_length));
+        now.moved = true;
+        return is_fine_place();
+    }
+    return true;
+}
+
+bool Turtle::State::save() {
+    const std::uint64_t bytes = skeleton.byte_count() + stack.size() * 2 * sizeof(TurtleState);
+    if (stack.size() == stack.capacity() && bytes > options.max_bytes) {
+        return stop(TurtleStatus::Limit);
+    }
+    try {
+        stack.push_back(now);
+    } catch (const std::bad_alloc&) {
+        return stop(TurtleStatus::OutOfMemory);
+    }
+    return true;
+}
+
+bool Turtle::State::restore() {
+    if (stack.empty()) {
+        return fault(TurtleFaultKind::Unbalanced);
+    }
+    if (!watched.empty() && watched.back() == stack.size()) {
+        watched.pop_back();
+        options.branches->end(drawn());
+    }
+    now = stack.back();
+    stack.pop_back();
+    return true;
+}
+
+TurtlePlace Turtle::State::place_now() const {
+    const Pose& pose = now.pose;
+    TurtlePlace place;
+    place.position = {pose.x, pose.y, pose.z};
+    place.frame = glm::dquat(pose.qw, pose.qx, pose.qy, pose.qz);
+    place.width = now.width;
+    place.taper = now.taper;
+    place.step = now.step;
+    place.angle = now.angle;
+    place.aside = static_cast<float>(now.aside);
+    place.sides = now.sides;
+    place.colour = now.colour;
+    place.order = order();
+    return place;
+}
+
+DrawnCounts Turtle::State::drawn() const {
+    return {static_cast<std::uint32_t>(skeleton.segments.size()),
+            static_cast<std::uint32_t>(skeleton.objects.size()),
+            static_cast<std::uint32_t>(skeleton.polygons.size())};
+}
+
+bool Turtle::State::save_branch(const Action& action, const float* arguments) {
+    if (!save()) {
+        return false;
+    }
+    if (options.branches == nullptr) {
+        return true;
+    }
+    BranchStart start;
+    start.take = arguments[0] != 0.0F;
+    start.age = static_cast<std::uint32_t>(arguments[1]);
+    start.id = static_cast<std::uint32_t>(arguments[2]);
+    if (action.stored > kBranchArguments) {
+        start.formals = {arguments + kBranchArguments, action.stored - kBranchArguments};
+    }
+    start.place = place_now();
+    start.segment = now.moved ? kNoSegment : now.segment;
+    start.drawn = drawn();
+    if (options.branches->begin(start)) {
+        watched.push_back(stack.size());
+    } else {
+        cut = 1; // until its `]`
+    }
+    return true;
+}
+
+void Turtle::State::close_polygon() {
+    if (!polygons.any()) {
+        note(TurtleFaultKind::EndOutside);
+        return;
+    }
+    const OpenPolygon open = polygons.top();
+    polygon_origin = open.origin;
+    const std::span<const glm::vec3> corners = polygons.corners();
+    if (corners.size() < 3) {
+        note(TurtleFaultKind::FewCorners);
+    } else if (skeleton.corners.size() + corners.size() > kMaxSkeletonItems) {
+        fault(TurtleFaultKind::TooMany);
+    } else {
+        Polygon polygon;
+        polygon.first_corner = static_cast<std::uint32_t>(skeleton.corners.size());
+        polygon.corner_count = static_cast<std::uint32_t>(corners.size());
+        polygon.frame = open.frame;
+        polygon.parent = now.segment;
+        polygon.order = order();
+        polygon.colour = now.colour;
+        try {
+            skeleton.corners.insert(skeleton.corners.end(), corners.begin(), corners.end());
+            skeleton.polygons.push_back(polygon);
+        } catch (const std::bad_alloc&) {
+            stop(TurtleStatus::OutOfMemory);
+        }
+        if (skeleton.byte_count() > options.max_bytes) {
+            stop(TurtleStatus::Limit);
+        }
+    }
+    polygons.close();
+}
+
+void Turtle::State::set_width(float width) {
+    if (width < 0.0F) {
+        note(TurtleFaultKind::NegativeWidth);
+        width = 0.0F;
+    }
+    now.width = width;
+}
+
+void Turtle::State::set_sides(float sides) {
+    const float fitting =
+        std::clamp(std::round(sides), static_cast<float>(kMinSides), static_cast<float>(kMaxSides));
+    if (!(sides > static_cast<float>(kMinSides) - 0.5F &&
+          sides < static_cast<float>(kMaxSides) + 0.5F)) {
+        note(TurtleFaultKind::SidesOutOfRange);
+    }
+    now.sides = static_cast<std::uint8_t>(fitting);
+}
+
+void Turtle::State::set_colour(double index) {
+    constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
+    const double fitting = std::clamp(std::round(index), 0.0, kMost);
+    if (fitting != std::round(index)) {
+        note(TurtleFaultKind::ColourOutOfRange);
+    }
+    now.colour = static_cast<std::uint16_t>(fitting);
+}
+
+void Turtle::State::scale_angle(float factor) {
+    now.angle *= factor;
+    now.turn = half_angle(static_cast<double>(now.angle));
+}
+
+bool Turtle::State::obey(const Action& action, const float* arguments) {
+    const Settings& settings = bytecode.settings;
+    // The angle of a turn that is not constant: from the word, or the setting as it is now.
+    const auto turn = [&]() -> HalfAngle {
+        return action.given == 0 ? now.turn : half_angle(static_cast<double>(arguments[0]));
+    };
+    const auto argument = [&](float otherwise) {
+        return action.given != 0 ? arguments[0] : otherwise;
+    };
+    switch (action.operation) {
+    case TurtleOperation::Nothing:
+    case TurtleOperation::ParameterBegin:
+    case TurtleOperation::ParameterEnd:
+    case TurtleOperation::Text:
+        return true;
+    case TurtleOperation::Forward:
+    case TurtleOperation::Branch:
+        return forward(action, arguments, 1.0F);
+    case TurtleOperation::HalfForward:
+        return forward(action, arguments, 0.5F);
+    case TurtleOperation::TaperedForward:
+        return tapered(action, arguments);
+    case TurtleOperation::Move:
+    case TurtleOperation::HalfMove: {
+        const float part = action.operation == TurtleOperation::HalfMove ? 0.5F : 1.0F;
+        polygons.path(now.pose);
+        advance(now.pose, static_cast<double>(argument(now.step) * part));
+        polygons.path(now.pose);
+        now.moved = true;
+        return is_fine_place();
+    }
+    case TurtleOperation::QuietMove:
+        advance(now.pose, static_cast<double>(argument(now.step)));
+        now.moved = true;
+        return is_fine_place();
+    case TurtleOperation::Bend:
+        bend(now.pose, {0.0F, -1.0F, 0.0F, argument(0.0F)});
+        return true;
+    case TurtleOperation::TurnBy:
+        turn_by(action, arguments);
+        return true;
+    case TurtleOperation::Aim:
+        if (action.given == 3) {
+            aim(now.pose, {arguments[0], arguments[1], arguments[2]});
+        }
+        return true;
+    case TurtleOperation::YawRight:
+        yaw(now.pose, inverse(turn()));
+        now.aside += has_aside ? static_cast<double>(now.angle) : 0.0;
+        return true;
+    case TurtleOperation::YawLeft:
+        yaw(now.pose, turn());
+        now.aside -= has_aside ? static_cast<double>(now.angle) : 0.0;
+        return true;
+    case TurtleOperation::PitchDown:
+        pitch(now.pose, inverse(turn()));
+        return true;
+    case TurtleOperation::PitchUp:
+        pitch(now.pose, turn());
+        return true;
+    case TurtleOperation::RollRight:
+        roll(now.pose, turn());
+        return true;
+    case TurtleOperation::RollLeft:
+        roll(now.pose, inverse(turn()));
+        return true;
+    case TurtleOperation::TurnAround:
+        yaw(now.pose, {0.0, 1.0});
+        return true;
+    case TurtleOperation::TurnByPi:
+        yaw(now.pose, inverse(half_angle(std::numbers::pi)));
+        return true;
+    case TurtleOperation::RollAround:
+        roll(now.pose, {0.0, 1.0});
+        return true;
+    case TurtleOperation::TurnMost:
+        turn_most();
+        return true;
+    case TurtleOperation::Mirror:
+        mirror();
+        return true;
+    case TurtleOperation::AsideForward:
+    case TurtleOperation::AsideMove:
+        return aside_forward(action, arguments);
+    case TurtleOperation::AsideLeft:
+        now.aside += static_cast<double>(argument(0.0F));
+        return true;
+    case TurtleOperation::AsideRight:
+        now.aside -= static_cast<double>(argument(0.0F));
+        return true;
+    case TurtleOperation::AddColour:
+        add_colour(argument(0.0F), 1.0);
+        return true;
+    case TurtleOperation::SubtractColour:
+        add_colour(argument(0.0F), -1.0);
+        return true;
+    case TurtleOperation::RollUpright:
+        roll_upright(now.pose);
+        return true;
+    case TurtleOperation::SetWidth:
+        set_width(action.given != 0 ? arguments[0] : now.width * settings.width_scale);
+        if (action.given > 1) {
+            set_sides(arguments[1]);
+        }
+        return true;
+    case TurtleOperation::ScaleWidth:
+        set_width(now.width * argument(settings.width_scale));
+        return true;
+    case TurtleOperation::ThickenWidth:
+        set_width(now.width * (1.0F + argument(settings.angle) * kPercent));
+        return true;
+    case TurtleOperation::ThinWidth:
+        set_width(now.width * (1.0F - argument(settings.angle) * kPercent));
+        return true;
+    case TurtleOperation::SetRelativeWidth:
+        set_width(argument(1.0F) * kPercent);
+        return true;
+    case TurtleOperation::SetTaper:
+        now.taper = argument(1.0F) * kPercent;
+        return true;
+    case TurtleOperation::ScaleStep:
+        now.step *= argument(settings.step_scale);
+        return true;
+    case TurtleOperation::ScaleAngle:
+        scale_angle(argument(settings.angle_scale));
+        return true;
+    case TurtleOperation::DivideWidth:
+        set_width(now.width / argument(settings.width_scale));
+        return true;
+    case TurtleOperation::DivideStep:
+        now.step /= argument(settings.step_scale);
+        return true;
+    case TurtleOperation::DivideAngle:
+        scale_angle(1.0F / argument(settings.angle_scale));
+        return true;
+    case TurtleOperation::SetColour:
+        set_colour(action.given != 0 ? static_cast<double>(arguments[0]) : now.colour + 1.0);
+        return true;
+    case TurtleOperation::Save:
+        return save();
+    case TurtleOperation::SaveBranch:
+        return save_branch(action, arguments);
+    case TurtleOperation::Restore:
+        return restore();
+    case TurtleOperation::PolygonBegin:
+        polygons.open(frame_of(now.pose), origin);
+        return true;
+    case TurtleOperation::PolygonVertex:
+        if (!polygons.any()) {
+            note(TurtleFaultKind::VertexOutside);
+            return true;
+        }
+        polygons.vertex(now.pose);
+        return true;
+    case TurtleOperation::PolygonEnd:
+        close_polygon();
+        return status == TurtleStatus::Ok;
+    case TurtleOperation::Cut:
+        cut = 1;
+        return true;
+    case TurtleOperation::Leaf:
+    case TurtleOperation::Sphere:
+    case TurtleOperation::Heterocyst:
+    case TurtleOperation::Flower:
+    case TurtleOperation::Cylinder:
+    case TurtleOperation::Cone:
+    case TurtleOperation::Cube:
+    case TurtleOperation::Disk:
+    case TurtleOperation::MeshFile:
+        return place(action, arguments);
+    }
+    LSYS_CHECK(false, static_cast<int>(action.operation));
+    return true;
+}
+
+/// After a `%`, or in a branch that is passed over, until its `]`.
+bool Turtle::State::skip(const Action& action) {
+    const bool opens = action.operation == TurtleOperation::Save ||
+                       action.operation == TurtleOperation::SaveBranch;
+    cut += opens ? 1 : 0;
+    return action.operation != TurtleOperation::Restore || --cut != 0 || restore();
+}
+
+} // namespace lsys

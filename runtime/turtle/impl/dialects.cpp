@@ -1,0 +1,89 @@
+// What only the turtles of other programs do: the profiles `fractint` and `sidefx`.
+#include "runtime/turtle/impl/state.h"
+
+namespace lsys {
+
+/// F and H of the profile `sidefx`: length, width, sections (which do not show), sides.
+bool Turtle::State::wide_forward(const Action& action, const float* arguments, float part) {
+    constexpr std::uint8_t kSides = 3; // which argument
+    const float length = (action.given > 0 ? arguments[0] : now.step) * part;
+    const float width = action.given > 1 ? arguments[1] : now.width;
+    const std::uint8_t sides = now.sides;
+    if (width < 0.0F) {
+        note(TurtleFaultKind::NegativeWidth);
+    }
+    if (action.given > kSides) {
+        set_sides(arguments[kSides]);
+    }
+    const float drawn_width = std::max(width, 0.0F);
+    polygons.path(now.pose);
+    const bool fine = draw(static_cast<double>(length), drawn_width, drawn_width,
+                           bytecode.settings.spring, nullptr);
+    polygons.path(now.pose);
+    now.sides = sides;
+    return fine;
+}
+
+/// Pitch, roll and yaw by as many angles as there are.
+void Turtle::State::turn_by(const Action& action, const float* arguments) {
+    const auto angle = [&](std::uint8_t index) {
+        return half_angle(action.given > index ? static_cast<double>(arguments[index]) : 0.0);
+    };
+    pitch(now.pose, angle(0));
+    roll(now.pose, angle(1));
+    yaw(now.pose, angle(2));
+}
+
+/// The first heading; the second stays.
+void Turtle::State::turn_left(double degrees) {
+    yaw(now.pose, half_angle(degrees));
+    now.aside = std::remainder(now.aside - degrees, kFullTurn);
+}
+
+/// To the right by half of the angles of a full turn, rounded down; mirrored or not.
+void Turtle::State::turn_most() {
+    const double parts = std::round(kFullTurn / static_cast<double>(now.angle));
+    const double degrees = std::floor(parts / 2.0) * kFullTurn / parts;
+    const Pose& p = now.pose;
+    const bool is_mirrored = 1.0 - 2.0 * (p.qx * p.qx + p.qy * p.qy) < 0.0; // up points back
+    turn_left(is_mirrored ? degrees : -degrees);
+}
+
+/// Half a roll changes left and right, for the second heading too.
+void Turtle::State::mirror() {
+    roll(now.pose, {0.0, 1.0});
+    now.aside = -now.aside;
+}
+
+bool Turtle::State::aside_forward(const Action& action, const float* arguments) {
+    const Pose pose = now.pose;
+    yaw(now.pose, half_angle(now.aside));
+    bool fine = true;
+    if (action.operation == TurtleOperation::AsideForward) {
+        fine = forward(action, arguments, 1.0F);
+    } else {
+        polygons.path(now.pose);
+        advance(now.pose, static_cast<double>(now.step));
+        polygons.path(now.pose);
+        now.moved = true;
+        fine = is_fine_place();
+    }
+    now.pose.qw = pose.qw;
+    now.pose.qx = pose.qx;
+    now.pose.qy = pose.qy;
+    now.pose.qz = pose.qz;
+    return fine;
+}
+
+/// The ground is passed over.
+void Turtle::State::add_colour(float number, double sign) {
+    double colour = std::fmod(
+        static_cast<double>(now.colour) + sign * std::trunc(static_cast<double>(number)), kColours);
+    colour += colour < 0.0 ? kColours : 0.0;
+    if (colour == 0.0) {
+        colour = sign > 0.0 ? 1.0 : kColours - 1.0;
+    }
+    set_colour(colour);
+}
+
+} // namespace lsys

@@ -1,0 +1,75 @@
+// Polygons that were begun and not yet ended. One may be begun within another, whose corners wait
+// below its own.
+#pragma once
+
+#include "runtime/derive/origin.h"
+#include "runtime/turtle/impl/pose.h"
+
+#include <glm/geometric.hpp>
+
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+struct OpenPolygon {
+    std::size_t first_vertex = 0; // of `.`
+    std::size_t first_on_path = 0;
+    glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
+    Origin origin; // of its `{`
+};
+
+class OpenPolygons {
+public:
+    [[nodiscard]] bool any() const { return !open_.empty(); }
+    /// Precondition of all below: any().
+    [[nodiscard]] const OpenPolygon& top() const { return open_.back(); }
+    void open(const glm::quat& frame, const Origin& origin) {
+        open_.push_back({vertices_.size(), path_.size(), frame, origin});
+    }
+    /// A `.`.
+    void vertex(const Pose& pose) { vertices_.push_back(position_of(pose)); }
+    /// The start or end of a step; also where no polygon is open.
+    void path(const Pose& pose) {
+        if (!open_.empty()) {
+            add_to_path(position_of(pose));
+        }
+    }
+    /// Of the polygon begun last: its vertices, or without any the ends of its steps. Valid until
+    /// the next change.
+    [[nodiscard]] std::span<const glm::vec3> corners();
+    void close() {
+        vertices_.resize(open_.back().first_vertex);
+        path_.resize(open_.back().first_on_path);
+        open_.pop_back();
+    }
+
+private:
+    void add_to_path(const glm::vec3& point) {
+        if (path_.size() == open_.back().first_on_path || path_.back() != point) {
+            path_.push_back(point);
+        }
+    }
+
+    std::vector<OpenPolygon> open_;
+    std::vector<glm::vec3> vertices_;
+    std::vector<glm::vec3> path_; // no point twice in a row
+};
+
+inline std::span<const glm::vec3> OpenPolygons::corners() {
+    const OpenPolygon& polygon = open_.back();
+    if (vertices_.size() > polygon.first_vertex) {
+        return std::span(vertices_).subspan(polygon.first_vertex);
+    }
+    std::span<const glm::vec3> path = std::span(path_).subspan(polygon.first_on_path);
+    if (path.size() > 2) { // closed by the author, as far as rounding lets it
+        constexpr float kClosed = 1e-5F;
+        const float gap = glm::distance(path.front(), path.back());
+        if (gap <= kClosed * glm::distance(path[0], path[1])) {
+            path = path.first(path.size() - 1);
+        }
+    }
+    return path;
+}
+
+} // namespace lsys

@@ -1,0 +1,271 @@
+// What a turtle is while it draws: the state of Turtle. The walk over a word is in turtle.cpp, what
+// each command does in commands.cpp.
+#pragma once
+
+#include "runtime/derive/interpretation.h"
+#include "runtime/turtle/impl/actions.h"
+#include "runtime/turtle/impl/polygons.h"
+#include "runtime/turtle/impl/pose.h"
+#include "runtime/turtle/turtle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace lsys {
+
+inline constexpr std::size_t kModulesBetweenLooks = std::size_t{1} << 16;
+inline constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
+/// Reduction of a segment's radius along it where the profile has one: DIALECTS.md 1.3.
+inline constexpr float kRelativeTaper = 0.95F;
+inline constexpr float kPercent = 0.01F;
+inline constexpr double kFullTurn = 360.0;
+/// Colours of Fractint: 256, of which 0 is the ground and 15 where it begins.
+inline constexpr std::uint16_t kFirstColour = 15;
+inline constexpr double kColours = 256.0;
+
+[[nodiscard]] inline bool is_relative(TurtleProfile profile) {
+    return profile == TurtleProfile::L3d || profile == TurtleProfile::Lplus ||
+           is_of_program(profile);
+}
+
+/// Sides of a segment as the program L3D has them: by the radius as a part of the length.
+[[nodiscard]] inline std::uint8_t program_sides(float thickness) {
+    const auto value = static_cast<double>(thickness);
+    return value < 0.2 ? 20 : value < 0.4 ? 40 : value < 0.6 ? 60 : value < 0.8 ? 80 : 100;
+}
+
+/// What `[` saves beside the pose.
+struct Brush {
+    float width = 0.0F; // m, diameter; of relative profiles radius / length
+    float taper = 1.0F; // tip radius / base radius
+    float step = 0.0F;  // m
+    float angle = 0.0F; // degrees
+    HalfAngle turn;     // of `angle`
+    double aside = 0.0; // degrees, of the second heading to the left of the first
+    std::uint32_t segment = kNoSegment;
+    std::uint16_t colour = 0;
+    std::uint8_t sides = 0;
+    bool moved = false; // since the segment was drawn
+};
+
+/// Where words are texts: the last command, which is obeyed when what follows is known, and the
+/// text of its parameter.
+struct PendingCommand {
+    static constexpr std::size_t kLongest = 1023;
+    bool there = false;
+    bool in_parameter = false;
+    Action action;
+    std::uint64_t position = 0;
+    Code code = 0;
+    Origin origin;
+    std::string text;
+};
+
+/// Two parts that are copied apart, since one of them lives in registers.
+struct TurtleState : Brush {
+    Pose pose;
+};
+
+struct Turtle::State {
+    State(const Bytecode& program, TurtleOptions wanted)
+        : bytecode(program), options(std::move(wanted)), table(make_actions(program, options)) {
+        const Settings& settings = bytecode.settings;
+        skeleton.mesh_files = table.mesh_files;
+        interprets = program.has(Stage::Interpret);
+        relative = is_relative(settings.turtle);
+        has_tropism = settings.has_tropism;
+        of_program = is_of_program(settings.turtle);
+        skeleton.of_program = of_program;
+        has_aside = uses_aside(bytecode);
+        wide = settings.turtle == TurtleProfile::Sidefx;
+        begin();
+    }
+
+    /// The state at the start of a word.
+    void begin() {
+        const Settings& settings = bytecode.settings;
+        now = {};
+        now.width = settings.width;
+        now.taper = relative ? kRelativeTaper : 1.0F;
+        now.step = settings.step;
+        now.angle = settings.angle;
+        now.turn = half_angle(static_cast<double>(settings.angle));
+        now.sides = static_cast<std::uint8_t>(std::clamp(settings.sides, kMinSides, kMaxSides));
+        if (settings.turtle == TurtleProfile::Fractint) {
+            yaw(now.pose, half_angle(-90.0)); // to the right of the picture
+            now.colour = kFirstColour;
+        }
+    }
+
+    template <typename C>
+    TurtleStatus run(std::span<const C> codes,
+                     std::span<const float> parameters,
+                     std::span<const Origin> origins);
+    template <typename C>
+    TurtleStatus interpret(std::span<const C> codes,
+                           std::span<const float> parameters,
+                           std::span<const Origin> origins);
+    template <typename C>
+    TurtleStatus take(std::span<const C> codes,
+                      std::span<const float> parameters,
+                      std::span<const Origin> origins) {
+        return interprets ? interpret(codes, parameters, origins) : run(codes, parameters, origins);
+    }
+    template <bool kOrigins, typename C>
+    TurtleStatus
+    run_some(std::span<const C> codes, const float*& parameters, const Origin* origins);
+    template <typename C>
+    TurtleStatus
+    run_text(std::span<const C> codes, const float*& parameters, const Origin* origins);
+    bool take_character(const Action& action, Code character, const float* arguments);
+    bool obey_pending();
+    bool take_origin(const Origin& origin);
+    /// False: the drawing has ended as `status`.
+    bool obey(const Action& action, const float* arguments);
+    bool forward(const Action& action, const float* arguments, float part);
+    bool tapered(const Action& action, const float* arguments);
+    bool draw(double length, float base_width, float tip_width, float spring, const float* mass);
+    Segment& put_segment(const Pose& base,
+                         float length,
+                         float base_width,
+                         float tip_width,
+                         float spring,
+                         float mass);
+    float mass_of(double length, float base_width, float tip_width);
+    bool place(const Action& action, const float* arguments);
+    bool save();
+    bool restore();
+    bool skip(const Action& action);
+    bool save_branch(const Action& action, const float* arguments);
+    [[nodiscard]] TurtlePlace place_now() const;
+    [[nodiscard]] DrawnCounts drawn() const;
+    bool quick_forward(const Action& action, const float* arguments, Pose& pose);
+    void close_polygon();
+    void set_width(float width);
+    void set_sides(float sides);
+    void set_colour(double index);
+    void scale_angle(float factor);
+    void turn_left(double degrees);
+    void turn_most();
+    void mirror();
+    bool wide_forward(const Action& action, const float* arguments, float part);
+    void turn_by(const Action& action, const float* arguments);
+    bool aside_forward(const Action& action, const float* arguments);
+    void add_colour(float number, double sign);
+
+    void note(TurtleFaultKind kind);
+    bool stop(TurtleStatus why) {
+        status = why;
+        return false;
+    }
+    bool fault(TurtleFaultKind kind) {
+        note(kind);
+        return stop(TurtleStatus::Fault);
+    }
+    /// Makes room in `items` for one more; false: the drawing has ended.
+    template <typename Items>
+    bool has_room(Items& items);
+    bool is_fine_place();
+    [[nodiscard]] std::uint16_t order() const {
+        constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
+        return static_cast<std::uint16_t>(std::min(stack.size(), kMost));
+    }
+
+    const Bytecode& bytecode;
+    TurtleOptions options;
+    ActionTable table;
+    Skeleton skeleton;
+    TurtleState now;
+    std::vector<TurtleState> stack;
+    std::vector<std::size_t> watched; // sizes of the stack within the branches a watcher sees
+    OpenPolygons polygons;
+    std::array<TurtleFault, kTurtleFaultKinds> faults{};
+    std::uint64_t position = 0; // of the module at hand
+    Code code = 0;              // of that module
+    Origin origin;              // of that module, where origins are known
+    Origin polygon_origin;      // of the `{` of the polygon closed last
+    std::uint64_t cut = 0;      // open brackets within a part that is cut off, and 1
+    TurtleStatus status = TurtleStatus::Ok;
+    bool interprets = false;
+    std::unique_ptr<Interpretation> interpretation; // made with the first piece
+    std::vector<Code> piece;                        // of a word of narrow codes
+    PendingCommand pending;
+    bool keeps_origins = false; // of words that are texts
+    bool relative = false;      // widths are factors of the length
+    bool of_program = false;    // what the program L3D has of its own is done
+    bool has_tropism = false;
+    bool wide = false;      // segments have their width as a parameter, as in Houdini
+    bool has_aside = false; // something is drawn along the second heading
+    // The last segment whose mass was worked out.
+    double massed_length = -1.0;
+    float massed_base = -1.0F;
+    float massed_tip = -1.0F;
+    float massed = 0.0F;
+};
+
+template <typename Items>
+bool Turtle::State::has_room(Items& items) {
+    if (items.size() < items.capacity()) {
+        return true;
+    }
+    if (items.size() >= kMaxSkeletonItems) {
+        return fault(TurtleFaultKind::TooMany);
+    }
+    constexpr std::size_t kFirst = 256;
+    const std::uint64_t room =
+        std::min<std::uint64_t>(std::max(kFirst, items.size() * 2), kMaxSkeletonItems);
+    const std::uint64_t item = sizeof(typename Items::value_type);
+    if (skeleton.byte_count() + (room - items.size()) * item > options.max_bytes) {
+        return stop(TurtleStatus::Limit);
+    }
+    try {
+        items.reserve(room);
+    } catch (const std::bad_alloc&) {
+        return stop(TurtleStatus::OutOfMemory);
+    }
+    return true;
+}
+
+/// Volume of a truncated cone times the density.
+inline float Turtle::State::mass_of(double length, float base_width, float tip_width) {
+    if (length != massed_length || base_width != massed_base || tip_width != massed_tip) {
+        massed_length = length;
+        massed_base = base_width;
+        massed_tip = tip_width;
+        const double a = 0.5 * static_cast<double>(base_width);
+        const double b = 0.5 * static_cast<double>(tip_width);
+        const double volume = std::numbers::pi / 3.0 * std::abs(length) * (a * a + a * b + b * b);
+        massed = static_cast<float>(
+            std::min(volume * static_cast<double>(bytecode.settings.density), kMaxFloat));
+    }
+    return massed;
+}
+
+/// The next segment of the path, for which there is room.
+[[gnu::always_inline]] inline Segment& Turtle::State::put_segment(
+    const Pose& base, float length, float base_width, float tip_width, float spring, float mass) {
+    const auto index = static_cast<std::uint32_t>(skeleton.segments.size());
+    Segment& segment = skeleton.segments.emplace_back();
+    segment.base = position_of(base);
+    segment.length = length;
+    segment.frame = frame_of(base);
+    segment.base_radius = base_width * 0.5F;
+    segment.tip_radius = tip_width * 0.5F;
+    segment.spring = spring;
+    segment.mass = mass;
+    segment.parent = now.segment;
+    segment.order = order();
+    segment.colour = now.colour;
+    segment.sides = now.sides;
+    segment.linked = now.segment != kNoSegment && !now.moved;
+    now.segment = index;
+    now.moved = false;
+    return segment;
+}
+
+} // namespace lsys

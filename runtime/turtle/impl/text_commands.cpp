@@ -1,0 +1,90 @@
+// Words that are texts (L3D): a `(` right behind a command begins the text of its parameter, up to
+// the first `)`. So a command is obeyed when the module behind it, or that parenthesis, has been
+// seen.
+#include "runtime/turtle/impl/text_commands.h"
+
+#include "runtime/turtle/impl/state.h"
+
+#include <charconv>
+#include <string_view>
+
+namespace lsys {
+
+namespace {
+
+/// Angles and percents, of which the program L3D takes a parameter of 1 for none.
+bool takes_default_for_one(TurtleOperation operation) {
+    return turns(operation) || operation == TurtleOperation::ThickenWidth ||
+           operation == TurtleOperation::ThinWidth;
+}
+
+} // namespace
+
+float leading_number(std::string_view text) {
+    while (!text.empty() && (text[0] == ' ' || text[0] == '\t')) {
+        text.remove_prefix(1);
+    }
+    const bool plus = !text.empty() && text[0] == '+';
+    text.remove_prefix(plus ? 1 : 0);
+    float value = 0.0F;
+    const std::size_t digit = text.starts_with('-') && !plus ? 1 : 0;
+    if (text.size() > digit && (text[digit] == '.' || (text[digit] >= '0' && text[digit] <= '9'))) {
+        std::from_chars(text.data(), text.data() + text.size(), value); // else it stays 0
+    }
+    return value;
+}
+
+bool Turtle::State::obey_pending() {
+    pending.there = false;
+    position = pending.position;
+    code = pending.code;
+    origin = pending.origin;
+    const Action& action = pending.action;
+    return cut != 0 ? skip(action) : obey(action, action.arguments.data());
+}
+
+/// False: the drawing has ended.
+bool Turtle::State::take_character(const Action& action, Code character, const float* arguments) {
+    if (pending.in_parameter) {
+        if (action.operation != TurtleOperation::ParameterEnd) {
+            if (pending.text.size() < PendingCommand::kLongest) {
+                pending.text += action.character == '\0' ? '?' : action.character;
+            }
+            return true;
+        }
+        pending.in_parameter = false;
+        const float value = leading_number(pending.text);
+        const TurtleOperation operation = pending.action.operation;
+        if (!(of_program && value == 1.0F && takes_default_for_one(operation))) {
+            pending.action.given = 1;
+            pending.action.arguments[0] = value;
+        }
+        return obey_pending();
+    }
+    if (pending.there) {
+        if (action.operation == TurtleOperation::ParameterBegin) {
+            pending.in_parameter = true;
+            pending.text.clear();
+            return true;
+        }
+        if (!obey_pending()) {
+            return false;
+        }
+    }
+    pending.there = true;
+    if (action.operation == TurtleOperation::SaveBranch) { // it may have any number of arguments
+        pending.action = {};
+        code = character;
+        return cut != 0 ? skip(action) : obey(action, arguments);
+    }
+    pending.action = action;
+    for (std::uint32_t i = 0; i < action.given; ++i) {
+        pending.action.arguments[i] = arguments[i];
+    }
+    pending.position = position;
+    pending.code = character;
+    pending.origin = origin;
+    return true;
+}
+
+} // namespace lsys

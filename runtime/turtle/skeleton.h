@@ -1,0 +1,123 @@
+// Skeleton: what the turtle did, before anything has a surface. Segments, objects and polygons in
+// the order they were drawn, so that a parent comes before its children. Metres, kilograms,
+// right-handed axes, +Y up. A frame is the unit quaternion that takes the turtle's axes at the
+// start (right +X, heading +Y, up +Z) to those at the place.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "runtime/base/large_vector.h"
+#include "runtime/derive/origin.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+inline constexpr std::uint32_t kNoSegment = 0xFFFFFFFFu;
+
+/// A straight piece drawn by one module, from `base` by `length` along its frame's +Y.
+struct Segment {
+    glm::vec3 base{};
+    float length = 0.0F; // never negative: what is drawn backwards is turned around
+    glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
+    float base_radius = 0.0F;
+    float tip_radius = 0.0F;
+    float spring = 0.0F;               // N m / rad, of the joint at the base
+    float mass = 0.0F;                 // kg
+    std::uint32_t parent = kNoSegment; // the last one drawn before it on its path
+    std::uint16_t order = 0;           // open brackets around it: 0 is the trunk
+    std::uint16_t colour = 0;          // index into the palette
+    std::uint8_t sides = 0;            // of its cross-section, as the author asked for
+    bool linked = false;               // it begins where its parent ends
+    bool forked = false;               // branches that are drawn elsewhere begin at its end
+};
+
+/// Something of the object library, drawn from `position` along the frame's +Y.
+struct PlacedObject {
+    TurtleOperation kind = TurtleOperation::Nothing; // Leaf, Sphere, ..., MeshFile
+    std::uint32_t mesh_file = 0;                     // in Skeleton::mesh_files, of MeshFile
+    glm::vec3 position{};
+    float size = 1.0F; // factor
+    glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
+    std::uint32_t parent = kNoSegment;
+    std::uint16_t order = 0;
+    std::uint16_t colour = 0;
+};
+
+/// Corners first_corner ... in Skeleton::corners, at least three.
+struct Polygon {
+    std::uint32_t first_corner = 0;
+    std::uint32_t corner_count = 0;
+    glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F}; // of the turtle at `{`
+    std::uint32_t parent = kNoSegment;
+    std::uint16_t order = 0;
+    std::uint16_t colour = 0;
+};
+
+struct Skeleton {
+    LargeVector<Segment> segments;
+    LargeVector<PlacedObject> objects;
+    LargeVector<Polygon> polygons;
+    LargeVector<glm::vec3> corners;
+    std::vector<std::string> mesh_files; // as written in the grammar
+    bool of_program = false; // its surface is that of the program L3D (meshing/program_shapes.h)
+    // Of the modules that drew them, a polygon's being its `{`; empty unless the turtle was fed
+    // with origins.
+    LargeVector<Origin> segment_origins;
+    LargeVector<Origin> object_origins;
+    LargeVector<Origin> polygon_origins;
+
+    [[nodiscard]] std::uint64_t byte_count() const {
+        return segments.size() * sizeof(Segment) + objects.size() * sizeof(PlacedObject) +
+               polygons.size() * sizeof(Polygon) + corners.size() * sizeof(glm::vec3) +
+               (segment_origins.size() + object_origins.size() + polygon_origins.size()) *
+                   sizeof(Origin);
+    }
+};
+
+[[nodiscard]] inline glm::vec3 heading(const glm::quat& frame) {
+    return frame * glm::vec3(0.0F, 1.0F, 0.0F);
+}
+[[nodiscard]] inline glm::vec3 tip(const Segment& segment) {
+    return segment.base + segment.length * heading(segment.frame);
+}
+/// The frame of a segment seen from its parent's; its own if it has none.
+[[nodiscard]] glm::quat local_frame(const Skeleton& skeleton, std::uint32_t segment);
+
+struct Bounds {
+    glm::vec3 low{0.0F};
+    glm::vec3 high{0.0F};
+    bool empty = true;
+
+    void add(const glm::vec3& point) {
+        low = empty ? point : glm::min(low, point);
+        high = empty ? point : glm::max(high, point);
+        empty = false;
+    }
+};
+
+struct SkeletonStats {
+    Bounds bounds;            // of axes, object positions and corners, without radii
+    double height = 0.0;      // m, from the lowest to the highest point
+    double crown_width = 0.0; // m, the greatest horizontal distance from the start, twice
+    double length = 0.0;      // m, of all segments
+    double volume = 0.0;      // m^3, of truncated cones
+    double mass = 0.0;        // kg, of the segments
+    std::vector<std::uint64_t> segments_by_order;
+};
+[[nodiscard]] SkeletonStats measure(const Skeleton& skeleton);
+
+/// The skeleton as text, a line for each segment, then each object, then each polygon.
+[[nodiscard]] std::uint64_t line_count(const Skeleton& skeleton);
+/// With what `origins`, which may be null, says of the module that drew it.
+/// Precondition: line < line_count(); with `origins`, the skeleton has them.
+void append_line(const Skeleton& skeleton,
+                 std::uint64_t line,
+                 OriginPrinter* origins,
+                 std::string& text);
+
+} // namespace lsys

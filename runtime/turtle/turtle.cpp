@@ -1,0 +1,362 @@
+#include "runtime/turtle/turtle.h"
+
+#include "grammar/base/contract.h"
+#include "runtime/turtle/impl/state.h"
+
+namespace lsys {
+
+/// Draws if nothing is in the way; false: nothing has happened, and forward() finds out why.
+[[gnu::always_inline]] inline bool
+Turtle::State::quick_forward(const Action& action, const float* arguments, Pose& pose) {
+    const float length = action.given > 0 ? arguments[0] : now.step;
+    Pose end = pose;
+    advance(end, static_cast<double>(length));
+    // Also false for what is not a number.
+    const bool fits = std::abs(end.x) + std::abs(end.y) + std::abs(end.z) <= kMaxFloat &&
+                      now.width <= std::numeric_limits<float>::max() && length >= 0.0F;
+    if (!fits || skeleton.segments.size() == skeleton.segments.capacity()) {
+        return false;
+    }
+    const float tip_width = now.width * now.taper;
+    put_segment(pose, length, now.width, tip_width,
+                action.given > 1 ? arguments[1] : bytecode.settings.spring,
+                action.given > 2 ? arguments[2]
+                                 : mass_of(static_cast<double>(length), now.width, tip_width));
+    pose = end;
+    return true;
+}
+
+/// Gives what the module at hand has drawn, which is one thing at most, its origin.
+[[gnu::always_inline]] inline bool Turtle::State::take_origin(const Origin& from) {
+    const auto add = [this](const auto& items, LargeVector<Origin>& origins, const Origin& each) {
+        if (origins.size() == items.size()) {
+            return true;
+        }
+        if (!has_room(origins)) {
+            return false;
+        }
+        origins.push_back(each);
+        return true;
+    };
+    return add(skeleton.segments, skeleton.segment_origins, from) &&
+           add(skeleton.objects, skeleton.object_origins, from) &&
+           add(skeleton.polygons, skeleton.polygon_origins, polygon_origin);
+}
+
+template <bool kOrigins, typename C>
+TurtleStatus
+Turtle::State::run_some(std::span<const C> codes, const float*& parameters, const Origin* origins) {
+    const Action* const actions = table.by_code.data();
+    const std::uint64_t first = position;
+    const C* const begin = codes.data();
+    const bool plain = !has_tropism && !relative;
+    Pose pose = now.pose; // in registers; now.pose is kept for all that is not quick
+    for (const C* at = begin; at != begin + codes.size(); ++at) {
+        const Action& action = actions[*at];
+        const float* const arguments = action.stored != 0 ? parameters : action.arguments.data();
+        parameters += action.stored;
+        if (cut == 0) {
+            switch (action.quick) {
+            case QuickAction::Nothing:
+                continue;
+            case QuickAction::Yaw:
+                yaw(pose, action.turn);
+                continue;
+            case QuickAction::Pitch:
+                pitch(pose, action.turn);
+                continue;
+            case QuickAction::Roll:
+                roll(pose, action.turn);
+                continue;
+            case QuickAction::Forward:
+                if (plain && !polygons.any() && quick_forward(action, arguments, pose)) {
+                    if constexpr (kOrigins) {
+                        if (!take_origin(origins[at - begin])) {
+                            return status;
+                        }
+                    }
+                    continue;
+                }
+                break;
+            case QuickAction::Save:
+                if (stack.size() < stack.capacity()) {
+                    TurtleState& saved = stack.emplace_back();
+                    static_cast<Brush&>(saved) = now;
+                    saved.pose = pose;
+                    continue;
+                }
+                break;
+            case QuickAction::Restore:
+                if (!stack.empty()) {
+                    static_cast<Brush&>(now) = stack.back();
+                    pose = stack.back().pose;
+                    stack.pop_back();
+                    continue;
+                }
+                break;
+            case QuickAction::None:
+                break;
+            }
+        }
+        position = first + static_cast<std::uint64_t>(at - begin);
+        code = *at;
+        now.pose = pose;
+        if constexpr (kOrigins) {
+            origin = origins[at - begin];
+        }
+        if (cut != 0 ? !skip(action) : !obey(action, arguments)) {
+            return status;
+        }
+        if constexpr (kOrigins) {
+            if (!take_origin(origin)) {
+                return status;
+            }
+        }
+        pose = now.pose;
+    }
+    now.pose = pose;
+    position = first + codes.size();
+    return TurtleStatus::Ok;
+}
+
+/// Words that are texts. What a command draws is noticed one or more modules later.
+template <typename C>
+TurtleStatus
+Turtle::State::run_text(std::span<const C> codes, const float*& parameters, const Origin* origins) {
+    const std::uint64_t first = position;
+    keeps_origins = origins != nullptr;
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+        const Action& action = table.by_code[codes[i]];
+        const float* const arguments = action.stored != 0 ? parameters : action.arguments.data();
+        parameters += action.stored;
+        position = first + i;
+        const Origin here = origins != nullptr ? origins[i] : Origin{};
+        const Origin before = pending.origin;
+        origin = here;
+        if (!take_character(action, codes[i], arguments) ||
+            (origins != nullptr && !take_origin(before))) {
+            return status;
+        }
+    }
+    position = first + codes.size();
+    return TurtleStatus::Ok;
+}
+
+template <typename C>
+TurtleStatus Turtle::State::run(std::span<const C> codes,
+                                std::span<const float> parameters,
+                                std::span<const Origin> origins) {
+    LSYS_CHECK(origins.empty() || origins.size() == codes.size(), origins.size(), codes.size());
+    if (status != TurtleStatus::Ok) {
+        return status;
+    }
+    const float* next = parameters.data();
+    while (!codes.empty()) {
+        if (options.cancelled != nullptr && options.cancelled->load(std::memory_order_relaxed)) {
+            return status = TurtleStatus::Cancelled;
+        }
+        const std::size_t count = std::min(codes.size(), kModulesBetweenLooks);
+        if (table.reads_text) {
+            run_text(codes.first(count), next, origins.empty() ? nullptr : origins.data());
+            origins = origins.empty() ? origins : origins.subspan(count);
+        } else if (origins.empty()) {
+            run_some<false>(codes.first(count), next, nullptr);
+        } else {
+            run_some<true>(codes.first(count), next, origins.data());
+            origins = origins.subspan(count);
+        }
+        if (status != TurtleStatus::Ok) {
+            return status;
+        }
+        codes = codes.subspan(count);
+    }
+    return status;
+}
+
+/// Draws what the modules are interpreted as.
+template <typename C>
+TurtleStatus Turtle::State::interpret(std::span<const C> codes,
+                                      std::span<const float> parameters,
+                                      std::span<const Origin> origins) {
+    if (status != TurtleStatus::Ok) {
+        return status;
+    }
+    if (!interpretation) {
+        interpretation = Interpretation::make(
+            bytecode, {options.seed, options.generations, options.max_bytes, options.cancelled},
+            !origins.empty(),
+            [this](std::span<const Code> some, std::span<const float> values,
+                   std::span<const Origin> from) {
+                return run(some, values, from) == TurtleStatus::Ok;
+            });
+    }
+    while (!codes.empty() && status == TurtleStatus::Ok) {
+        const std::size_t count = std::min(codes.size(), kModulesBetweenLooks);
+        piece.assign(codes.begin(), codes.begin() + static_cast<std::ptrdiff_t>(count));
+        std::size_t stored = 0;
+        for (const Code each : piece) {
+            stored += bytecode.stored_parameters(each);
+        }
+        const DeriveStatus done = interpretation->feed(
+            piece, parameters.first(stored), origins.empty() ? origins : origins.first(count));
+        if (status == TurtleStatus::Ok) { // else the turtle has ended it
+            switch (done) {
+            case DeriveStatus::Ok:
+                break;
+            case DeriveStatus::Error:
+                status = TurtleStatus::NotInterpreted;
+                break;
+            case DeriveStatus::Limit:
+                status = TurtleStatus::Limit;
+                break;
+            case DeriveStatus::OutOfMemory:
+                status = TurtleStatus::OutOfMemory;
+                break;
+            case DeriveStatus::Cancelled:
+                status = TurtleStatus::Cancelled;
+                break;
+            }
+        }
+        codes = codes.subspan(count);
+        parameters = parameters.subspan(stored);
+        origins = origins.empty() ? origins : origins.subspan(count);
+    }
+    return status;
+}
+
+Turtle::Turtle(const Bytecode& bytecode, TurtleOptions options)
+    : state_(std::make_unique<State>(bytecode, std::move(options))) {}
+Turtle::~Turtle() = default;
+
+TurtleStatus Turtle::reserve(const Word& word) {
+    State& state = *state_;
+    if (state.interprets) {
+        return TurtleStatus::Ok; // nobody knows how much will be drawn
+    }
+    std::uint64_t segments = 0;
+    std::uint64_t objects = 0;
+    const auto count = [&](auto codes) {
+        std::vector<std::uint64_t> census(state.table.by_code.size(), 0);
+        for (const auto code : codes) {
+            ++census[code];
+        }
+        for (Code code = 0; code < census.size(); ++code) {
+            switch (state.table.by_code[code].operation) {
+            case TurtleOperation::Forward:
+            case TurtleOperation::Branch:
+            case TurtleOperation::HalfForward:
+            case TurtleOperation::TaperedForward:
+                segments += census[code];
+                break;
+            default:
+                objects +=
+                    draws(state.table.by_code[code].operation) &&
+                            state.table.by_code[code].operation != TurtleOperation::PolygonEnd
+                        ? census[code]
+                        : 0;
+            }
+        }
+    };
+    switch (word.code_width()) {
+    case 1:
+        count(word.codes<std::uint8_t>());
+        break;
+    case 2:
+        count(word.codes<std::uint16_t>());
+        break;
+    default:
+        count(word.codes<std::uint32_t>());
+        break;
+    }
+    const bool origins = word.keeps_origins();
+    const std::uint64_t bytes = segments * sizeof(Segment) + objects * sizeof(PlacedObject) +
+                                (origins ? (segments + objects) * sizeof(Origin) : 0);
+    if (bytes > state.options.max_bytes) {
+        return state.status = TurtleStatus::Limit;
+    }
+    try {
+        state.skeleton.segments.reserve(std::min(segments, kMaxSkeletonItems));
+        state.skeleton.objects.reserve(std::min(objects, kMaxSkeletonItems));
+        if (origins) {
+            state.skeleton.segment_origins.reserve(std::min(segments, kMaxSkeletonItems));
+            state.skeleton.object_origins.reserve(std::min(objects, kMaxSkeletonItems));
+        }
+    } catch (const std::bad_alloc&) {
+        return state.status = TurtleStatus::OutOfMemory;
+    }
+    return TurtleStatus::Ok;
+}
+
+TurtleStatus Turtle::feed(const Word& word) {
+    switch (word.code_width()) {
+    case 1:
+        return state_->take(word.codes<std::uint8_t>(), word.parameters(), word.origins());
+    case 2:
+        return state_->take(word.codes<std::uint16_t>(), word.parameters(), word.origins());
+    default:
+        return state_->take(word.codes<std::uint32_t>(), word.parameters(), word.origins());
+    }
+}
+
+TurtleStatus Turtle::feed(std::span<const Code> codes, std::span<const float> parameters) {
+    return state_->take(codes, parameters, {});
+}
+
+TurtleStatus Turtle::feed(std::span<const Code> codes,
+                          std::span<const float> parameters,
+                          std::span<const Origin> origins) {
+    return state_->take(codes, parameters, origins);
+}
+
+TurtleStatus Turtle::finish() {
+    State& state = *state_;
+    if (state.status == TurtleStatus::Ok && state.pending.there && !state.pending.in_parameter) {
+        if (state.obey_pending() && state.keeps_origins) {
+            static_cast<void>(state.take_origin(state.pending.origin));
+        }
+    }
+    if (state.status == TurtleStatus::Ok) {
+        if (!state.stack.empty()) {
+            state.note(TurtleFaultKind::UnclosedBranch);
+        }
+        if (state.polygons.any()) {
+            state.note(TurtleFaultKind::UnclosedPolygon);
+        }
+    }
+    return state.status;
+}
+
+void Turtle::begin_again(std::uint64_t seed) {
+    State& state = *state_;
+    state.options.seed = seed;
+    LSYS_CHECK(state.status == TurtleStatus::Ok);
+    state.begin();
+    state.stack.clear();
+    state.watched.clear();
+    state.polygons = {};
+    state.pending = {};
+    state.position = 0;
+    state.cut = 0;
+    state.interpretation.reset();
+}
+TurtlePlace Turtle::place() const {
+    return state_->place_now();
+}
+DrawnCounts Turtle::drawn() const {
+    return state_->drawn();
+}
+const Skeleton& Turtle::skeleton() const {
+    return state_->skeleton;
+}
+Skeleton Turtle::take_skeleton() {
+    return std::move(state_->skeleton);
+}
+const RuntimeError& Turtle::error() const {
+    LSYS_CHECK(state_->interpretation != nullptr);
+    return state_->interpretation->error();
+}
+const std::array<TurtleFault, kTurtleFaultKinds>& Turtle::faults() const {
+    return state_->faults;
+}
+
+} // namespace lsys

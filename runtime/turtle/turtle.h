@@ -1,0 +1,150 @@
+// The turtle: reads modules of a derived word in order and draws the skeleton (LANGUAGE.md section
+// 7). Characters mean nothing here: which operation a symbol has was decided by the profile when
+// the grammar was compiled. State is in double precision, so that ten million rotations leave the
+// frame orthonormal and a far-off plant as exact as a near one.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "runtime/derive/derive.h"
+#include "runtime/derive/word.h"
+#include "runtime/turtle/skeleton.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+/// What a word may do that a turtle cannot, or only in part. The first three end the drawing.
+enum class TurtleFaultKind : std::uint8_t {
+    Unbalanced,       // a `]` without its `[`
+    NotFinite,        // position, length or width is infinite or not a number
+    TooMany,          // more than kMaxSkeletonItems segments, objects or corners
+    UnclosedBranch,   // a `[` without its `]`
+    NegativeWidth,    // drawn as 0
+    VertexOutside,    // a `.` outside of a polygon: nothing is drawn
+    EndOutside,       // a `}` without its `{`: nothing is drawn
+    FewCorners,       // a polygon with fewer than three corners: nothing is drawn
+    UnclosedPolygon,  // nothing is drawn
+    SidesOutOfRange,  // fewer than 3 or more than 64 sides: the nearest that there is
+    ColourOutOfRange, // below 0 or above 65,535: the nearest that there is
+};
+inline constexpr std::size_t kTurtleFaultKinds = 11;
+inline constexpr std::uint64_t kMaxSkeletonItems = 0xFFFFFFF0u;
+inline constexpr std::uint32_t kMinSides = 3;
+inline constexpr std::uint32_t kMaxSides = 64;
+
+struct TurtleFault {
+    std::uint64_t count = 0;    // times it happened
+    std::uint64_t position = 0; // of the module where it first did
+    Code code = 0;              // of that module
+};
+
+/// NotInterpreted: a production of `#interpret` cannot be applied, error() tells.
+enum class TurtleStatus : std::uint8_t { Ok, Fault, Limit, OutOfMemory, Cancelled, NotInterpreted };
+
+/// Where the turtle is and how it would draw.
+struct TurtlePlace {
+    glm::dvec3 position{}; // m
+    glm::dquat frame{1.0, 0.0, 0.0, 0.0};
+    float width = 0.0F;
+    float taper = 1.0F;
+    float step = 0.0F;
+    float angle = 0.0F;
+    float aside = 0.0F; // degrees, of the second heading of the profile `fractint`
+    std::uint32_t sides = 0;
+    std::uint32_t colour = 0;
+    std::uint32_t order = 0; // open brackets
+};
+
+/// How much has been drawn.
+struct DrawnCounts {
+    std::uint32_t segments = 0;
+    std::uint32_t objects = 0;
+    std::uint32_t polygons = 0;
+
+    friend bool operator==(const DrawnCounts&, const DrawnCounts&) = default;
+};
+
+/// The `[` of a valid branch in the word of an instanced system (LANGUAGE.md section 9).
+struct BranchStart {
+    bool take = false; // an instance instead of the branch
+    std::uint32_t age = 0;
+    std::uint32_t id = 0;
+    std::span<const float> formals; // that its text uses
+    TurtlePlace place;
+    std::uint32_t segment = kNoSegment; // that ends there
+    DrawnCounts drawn;                  // so far
+};
+
+/// Sees the valid branches of a word as the turtle comes to them.
+class BranchWatcher {
+public:
+    virtual ~BranchWatcher() = default;
+    /// False: the branch is passed over, and there will be no end() of it.
+    virtual bool begin(const BranchStart& start) = 0;
+    virtual void end(const DrawnCounts& drawn) = 0;
+
+protected:
+    BranchWatcher() = default;
+    BranchWatcher(const BranchWatcher&) = default;
+    BranchWatcher& operator=(const BranchWatcher&) = default;
+};
+
+struct TurtleOptions {
+    /// Lengths along +Y of the files of MeshFile symbols, by symbol; empty: 1 each.
+    std::vector<float> mesh_lengths;
+    std::uint64_t max_bytes = ~std::uint64_t{0}; // of the skeleton
+    const std::atomic<bool>* cancelled = nullptr;
+    /// Of the derivation whose last word is drawn: what the productions of `#interpret` read.
+    std::uint64_t seed = 0;
+    std::uint32_t generations = 0;
+    BranchWatcher* branches = nullptr; // outlives the turtle; none: every branch is drawn
+};
+
+/// Draws a word that comes in pieces: each module as what the productions of `#interpret` make of
+/// it. Positions of faults are those of the modules that are drawn.
+class Turtle {
+public:
+    /// `bytecode` outlives the turtle.
+    Turtle(const Bytecode& bytecode, TurtleOptions options);
+    ~Turtle();
+    Turtle(const Turtle&) = delete;
+    Turtle& operator=(const Turtle&) = delete;
+
+    /// Makes room for what these codes will draw; without it, room is made as it is needed.
+    [[nodiscard]] TurtleStatus reserve(const Word& word);
+    /// The next modules of the word. After anything but Ok nothing more is to be fed. Where the
+    /// word keeps origins, or `origins` are those of the codes, what is drawn has its own; then
+    /// every piece has origins.
+    [[nodiscard]] TurtleStatus feed(const Word& word);
+    [[nodiscard]] TurtleStatus feed(std::span<const Code> codes, std::span<const float> parameters);
+    [[nodiscard]] TurtleStatus feed(std::span<const Code> codes,
+                                    std::span<const float> parameters,
+                                    std::span<const Origin> origins);
+    /// After the last module.
+    [[nodiscard]] TurtleStatus finish();
+    /// The next word, of a derivation with that seed, begins as the first one did, beside what is
+    /// drawn. After finish().
+    void begin_again(std::uint64_t seed);
+    [[nodiscard]] TurtlePlace place() const;
+    [[nodiscard]] DrawnCounts drawn() const;
+
+    [[nodiscard]] const Skeleton& skeleton() const;
+    [[nodiscard]] Skeleton take_skeleton();
+    [[nodiscard]] const std::array<TurtleFault, kTurtleFaultKinds>& faults() const;
+    /// After NotInterpreted.
+    [[nodiscard]] const RuntimeError& error() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace lsys

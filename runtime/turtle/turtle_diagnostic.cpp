@@ -1,0 +1,109 @@
+#include "runtime/turtle/turtle_diagnostic.h"
+
+#include "runtime/derive/runtime_diagnostic.h"
+#include "runtime/derive/word_text.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+struct Wording {
+    DiagnosticCode code;
+    const char* what; // after "module N of the word, `X`, "
+    const char* help; // may be empty
+};
+
+Wording wording_of(TurtleFaultKind kind) {
+    switch (kind) {
+    case TurtleFaultKind::Unbalanced:
+        return {DiagnosticCode::UnbalancedWord, "closes a branch that nothing opens",
+                "balance the brackets of every successor and of the axiom"};
+    case TurtleFaultKind::NotFinite:
+        return {DiagnosticCode::NotFinite, "takes the turtle beyond every number",
+                "bound lengths and widths with `min` and `max`"};
+    case TurtleFaultKind::TooMany:
+        return {DiagnosticCode::LimitReached,
+                "is more than the 4,294,967,280 segments, objects or corners of one plant",
+                "ask for fewer generations with `-n`"};
+    case TurtleFaultKind::UnclosedBranch:
+        return {DiagnosticCode::UnclosedBranch, "leaves branches open at the end of the word", ""};
+    case TurtleFaultKind::NegativeWidth:
+        return {DiagnosticCode::NegativeWidth, "sets a negative width, which is drawn as 0",
+                "bound it with `max`"};
+    case TurtleFaultKind::VertexOutside:
+        return {DiagnosticCode::StrayVertex, "is a vertex outside of any polygon", ""};
+    case TurtleFaultKind::EndOutside:
+        return {DiagnosticCode::UnbalancedPolygon, "ends a polygon that nothing begins", ""};
+    case TurtleFaultKind::FewCorners:
+        return {DiagnosticCode::SmallPolygon,
+                "ends a polygon of fewer than three vertices, which is not drawn", ""};
+    case TurtleFaultKind::UnclosedPolygon:
+        return {DiagnosticCode::UnbalancedPolygon,
+                "leaves a polygon open at the end of the word, which is not drawn", ""};
+    case TurtleFaultKind::SidesOutOfRange:
+        return {DiagnosticCode::SidesOutOfRange,
+                "asks for fewer than 3 or more than 64 sides, and gets the nearest of them", ""};
+    case TurtleFaultKind::ColourOutOfRange:
+        return {DiagnosticCode::ColourOutOfRange,
+                "chooses a colour outside of 0 to 65,535, and gets the nearest of them", ""};
+    }
+    return {DiagnosticCode::NotFinite, "", ""};
+}
+
+bool ends_drawing(TurtleFaultKind kind) {
+    return kind == TurtleFaultKind::Unbalanced || kind == TurtleFaultKind::NotFinite ||
+           kind == TurtleFaultKind::TooMany;
+}
+
+} // namespace
+
+std::vector<Diagnostic> turtle_diagnostics(const std::array<TurtleFault, kTurtleFaultKinds>& faults,
+                                           const Bytecode& bytecode) {
+    std::vector<Diagnostic> diagnostics;
+    for (std::size_t i = 0; i < faults.size(); ++i) {
+        const TurtleFault& fault = faults[i];
+        if (fault.count == 0) {
+            continue;
+        }
+        const auto kind = static_cast<TurtleFaultKind>(i);
+        const Wording wording = wording_of(kind);
+        const std::string name = spelled_name(bytecode.symbol(bytecode.symbol_of(fault.code)).name,
+                                              bytecode.settings.print_letters);
+        Diagnostic diagnostic =
+            make_diagnostic(wording.code, {},
+                            fmt::format("module {} of the word, a `{}`, {}",
+                                        grouped_digits(fault.position), name, wording.what));
+        diagnostic.severity = ends_drawing(kind) ? Severity::Error : Severity::Warning;
+        diagnostic.notes.emplace_back("modules are counted from 0");
+        if (fault.count > 1) {
+            diagnostic.notes.push_back(
+                fault.count == 2
+                    ? std::string("1 more module does so")
+                    : fmt::format("{} more modules do so", grouped_digits(fault.count - 1)));
+        }
+        if (*wording.help != '\0') {
+            diagnostic.help.emplace_back(wording.help);
+        }
+        diagnostics.push_back(std::move(diagnostic));
+    }
+    return diagnostics;
+}
+
+Diagnostic plant_limit_diagnostic(std::string_view what, std::string_view limit, std::string help) {
+    Diagnostic diagnostic = make_diagnostic(DiagnosticCode::LimitReached, {},
+                                            fmt::format("{} does not fit into {}", what, limit));
+    diagnostic.help.push_back(std::move(help));
+    return diagnostic;
+}
+
+Diagnostic plant_limit_diagnostic(std::string_view what, std::uint64_t max_bytes) {
+    return plant_limit_diagnostic(
+        what, byte_size_text(max_bytes),
+        "ask for fewer generations with `-n`, or raise the limit with `--max-memory`");
+}
+
+} // namespace lsys

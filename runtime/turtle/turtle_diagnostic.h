@@ -1,0 +1,26 @@
+// What a turtle could not draw, as messages to the grammar's author.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "grammar/base/diagnostic.h"
+#include "runtime/turtle/turtle.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+/// One diagnostic for each kind of fault that happened, with the number of times and the first
+/// module. Errors for those that end a drawing, else warnings.
+[[nodiscard]] std::vector<Diagnostic>
+turtle_diagnostics(const std::array<TurtleFault, kTurtleFaultKinds>& faults,
+                   const Bytecode& bytecode);
+
+/// A plant that does not fit into `max_bytes`, of which `what` ("the skeleton") needs more.
+[[nodiscard]] Diagnostic plant_limit_diagnostic(std::string_view what, std::uint64_t max_bytes);
+/// The same of another limit, in words, with what helps.
+[[nodiscard]] Diagnostic
+plant_limit_diagnostic(std::string_view what, std::string_view limit, std::string help);
+
+} // namespace lsys

@@ -1,0 +1,121 @@
+#include "compiler/bytecode/module_file.h"
+#include "compiler/bytecode/verify.h"
+#include "tests/compiler/small_bytecode.h"
+
+#include <catch2/catch.hpp>
+
+#include <random>
+
+using namespace lsys;
+
+namespace {
+
+std::string refusal(std::string_view bytes) {
+    const Result<Bytecode> result = read_module_file(bytes);
+    return result ? "accepted" : result.error().message;
+}
+
+/// The contents changed at `offset` and the checksum made to fit, so that only the reader's own
+/// checks are left.
+std::string with_byte(std::string bytes, std::size_t offset, char value) {
+    bytes[offset] = value;
+    const std::uint64_t sum = checksum(std::string_view(bytes).substr(32));
+    for (std::size_t i = 0; i < 8; ++i) {
+        bytes[24 + i] = static_cast<char>((sum >> (8 * i)) & 0xFF);
+    }
+    return bytes;
+}
+
+} // namespace
+
+TEST_CASE("a module file reads back as what was written") {
+    const Bytecode bytecode = test::small_bytecode();
+    REQUIRE(verify(bytecode) == std::nullopt);
+    const std::string bytes = write_module_file(bytecode);
+    CHECK(is_module_file(bytes));
+    const Result<Bytecode> read = read_module_file(bytes);
+    REQUIRE(read.ok());
+    CHECK(digest(read.value()) == digest(bytecode));
+    CHECK(write_module_file(read.value()) == bytes);
+    CHECK(read.value().symbols[2].name == "f");
+    CHECK(read.value().symbols[2].turtle == TurtleOperation::Move);
+    CHECK(read.value().generations == 6U);
+    CHECK(read.value().sites[3].column == 20);
+    CHECK(read.value().template_places[1].stride == 2);
+}
+
+TEST_CASE("every truncation of a module file is refused") {
+    const std::string bytes = write_module_file(test::small_bytecode());
+    CHECK(refusal("") == "the file is empty");
+    for (std::size_t size = 1; size < bytes.size(); ++size) {
+        CAPTURE(size);
+        const std::string message = refusal(std::string_view(bytes).substr(0, size));
+        CHECK(message.starts_with("the file is cut off"));
+    }
+}
+
+TEST_CASE("every change of one byte of a module file is refused") {
+    const std::string bytes = write_module_file(test::small_bytecode());
+    for (std::size_t at = 0; at < bytes.size(); ++at) {
+        for (const int change : {0x01, 0x20, 0x80, 0xFF}) {
+            std::string damaged = bytes;
+            damaged[at] = static_cast<char>(damaged[at] ^ change);
+            CAPTURE(at, change);
+            CHECK(refusal(damaged) != "accepted");
+        }
+    }
+}
+
+TEST_CASE("foreign, older, newer and longer files are told apart") {
+    const std::string bytes = write_module_file(test::small_bytecode());
+    CHECK(refusal("#w : A;\n") == "not a compiled grammar (.lsb)");
+    std::string newer = bytes;
+    newer[8] = static_cast<char>(kModuleFileVersion + 1);
+    CHECK(refusal(newer).find("a newer version") != std::string::npos);
+    std::string older = bytes;
+    older[8] = 0;
+    CHECK(refusal(older).find("an older version") != std::string::npos);
+    CHECK(refusal(bytes + "x") == "the file is damaged: 1 bytes follow its end");
+    std::string damaged = bytes;
+    damaged.back() = static_cast<char>(damaged.back() ^ 1);
+    CHECK(refusal(damaged) == "the file is damaged: its checksum does not fit");
+}
+
+TEST_CASE("contents with a fitting checksum are still checked") {
+    const std::string bytes = write_module_file(test::small_bytecode());
+    std::uint32_t refused = 0;
+    for (std::size_t at = 32; at < bytes.size(); ++at) {
+        for (const char value : {'\0', '\1', '\x7F', '\xFF'}) {
+            const Result<Bytecode> read = read_module_file(with_byte(bytes, at, value));
+            if (read) {
+                CHECK(verify(read.value()) == std::nullopt);
+            } else {
+                ++refused;
+                CHECK(read.error().message.starts_with("the file is malformed: "));
+            }
+        }
+    }
+    CHECK(refused > bytes.size());
+}
+
+TEST_CASE("random bytes after a good header are refused without harm") {
+    std::mt19937 random(7);
+    for (int round = 0; round < 2'000; ++round) {
+        std::string bytes = write_module_file(test::small_bytecode());
+        const std::size_t changes = 1 + random() % 20;
+        for (std::size_t i = 0; i < changes; ++i) {
+            bytes[32 + random() % (bytes.size() - 32)] = static_cast<char>(random() & 0xFF);
+        }
+        const std::string fitting = with_byte(bytes, 32, bytes[32]);
+        if (const Result<Bytecode> read = read_module_file(fitting)) {
+            CHECK(verify(read.value()) == std::nullopt);
+        }
+    }
+    for (int round = 0; round < 2'000; ++round) {
+        std::string bytes(random() % 200, '\0');
+        for (char& byte : bytes) {
+            byte = static_cast<char>(random() & 0xFF);
+        }
+        CHECK(refusal(bytes) != "accepted");
+    }
+}

@@ -1,0 +1,226 @@
+#include "compiler/bytecode/disassemble.h"
+#include "compiler/bytecode/verify.h"
+#include "tests/compiler/small_bytecode.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <functional>
+
+using namespace lsys;
+using test::bits;
+using test::op;
+
+namespace {
+
+/// What verify() says of the small program after a change; empty: nothing.
+std::string said_of(const std::function<void(Bytecode&)>& change) {
+    Bytecode bytecode = test::small_bytecode();
+    change(bytecode);
+    return verify(bytecode).value_or("");
+}
+
+} // namespace
+
+TEST_CASE("a well-formed program verifies") {
+    CHECK(said_of([](Bytecode&) {}).empty());
+}
+
+TEST_CASE("symbols and folded modules are checked") {
+    CHECK(said_of([](Bytecode& b) { b.symbols[0].name.clear(); }) ==
+          "symbol 0 has no printable name");
+    CHECK(said_of([](Bytecode& b) { b.symbols[0].name = "a\x1B[2J"; }) ==
+          "symbol 0 has no printable name");
+    CHECK(said_of([](Bytecode& b) { b.symbols[3].parameter_count = 1; }) ==
+          "symbol 3 has 1 parameters");
+    CHECK(said_of([](Bytecode& b) { b.folded[0].symbol = SymbolId{9}; }) ==
+          "folded module 0 is of no symbol with parameters");
+    CHECK(said_of([](Bytecode& b) { b.folded[0].first_constant = 1; }) ==
+          "folded module 0 does not follow the one before it");
+    CHECK(said_of([](Bytecode& b) { b.constants[0] = HUGE_VALF; }) ==
+          "a folded argument is not finite");
+    CHECK(said_of([](Bytecode& b) { b.template_codes[1] = 6; }) == "code 6 does not exist");
+}
+
+TEST_CASE("heads are checked") {
+    CHECK(said_of([](Bytecode& b) { b.patterns[1].first_formal = 0; }) ==
+          "pattern item 1 is malformed");
+    CHECK(said_of([](Bytecode& b) { b.patterns[4].kind = PatternKind::Open; }) ==
+          "production 0 has an open bracket in its context");
+    CHECK(said_of([](Bytecode& b) { b.productions[1].left.first = 0; }) ==
+          "production 1 has a pattern out of place");
+    CHECK(said_of([](Bytecode& b) { b.productions[0].has_left = false; }) ==
+          "production 0 has an empty context");
+    CHECK(said_of([](Bytecode& b) { b.productions[0].formal_count = 3; }) ==
+          "production 0 has 2 formals, not 3");
+    CHECK(said_of([](Bytecode& b) { b.productions[1].weight = 1.5F; }) ==
+          "production 1 has a probability of 1.5");
+    CHECK(said_of([](Bytecode& b) {
+              b.productions[1].weight = 1.5F;
+              b.settings.weights = WeightRule::Any;
+          }).empty());
+    CHECK(said_of([](Bytecode& b) { b.productions[1].rule = 2; }) ==
+          "production 1 is of rule 2, which nothing began");
+    CHECK(said_of([](Bytecode& b) { b.patterns[8].symbol = SymbolId{4}; }) ==
+          "production 1 does not fit group 0");
+    CHECK(said_of([](Bytecode& b) { b.group_count = 2; }) ==
+          "1 rules and 2 groups are named, 1 and 1 found");
+}
+
+TEST_CASE("several modules are rewritten in the modes that read by rules only") {
+    const auto two = [](Bytecode& b) {
+        for (BytecodeProduction& p : b.productions) {
+            p.predecessor.count = 2;
+            p.right = {p.right.first + 1, 2};
+        }
+        for (const std::size_t at : {std::size_t{2}, std::size_t{7}}) {
+            b.patterns[at] = {PatternKind::Module, SymbolId{1}, 2};
+        }
+        for (const std::size_t at :
+             {std::size_t{3}, std::size_t{4}, std::size_t{8}, std::size_t{9}}) {
+            b.patterns[at] = {PatternKind::Module, SymbolId{1}, 2};
+        }
+    };
+    CHECK(said_of(two) == "production 0 has 2 modules to rewrite");
+    CHECK(said_of([&](Bytecode& b) {
+              two(b);
+              b.settings.rewriting = RewritingMode::Sequential;
+          }).empty());
+}
+
+TEST_CASE("code is checked") {
+    const std::size_t condition = 10; // after the global's 7 words and the axiom's 3
+    REQUIRE(test::small_bytecode().productions[0].condition == condition);
+    const auto with = [&](std::size_t at, std::uint32_t word) {
+        return said_of([&](Bytecode& b) { b.instructions[at] = word; });
+    };
+    CHECK(with(condition, op(Opcode::Formal, 2)) == "instruction 10 (formal) may not stand there");
+    CHECK(with(condition, op(Opcode::Global, 1)) == "instruction 10 (global) may not stand there");
+    CHECK(with(condition, op(Opcode::Global, 0)).empty());
+    CHECK(with(condition, op(Opcode::Steps)) == "instruction 10 (steps) may not stand there");
+    CHECK(with(condition, 0xFF) == "instruction 10 does not exist");
+    CHECK(with(condition + 3, op(Opcode::Sin)) == "the code at 10 leaves a wrong number of values");
+    CHECK(with(condition + 3, op(Opcode::Emit)) == "instruction 13 (emit) may not stand there");
+    CHECK(with(condition + 4, op(Opcode::Add)) == "instruction 14 (add) lacks values");
+    CHECK(with(condition + 3, op(Opcode::Greater, 1)) ==
+          "instruction 13 (greater) may not stand there");
+    CHECK(with(0, op(Opcode::Global, 0)) == "instruction 0 (global) may not stand there");
+    CHECK(said_of([](Bytecode& b) { b.instructions.pop_back(); }) == "the code at 16 has no end");
+    CHECK(said_of([](Bytecode& b) { b.instructions.push_back(op(Opcode::End)); }) ==
+          "a table holds more than the productions use");
+    CHECK(said_of([](Bytecode& b) { b.productions[0].successor.draw_count = 0; }) ==
+          "instruction 21 (range) may not stand there");
+    CHECK(said_of([](Bytecode& b) { b.productions[0].successor.parameter_count = 2; }) ==
+          "a successor stores 1 parameters, not 2");
+}
+
+TEST_CASE("an expression that needs too deep a stack does not verify") {
+    const auto deep = [](std::uint32_t pushes) {
+        return said_of([&](Bytecode& b) {
+            std::vector<std::uint32_t> words;
+            for (std::uint32_t i = 0; i < pushes; ++i) {
+                words.push_back(op(Opcode::Formal, 1));
+            }
+            for (std::uint32_t i = 1; i < pushes; ++i) {
+                words.push_back(op(Opcode::Power));
+            }
+            b.instructions.erase(b.instructions.begin() + 10, b.instructions.begin() + 14);
+            b.instructions.insert(b.instructions.begin() + 10, words.begin(), words.end());
+            b.productions[0].successor.arguments =
+                10 + static_cast<std::uint32_t>(words.size()) + 2;
+        });
+    };
+    CHECK(deep(kMaxStack).empty());
+    CHECK(deep(kMaxStack + 1) == "instruction 266 needs too deep a stack");
+}
+
+TEST_CASE("sites are checked") {
+    CHECK(said_of([](Bytecode& b) { b.sites[1].span.file = FileId{1}; }) ==
+          "site 1 lies in no file");
+    CHECK(said_of([](Bytecode& b) { b.site_marks[0].site = 5; }) == "site mark 0 is out of place");
+    CHECK(said_of([](Bytecode& b) { b.site_marks.push_back(b.site_marks[0]); }) ==
+          "site mark 1 is out of place");
+}
+
+TEST_CASE("places of modules are checked") {
+    CHECK(said_of([](Bytecode& b) { b.template_places.clear(); }).empty());
+    CHECK(said_of([](Bytecode& b) { b.template_places[1].first = 0; }) == "place run 0 is empty");
+    CHECK(said_of([](Bytecode& b) { b.template_places[2].first = 8; }) == "place run 2 is empty");
+    CHECK(said_of([](Bytecode& b) { b.template_places[0].line = 0; }) ==
+          "place run 0 is malformed");
+    CHECK(said_of([](Bytecode& b) { b.template_places[0].column = 0; }) ==
+          "place run 0 is malformed");
+    CHECK(said_of([](Bytecode& b) { b.template_places[0].length = 0; }) ==
+          "place run 0 is malformed");
+    CHECK(said_of([](Bytecode& b) { b.template_places[0].stride = 1; }) ==
+          "place run 0 is malformed");
+    CHECK(said_of([](Bytecode& b) { b.template_places[1].begin = kNone - 2; }) ==
+          "place run 1 ends beyond every file");
+    CHECK(said_of([](Bytecode& b) { b.template_places[1].column = kNone - 2; }) ==
+          "place run 1 ends beyond every file");
+    CHECK(said_of([](Bytecode& b) { b.template_places[0].first = 1; }) ==
+          "the axiom's modules have no places");
+    CHECK(said_of([](Bytecode& b) { b.axiom_site = kNone; }) ==
+          "the axiom's modules have no places");
+    CHECK(said_of([](Bytecode& b) { b.template_places.pop_back(); }) ==
+          "the modules of production 1 have no places");
+    CHECK(said_of([](Bytecode& b) { b.productions[1].name_site = kNone; }) ==
+          "the modules of production 1 have no places");
+}
+
+TEST_CASE("a module's writer and place are found") {
+    const Bytecode bytecode = test::small_bytecode();
+    CHECK(writer_of(bytecode, 2) == kNoProduction);
+    CHECK(writer_of(bytecode, 3) == ProductionId{0});
+    CHECK(writer_of(bytecode, 6) == ProductionId{0});
+    CHECK(writer_of(bytecode, 7) == ProductionId{1});
+    const std::optional<Site> place = place_of(bytecode, 2);
+    REQUIRE(place);
+    CHECK(place->span == SourceSpan{FileId{0}, 48, 54});
+    CHECK(place->line == 3);
+    CHECK(place->column == 18);
+    Bytecode without = bytecode;
+    without.template_places.clear();
+    CHECK(place_of(without, 2) == std::nullopt);
+}
+
+TEST_CASE("the digest follows what decides the word and nothing else") {
+    const Bytecode bytecode = test::small_bytecode();
+    const auto changed = [&](const std::function<void(Bytecode&)>& change) {
+        Bytecode other = bytecode;
+        change(other);
+        return digest(other) != digest(bytecode);
+    };
+    CHECK_FALSE(changed([](Bytecode& b) { b.sites[0].line = 7; }));
+    CHECK_FALSE(changed([](Bytecode& b) { b.files[0] = "other.lsys"; }));
+    CHECK_FALSE(changed([](Bytecode& b) { b.settings.angle = 30.0F; }));
+    CHECK_FALSE(changed([](Bytecode& b) { b.productions[0].name = "q"; }));
+    CHECK_FALSE(changed([](Bytecode& b) { b.generations = 7; }));
+    CHECK_FALSE(changed([](Bytecode& b) { b.template_places[0].line = 7; }));
+    CHECK(changed([](Bytecode& b) { b.symbols[0].name = "C"; }));
+    CHECK(changed([](Bytecode& b) { b.symbols[2].ignored = false; }));
+    CHECK(changed([](Bytecode& b) { b.constants[0] = 0.25F; }));
+    CHECK(changed([](Bytecode& b) { b.settings.choice = ChoiceScope::Generation; }));
+    CHECK(changed([](Bytecode& b) { b.productions[1].weight = 0.25F; }));
+    CHECK(changed([](Bytecode& b) { b.instructions[1] = bits(1.5F); }));
+}
+
+TEST_CASE("a site is found for every instruction after a mark") {
+    const Bytecode bytecode = test::small_bytecode();
+    CHECK(site_of(bytecode, 9) == kNone);
+    CHECK(site_of(bytecode, 10) == 3);
+    CHECK(site_of(bytecode, 20) == 3);
+}
+
+TEST_CASE("a listing shows symbols, code and places") {
+    const std::string listing = disassemble(test::small_bytecode());
+    for (const char* part :
+         {"rewriting parallel, choice module, weights one, turtle lsys", "generations 6",
+          "1 rules, 1 groups, 6 codes of 1 bytes", "    2 f/1 ignored move", "    5 f(0.5)",
+          "global 0 s  ; small.lsys:1:9", "    codes A/1 f(0.5) f(0.5)",
+          "production 0 p1: f($0) < A($1) > [ B ]  ; small.lsys:4:2",
+          "  rule 0, group 0, probability 0.5", "      11 literal 2", "      21 range 0"}) {
+        CAPTURE(part, listing);
+        CHECK(listing.find(part) != std::string::npos);
+    }
+}

@@ -1,0 +1,267 @@
+#include "compiler/growth/condition_grid.h"
+#include "tests/compiler/bytecode_builder.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <random>
+#include <vector>
+
+namespace lsys::analysis {
+namespace {
+
+using test::apply;
+using test::Code32;
+using test::formal;
+using test::number;
+
+struct Laid {
+    std::vector<std::uint32_t> instructions;
+    std::vector<ConditionView> views;
+};
+
+/// Conditions one after the other, each ended by Test.
+Laid lay(const std::vector<Code32>& conditions, std::uint32_t formals) {
+    Laid laid;
+    for (const Code32& condition : conditions) {
+        laid.views.push_back({static_cast<std::uint32_t>(laid.instructions.size()), 0, formals});
+        laid.instructions.insert(laid.instructions.end(), condition.begin(), condition.end());
+        laid.instructions.push_back(encode(Opcode::Test, 0));
+    }
+    return laid;
+}
+
+std::optional<ConditionGrid> grid_of(const Laid& laid, std::uint32_t formals) {
+    const std::vector<KnownValue> unknown(formals);
+    return make_condition_grid(laid.instructions, laid.views, unknown, {}, 10'000);
+}
+
+std::optional<ConditionGrid> grid_of(const Code32& condition, std::uint32_t formals) {
+    return grid_of(lay({condition}, formals), formals);
+}
+
+std::vector<float> lows(const GridAxis& axis) {
+    std::vector<float> result;
+    for (const GridCell& cell : axis.cells) {
+        result.push_back(cell.low);
+    }
+    return result;
+}
+
+const float kLowest = std::numeric_limits<float>::lowest();
+
+float above(float value) {
+    return std::nextafter(value, std::numeric_limits<float>::infinity());
+}
+
+TEST_CASE("order indices number the finite values without gaps") {
+    CHECK(order_index(0.0F) == 0);
+    CHECK(order_index(-0.0F) == 0);
+    for (const float value : {1.0F, -1.0F, 0.5F, 1e-40F, -3e38F}) {
+        CHECK(number_at(order_index(value)) == value);
+        CHECK(number_at(order_index(value) + 1) == above(value));
+    }
+}
+
+TEST_CASE("a comparison cuts its parameter between neighbouring numbers") {
+    const auto less = grid_of(apply(Opcode::Less, formal(0), number(2)), 1);
+    REQUIRE(less);
+    REQUIRE(less->axes.size() == 1);
+    CHECK(lows(less->axes[0]) == std::vector<float>{kLowest, 2.0F});
+
+    const auto greater = grid_of(apply(Opcode::Greater, formal(0), number(2)), 1);
+    REQUIRE(greater);
+    CHECK(lows(greater->axes[0]) == std::vector<float>{kLowest, above(2.0F)});
+
+    const auto equal = grid_of(apply(Opcode::Equal, number(2), formal(0)), 1);
+    REQUIRE(equal);
+    CHECK(lows(equal->axes[0]) == std::vector<float>{kLowest, 2.0F, above(2.0F)});
+    CHECK(equal->axes[0].cells[1].high == 2.0F);
+}
+
+TEST_CASE("monotone expressions are cut exactly where rounding changes them") {
+    // 0.1 * x - 1 >= 0
+    const Code32 chain =
+        apply(Opcode::GreaterEqual,
+              apply(Opcode::Subtract, apply(Opcode::Multiply, number(0.1F), formal(0)), number(1)),
+              number(0));
+    const auto grid = grid_of(chain, 1);
+    REQUIRE(grid);
+    REQUIRE(grid->axes[0].cells.size() == 2);
+    const float cut = grid->axes[0].cells[1].low;
+    CHECK(0.1F * cut - 1.0F >= 0.0F);
+    const float before = number_at(order_index(cut) - 1);
+    CHECK(0.1F * before - 1.0F < 0.0F);
+
+    const auto falling =
+        grid_of(apply(Opcode::Less, apply(Opcode::Subtract, number(3), formal(0)), number(1)), 1);
+    REQUIRE(falling);
+    CHECK(3.0F - falling->axes[0].cells[1].low < 1.0F);
+    CHECK(3.0F - falling->axes[0].cells[0].high >= 1.0F);
+}
+
+TEST_CASE("several parameters make a product, compared ones are tried in every order") {
+    const auto product = grid_of(apply(Opcode::And, apply(Opcode::Less, formal(0), number(2)),
+                                       apply(Opcode::Greater, formal(1), number(3))),
+                                 2);
+    REQUIRE(product);
+    CHECK(product->point_count() == 4);
+
+    const auto compared = grid_of(apply(Opcode::Less, formal(0), formal(1)), 2);
+    REQUIRE(compared);
+    CHECK(compared->axes[0].compared);
+    bool less = false;
+    bool equal = false;
+    bool greater = false;
+    std::vector<KnownValue> values(2);
+    for (std::uint64_t point = 0; point < compared->point_count(); ++point) {
+        compared->place(point, values);
+        less = less || values[0].value < values[1].value;
+        equal = equal || values[0].value == values[1].value;
+        greater = greater || values[0].value > values[1].value;
+    }
+    CHECK(less);
+    CHECK(equal);
+    CHECK(greater);
+}
+
+TEST_CASE("conditions of other forms have no grid") {
+    CHECK(!grid_of(apply(Opcode::Less, apply(Opcode::Sin, formal(0)), number(0)), 1));
+    CHECK(!grid_of(apply(Opcode::Equal, apply(Opcode::Mod, formal(0), number(2)), number(0)), 1));
+    CHECK(!grid_of(apply(Opcode::Less, apply(Opcode::Add, formal(0), formal(1)), number(0)), 2));
+    CHECK(!grid_of(apply(Opcode::Less, formal(0), {encode(Opcode::Step, 0)}), 1));
+    CHECK(!grid_of(apply(Opcode::Less, formal(0), {encode(Opcode::Global, 0)}), 1));
+}
+
+TEST_CASE("known parameters are constants") {
+    const Laid laid = lay({apply(Opcode::Less, formal(0), formal(1))}, 2);
+    const std::vector<KnownValue> values{{}, {5.0F, true}};
+    const auto grid = make_condition_grid(laid.instructions, laid.views, values, {}, 100);
+    REQUIRE(grid);
+    REQUIRE(grid->axes.size() == 1);
+    CHECK(lows(grid->axes[0]) == std::vector<float>{kLowest, 5.0F});
+}
+
+TEST_CASE("a grid that would be too large is not made") {
+    std::vector<Code32> conditions;
+    for (int i = 0; i < 200; ++i) {
+        conditions.push_back(apply(Opcode::Equal, formal(0), number(static_cast<float>(i))));
+        conditions.push_back(apply(Opcode::Equal, formal(1), number(static_cast<float>(i))));
+    }
+    CHECK(!grid_of(lay(conditions, 2), 2));
+}
+
+// --- every cell keeps the truth of every condition
+
+struct Random {
+    std::mt19937 engine;
+    std::uint32_t operator()() { return static_cast<std::uint32_t>(engine()); }
+};
+
+Code32 random_side(Random& random, std::uint32_t formals) {
+    Code32 side = formal(random() % formals);
+    for (std::uint32_t i = random() % 3; i > 0; --i) {
+        const float constant = (static_cast<float>(random() % 17) - 8.0F) / 3.0F + 0.1F;
+        switch (random() % 7) {
+        case 0:
+            side = apply(Opcode::Add, side, number(constant));
+            break;
+        case 1:
+            side = apply(Opcode::Subtract, number(constant), side);
+            break;
+        case 2:
+            side = apply(Opcode::Multiply, side, number(constant));
+            break;
+        case 3:
+            side = apply(Opcode::Divide, side, number(constant));
+            break;
+        case 4:
+            side = apply(Opcode::Negate, side);
+            break;
+        case 5:
+            side = apply(Opcode::Floor, side);
+            break;
+        default:
+            side = apply(Opcode::Round, side);
+            break;
+        }
+    }
+    return side;
+}
+
+Code32 random_condition(Random& random, std::uint32_t formals, int depth) {
+    if (depth > 0 && random() % 3 != 0) {
+        const Opcode opcode = random() % 2 == 0 ? Opcode::And : Opcode::Or;
+        Code32 condition = apply(opcode, random_condition(random, formals, depth - 1),
+                                 random_condition(random, formals, depth - 1));
+        return random() % 4 == 0 ? apply(Opcode::Not, condition) : condition;
+    }
+    const auto comparison =
+        static_cast<Opcode>(static_cast<std::uint32_t>(Opcode::Less) + random() % 6);
+    if (formals > 1 && random() % 4 == 0) {
+        return apply(comparison, formal(0), formal(1));
+    }
+    return apply(comparison, random_side(random, formals),
+                 number(static_cast<float>(random() % 9) / 2.0F));
+}
+
+TEST_CASE("a condition has one truth in every cell, and in every order of compared parameters") {
+    Random random{std::mt19937(20'240'607)};
+    Evaluator evaluator;
+    int grids = 0;
+    for (int round = 0; round < 300; ++round) {
+        const std::uint32_t formals = 1 + random() % 2;
+        const Laid laid = lay({random_condition(random, formals, 2)}, formals);
+        const std::optional<ConditionGrid> grid = grid_of(laid, formals);
+        if (!grid) {
+            continue;
+        }
+        ++grids;
+        const auto holds = [&](const std::vector<KnownValue>& values) {
+            const KnownValue value = evaluator.run(laid.instructions, 0, {values, {}, {}});
+            REQUIRE(value.known);
+            return value.value != 0.0F;
+        };
+        std::vector<KnownValue> values(formals, KnownValue{0.0F, true});
+        std::vector<KnownValue> inside(formals, KnownValue{0.0F, true});
+        for (int probe = 0; probe < 50; ++probe) {
+            // A random point, and a sample of the same cells in the same order.
+            for (KnownValue& value : inside) {
+                value.value = random() % 2 == 0
+                                  ? static_cast<float>(random() % 21) / 2.0F - 5.0F
+                                  : number_at(static_cast<std::int32_t>(random() % 0x80000000U));
+                value.value = std::isfinite(value.value) ? value.value : 0.0F;
+            }
+            bool met = false;
+            for (std::uint64_t point = 0; point < grid->point_count() && !met; ++point) {
+                grid->place(point, values);
+                met = true;
+                bool compared = false;
+                for (std::size_t axis = 0; axis < grid->axes.size(); ++axis) {
+                    const GridAxis& row = grid->axes[axis];
+                    const GridCell& cell =
+                        row.cells[row.samples[grid->sample_of(point, axis)].cell];
+                    const float value = inside[row.parameter].value;
+                    met = met && cell.low <= value && value <= cell.high;
+                    compared = compared || row.compared;
+                }
+                if (compared && formals == 2) {
+                    const auto order = [](const std::vector<KnownValue>& v) {
+                        return v[0].value < v[1].value ? -1 : v[0].value > v[1].value ? 1 : 0;
+                    };
+                    met = met && order(values) == order(inside);
+                }
+                if (met) {
+                    CHECK(holds(values) == holds(inside));
+                }
+            }
+            CHECK(met);
+        }
+    }
+    CHECK(grids > 250);
+}
+
+} // namespace
+} // namespace lsys::analysis

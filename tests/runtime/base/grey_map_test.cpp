@@ -1,0 +1,143 @@
+#include "runtime/base/grey_map.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstdint>
+#include <png.h>
+#include <string>
+#include <vector>
+
+using lsys::GreyMap;
+using lsys::read_grey_png;
+using lsys::read_grey_raw;
+
+namespace {
+
+struct PngFormat {
+    int depth = 8;
+    int colours = PNG_COLOR_TYPE_GRAY;
+    bool interlaced = false;
+};
+
+/// The file of `samples`, which hold whole rows as they are stored.
+std::string png_of(png_uint_32 columns,
+                   png_uint_32 rows,
+                   const PngFormat& format,
+                   std::vector<std::uint8_t> samples) {
+    std::string bytes;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    png_set_write_fn(
+        png, &bytes,
+        [](png_structp to, png_bytep data, png_size_t count) {
+            static_cast<std::string*>(png_get_io_ptr(to))
+                ->append(reinterpret_cast<const char*>(data), count);
+        },
+        nullptr);
+    png_set_IHDR(png, info, columns, rows, format.depth, format.colours,
+                 format.interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_gAMA(png, info, 0.45455); // must not matter
+    png_write_info(png, info);
+    std::vector<png_bytep> row_starts;
+    for (png_uint_32 row = 0; row < rows; ++row) {
+        row_starts.push_back(samples.data() + row * (samples.size() / rows));
+    }
+    png_write_image(png, row_starts.data());
+    png_write_end(png, nullptr);
+    png_destroy_write_struct(&png, &info);
+    return bytes;
+}
+
+std::vector<std::uint16_t> values_of(const GreyMap& map) {
+    return {map.values.begin(), map.values.end()};
+}
+
+} // namespace
+
+TEST_CASE("grey pictures of 1, 8 and 16 bits are read as they are stored") {
+    const GreyMap eight = read_grey_png(png_of(3, 2, {}, {0, 1, 128, 200, 254, 255})).value();
+    CHECK(eight.columns == 3);
+    CHECK(eight.rows == 2);
+    CHECK(values_of(eight) ==
+          std::vector<std::uint16_t>{0, 257, 128 * 257, 200 * 257, 254 * 257, 65535});
+    CHECK(eight.at(1, 1) == 254 * 257);
+    const GreyMap sixteen =
+        read_grey_png(png_of(2, 1, {16, PNG_COLOR_TYPE_GRAY}, {0x12, 0x34, 0xFF, 0xFE})).value();
+    CHECK(values_of(sixteen) == std::vector<std::uint16_t>{0x1234, 0xFFFE});
+    const GreyMap one = read_grey_png(png_of(3, 1, {1, PNG_COLOR_TYPE_GRAY}, {0xA0})).value();
+    CHECK(values_of(one) == std::vector<std::uint16_t>{65535, 0, 65535});
+}
+
+TEST_CASE("interlaced pictures are read") {
+    std::vector<std::uint8_t> samples;
+    for (int i = 0; i < 17 * 13; ++i) {
+        samples.push_back(static_cast<std::uint8_t>(i * 7));
+    }
+    const auto straight = read_grey_png(png_of(17, 13, {}, samples));
+    const auto woven = read_grey_png(png_of(17, 13, {8, PNG_COLOR_TYPE_GRAY, true}, samples));
+    CHECK(values_of(straight.value()) == values_of(woven.value()));
+}
+
+TEST_CASE("pictures with colours are read where all is grey, else refused by place") {
+    const GreyMap grey =
+        read_grey_png(png_of(2, 1, {8, PNG_COLOR_TYPE_RGB_ALPHA}, {9, 9, 9, 0, 20, 20, 20, 255}))
+            .value();
+    CHECK(values_of(grey) == std::vector<std::uint16_t>{9 * 257, 20 * 257});
+    const auto coloured =
+        read_grey_png(png_of(2, 1, {8, PNG_COLOR_TYPE_RGB}, {9, 9, 9, 20, 21, 20}));
+    REQUIRE_FALSE(coloured);
+    CHECK(coloured.error().message ==
+          "the picture has colours, the first at column 1 of row 0; grey values are needed");
+}
+
+TEST_CASE("damaged pictures are errors at every length") {
+    const std::string whole = png_of(20, 20, {}, std::vector<std::uint8_t>(400, 77));
+    // What follows the last row may be missing.
+    const std::size_t needed = whole.find("IEND") - 4;
+    for (std::size_t length = 0; length + 8 < needed; ++length) {
+        const auto read = read_grey_png(std::string_view(whole).substr(0, length));
+        REQUIRE_FALSE(read);
+        REQUIRE(read.error().message.starts_with("the PNG cannot be read: "));
+    }
+    std::string damaged = whole;
+    damaged[whole.find("IDAT") + 8] ^= 0x55;
+    CHECK_FALSE(read_grey_png(damaged));
+    CHECK_FALSE(read_grey_png("P5 2 2 255 1234"));
+}
+
+TEST_CASE("a header that promises too many pixels is refused before memory is taken") {
+    const std::string small = png_of(1, 1, {}, {0});
+    std::string large = small;
+    // The size is within IHDR, whose checksum is made again.
+    for (const std::size_t at : {std::size_t{16}, std::size_t{20}}) {
+        large[at] = 0;
+        large[at + 1] = 2;
+        large[at + 2] = 0;
+        large[at + 3] = 0;
+    }
+    std::uint32_t crc = 0xFFFFFFFFU;
+    for (std::size_t i = 12; i < 29; ++i) {
+        crc ^= static_cast<std::uint8_t>(large[i]);
+        for (int bit = 0; bit < 8; ++bit) {
+            crc = (crc >> 1U) ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0U);
+        }
+    }
+    crc = ~crc;
+    for (std::size_t i = 0; i < 4; ++i) {
+        large[29 + i] = static_cast<char>(crc >> (24 - 8 * i));
+    }
+    const auto read = read_grey_png(large);
+    REQUIRE_FALSE(read);
+    CHECK(read.error().message == "a map of 131072 by 131072 pixels; the most is 134217728");
+}
+
+TEST_CASE("raw samples are little-endian and of the given size") {
+    const GreyMap map = read_grey_raw(std::string_view("\x34\x12\xFE\xFF", 4), 1, 2).value();
+    CHECK(values_of(map) == std::vector<std::uint16_t>{0x1234, 0xFFFE});
+    const auto short_by_one = read_grey_raw("abc", 1, 2);
+    REQUIRE_FALSE(short_by_one);
+    CHECK(short_by_one.error().message == "1 by 2 samples of 16 bits are 4 bytes; there are 3");
+    CHECK_FALSE(read_grey_raw("", 0, 0));
+    CHECK_FALSE(read_grey_raw("", 0xFFFFFFFF, 0xFFFFFFFF));
+}

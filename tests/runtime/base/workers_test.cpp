@@ -1,0 +1,68 @@
+#include "runtime/base/workers.h"
+
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+using lsys::Workers;
+
+TEST_CASE("workers take every piece once, task after task") {
+    for (const std::uint32_t threads : {1U, 2U, 3U, 9U}) {
+        Workers workers(threads);
+        CHECK(workers.count() == threads);
+        for (std::uint64_t pieces = 0; pieces < 200; ++pieces) {
+            std::vector<std::atomic<int>> taken(pieces);
+            workers.for_each(pieces, [&](std::uint64_t piece) { ++taken[piece]; });
+            for (const std::atomic<int>& count : taken) {
+                REQUIRE(count == 1);
+            }
+        }
+    }
+}
+
+TEST_CASE("workers work at the same time") {
+    Workers workers(4);
+    // Each piece waits for all four, which ends only if four threads have one each.
+    std::atomic<int> there{0};
+    workers.for_each(4, [&](std::uint64_t) {
+        ++there;
+        while (there < 4) {
+            std::this_thread::yield();
+        }
+    });
+    CHECK(there == 4);
+}
+
+TEST_CASE("what a worker wrote is seen after the task") {
+    Workers workers(3);
+    std::vector<std::uint64_t> squares(10'000);
+    for (std::uint64_t round = 1; round < 50; ++round) {
+        workers.for_each(squares.size(),
+                         [&](std::uint64_t piece) { squares[piece] = round * piece * piece; });
+        for (std::uint64_t i = 0; i < squares.size(); ++i) {
+            REQUIRE(squares[i] == round * i * i);
+        }
+    }
+}
+
+TEST_CASE("workers who have nothing to do end") {
+    const Workers unused(8);
+    Workers resting(8);
+    resting.for_each(2, [](std::uint64_t) {});
+    std::this_thread::sleep_for(std::chrono::milliseconds(5)); // past looking, now asleep
+    resting.for_each(2, [](std::uint64_t) {});
+}
+
+TEST_CASE("workers end whatever they are about to do") {
+    // The team is sent home while a helper is on its way to a task that the others have done.
+    for (int round = 0; round < 20'000; ++round) {
+        Workers workers(2);
+        std::atomic<int> done{0};
+        workers.for_each(2, [&](std::uint64_t) { ++done; });
+        REQUIRE(done == 2);
+    }
+}

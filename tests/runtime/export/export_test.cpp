@@ -1,0 +1,220 @@
+// What holds for exports of any format: pieces, sinks that stop, what is too large or nothing.
+#include "runtime/export/export.h"
+#include "runtime/export/impl/text.h"
+#include "tests/support/meshes.h"
+
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <string>
+#include <vector>
+
+using namespace lsys;
+
+namespace {
+
+constexpr std::array kFormats{ExportFormat::Obj,     ExportFormat::Ply, ExportFormat::Off,
+                              ExportFormat::OffPlus, ExportFormat::Stl, ExportFormat::Gltf,
+                              ExportFormat::Glb,     ExportFormat::Svg, ExportFormat::Usda};
+
+ExportInfo info() {
+    return {.grammar = "g.lsys",
+            .seed = 1,
+            .generations = 2,
+            .generator = "lsc",
+            .mtl_name = "",
+            .picture_prefix = ""};
+}
+
+Skeleton long_skeleton() {
+    Skeleton skeleton;
+    for (int i = 0; i < 40000; ++i) {
+        skeleton.segments.push_back({.base = {static_cast<float>(i), 0.0F, 0.0F}, .length = 1.0F});
+    }
+    return skeleton;
+}
+
+std::string exported(const Mesh& mesh, ExportFormat format) {
+    std::string bytes;
+    REQUIRE(export_mesh(mesh, {}, format, info(), [&bytes](std::string_view piece) {
+                bytes += piece;
+                return true;
+            }) == ExportStatus::Ok);
+    return bytes;
+}
+
+ExportStatus without_bytes(const Mesh& mesh, ExportFormat format) {
+    return export_mesh(mesh, {}, format, info(), [](std::string_view piece) {
+        CHECK(piece.empty());
+        return true;
+    });
+}
+
+} // namespace
+
+TEST_CASE("formats go by the extension") {
+    CHECK(format_of_path("a.obj") == ExportFormat::Obj);
+    CHECK(format_of_path("dir.off/a.PLY") == ExportFormat::Ply);
+    CHECK(format_of_path("a.Off") == ExportFormat::Off);
+    CHECK(format_of_path("a.off+") == ExportFormat::OffPlus);
+    CHECK(format_of_path("a.b.stl") == ExportFormat::Stl);
+    CHECK(format_of_path("a.gltf") == ExportFormat::Gltf);
+    CHECK(format_of_path("a.glb") == ExportFormat::Glb);
+    CHECK(format_of_path("a.svg") == ExportFormat::Svg);
+    CHECK(format_of_path("a.usda") == ExportFormat::Usda);
+    CHECK_FALSE(format_of_path("a.usd"));
+    CHECK_FALSE(format_of_path("obj"));
+    CHECK_FALSE(format_of_path(".obj"));
+    CHECK_FALSE(format_of_path(""));
+    CHECK_FALSE(uses_mesh(ExportFormat::Svg));
+    CHECK(uses_mesh(ExportFormat::Obj));
+}
+
+TEST_CASE("large files come in pieces, and the same ones again") {
+    const Mesh mesh = test::large_mesh(20000);
+    const Skeleton skeleton = long_skeleton();
+    for (const ExportFormat format : kFormats) {
+        CAPTURE(static_cast<int>(format));
+        std::string first;
+        std::size_t largest = 0;
+        CHECK(export_mesh(mesh, skeleton, format, info(), [&](std::string_view piece) {
+                  first += piece;
+                  largest = std::max(largest, piece.size());
+                  return true;
+              }) == ExportStatus::Ok);
+        CHECK(first.size() > std::size_t{512} << 10);
+        CHECK(largest <= std::size_t{256} << 10);
+        std::string second;
+        CHECK(export_mesh(mesh, skeleton, format, info(), [&second](std::string_view piece) {
+                  second += piece;
+                  return true;
+              }) == ExportStatus::Ok);
+        CHECK(first == second);
+    }
+}
+
+TEST_CASE("a sink that stops is left alone") {
+    const Mesh mesh = test::large_mesh(20000);
+    const Skeleton skeleton = long_skeleton();
+    for (const ExportFormat format : kFormats) {
+        CAPTURE(static_cast<int>(format));
+        for (const int taken : {0, 1, 2}) {
+            int pieces = 0;
+            CHECK(export_mesh(mesh, skeleton, format, info(), [&](std::string_view) {
+                      return ++pieces <= taken;
+                  }) == ExportStatus::Stopped);
+            CHECK(pieces == taken + 1);
+        }
+    }
+    CHECK(write_mtl(mesh, info(), [](std::string_view) { return false; }) == ExportStatus::Stopped);
+}
+
+TEST_CASE("where nothing is drawn nothing is written") {
+    for (const ExportFormat format : kFormats) {
+        CAPTURE(static_cast<int>(format));
+        CHECK(without_bytes({}, format) == ExportStatus::Nothing);
+    }
+    CHECK(write_mtl({}, info(), [](std::string_view) { return true; }) == ExportStatus::Nothing);
+    Mesh points = test::triangle_mesh();
+    points.parts[0].index_count = 0;
+    CHECK(without_bytes(points, ExportFormat::Glb) == ExportStatus::Nothing);
+}
+
+TEST_CASE("what a format cannot count is refused at once") {
+    // None of the memory is touched.
+    Mesh mesh = test::triangle_mesh();
+    mesh.positions.resize(std::uint64_t{180} << 20);
+    CHECK(without_bytes(mesh, ExportFormat::Glb) == ExportStatus::TooLarge);
+    CHECK(without_bytes(mesh, ExportFormat::Gltf) == ExportStatus::TooLarge);
+    Mesh many = test::triangle_mesh();
+    many.parts[0].index_count = 3 * (std::uint64_t{1} << 32U);
+    CHECK(without_bytes(many, ExportFormat::Stl) == ExportStatus::TooLarge);
+}
+
+TEST_CASE("a primitive uses colours of vertices where they are not the material's") {
+    Mesh mesh = test::plant_mesh();
+    std::string json = exported(mesh, ExportFormat::Gltf);
+    // The third part has two palette colours, the others have their material's.
+    CHECK(json.find(R"("COLOR_0":4},"indices":7,"material":2)") != std::string::npos);
+    CHECK(json.find(R"("TANGENT":3},"indices":5,"material":0)") != std::string::npos);
+    CHECK(
+        json.find(R"("name":"colour \"2\"","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,1])") !=
+        std::string::npos);
+    CHECK(json.find(R"("alphaMode":"MASK","alphaCutoff":0.5,"doubleSided":true)") !=
+          std::string::npos);
+    CHECK(json.find(R"("normalTexture")") != std::string::npos);
+
+    mesh.colours.clear();
+    mesh.tangents.clear();
+    mesh.texture_coordinates.clear();
+    json = exported(mesh, ExportFormat::Gltf);
+    CHECK(json.find("COLOR_0") == std::string::npos);
+    CHECK(json.find("image") == std::string::npos);
+    CHECK(json.find("TEXCOORD_0") == std::string::npos);
+}
+
+TEST_CASE("textures are left out if they are not wanted") {
+    std::string bytes;
+    ExportInfo plain = info();
+    plain.textures = false;
+    CHECK(export_mesh(test::plant_mesh(), {}, ExportFormat::Glb, plain,
+                      [&bytes](std::string_view piece) {
+                          bytes += piece;
+                          return true;
+                      }) == ExportStatus::Ok);
+    CHECK(bytes.find("image/png") == std::string::npos);
+    CHECK(exported(test::plant_mesh(), ExportFormat::Glb).find("image/png") != std::string::npos);
+}
+
+TEST_CASE("glTF gets directions of unit length") {
+    Mesh mesh = test::tube_mesh(3, 4);
+    Mesh wrong = mesh;
+    wrong.normals[5] *= 3.0F;
+    wrong.tangents[7] *= glm::vec4(0.5F, 0.5F, 0.5F, 1.0F);
+    const std::string right = exported(mesh, ExportFormat::Glb);
+    const std::string mended = exported(wrong, ExportFormat::Glb);
+    REQUIRE(right.size() == mended.size());
+    // The same numbers again, up to rounding in the last places.
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < right.size(); ++i) {
+        different += right[i] != mended[i] ? 1U : 0U;
+    }
+    CHECK(different <= 6);
+    wrong.normals[5] = glm::vec3(0.0F);
+    CHECK(exported(wrong, ExportFormat::Glb).size() == right.size());
+}
+
+TEST_CASE("a seed that JSON's readers would round is a string") {
+    ExportInfo large = info();
+    large.seed = (std::uint64_t{1} << 53U) - 1;
+    const auto text = [&large] {
+        std::string bytes;
+        CHECK(export_mesh(test::triangle_mesh(), {}, ExportFormat::Gltf, large,
+                          [&bytes](std::string_view piece) {
+                              bytes += piece;
+                              return true;
+                          }) == ExportStatus::Ok);
+        return bytes;
+    };
+    CHECK(text().find(R"("seed":9007199254740991,)") != std::string::npos);
+    ++large.seed;
+    CHECK(text().find(R"("seed":"9007199254740992",)") != std::string::npos);
+}
+
+TEST_CASE("names cannot break the syntax around them") {
+    CHECK(one_line("a\nb\tc\x7F") == "a b c ");
+    CHECK(valid_utf8("\xC3\xA4 \xC3( \xED\xA0\x80 \xF4\x90\x80\x80 \xC0\xAF") ==
+          "\xC3\xA4 \xEF\xBF\xBD( \xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD "
+          "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD \xEF\xBF\xBD\xEF\xBF\xBD");
+    CHECK(json_text("a\"b\\c\n\xFF") == "a\\\"b\\\\c\\u000a\xEF\xBF\xBD");
+    CHECK(xml_text("<a & \"b\">") == "&lt;a &amp; &quot;b&quot;&gt;");
+    CHECK(word("a b") == "a_b");
+    CHECK(word("") == "_");
+    CHECK(identifier("3 \xC3\xA4.b") == "_3____b");
+    CHECK(identifier("") == "_");
+    CHECK(unlike({"a", "a_2", "b"}, "a") == "a_3");
+    CHECK(unlike({"a"}, "b") == "b");
+    CHECK(srgb_byte(0.0F) == 0);
+    CHECK(srgb_byte(2.0F) == 255);
+    CHECK(srgb_byte(0.2158605F) == 128);
+}

@@ -1,0 +1,257 @@
+// What a mesh hangs on: the segments of its vertices, and the joints that segments share.
+#include "runtime/export/export.h"
+#include "runtime/export/impl/skin.h"
+#include "tests/runtime/plants.h"
+#include "tests/support/plants.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+using namespace lsys;
+using namespace lsys::test;
+
+namespace {
+
+Mesh mesh_of(const Skeleton& plant, MeshOptions options) {
+    options.segments = true;
+    options.threads = 2;
+    Mesh mesh;
+    REQUIRE(make_mesh(plant, {}, options, mesh) == MeshStatus::Ok);
+    REQUIRE(mesh.segments.size() == mesh.positions.size());
+    return mesh;
+}
+
+/// From `point` to the axis of a segment, and where along it, 0 to 1.
+struct Foot {
+    float distance = 0.0F;
+    float along = 0.0F;
+};
+Foot foot(const Segment& segment, const glm::vec3& point) {
+    const glm::vec3 way = tip(segment) - segment.base;
+    const float along =
+        std::clamp(glm::dot(point - segment.base, way) / glm::dot(way, way), 0.0F, 1.0F);
+    return {glm::length(point - segment.base - along * way), along};
+}
+
+/// A crooked line of `count` segments, none at the place of another.
+Skeleton crooked(std::uint32_t count) {
+    Skeleton plant;
+    std::uint32_t last = kNoSegment;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        last = add_segment(plant, last, leaning(i % 2 == 0 ? 0.0F : 0.3F),
+                           rod(1.0F, 0.1F, 1.0F, 1.0F));
+    }
+    return plant;
+}
+
+/// Poses of a skeleton that stands still.
+PlantAnimation still(const Skeleton& plant, std::uint32_t frames) {
+    PlantAnimation poses;
+    poses.frame_count = frames;
+    poses.segment_count = static_cast<std::uint32_t>(plant.segments.size());
+    for (std::uint32_t i = 0; i < frames; ++i) {
+        for (const Segment& segment : plant.segments) {
+            poses.places.push_back({segment.base, segment.frame});
+        }
+    }
+    return poses;
+}
+
+} // namespace
+
+TEST_CASE("a ring hangs on the segments of its joint, half each") {
+    const Skeleton plant = crooked(5);
+    for (const MeshOptions& options :
+         {MeshOptions{}, MeshOptions{.texture_coordinates = false, .tangents = false},
+          MeshOptions{.level = 1}, MeshOptions{.bark_noise = 0.1F},
+          MeshOptions{.level = 3, .bark_noise = 0.3F}}) {
+        const Mesh mesh = mesh_of(plant, options);
+        bool halved = false;
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            const VertexSegments at = mesh.segments[i];
+            REQUIRE(at[0] < 5);
+            REQUIRE((at[1] == at[0] || at[1] == at[0] + 1));
+            for (const std::uint32_t segment : at) {
+                CHECK(foot(plant.segments[segment], mesh.positions[i]).distance < 0.2F);
+            }
+            if (at[0] != at[1]) {
+                halved = true;
+                CHECK(foot(plant.segments[at[0]], mesh.positions[i]).along > 0.9F);
+                CHECK(foot(plant.segments[at[1]], mesh.positions[i]).along < 0.1F);
+            }
+        }
+        CHECK(halved);
+        // The cap at the end is the last segment's, the one at the start the first one's.
+        CHECK(mesh.segments[0] == VertexSegments{0, 0});
+        const auto highest =
+            std::max_element(mesh.positions.begin(), mesh.positions.end(),
+                             [](const glm::vec3& a, const glm::vec3& b) { return a.y < b.y; });
+        CHECK(mesh.segments[static_cast<std::size_t>(highest - mesh.positions.begin())] ==
+              VertexSegments{4, 4});
+    }
+}
+
+TEST_CASE("the rings of a sharp bend are shared out") {
+    Skeleton plant = crooked(1);
+    add_segment(plant, 0, leaning(2.8F), rod(1.0F, 0.1F, 1.0F, 1.0F)); // three rings
+    const Mesh mesh = mesh_of(plant, {});
+    for (const VertexSegments& wanted :
+         {VertexSegments{0, 0}, VertexSegments{0, 1}, VertexSegments{1, 1}}) {
+        CHECK(std::count(mesh.segments.begin(), mesh.segments.end(), wanted) >= 8);
+    }
+}
+
+TEST_CASE("vertices of any tree hang on segments that they are at, by every method") {
+    for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+        const Skeleton plant = random_tree(seed, 3);
+        for (const MeshOptions& options :
+             {MeshOptions{}, MeshOptions{.level = 2}, MeshOptions{.level = 1, .bark_noise = 0.2F},
+              MeshOptions{.deviation = 0.003F},
+              MeshOptions{.level = 1, .deviation = 0.003F, .bark_noise = 0.2F},
+              MeshOptions{.method = MeshMethod::Cylinders},
+              MeshOptions{.method = MeshMethod::Boxes},
+              MeshOptions{.method = MeshMethod::Boxes, .subdivisions = 0}}) {
+            const Mesh mesh = mesh_of(plant, options);
+            // Smoothed boxes cut the corners of their axes.
+            const bool smooth = options.method == MeshMethod::Boxes && options.subdivisions > 0;
+            const float cut = smooth ? 0.2F : 0.0F;
+            std::size_t far = 0;
+            std::size_t halved = 0;
+            for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+                halved += mesh.segments[i][0] != mesh.segments[i][1] ? 1U : 0U;
+                float thick = 0.0F; // a box begins at the corner of a thicker one
+                for (const std::uint32_t number : mesh.segments[i]) {
+                    REQUIRE(number < plant.segments.size());
+                    thick = std::max(thick, plant.segments[number].base_radius);
+                }
+                for (const std::uint32_t number : mesh.segments[i]) {
+                    const Segment& segment = plant.segments[number];
+                    const float away = foot(segment, mesh.positions[i]).distance;
+                    far += away > 2.5F * thick + cut * segment.length ? 1U : 0U;
+                }
+            }
+            INFO("seed " << seed << ", method " << static_cast<int>(options.method) << ", level "
+                         << options.level);
+            CHECK(far == 0);
+            CHECK((halved > 0) == (options.method != MeshMethod::Cylinders));
+        }
+    }
+}
+
+TEST_CASE("objects and polygons hang on their parents, or on nothing") {
+    Skeleton plant = crooked(3);
+    for (const std::uint32_t parent : {2U, 0U, kNoSegment}) {
+        PlacedObject leaf;
+        leaf.kind = TurtleOperation::Leaf;
+        leaf.parent = parent;
+        leaf.colour = 5;
+        plant.objects.push_back(leaf);
+    }
+    plant.corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    plant.polygons.push_back({.first_corner = 0, .corner_count = 3, .parent = 1, .colour = 7});
+    const Mesh mesh = mesh_of(plant, {});
+    std::vector<std::uint32_t> leaves;
+    for (std::size_t i = 0; i < mesh.segments.size(); ++i) {
+        const auto [first, second] = mesh.segments[i];
+        if (mesh.colours[i] == 7) {
+            CHECK(mesh.segments[i] == VertexSegments{1, 1});
+        } else if (mesh.colours[i] == 5) {
+            CHECK(first == second);
+            leaves.push_back(first);
+        }
+    }
+    CHECK(leaves.size() % 3 == 0);
+    const auto third = static_cast<std::ptrdiff_t>(leaves.size() / 3);
+    for (const std::uint32_t parent : {2U, 0U, kNoSegment}) {
+        CHECK(std::count(leaves.begin(), leaves.end(), parent) == third);
+    }
+}
+
+TEST_CASE("segments that go together share a joint") {
+    // 0 stands still, 1 turns, 2 goes with it, 3 turns more.
+    const Skeleton plant = crooked(4);
+    Mesh mesh = mesh_of(plant, {});
+    PlantAnimation poses = still(plant, 3);
+    const glm::quat turn = glm::angleAxis(0.1F, glm::vec3(1.0F, 0.0F, 0.0F));
+    const glm::vec3 about = plant.segments[1].base;
+    for (const std::size_t segment : {1U, 2U, 3U}) {
+        SegmentPlace& place = poses.places[8 + segment];
+        place.base = about + turn * (place.base - about);
+        place.frame = turn * place.frame;
+    }
+    poses.places[11].frame = turn * poses.places[11].frame;
+    const std::optional<Skin> skin = make_skin(mesh, plant, poses);
+    REQUIRE(skin);
+    CHECK(skin->segments == std::vector<std::uint32_t>{1, 3});
+    CHECK(skin->joint_count() == 3);
+    CHECK(skin->joint_of(0) == 0);
+    CHECK(skin->joint_of(1) == 1);
+    CHECK(skin->joint_of(2) == 1);
+    CHECK(skin->joint_of(3) == 2);
+    CHECK(skin->joint_of(kNoSegment) == 0);
+
+    // A joint that no vertex hangs on is none.
+    for (VertexSegments& segments : mesh.segments) {
+        segments = {std::min(segments[0], 2U), std::min(segments[1], 2U)};
+    }
+    CHECK(make_skin(mesh, plant, poses)->segments == std::vector<std::uint32_t>{1});
+}
+
+TEST_CASE("rotations of a joint are of unit length and do not change sides") {
+    const Skeleton plant = crooked(1);
+    PlantAnimation poses = still(plant, 9);
+    for (std::size_t i = 0; i < poses.places.size(); ++i) {
+        const auto angle = static_cast<float>(i);
+        poses.places[i].frame =
+            (i % 2 == 0 ? 1.01F : -0.98F) * glm::angleAxis(angle, glm::vec3(0.0F, 0.0F, 1.0F));
+    }
+    std::vector<glm::quat> rotations;
+    joint_rotations(poses, 0, rotations);
+    REQUIRE(rotations.size() == 9);
+    for (std::size_t i = 0; i < rotations.size(); ++i) {
+        CHECK(glm::length(rotations[i]) == Approx(1.0F));
+        CHECK(std::abs(glm::dot(rotations[i], glm::normalize(poses.places[i].frame))) ==
+              Approx(1.0F));
+        CHECK((i == 0 || glm::dot(rotations[i - 1], rotations[i]) >= 0.0F));
+    }
+}
+
+TEST_CASE("a skin has 65,535 joints that move, and no more") {
+    for (const std::uint32_t count : {kMostJoints, kMostJoints + 1}) {
+        Skeleton plant;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            Segment segment = rod(0.5F, 0.1F, 1.0F, 1.0F);
+            segment.sides = 3;
+            segment.base.x = static_cast<float>(i % 256);
+            segment.base.z = static_cast<float>(i / 256);
+            plant.segments.push_back(segment);
+        }
+        const Mesh mesh = mesh_of(plant, {.texture_coordinates = false, .tangents = false});
+        PlantAnimation poses = still(plant, 2);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            poses.places[count + i].base.y += 1.0F;
+        }
+        const ExportInfo info{.grammar = "g",
+                              .seed = 1,
+                              .generations = 1,
+                              .generator = "lsc",
+                              .mtl_name = "",
+                              .picture_prefix = "",
+                              .animation = &poses};
+        std::uint64_t bytes = 0;
+        const ExportStatus status =
+            export_mesh(mesh, plant, ExportFormat::Glb, info, [&bytes](std::string_view piece) {
+                bytes += piece.size();
+                return true;
+            });
+        const bool fits = count == kMostJoints;
+        CHECK(status == (fits ? ExportStatus::Ok : ExportStatus::TooManyJoints));
+        CHECK((bytes > 0) == fits);
+    }
+}

@@ -1,0 +1,507 @@
+// Scene files: what each key becomes, its default, and what is said of mistakes. No file that a
+// scene names is opened.
+#include "grammar/base/source.h"
+#include "runtime/scene/scene.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+using lsys::parse_scene;
+using lsys::PlacementMethod;
+using lsys::Scene;
+using lsys::SceneSpecies;
+
+namespace {
+
+struct Parsed {
+    std::optional<Scene> scene;
+    std::string messages; // `line:column-column: text [code]`, and what else there is
+};
+
+Parsed parsed(std::string text) {
+    lsys::SourceMap sources;
+    const lsys::FileId file = sources.add("a.toml", std::move(text));
+    lsys::Diagnostics diagnostics;
+    Parsed all{parse_scene(file, sources, diagnostics), {}};
+    for (const lsys::Diagnostic& one : diagnostics.all()) {
+        const lsys::LineColumn begin = sources.file(file).line_column(one.span.begin);
+        const lsys::LineColumn end = sources.file(file).line_column(one.span.end);
+        all.messages += std::to_string(begin.line) + ":" + std::to_string(begin.column) + "-" +
+                        std::to_string(end.column) + ": " + one.message + " [" +
+                        std::string(lsys::info(one.code).name) + "]\n";
+        if (!one.label.empty()) {
+            all.messages += "  label: " + one.label + "\n";
+        }
+        for (const lsys::Label& label : one.labels) {
+            all.messages += "  " + label.text + ": " + std::string(sources.text(label.span)) + "\n";
+        }
+        for (const std::string& note : one.notes) {
+            all.messages += "  note: " + note + "\n";
+        }
+        for (const std::string& help : one.help) {
+            all.messages += "  help: " + help + "\n";
+        }
+        for (const lsys::Fix& fix : one.fixes) {
+            all.messages += "  fix: " + fix.edits.at(0).replacement + "\n";
+        }
+    }
+    CHECK(all.scene.has_value() == all.messages.empty());
+    return all;
+}
+
+Scene scene_of(std::string text) {
+    Parsed all = parsed(std::move(text));
+    INFO(all.messages);
+    REQUIRE(all.scene);
+    return std::move(*all.scene);
+}
+
+/// With one species.
+std::string with_species(const std::string& text) {
+    return text + "\n[[species]]\ngrammar = \"a.lsys\"\n";
+}
+
+constexpr const char* kEveryKey = R"(
+key = 9_223_372_036_854_775_807
+[terrain]
+kind = "noise"
+origin = [-50, 20]
+size = [300, 200.5]
+octaves = 3
+lacunarity = 2.5
+gain = 0.25
+feature = 80
+height = 12
+base = -4
+seed = 7
+[placement]
+method = "domination"
+count = 10_000_000
+years = 250
+[[species]]
+name = "Kiefer"
+grammar = "pine.lsys"
+stages = [2, 4, 9]
+years_of_stage = 12.5
+define = { angle = 30, "leaf size" = -0.5 }
+heroes = 4
+rho = 1
+seed = 11
+cache_cap = 20
+tolerance = 0.05
+share = 3
+scale = [0.5, 1.5]
+altitude = [-inf, 900]
+slope = 45
+[species.growth]
+rate = 0.3
+greatest_radius = 4
+shade_tolerance = 0.2
+vigour_spread = 0.1
+lifespan = 200
+maturity = 15
+seeds = 2
+seed_distance = 33
+)";
+
+} // namespace
+
+TEST_CASE("a species may say which system of which dialect it is") {
+    const Scene scene =
+        scene_of("[[species]]\ngrammar = \"a.l\"\nsystem = \"Dragon\"\n"
+                 "dialect = \"fractint\"\n"
+                 "[[species]]\ngrammar = \"a.l\"\nsystem = \"Tree\"\nname = \"t\"\n");
+    CHECK(scene.species[0].name == "Dragon");
+    CHECK(scene.species[0].system.text == "Dragon");
+    CHECK(scene.species[0].dialect.text == "fractint");
+    CHECK(scene.species[1].name == "t");
+    CHECK(scene.species[1].system.text == "Tree");
+    CHECK(parsed("[[species]]\ngrammar = \"a.l\"\nsystem = 3\n").messages.starts_with("3:10-"));
+}
+
+TEST_CASE("a scene of one grammar has all defaults") {
+    const Scene scene = scene_of("[[species]]\ngrammar = \"trees/pine.lsys\"\n");
+    CHECK(scene.terrain.kind == lsys::TerrainKind::Flat);
+    CHECK(scene.terrain.region.width == 100.0);
+    CHECK(scene.terrain.region.depth == 100.0);
+    CHECK(scene.placement.key == 0);
+    CHECK(scene.placement.method == PlacementMethod::Uniform);
+    CHECK(scene.placement.count == 1000);
+    CHECK(scene.placement.region.area() == 10'000.0);
+    REQUIRE(scene.species.size() == 1);
+    REQUIRE(scene.placement.species.size() == 1);
+    const SceneSpecies& pine = scene.species[0];
+    CHECK(pine.name == "pine");
+    CHECK(pine.grammar.path == "trees/pine.lsys");
+    CHECK(pine.dialect.text.empty());
+    CHECK(pine.system.text.empty());
+    CHECK(pine.rho == 0.6F);
+    CHECK(pine.cache.heroes == 10);
+    CHECK(pine.cache.seed == 0);
+    CHECK(pine.cache.cap == 0);
+    CHECK(pine.stages.empty());
+    CHECK(scene.placement.species[0].share == 1.0);
+    CHECK(std::isinf(scene.placement.species[0].steepest));
+}
+
+TEST_CASE("every key arrives where it belongs") {
+    const Scene scene = scene_of(kEveryKey);
+
+    CHECK(scene.placement.key == 9'223'372'036'854'775'807U);
+    CHECK(scene.terrain.kind == lsys::TerrainKind::Noise);
+    CHECK(scene.terrain.region.x == -50.0);
+    CHECK(scene.terrain.region.z == 20.0);
+    CHECK(scene.terrain.region.width == 300.0);
+    CHECK(scene.terrain.region.depth == 200.5);
+    const lsys::NoiseOptions& noise = scene.terrain.noise;
+    CHECK(noise.octaves == 3);
+    CHECK(noise.lacunarity == 2.5);
+    CHECK(noise.gain == 0.25);
+    CHECK(noise.feature == 80.0);
+    CHECK(noise.height == 12.0);
+    CHECK(noise.base == -4.0);
+    CHECK(noise.seed == 7);
+    CHECK(scene.placement.method == PlacementMethod::Domination);
+    CHECK(scene.placement.count == 10'000'000);
+    CHECK(scene.placement.years == 250);
+    CHECK(scene.placement.region.z == 20.0);
+    const SceneSpecies& pine = scene.species.at(0);
+    CHECK(pine.name == "Kiefer");
+    CHECK(pine.stages == std::vector<std::uint32_t>{2, 4, 9});
+    CHECK(pine.years_of_stage == 12.5F);
+    REQUIRE(pine.definitions.size() == 2);
+    CHECK(pine.definitions[0].name == "angle");
+    CHECK(pine.definitions[0].value == 30.0F);
+    CHECK(pine.definitions[1].name == "leaf size");
+    CHECK(pine.definitions[1].value == -0.5F);
+    CHECK(pine.cache.heroes == 4);
+    CHECK(pine.rho == 1.0F);
+    CHECK(pine.cache.seed == 11);
+    CHECK(pine.cache.cap == 20);
+    CHECK(pine.cache.tolerance == 0.05F);
+    const lsys::PlacementSpecies& placed = scene.placement.species.at(0);
+    CHECK(placed.share == 3.0);
+    CHECK(placed.least_scale == 0.5F);
+    CHECK(placed.greatest_scale == 1.5F);
+    CHECK(placed.lowest == -std::numeric_limits<float>::infinity());
+    CHECK(placed.highest == 900.0F);
+    CHECK(placed.steepest == Approx(1.0F));
+    CHECK(placed.growth.rate == 0.3F);
+    CHECK(placed.growth.greatest_radius == 4.0F);
+    CHECK(placed.growth.tolerance == 0.2F);
+    CHECK(placed.growth.vigour_spread == 0.1F);
+    CHECK(placed.growth.lifespan == 200);
+    CHECK(placed.growth.maturity == 15);
+    CHECK(placed.growth.seeds == 2.0F);
+    CHECK(placed.growth.seed_distance == 33.0F);
+}
+
+TEST_CASE("a map is a PNG, or raw samples of a stated size") {
+    Scene scene = scene_of(with_species("[terrain]\nkind = \"height-map\"\nmap = \"h.png\"\n"
+                                        "lowest = -3\nhighest = 40\nfilter = \"bilinear\"\n"
+                                        "size = 64"));
+    CHECK(scene.terrain.map.path == "h.png");
+    CHECK(scene.terrain.map_columns == 0);
+    CHECK(scene.terrain.height_map.lowest == -3.0);
+    CHECK(scene.terrain.height_map.highest == 40.0);
+    CHECK(scene.terrain.height_map.filter == lsys::HeightFilter::Bilinear);
+    CHECK(scene.terrain.region.depth == 64.0);
+    scene = scene_of(with_species("[terrain]\nkind = \"height-map\"\nmap = \"h.raw\"\n"
+                                  "map_size = [640, 480]"));
+    CHECK(scene.terrain.map_columns == 640);
+    CHECK(scene.terrain.map_rows == 480);
+    scene = scene_of(with_species("[placement]\nmethod = \"density-cells\"\nmap = \"d.png\"\n"
+                                  "density = 0.25"));
+    CHECK(scene.density_map.path == "d.png");
+    CHECK(scene.placement.density == 0.25);
+    REQUIRE(scene.placement.map_region);
+    CHECK(scene.placement.map_region->width == 100.0);
+}
+
+TEST_CASE("every method has its keys and takes no others") {
+    const std::vector<std::pair<std::string, std::vector<std::string>>> methods{
+        {"uniform", {"count = 2"}},
+        {"poisson-disk", {"spacing = 2"}},
+        {"density-map", {"density = 2", "map = \"a.png\""}},
+        {"domination", {"count = 2", "years = 2"}},
+        {"jittered", {"spacing = 2"}},
+        {"uniform-cells", {"density = 2"}},
+        {"poisson-cells", {"spacing = 2"}},
+        {"density-cells", {"density = 2", "map = \"a.png\""}},
+    };
+    const std::vector<std::string> all{"count = 2", "spacing = 2", "density = 2", "map = \"a.png\"",
+                                       "years = 2"};
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+        const auto& [name, keys] = methods[i];
+        INFO(name);
+        std::string text = "[placement]\nmethod = \"" + name + "\"\n";
+        for (const std::string& key : keys) {
+            text += key + "\n";
+        }
+        const Scene scene = scene_of(with_species(text));
+        CHECK(static_cast<std::size_t>(scene.placement.method) == i);
+        for (const std::string& key : all) {
+            if (text.find("\n" + key) == std::string::npos) {
+                const Parsed wrong = parsed(with_species(text + key));
+                INFO(key);
+                CHECK(wrong.messages.find("[conflicting-scene-keys]\n  this decides: \"" + name) !=
+                      std::string::npos);
+            }
+        }
+    }
+}
+
+TEST_CASE("places are those of the text behind tabs, wide characters and a byte order mark") {
+    CHECK(parsed("\xEF\xBB\xBF# \xC3\xA9\n[[species]]\r\n\t\tgrammar = \"\xF0\x9F\x8C\xB2\" # "
+                 "\xC3\xA9\r\n\tname = \"\xC3\xBC\"\t\r\n\trho = 2 # \xC3\xA9\r\n")
+              .messages == "5:8-9: `rho` is 2; it must be from 0 to 1 [bad-scene-value]\n");
+    CHECK(parsed(with_species("terrain = { \"\xC3\xA9\xC3\xA9\" = 1, kind = 2 }")).messages ==
+          "1:13-17: `[terrain]` has no key `\xC3\xA9\xC3\xA9` [unknown-scene-key]\n"
+          "  help: the keys are `kind`, `origin`, `size`, `octaves`, `lacunarity`, `gain`, "
+          "`feature`, `height`, `seed`, `map`, `map_size`, `lowest`, `highest`, `filter`, `base`\n"
+          "1:30-31: `kind` must be a text [bad-scene-value]\n"
+          "  label: this is a whole number\n");
+}
+
+TEST_CASE("a file that is no TOML has one message") {
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {"key = ", "1:7-7: the file ends within a key-value pair [scene-syntax]\n"},
+        {"\tkey = [1, 2", "1:13-13: the file ends within an array [scene-syntax]\n"},
+        {"key = \"\xC3\xA9", "1:9-9: the file ends within a string [scene-syntax]\n"},
+        {"key = 5 5", "1:9-9: expected a comment or whitespace, saw `5` [scene-syntax]\n"
+                      "  note: while reading a key-value pair\n"},
+        {"[terrain]\nkind = flat\n", "2:9-9: expected `false`, saw `fl` [scene-syntax]\n"
+                                     "  note: while reading a boolean\n"
+                                     "  help: a text stands in quotes: `kind = \"noise\"`\n"},
+        {"[terrain]\n[terrain]\n",
+         "2:1-1: cannot redefine existing table `terrain` [scene-syntax]\n"
+         "  note: while reading a table header\n"
+         "  help: a table stands once; another species begins with `[[species]]`\n"},
+        {"key = 1\nkey = 2\n", "2:7-7: cannot redefine existing integer `key` [scene-syntax]\n"
+                               "  note: while reading a key-value pair\n"
+                               "  help: a key stands once in its table\n"},
+        {"\n[=x]\n", "2:2-2: expected bare key starting character or string delimiter, saw `=` "
+                     "[scene-syntax]\n"
+                     "  note: while reading a key\n"},
+        {"k\xC3\xA9y = 1", "1:2-2: expected `=`, saw `\xC3\xA9` [scene-syntax]\n"
+                           "  note: while reading a key-value pair\n"},
+        {"key = \"\xFF\"", "1:7-7: encountered invalid utf-8 sequence [scene-syntax]\n"},
+    };
+    for (const auto& [text, messages] : cases) {
+        CHECK(parsed(text).messages == messages);
+    }
+    CHECK(parsed(std::string(100'000, '[')).messages.find("[scene-syntax]") != std::string::npos);
+    CHECK(parsed("key = " + std::string(100'000, '[')).messages.find("[scene-syntax]") !=
+          std::string::npos);
+}
+
+TEST_CASE("what a scene needs is missed") {
+    CHECK(parsed("").messages ==
+          "1:1-1: the scene has no `[[species]]` [missing-scene-key]\n"
+          "  help: add one: `[[species]]`, and below it `grammar = \"pine.lsys\"`\n");
+    CHECK(parsed("[terrain]\nkind = \"height-map\"\n[placement]\nmethod = \"density-map\"\n"
+                 "[[species]]\nheroes = 3\n")
+              .messages ==
+          "1:1-10: the terrain is a height map and has no `map` [missing-scene-key]\n"
+          "  help: name a picture beside the scene: `map = \"heights.png\"`\n"
+          "3:1-12: the method is `density-map` and has no `map` [missing-scene-key]\n"
+          "  help: name a picture beside the scene: `map = \"density.png\"`\n"
+          "5:1-12: the species is to be drawn and has no `grammar` [missing-scene-key]\n"
+          "  help: name a grammar beside the scene: `grammar = \"pine.lsys\"`\n");
+    CHECK(parsed(with_species("[terrain]\nkind = \"height-map\"\nmap = \"h.raw\"")).messages ==
+          "1:1-10: the terrain has a map of raw samples and has no `map_size` "
+          "[missing-scene-key]\n"
+          "  help: say how many columns and rows it has: `map_size = [1024, 1024]`\n");
+    CHECK(parsed("[placement]\nmethod = \"domination\"\n[[species]]\ngrammar = \"a\"\n"
+                 "stages = [1, 2]\n")
+              .messages == "3:1-12: the species has `stages` and has no `years_of_stage` "
+                           "[missing-scene-key]\n"
+                           "  help: say how many years a plant needs for each: "
+                           "`years_of_stage = 10`\n");
+}
+
+TEST_CASE("values out of range are named with their range") {
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {"key = -1", "`key` is -1; it must be 0 or more"},
+        {"[terrain]\nsize = 0", "`size` is 0; it must be from 0.25 to 2,000,000 m"},
+        {"[terrain]\nsize = [9, -9]",
+         "the second number of `size` is -9; it must be from 0.25 to 2,000,000 m"},
+        {"[terrain]\nsize = nan", "`size` is nan; it must be from 0.25 to 2,000,000 m"},
+        {"[terrain]\norigin = [999999, 0]", ""},
+        {"[terrain]\norigin = [999999, 0]\nsize = 2",
+         "the ground reaches farther than 1000 km from the origin, where places are no longer "
+         "exact"},
+        {"[terrain]\nkind = \"noise\"\noctaves = 17", "`octaves` is 17; it must be from 1 to 16"},
+        {"[terrain]\nkind = \"noise\"\ngain = inf", "`gain` is inf; it must be from 0 to 1"},
+        {"[placement]\ncount = 1_000_000_000",
+         "`count` is 1,000,000,000; it must be from 1 to 10,000,000"},
+        {"[placement]\nmethod = \"poisson-disk\"\nspacing = 0.01",
+         "about 70,000,000 trees; one placement has at most 10,000,000"},
+        {"[placement]\nmethod = \"jittered\"\nspacing = -5",
+         "`spacing` is -5; it must be from 0.001 to 1,000,000 m"},
+        {"[placement]\nmethod = \"domination\"\nyears = 10001",
+         "`years` is 10,001; it must be from 0 to 10,000"},
+        {"[[species]]\ngrammar = \"b\"\nheroes = 0", "`heroes` is 0; it must be from 1 to 100,000"},
+        {"[[species]]\ngrammar = \"b\"\nrho = 1.001", "`rho` is 1.001; it must be from 0 to 1"},
+        {"[[species]]\ngrammar = \"b\"\nrho = -1e-9", "`rho` is -1e-09; it must be from 0 to 1"},
+        {"[[species]]\ngrammar = \"b\"\nrho = nan", "`rho` is nan; it must be from 0 to 1"},
+        {"[[species]]\ngrammar = \"b\"\nscale = [2, 1]",
+         "`scale` begins at 2 and ends below it, at 1"},
+        {"[[species]]\ngrammar = \"b\"\naltitude = [nan, 1]",
+         "the first number of `altitude` is nan; it must be a number"},
+        {"[[species]]\ngrammar = \"b\"\ndefine = { a = inf }", "`a` is inf; it must be from "},
+        {"[[species]]\ngrammar = \"\"", "`grammar` is empty"},
+        {"[[species]]\ngrammar = \"b\\u0000\"", "`grammar` holds a control character"},
+        {"[[species]]\ngrammar = \"b\"\nslope = 90", ""},
+        {"[[species]]\ngrammar = \"b\"\ncache_cap = 4294967296",
+         "`cache_cap` is 4,294,967,296; it must be from 0 to 4,294,967,295"},
+        {"[placement]\nmethod = \"domination\"\n[[species]]\ngrammar = \"b\"\n[species.growth]\n"
+         "rate = 7",
+         "plants grow by 7 m in a year, farther than their greatest radius of 6 m"},
+        {"[placement]\nmethod = \"domination\"\n[[species]]\ngrammar = \"b\"\nyears_of_stage = 5\n"
+         "stages = [3, 3]",
+         "stages rise: 3 does not come after 3"},
+    };
+    for (const auto& [text, message] : cases) {
+        const Parsed all = parsed(with_species(text));
+        INFO(text << "\n" << all.messages);
+        CHECK(all.messages.empty() == message.empty());
+        CHECK(all.messages.find(message) != std::string::npos);
+        CHECK((message.empty() || all.messages.find("[bad-scene-value]\n") != std::string::npos));
+    }
+    CHECK(parsed("[[species]]\ngrammar = \"a\"\nshare = 0\n").messages ==
+          "3:9-10: the shares of all species are 0, so no tree can be of any "
+          "[bad-scene-value]\n");
+}
+
+TEST_CASE("all mistakes of a scene are reported once, in the order of the text") {
+    CHECK(parsed(R"([[species]]
+heroes = "ten"
+grammar = "pine.lsys"
+[terain]
+[terrain]
+octave = 3
+kind = "nois"
+lowest = 3
+[[species]]
+grammar = "a/pine.lsys"
+years = 3
+turtle = "abop"
+stages = [1]
+growth = {}
+[placement]
+count = 5
+spacing = 5
+)")
+              .messages ==
+          "2:10-15: `heroes` must be a whole number [bad-scene-value]\n"
+          "  label: this is a text\n"
+          "4:2-8: a scene has no key `terain` [unknown-scene-key]\n"
+          "  help: did you mean `terrain`?\n"
+          "6:1-7: `[terrain]` has no key `octave` [unknown-scene-key]\n"
+          "  help: did you mean `octaves`?\n"
+          "  fix: octaves\n"
+          "7:8-14: there is no kind `nois` [bad-scene-value]\n"
+          "  help: did you mean `noise`?\n"
+          "  fix: \"noise\"\n"
+          "10:11-24: two species have the name `pine` [conflicting-scene-keys]\n"
+          "  the other: \"pine.lsys\"\n"
+          "  help: give one of them another `name`\n"
+          "11:1-6: `[[species]]` has no key `years` [unknown-scene-key]\n"
+          "  help: it belongs in `[placement]`\n"
+          "12:1-7: `[[species]]` has no key `turtle` [unknown-scene-key]\n"
+          "  help: a grammar names its turtle itself: `#set turtle abop;`\n"
+          "13:1-7: `stages` says nothing here: plants have an age with the method `domination` "
+          "alone [conflicting-scene-keys]\n"
+          "14:1-7: `growth` says nothing here: plants grow with the method `domination` alone "
+          "[conflicting-scene-keys]\n"
+          "17:1-8: `spacing` says nothing here: the method `uniform` reads `count` "
+          "[conflicting-scene-keys]\n");
+}
+
+TEST_CASE("tables of another kind are told apart") {
+    CHECK(parsed("[species]\ngrammar = \"a\"\n").messages ==
+          "1:1-10: `species` must be a list of tables [bad-scene-value]\n"
+          "  label: this is a table\n"
+          "  help: each species begins with `[[species]]`, in two pairs of brackets\n");
+    CHECK(parsed(with_species("terrain = \"flat\"\nplacement = 2020-02-02")).messages ==
+          "1:11-17: `terrain` must be a table [bad-scene-value]\n"
+          "  label: this is a text\n"
+          "2:13-23: `placement` must be a table [bad-scene-value]\n"
+          "  label: this is a date or time\n");
+}
+
+TEST_CASE("damaged scenes are mended or reported where they are damaged") {
+    const std::vector<std::string> pieces{
+        "[",    "]",        "{",    "}",      "\"",      "=",  ".",  "nan",
+        "-inf", "\xC3\xA9", "\xFF", "\t",     "\r\n",    "\n", "[[", "'''",
+        "0x",   "#",        "1e9",  "\"\"\"", "species", "[=", ",",  "\xC2\xA0"};
+    std::uint32_t state = 1;
+    const auto draw = [&](std::size_t count) {
+        state = state * 1664525U + 1013904223U;
+        return static_cast<std::size_t>(state >> 8U) % count;
+    };
+    std::size_t refused = 0;
+    for (int i = 0; i < 3000; ++i) {
+        std::string text = kEveryKey;
+        for (std::size_t wounds = 1 + draw(3); wounds > 0; --wounds) {
+            const std::size_t at = draw(text.size());
+            if (draw(2) == 0) {
+                text.insert(at, pieces[draw(pieces.size())]);
+            } else {
+                text.erase(at, 1 + draw(12));
+            }
+        }
+        lsys::SourceMap sources;
+        const lsys::FileId file = sources.add("a.toml", text);
+        lsys::Diagnostics diagnostics;
+        const bool fine = parse_scene(file, sources, diagnostics).has_value();
+        refused += fine ? 0U : 1U;
+        std::uint32_t last = 0;
+        bool in_order = fine != diagnostics.has_errors();
+        for (const lsys::Diagnostic& one : diagnostics.all()) {
+            in_order = in_order && one.span.file == file && last <= one.span.begin &&
+                       one.span.begin <= one.span.end && one.span.end <= text.size();
+            last = one.span.begin;
+        }
+        INFO(text);
+        CHECK(in_order);
+    }
+    CHECK(refused > 1500);
+    CHECK(refused < 3000);
+}
+
+TEST_CASE("painted trees and erased ones") {
+    const Scene scene =
+        scene_of("[[species]]\ngrammar = \"a.lsys\"\nname = \"a\"\n"
+                 "[[species]]\ngrammar = \"b.lsys\"\nname = \"b\"\n"
+                 "[painted]\ntrees = [[\"b\", 1, 2.5, 180, 0.5]]\nerased = [9, 4]\n");
+    REQUIRE(scene.painting.trees.size() == 1);
+    CHECK(scene.painting.trees[0].species == 1);
+    CHECK(scene.painting.trees[0].x == 1.0F);
+    CHECK(scene.painting.trees[0].z == 2.5F);
+    CHECK(scene.painting.trees[0].yaw == Approx(3.14159265F));
+    CHECK(scene.painting.trees[0].scale == 0.5F);
+    CHECK(scene.painting.erased == std::vector<std::uint32_t>{4, 9});
+}
+
+TEST_CASE("mistakes in paintings are shown at their place") {
+    const std::string species = "[[species]]\ngrammar = \"a.lsys\"\nname = \"pine\"\n[painted]\n";
+    CHECK(parsed(species + "trees = 3\n").messages.find("5:9-10: `trees` must be a list") == 0);
+    CHECK(parsed(species + "trees = [[\"pin\", 1, 2, 3, 1]]\n")
+              .messages.find("5:11-16: there is no species `pin` [bad-scene-value]\n  help: did "
+                             "you mean `pine`?") == 0);
+    CHECK(parsed(species + "trees = [[\"pine\", 1, 2, 3]]\n")
+              .messages.find("5:10-27: a painted tree is a list") == 0);
+    CHECK(parsed(species + "trees = [[\"pine\", 1, 2, 3, 0]]\n")
+              .messages.find("5:28-29: the scale of a painted tree is 0") == 0);
+    CHECK(parsed(species + "erased = [-1]\n")
+              .messages.find("5:11-13: the number of an erased tree is -1") == 0);
+    CHECK(parsed(species + "erazed = []\n").messages.find("`[painted]` has no key `erazed`") !=
+          std::string::npos);
+}

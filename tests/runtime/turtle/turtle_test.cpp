@@ -1,0 +1,257 @@
+#include "runtime/derive/derive.h"
+#include "runtime/turtle/turtle.h"
+#include "tests/support/bytecode_builder.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace lsys;
+using test::BytecodeBuilder;
+
+struct Drawing {
+    TurtleStatus status = TurtleStatus::Ok;
+    Skeleton skeleton;
+    std::array<TurtleFault, kTurtleFaultKinds> faults{};
+
+    [[nodiscard]] const TurtleFault& fault(TurtleFaultKind kind) const {
+        return faults[static_cast<std::size_t>(kind)];
+    }
+};
+
+/// Gives symbols of the usual names their operations of the default profile.
+void give_operations(Bytecode& bytecode) {
+    using enum TurtleOperation;
+    const std::vector<std::pair<std::string, TurtleOperation>> known{
+        {"F", Forward},         {"f", Move},         {"+", YawRight},
+        {"-", YawLeft},         {"&", PitchDown},    {"^", PitchUp},
+        {"\\", RollLeft},       {"/", RollRight},    {"|", TurnAround},
+        {"!", SetWidth},        {"'", SetColour},    {"[", Save},
+        {"]", Restore},         {"{", PolygonBegin}, {".", PolygonVertex},
+        {"}", PolygonEnd},      {"%", Cut},          {"L", Leaf},
+        {"S", Sphere},          {"D", Disk},         {"T", TaperedForward},
+        {"R", SetRelativeWidth}};
+    for (BytecodeSymbol& symbol : bytecode.symbols) {
+        for (const auto& [name, operation] : known) {
+            if (symbol.name == name) {
+                symbol.turtle = operation;
+            }
+        }
+    }
+}
+
+Drawing draw(Bytecode bytecode, std::uint32_t generations, TurtleOptions options = {}) {
+    give_operations(bytecode);
+    DeriveOptions derive;
+    derive.generations = generations;
+    Derivation derivation(bytecode, derive);
+    REQUIRE(derivation.start() == DeriveStatus::Ok);
+    REQUIRE(derivation.run_to(generations) == DeriveStatus::Ok);
+    Turtle turtle(bytecode, std::move(options));
+    Drawing drawing;
+    drawing.status = turtle.feed(derivation.word());
+    if (drawing.status == TurtleStatus::Ok) {
+        drawing.status = turtle.finish();
+    }
+    drawing.faults = turtle.faults();
+    drawing.skeleton = turtle.take_skeleton();
+    return drawing;
+}
+
+Drawing draw(const std::string& word) {
+    return draw(BytecodeBuilder().axiom(word).build(), 0);
+}
+
+} // namespace
+
+TEST_CASE("ten million rotations leave the frame orthonormal and exact") {
+    // Each round of the word turns back to where it began, so the last F lies as the first.
+    Bytecode bytecode = BytecodeBuilder().axiom("F+(17)&(23)/(31)\\(31)^(23)-(17)").build();
+    give_operations(bytecode);
+    DeriveOptions derive;
+    Derivation derivation(bytecode, derive);
+    REQUIRE(derivation.start() == DeriveStatus::Ok);
+    std::vector<Code> once;
+    for (const std::uint8_t code : derivation.word().codes<std::uint8_t>()) {
+        once.push_back(code);
+    }
+    std::vector<Code> turns;
+    while (turns.size() < 6000) {
+        turns.insert(turns.end(), once.begin() + 1, once.end());
+    }
+    Turtle turtle(bytecode, {});
+    REQUIRE(turtle.feed(once, {}) == TurtleStatus::Ok);
+    for (int i = 0; i < 1667; ++i) {
+        REQUIRE(turtle.feed(turns, {}) == TurtleStatus::Ok);
+    }
+    REQUIRE(turtle.feed(once, {}) == TurtleStatus::Ok);
+    const Segment& last = turtle.skeleton().segments.back();
+    CHECK(std::abs(glm::length(last.frame) - 1.0F) < 1e-5F);
+    CHECK(std::abs(last.frame.w - 1.0F) < 1e-5F);
+    CHECK(glm::length(heading(last.frame) - glm::vec3(0, 1, 0)) < 1e-5F);
+}
+
+TEST_CASE("parents, orders and links follow the branches") {
+    const Drawing drawing = draw("F[+F[F]f F]F f F");
+    const auto& s = drawing.skeleton.segments;
+    REQUIRE(s.size() == 6);
+    CHECK(s[0].parent == kNoSegment);
+    CHECK_FALSE(s[0].linked);
+    CHECK(s[1].parent == 0);
+    CHECK(s[1].order == 1);
+    CHECK(s[1].linked);
+    CHECK(s[2].parent == 1);
+    CHECK(s[2].order == 2);
+    CHECK(s[3].parent == 1); // the step between them was not drawn
+    CHECK_FALSE(s[3].linked);
+    CHECK(s[4].parent == 0);
+    CHECK(s[4].order == 0);
+    CHECK(s[4].linked);
+    CHECK_FALSE(s[5].linked);
+}
+
+TEST_CASE("length, width, spring and mass of a segment are its parameters") {
+    const Drawing drawing = draw("!(0.5)F(2)F(2,7)F(2,7,9)T(3,1,0.5)F(-2)");
+    const auto& s = drawing.skeleton.segments;
+    REQUIRE(s.size() == 5);
+    CHECK(s[0].length == 2.0F);
+    CHECK(s[0].base_radius == 0.25F);
+    CHECK(s[0].spring == 30.0F);
+    CHECK(s[0].mass == Approx(3.14159265 * 0.0625 * 2.0 * 500.0));
+    CHECK(s[1].spring == 7.0F);
+    CHECK(s[2].mass == 9.0F);
+    CHECK(s[3].base_radius == 0.5F);
+    CHECK(s[3].tip_radius == 0.25F);
+    // Backwards: from where the turtle was, the other way.
+    CHECK(s[4].length == 2.0F);
+    CHECK(heading(s[4].frame).y == Approx(-1.0F));
+    CHECK(s[4].base.y == Approx(9.0F));
+}
+
+TEST_CASE("objects advance by their length") {
+    Bytecode bytecode = BytecodeBuilder().axiom("S(2)S L(3)D(5)S").build();
+    const auto objects = draw(bytecode, 0).skeleton.objects;
+    REQUIRE(objects.size() == 5);
+    CHECK(objects[1].position.y == 2.0F);
+    CHECK(objects[2].position.y == 3.0F);
+    CHECK(objects[2].size == 3.0F);
+    CHECK(objects[3].position.y == 6.0F);
+    CHECK(objects[4].position.y == 6.0F); // a disk has no length
+    CHECK(objects[3].kind == TurtleOperation::Disk);
+}
+
+TEST_CASE("polygons have the vertices of their dots, or else the ends of their steps") {
+    const Drawing dots = draw("{.f(1).-(90)f(1).}");
+    REQUIRE(dots.skeleton.polygons.size() == 1);
+    CHECK(dots.skeleton.corners.size() == 3);
+    const Drawing steps = draw("{-(60)f(1)+(120)f(1)+(120)f(1)}");
+    REQUIRE(steps.skeleton.polygons.size() == 1);
+    CHECK(steps.skeleton.corners.size() == 3); // it closes on its first point
+    const Drawing nested = draw("{.f(1).{.+(90)f(1).+(90)f(1).}+(90)f(1).f(1).}");
+    REQUIRE(nested.skeleton.polygons.size() == 2);
+    CHECK(nested.skeleton.polygons[0].corner_count == 3);
+    CHECK(nested.skeleton.polygons[1].corner_count == 4);
+}
+
+TEST_CASE("what cannot be drawn is counted with its first place") {
+    const Drawing outside = draw("F.F}F.");
+    CHECK(outside.status == TurtleStatus::Ok);
+    CHECK(outside.fault(TurtleFaultKind::VertexOutside).count == 2);
+    CHECK(outside.fault(TurtleFaultKind::VertexOutside).position == 1);
+    CHECK(outside.fault(TurtleFaultKind::EndOutside).count == 1);
+    CHECK(draw("{.f(1).}").fault(TurtleFaultKind::FewCorners).count == 1);
+    CHECK(draw("{.f(1).").fault(TurtleFaultKind::UnclosedPolygon).count == 1);
+    CHECK(draw("F[F").fault(TurtleFaultKind::UnclosedBranch).count == 1);
+    CHECK(draw("!(-1)F").fault(TurtleFaultKind::NegativeWidth).count == 1);
+    CHECK(draw("!(-1)F").skeleton.segments[0].base_radius == 0.0F);
+    CHECK(draw("!(1,65)F").fault(TurtleFaultKind::SidesOutOfRange).count == 1);
+    CHECK(draw("!(1,65)F").skeleton.segments[0].sides == 64);
+    CHECK(draw("!(1,64)F").fault(TurtleFaultKind::SidesOutOfRange).count == 0);
+    CHECK(draw("'(70000)F").fault(TurtleFaultKind::ColourOutOfRange).count == 1);
+    const Drawing unbalanced = draw("F]F");
+    CHECK(unbalanced.status == TurtleStatus::Fault);
+    CHECK(unbalanced.fault(TurtleFaultKind::Unbalanced).position == 1);
+    const Drawing endless = draw("F(3e38)F(3e38)F");
+    CHECK(endless.status == TurtleStatus::Fault);
+    CHECK(endless.fault(TurtleFaultKind::NotFinite).position == 1);
+}
+
+TEST_CASE("a cut drops the rest of its branch") {
+    const Drawing drawing = draw("F[F%F[F]F]F");
+    REQUIRE(drawing.skeleton.segments.size() == 3);
+    CHECK(drawing.skeleton.segments[2].parent == 0);
+    CHECK(draw("F%F[F]F").skeleton.segments.size() == 1);
+}
+
+TEST_CASE("a word in pieces, of codes of any width, draws the same") {
+    const char* const axiom = "F(1)[+(25)F(2)A]!(0.05)/(40)F{.f(1).&(20)f(1).}S(0.2)";
+    const char* const production = "p : A : * : F(0.5)[^(30)F A]-(10)A";
+    const Skeleton whole =
+        draw(BytecodeBuilder().axiom(axiom).production(production).build(), 6).skeleton;
+    REQUIRE(whole.segments.size() > 100);
+    const auto same = [&](const Skeleton& other) {
+        std::string a;
+        std::string b;
+        REQUIRE(line_count(other) == line_count(whole));
+        for (std::uint64_t i = 0; i < line_count(whole); ++i) {
+            append_line(whole, i, nullptr, a);
+            append_line(other, i, nullptr, b);
+        }
+        CHECK(a == b);
+    };
+    for (const std::uint32_t unused : {300U, 70'000U}) {
+        same(draw(BytecodeBuilder()
+                      .axiom(axiom)
+                      .production(production)
+                      .unused_symbols(unused)
+                      .build(),
+                  6)
+                 .skeleton);
+    }
+    BytecodeBuilder stored;
+    stored.fold = false; // every parameter comes from the word
+    same(draw(stored.axiom(axiom).production(production).build(), 6).skeleton);
+}
+
+TEST_CASE("memory for a plant is an outcome") {
+    TurtleOptions options;
+    options.max_bytes = 100'000;
+    const Bytecode bytecode = BytecodeBuilder().axiom("A").production("p : A : * : F A A").build();
+    CHECK(draw(bytecode, 14, options).status == TurtleStatus::Limit);
+}
+
+TEST_CASE("a million nested branches are drawn") {
+    std::string word;
+    for (int i = 0; i < 1'000'000; ++i) {
+        word += "[F";
+    }
+    Bytecode bytecode = BytecodeBuilder().axiom("[F").build();
+    give_operations(bytecode);
+    Turtle turtle(bytecode, {});
+    const std::vector<Code> pair{0, 1};
+    for (int i = 0; i < 1'000'000; ++i) {
+        REQUIRE(turtle.feed(pair, {}) == TurtleStatus::Ok);
+    }
+    REQUIRE(turtle.finish() == TurtleStatus::Ok);
+    CHECK(turtle.skeleton().segments.size() == 1'000'000);
+    CHECK(turtle.skeleton().segments.back().order == 65'535);
+}
+
+TEST_CASE("statistics of a skeleton are closed forms") {
+    const Skeleton skeleton = draw("!(2)F(3)[+(90)F(4)]F(1)").skeleton;
+    const SkeletonStats stats = measure(skeleton);
+    CHECK(stats.height == Approx(4.0));
+    CHECK(stats.crown_width == Approx(8.0));
+    CHECK(stats.length == Approx(8.0));
+    CHECK(stats.volume == Approx(8.0 * 3.14159265));
+    CHECK(stats.mass == Approx(8.0 * 3.14159265 * 500.0));
+    CHECK(stats.segments_by_order == std::vector<std::uint64_t>{2, 1});
+    CHECK(glm::length(local_frame(skeleton, 2) - glm::quat(1, 0, 0, 0)) < 1e-6F);
+}

@@ -1,0 +1,129 @@
+// Trees that come and go after a forest was made: the same is listed as if they had always, or
+// never, been there.
+#include "tests/viewer/wood.h"
+#include "viewer/scene/painter.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+using namespace lsys;
+using namespace lsys::tests;
+using namespace lsys::view;
+
+namespace {
+
+/// A tree that is drawn, by its place, and as what: branches of a level, or kTreeLevels.
+using Drawn = std::array<float, 4>;
+
+std::vector<Drawn> drawn_by(ForestView& view, const Camera& camera) {
+    RingOptions options = wood_rings();
+    options.horizon_pixels = 0.0F;
+    const ForestLists& lists = view.select(view_volume(camera, 640, 480), options);
+    std::vector<Drawn> drawn;
+    const auto add = [&](std::uint32_t number, std::uint32_t level) {
+        const glm::vec3& at = view.view_tree(number).position;
+        drawn.push_back({at.x, at.y, at.z, static_cast<float>(level)});
+    };
+    for (const BranchRun& run : lists.runs) {
+        for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
+            add(view.pool().branches()[lists.branches[i].place()].tree, run.level);
+        }
+    }
+    for (const Listed& tree : lists.trees) {
+        add(tree.number, kTreeLevels);
+    }
+    std::sort(drawn.begin(), drawn.end());
+    return drawn;
+}
+
+Camera over_all() {
+    return {{-20.0F, 60.0F, -30.0F}, {100.0F, 0.0F, 100.0F}, 50.0F};
+}
+
+} // namespace
+
+TEST_CASE("a forest that was changed is drawn as one that was always so") {
+    const auto whole = make_wood(3000, 200.0F);
+    auto part = make_wood(3000, 200.0F);
+    LargeVector<Tree>& trees = part->forest.trees;
+    const std::vector<Tree> last(trees.begin() + 2000, trees.end());
+    trees.resize(2000);
+    ForestView changed(part->model);
+    ForestView wanted(whole->model);
+    // Looked at before, so that lists and pool have to follow.
+    static_cast<void>(drawn_by(changed, over_all()));
+    for (std::uint32_t i = 0; i < last.size(); ++i) {
+        CHECK(changed.change_tree(2000 + i, last[i], true) == 2000 + i);
+    }
+    CHECK(changed.alive_count() == 3000);
+    CHECK(drawn_by(changed, over_all()) == drawn_by(wanted, over_all()));
+    const Camera inside{{100.0F, 2.0F, 100.0F}, {0.0F, 2.0F, 50.0F}, 50.0F};
+    CHECK(drawn_by(changed, inside) == drawn_by(wanted, inside));
+    // Every third goes, placed and added alike.
+    for (std::uint32_t i = 0; i < 3000; i += 3) {
+        static_cast<void>(changed.change_tree(i, whole->forest.trees[i], false));
+    }
+    LargeVector<Tree> left;
+    for (std::uint32_t i = 0; i < 3000; ++i) {
+        if (i % 3 != 0) {
+            left.push_back(whole->forest.trees[i]);
+        }
+    }
+    const auto fewer = make_wood(3000, 200.0F);
+    fewer->forest.trees = left;
+    ForestView thinned(fewer->model);
+    CHECK(changed.alive_count() == left.size());
+    CHECK(drawn_by(changed, over_all()) == drawn_by(thinned, over_all()));
+    Bounds all;
+    all.add({-1000.0F, -1000.0F, -1000.0F});
+    all.add({1000.0F, 1000.0F, 1000.0F});
+    std::vector<std::uint32_t> found;
+    changed.find_within(all, found);
+    CHECK(found.size() == left.size());
+    // And they come back.
+    for (std::uint32_t i = 0; i < 3000; i += 3) {
+        static_cast<void>(changed.change_tree(i, whole->forest.trees[i], true));
+        static_cast<void>(changed.change_tree(i, whole->forest.trees[i], true));
+    }
+    CHECK(changed.alive_count() == 3000);
+    CHECK(drawn_by(changed, over_all()) == drawn_by(wanted, over_all()));
+}
+
+TEST_CASE("a tree in the place of another is drawn as itself") {
+    const auto wood = make_wood(100, 40.0F);
+    ForestView view(wood->model);
+    const Camera camera{{20.0F, 8.0F, -10.0F}, {20.0F, 0.0F, 20.0F}, 60.0F};
+    const std::size_t before = drawn_by(view, camera).size();
+    Tree tree;
+    tree.position = {20.0F, 0.0F, 0.0F};
+    tree.number = kFirstPainted;
+    static_cast<void>(view.change_tree(100, tree, true));
+    const std::vector<Drawn> first = drawn_by(view, camera);
+    REQUIRE(first.size() > before);
+    static_cast<void>(view.change_tree(100, tree, false));
+    CHECK(drawn_by(view, camera).size() == before);
+    tree.position = {22.0F, 0.0F, 2.0F};
+    tree.number = kFirstPainted + 5;
+    static_cast<void>(view.change_tree(100, tree, true));
+    const std::vector<Drawn> second = drawn_by(view, camera);
+    const auto stands = [&second](float x) {
+        return std::any_of(second.begin(), second.end(),
+                           [x](const Drawn& drawn) { return drawn[0] == x; });
+    };
+    CHECK(stands(22.0F));
+    CHECK_FALSE(stands(20.0F));
+}
+
+TEST_CASE("a forest without trees can be painted into") {
+    const auto wood = make_wood(0, 40.0F);
+    ForestView view(wood->model);
+    Tree tree;
+    tree.position = {20.0F, 0.0F, 20.0F};
+    CHECK(view.change_tree(0, tree, true) == 0);
+    CHECK(view.alive_count() == 1);
+    CHECK_FALSE(view.bounds().empty);
+    CHECK_FALSE(drawn_by(view, {{20.0F, 8.0F, -10.0F}, {20.0F, 0.0F, 20.0F}, 60.0F}).empty());
+}

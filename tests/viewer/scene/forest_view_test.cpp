@@ -1,0 +1,432 @@
+// Which trees are drawn as what, beside the same found one by one.
+#include "tests/viewer/wood.h"
+#include "viewer/scene/portrait_plan.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+#include <vector>
+
+using namespace lsys;
+using namespace lsys::tests;
+using namespace lsys::view;
+
+namespace {
+
+Camera looking(const glm::vec3& eye, const glm::vec3& target, float field = 50.0F) {
+    return {eye, target, field};
+}
+
+std::vector<Camera> cameras() {
+    return {looking({100, 2, 100}, {0, 2, 50}),
+            looking({-20, 60, -30}, {100, 0, 100}),
+            looking({100, 400, 100}, {100, 0, 100.1F}),
+            looking({5, 1, 5}, {200, 1, 190}, 100.0F),
+            looking({100, 3, 30}, {100, 30, 29}),
+            looking({-3000, 50, 100}, {100, 0, 100}, 20.0F)};
+}
+
+/// What is drawn as branches: tree, instance, level.
+std::vector<std::array<std::uint32_t, 3>> branches_of(ForestView& view, const ForestLists& lists) {
+    std::vector<std::array<std::uint32_t, 3>> branches;
+    for (const BranchRun& run : lists.runs) {
+        for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
+            const PoolBranch& branch = view.pool().branches()[lists.branches[i].place()];
+            CHECK(branch.mesh == run.instance);
+            branches.push_back({branch.tree, branch.mesh, run.level});
+        }
+    }
+    return branches;
+}
+
+} // namespace
+
+TEST_CASE("every pixel of a tree in view is of exactly one ring") {
+    const auto wood = make_wood(3000, 200.0F);
+    ForestView view(wood->model);
+    CHECK(view.trees().size() == 3000);
+    std::uint64_t blended = 0;
+    for (const Camera& camera : cameras()) {
+        const ViewVolume volume = view_volume(camera, 640, 480);
+        const ForestLists& lists = view.select(volume, wood_rings());
+        std::map<std::uint32_t, Part> near;
+        std::map<std::uint32_t, std::set<std::uint32_t>> levels;
+        for (const BranchRun& run : lists.runs) {
+            for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
+                const ListedBranch branch = lists.branches[i];
+                const std::uint32_t tree = view.pool().branches()[branch.place()].tree;
+                const Part part = static_cast<float>(branch.steps()) /
+                                  static_cast<float>(ListedBranch::kPartSteps);
+                CHECK(run.blends == (part < kWhole));
+                CHECK(near.emplace(tree, part).first->second == part);
+                levels[tree].insert(run.level);
+            }
+        }
+        for (const auto& [tree, of_tree] : levels) {
+            CHECK(of_tree.size() == 1);
+        }
+        CHECK(near.size() == lists.branch_trees());
+        std::vector<std::vector<Part>> parts(view.trees().size());
+        for (const auto& [tree, part] : near) {
+            if (part > 0.0F) {
+                parts[tree].push_back(part);
+            }
+        }
+        for (const Listed& tree : lists.trees) {
+            parts[tree.number].push_back(tree.part);
+        }
+        std::uint64_t clumped = 0;
+        for (const Listed& clump : lists.clumps) {
+            const ForestCell& cell = view.cells()[clump.number];
+            clumped += clump.part == kWhole ? cell.count : 0;
+            for (std::uint32_t i = 0; i < cell.count; ++i) {
+                parts[cell.first + i].push_back(clump.part);
+            }
+        }
+        CHECK(clumped == lists.clumped_trees);
+        std::uint64_t drawn = 0;
+        for (const std::vector<Part>& of_tree : parts) {
+            drawn += of_tree.empty() ? 0U : 1U;
+        }
+        // Trees of a cell that blends may be out of view themselves.
+        CHECK(drawn >= lists.branch_trees() + lists.far_trees + lists.clumped_trees);
+        CHECK(drawn <=
+              lists.branch_trees() + lists.far_trees + lists.clumped_trees + lists.blended);
+        blended += lists.blended;
+        // One by one: nothing that is in view is left out, and nothing is drawn twice.
+        const glm::mat4 matrix =
+            projection_matrix(camera, 640.0F / 480.0F, 0.1F) * view_matrix(camera);
+        for (std::uint32_t t = 0; t < view.trees().size(); ++t) {
+            const TreeForm& form = wood->model.forms[0];
+            const ViewTree& tree = view.trees()[t];
+            bool seen = false;
+            for (const float height : {form.low, 0.5F * (form.low + form.high), form.high}) {
+                const glm::vec4 clip =
+                    matrix *
+                    glm::vec4(tree.position + glm::vec3(0.0F, tree.scale * height, 0.0F), 1.0F);
+                seen = seen ||
+                       (clip.w > 0.1F && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w);
+            }
+            CAPTURE(t, to_text(camera));
+            REQUIRE(parts[t].size() <= 2);
+            if (parts[t].size() == 2) {
+                // The numbers below one, and those that are not.
+                CHECK(parts[t][0] > 0.0F);
+                CHECK(parts[t][1] < 0.0F);
+                REQUIRE(parts[t][0] == Approx(1.0F + parts[t][1]));
+            } else if (seen) {
+                REQUIRE(parts[t] == std::vector<Part>{kWhole});
+            }
+        }
+    }
+    CHECK(blended > 0);
+}
+
+TEST_CASE("what comes nearer turns from one ring to the next bit by bit") {
+    const auto wood = make_wood(200, 5.0F);
+    ForestView view(wood->model);
+    constexpr float kStep = 1.004F;
+    const RingOptions rings = wood_rings();
+    const float most = 1.5F * (kStep - 1.0F) * rings.blend / (rings.blend - 1.0F) + 0.01F;
+    std::map<std::uint32_t, float> branches_before;
+    float horizon_before = 0.0F;
+    float largest = 0.0F;
+    bool is_first = true;
+    for (float away = 2000.0F; away > 20.0F; away /= kStep) {
+        const ForestLists& lists = view.select(
+            view_volume(looking({2.5F, 1, 2.5F + away}, {2.5F, 1, 2.5F}), 640, 480), rings);
+        // How much of each tree are branches, and how much of the forest are cells.
+        std::map<std::uint32_t, float> branches;
+        for (const ListedBranch branch : lists.branches) {
+            branches[view.pool().branches()[branch.place()].tree] =
+                static_cast<float>(branch.steps()) / static_cast<float>(ListedBranch::kPartSteps);
+        }
+        float horizon = 0.0F;
+        for (const Listed& clump : lists.clumps) {
+            horizon += std::abs(clump.part) / static_cast<float>(view.cells().size());
+        }
+        for (std::uint32_t tree = 0; tree < view.trees().size() && !is_first; ++tree) {
+            const float change = std::abs(branches[tree] - branches_before[tree]);
+            largest = std::max(largest, change);
+            REQUIRE(change <= most);
+        }
+        if (!is_first) {
+            REQUIRE(std::abs(horizon - horizon_before) <= most);
+        }
+        branches_before = std::move(branches);
+        horizon_before = horizon;
+        is_first = false;
+    }
+    CHECK(largest > 0.0F);
+    CHECK(horizon_before == 0.0F);
+}
+
+TEST_CASE("every corner in view of a tree with branches is of a branch that is drawn") {
+    const auto wood = make_wood(3000, 200.0F);
+    const TreeForm& form = wood->model.forms[0];
+    const InstanceCache& cache = *form.cache;
+    TreeExpander expander(cache, wood->forest.key);
+    ForestView view(wood->model);
+    std::size_t left_out = 0;
+    for (const Camera& camera : cameras()) {
+        const ForestLists& lists = view.select(view_volume(camera, 640, 480), wood_rings());
+        std::map<std::uint32_t, std::uint32_t> levels;
+        std::set<std::array<float, 4>> drawn; // places of branches and their trees
+        for (const BranchRun& run : lists.runs) {
+            for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
+                const PoolBranch& branch = view.pool().branches()[lists.branches[i].place()];
+                levels[branch.tree] = run.level;
+                drawn.insert({branch.position.x, branch.position.y, branch.position.z,
+                              static_cast<float>(branch.mesh)});
+            }
+        }
+        const glm::mat4 matrix =
+            projection_matrix(camera, 640.0F / 480.0F, 0.1F) * view_matrix(camera);
+        for (const auto& [number, level] : levels) {
+            const InstanceMeshes& meshes = (*form.meshes)[level];
+            const LargeVector<std::uint32_t> indices = meshes.mesh.indices.expanded();
+            expander.expand(view.tree_of(number), [&](const BranchInstance& branch) {
+                const Instance& instance = cache.instances[branch.instance];
+                const InstancePose pose = pose_of(branch, instance);
+                const PoolBranch packed = pool_branch(branch, instance, number);
+                bool seen = false;
+                for (const MeshPart& part : meshes.parts_of(branch.instance)) {
+                    for (std::uint64_t k = 0; k < part.index_count; ++k) {
+                        const glm::vec3& corner =
+                            meshes.mesh.positions[indices[part.first_index + k]];
+                        const glm::vec3 at =
+                            pose.translation + pose.rotation * (pose.scale * corner);
+                        const glm::vec4 clip = matrix * glm::vec4(at, 1.0F);
+                        seen = seen || (clip.w > 0.1F && std::abs(clip.x) < clip.w &&
+                                        std::abs(clip.y) < clip.w);
+                    }
+                }
+                const bool listed =
+                    drawn.count({packed.position.x, packed.position.y, packed.position.z,
+                                 static_cast<float>(packed.mesh)}) != 0;
+                if (seen) {
+                    REQUIRE(listed);
+                }
+                left_out += listed ? 0 : 1;
+            });
+        }
+    }
+    CHECK(left_out > 100); // or there is nothing to find
+}
+
+TEST_CASE("what wind moves into the view is drawn") {
+    const auto wood = make_wood(3000, 200.0F);
+    ForestView view(wood->model);
+    RingOptions calm = wood_rings();
+    RingOptions windy = calm;
+    windy.wind = {{30.0F, 0.0F, 0.0F}, 0.5F};
+    for (const Camera& camera : cameras()) {
+        const ViewVolume volume = view_volume(camera, 640, 480);
+        const ForestLists still = view.select(volume, calm);
+        const ForestLists moved = view.select(volume, windy);
+        CHECK(moved.trees.size() >= still.trees.size());
+        CHECK(moved.branches.size() >= still.branches.size());
+        CHECK(moved.clumps.size() >= still.clumps.size());
+    }
+    const Sway sway = sway_in(windy.wind);
+    CHECK(sway.of(10.0F, 5.0F) > 2.0F);
+    CHECK(sway_in(calm.wind).of(10.0F, 5.0F) == 0.0F);
+}
+
+TEST_CASE("all corners of a tree lie within its ball") {
+    const auto wood = make_wood(200, 50.0F);
+    ForestView view(wood->model);
+    const TreeForm& form = wood->model.forms[0];
+    const std::vector<Bounds> bounds = bounds_of(*form.cache, (*form.meshes)[0]);
+    TreeExpander expander(*form.cache, wood->forest.key);
+    for (const ViewTree& tree : view.trees()) {
+        const Ball ball = view.reach_of(tree, view.model().forest->trees[tree.tree].yaw);
+        expander.expand(wood->forest.trees[tree.tree], [&](const BranchInstance& branch) {
+            const Bounds& box = bounds[branch.instance];
+            if (box.empty) {
+                return;
+            }
+            for (const glm::vec3& corner : {box.low, box.high}) {
+                const glm::vec3 at = branch.position + branch.rotation * (branch.scale * corner);
+                REQUIRE(glm::distance(at, ball.centre) <= 1.001F * ball.radius);
+            }
+        });
+        const InstanceCache& cache = *form.cache;
+        const std::uint32_t root = expander.root_instance(wood->forest.trees[tree.tree]);
+        CHECK(cache.instances[root].slot == 0);
+        // The tree that stands for it is of the same hero, if there is one for each.
+        const std::uint32_t other = expander.root_instance(form.portraits[tree.portrait]);
+        if (cache.slots[0].variant_count <= kMostPortraits) {
+            CHECK(other == root);
+        }
+    }
+}
+
+TEST_CASE("what is listed does not know what was looked at before") {
+    const auto wood = make_wood(3000, 200.0F);
+    std::vector<Camera> all = cameras();
+    for (std::size_t last = 0; last < all.size(); ++last) {
+        const ViewVolume volume = view_volume(all[last], 800, 450);
+        ForestView fresh(wood->model);
+        const ForestLists first = fresh.select(volume, wood_rings());
+        const auto expected = branches_of(fresh, first);
+        ForestView used(wood->model);
+        for (std::size_t i = 0; i < 3 * all.size(); ++i) {
+            static_cast<void>(
+                used.select(view_volume(all[(i * 5 + last) % all.size()], 800, 450), wood_rings()));
+        }
+        const ForestLists& again = used.select(volume, wood_rings());
+        CHECK(branches_of(used, again) == expected);
+        CHECK(again.trees == first.trees);
+        CHECK(again.clumps == first.clumps);
+        CHECK(again.detail == first.detail);
+    }
+}
+
+TEST_CASE("places of trees never overlap, and are used again") {
+    const auto wood = make_wood(2000, 100.0F);
+    ForestView view(wood->model);
+    RingOptions options = wood_rings();
+    options.level_pixels = {400.0F, 200.0F, 100.0F, 30.0F};
+    std::uint64_t most = 0;
+    for (std::uint32_t step = 0; step < 200; ++step) {
+        const float along = static_cast<float>(step % 100);
+        const ForestLists& lists = view.select(
+            view_volume(looking({along, 2, 50}, {along + 1, 2, 50}), 640, 480), options);
+        std::uint32_t end = 0;
+        std::uint64_t used = 0;
+        std::map<std::uint32_t, std::uint32_t> ordered; // by first place
+        for (const auto& [tree, span] : view.pool().spans()) {
+            CHECK(ordered.emplace(span.first, span.count).second);
+        }
+        for (const auto& [first, count] : ordered) {
+            REQUIRE(first >= end);
+            end = first + count;
+            used += count;
+        }
+        REQUIRE(end <= view.pool().branches().size());
+        REQUIRE(used == view.pool().used());
+        most = std::max(most, used);
+        for (const ListedBranch branch : lists.branches) {
+            REQUIRE(branch.place() < end);
+        }
+    }
+    CHECK(view.pool().branches().size() < 2 * most);
+}
+
+TEST_CASE("a pool that is full forgets what is not in use, and then refuses") {
+    BranchPool pool(10);
+    const std::vector<PoolBranch> four(4);
+    pool.begin_turn(1);
+    CHECK(pool.add(1, four) == PoolSpan{0, 4});
+    CHECK(pool.add(2, four) == PoolSpan{4, 4});
+    CHECK(pool.add(3, four).count == 0);
+    pool.begin_turn(5);
+    CHECK(pool.find(2).count == 4);
+    CHECK(pool.add(3, four) == PoolSpan{0, 4}); // in place of 1
+    CHECK(pool.find(1).count == 0);
+    CHECK(pool.take_written() == std::vector<PoolSpan>{{0, 8}, {0, 4}});
+    pool.begin_turn(0);
+    pool.begin_turn(0);
+    CHECK(pool.used() == 0);
+    CHECK(pool.add(4, std::vector<PoolBranch>(10)) == PoolSpan{0, 10});
+    CHECK(pool.add(5, std::vector<PoolBranch>(11)).count == 0);
+}
+
+TEST_CASE("triangles are bounded, and trees wait where too many come near at once") {
+    const auto wood = make_wood(3000, 200.0F);
+    ForestView view(wood->model);
+    const ViewVolume volume = view_volume(cameras()[0], 1280, 720);
+    RingOptions options = wood_rings();
+    const std::uint64_t all = view.select(volume, options).triangles;
+    REQUIRE(all > 2000);
+    options.most_triangles = all / 4;
+    const ForestLists bounded = view.select(volume, options);
+    CHECK(bounded.triangles <= all / 4 + all / 40); // trees are not like the mean of the portraits
+    CHECK(bounded.detail < 1.0F);
+    CHECK(bounded.branch_trees() > 0);
+    options.most_triangles = 0;
+    CHECK(view.select(volume, options).branch_trees() == 0);
+    ForestView other(wood->model);
+    options = wood_rings();
+    options.most_expansions = 3;
+    const ForestLists first = other.select(volume, options);
+    CHECK(first.branch_trees() == 3);
+    CHECK(first.expanded == 3);
+    CHECK(first.waiting > 0);
+    const ForestLists second = other.select(volume, options);
+    CHECK(second.branch_trees() == 6);
+    CHECK(second.waiting + 3 == first.waiting);
+}
+
+TEST_CASE("coarser levels have fewer triangles, and leave the finest as it is") {
+    const auto wood = make_wood(10, 20.0F);
+    const TreeForm& form = wood->model.forms[0];
+    for (std::uint32_t level = 1; level < kTreeLevels; ++level) {
+        CHECK(form.triangles[level] <= form.triangles[level - 1]);
+    }
+    const InstanceCache same = coarsened(*form.cache, 0, form.height());
+    CHECK(same.skeleton.segments.size() == form.cache->skeleton.segments.size());
+    for (std::size_t i = 0; i < same.skeleton.segments.size(); ++i) {
+        CHECK(same.skeleton.segments[i].base_radius ==
+              form.cache->skeleton.segments[i].base_radius);
+    }
+}
+
+TEST_CASE("what is known of a forest is not meshed again") {
+    const std::unique_ptr<Wood> wood = make_wood(10, 20.0F);
+    KnownModel known{&wood->model, wood->forest.key, {}, {std::size_t{0}}};
+    const auto made = [&] {
+        ForestModel model;
+        REQUIRE(make_forest_model(wood->forest, *wood->terrain, {{}}, {}, model, known) ==
+                InstanceMeshStatus::Ok);
+        CHECK(model.forms[0].mesh_triangles == wood->model.forms[0].mesh_triangles);
+        return model;
+    };
+    CHECK(made().forms[0].meshes == wood->model.forms[0].meshes);
+    CHECK(made().forms[0].cache == &wood->forest.species[0].stages[0].cache);
+    known.species[0].reset();
+    CHECK(made().forms[0].meshes != wood->model.forms[0].meshes);
+    known.species[0] = 0;
+    known.options.sides = 5;
+    CHECK(made().forms[0].meshes != wood->model.forms[0].meshes);
+    known.options = {};
+    ++known.key;
+    CHECK(made().forms[0].meshes != wood->model.forms[0].meshes);
+}
+
+TEST_CASE("portraits are of every hero, and cells of a form's trees fill their square") {
+    const auto wood = make_wood(3000, 200.0F);
+    const ForestView view(wood->model);
+    const PortraitPlan plan = plan_portraits(view);
+    REQUIRE(plan.has_cells);
+    REQUIRE(plan.forms.size() == 2);
+    const TreeForm& form = wood->model.forms[0];
+    CHECK(form.portraits.size() == kMostPortraits);
+    REQUIRE(plan.layers.size() == kMostPortraits + 1);
+    CHECK(plan.forms[1].first_layer == kMostPortraits);
+    const std::vector<Tree>& cell = plan.layers.back().trees;
+    CHECK(cell.size() == 16);
+    for (const Tree& tree : cell) {
+        CHECK(std::hypot(tree.position.x, tree.position.z) + form.radius <=
+              plan.forms[1].cylinder.radius);
+    }
+    const auto grove = make_wood(100, 40.0F);
+    CHECK_FALSE(plan_portraits(ForestView(grove->model)).has_cells);
+}
+
+TEST_CASE("a forest without trees lists nothing") {
+    const auto wood = make_wood(0, 20.0F);
+    ForestView view(wood->model);
+    const ForestLists& lists = view.select(view_volume(Camera{}, 64, 48), {});
+    CHECK(lists.branches.empty());
+    CHECK(lists.trees.empty());
+    CHECK(lists.clumps.empty());
+    CHECK(view.bounds().empty);
+}

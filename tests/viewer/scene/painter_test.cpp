@@ -1,0 +1,238 @@
+#include "runtime/placement/placement.h"
+#include "viewer/scene/painter.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+using namespace lsys;
+using namespace lsys::view;
+
+namespace {
+
+const Region kRegion{0.0, 0.0, 400.0, 400.0};
+
+LargeVector<Tree> forest(std::uint64_t count, const Terrain& terrain) {
+    PlacementOptions options;
+    options.region = kRegion;
+    options.species.resize(1);
+    options.count = count;
+    return place_trees(options, terrain).value().trees;
+}
+
+std::vector<std::uint8_t> alive(const Painter& painter) {
+    std::vector<std::uint8_t> result;
+    for (std::uint32_t i = 0; i < painter.tree_count(); ++i) {
+        result.push_back(painter.is_alive(i) ? 1 : 0);
+    }
+    return result;
+}
+
+double distance(const Tree& a, const Tree& b) {
+    return std::hypot(static_cast<double>(a.position.x - b.position.x),
+                      static_cast<double>(a.position.z - b.position.z));
+}
+
+} // namespace
+
+TEST_CASE("a brush fills its circle to its density and no further") {
+    const Terrain terrain = Terrain::flat(kRegion).value();
+    Painter painter({}, {}, kRegion, terrain, 1);
+    Brush brush;
+    brush.radius = 60.0F;
+    brush.density = 0.05F;
+    painter.begin_stroke();
+    for (int i = 0; i < 30; ++i) {
+        static_cast<void>(painter.paint(200.0F, 200.0F, brush));
+    }
+    const double area = 3.14159265 * 60.0 * 60.0;
+    CHECK(static_cast<double>(painter.alive_count()) < 1.1 * 0.05 * area);
+    CHECK(static_cast<double>(painter.alive_count()) > 0.8 * 0.05 * area);
+    const double spacing = std::sqrt(0.696 / 0.05);
+    for (std::uint32_t i = 0; i < painter.tree_count(); ++i) {
+        CHECK(std::hypot(static_cast<double>(painter.tree(i).position.x) - 200.0,
+                         static_cast<double>(painter.tree(i).position.z) - 200.0) <= 60.001);
+        for (std::uint32_t j = 0; j < i; ++j) {
+            if (distance(painter.tree(i), painter.tree(j)) < spacing - 1e-4) {
+                FAIL("two trees are too near");
+            }
+        }
+    }
+}
+
+TEST_CASE("painted trees keep away from placed ones and stay within the region") {
+    const Terrain terrain = Terrain::flat(kRegion).value();
+    const LargeVector<Tree> placed = forest(2000, terrain);
+    Painter painter(placed, {}, kRegion, terrain, 1);
+    Brush brush;
+    brush.radius = 30.0F;
+    const auto changes = painter.paint(5.0F, 5.0F, brush);
+    CHECK_FALSE(changes.empty());
+    const double spacing = std::sqrt(0.696 / 0.05);
+    for (const TreeChange& change : changes) {
+        CHECK(change.alive);
+        const Tree& tree = painter.tree(change.index);
+        CHECK(kRegion.contains(tree.position.x, tree.position.z));
+        for (const Tree& other : placed) {
+            CHECK(distance(tree, other) >= spacing - 1e-4);
+        }
+    }
+}
+
+TEST_CASE("erasing takes exactly what lies under the brush") {
+    const Terrain terrain = Terrain::flat(kRegion).value();
+    const LargeVector<Tree> placed = forest(5000, terrain);
+    Painter painter(placed, {}, kRegion, terrain, 1);
+    static_cast<void>(painter.erase(100.0F, 120.0F, 25.0F));
+    for (std::uint32_t i = 0; i < placed.size(); ++i) {
+        const float dx = placed[i].position.x - 100.0F;
+        const float dz = placed[i].position.z - 120.0F;
+        CHECK(painter.is_alive(i) == !(dx * dx + dz * dz < 25.0F * 25.0F));
+    }
+}
+
+TEST_CASE("strokes are undone and redone in order, and a new one ends redoing") {
+    const Terrain terrain = Terrain::flat(kRegion).value();
+    const LargeVector<Tree> placed = forest(1000, terrain);
+    Painter painter(placed, {}, kRegion, terrain, 1);
+    CHECK_FALSE(painter.can_undo());
+    CHECK(painter.undo().empty());
+    std::vector<std::vector<std::uint8_t>> states = {alive(painter)};
+    const Brush brush;
+    for (int i = 0; i < 6; ++i) {
+        painter.begin_stroke();
+        const auto at = static_cast<float>(40 * i + 60);
+        if (i % 2 == 0) {
+            static_cast<void>(painter.paint(at, at, brush));
+            static_cast<void>(painter.paint(at + 3.0F, at, brush));
+        } else {
+            static_cast<void>(painter.erase(at - 20.0F, at - 20.0F, 30.0F));
+        }
+        states.push_back(alive(painter));
+    }
+    CHECK(painter.is_changed());
+    const auto matches = [&](const std::vector<std::uint8_t>& wanted) {
+        std::vector<std::uint8_t> now = alive(painter);
+        std::vector<std::uint8_t> then = wanted;
+        then.resize(now.size(), 0);
+        return now == then;
+    };
+    for (std::size_t i = states.size() - 1; i-- > 0;) {
+        static_cast<void>(painter.undo());
+        CHECK(matches(states[i]));
+    }
+    CHECK_FALSE(painter.is_changed());
+    CHECK(painter.painting().empty());
+    for (std::size_t i = 1; i < states.size(); ++i) {
+        static_cast<void>(painter.redo());
+        CHECK(matches(states[i]));
+    }
+    CHECK_FALSE(painter.can_redo());
+    const std::uint32_t trees = painter.tree_count();
+    static_cast<void>(painter.undo());
+    static_cast<void>(painter.undo());
+    painter.begin_stroke();
+    static_cast<void>(painter.paint(390.0F, 10.0F, brush));
+    CHECK_FALSE(painter.can_redo());
+    CHECK(painter.tree_count() < trees + 30);
+    static_cast<void>(painter.undo());
+    CHECK(matches(states[4]));
+}
+
+TEST_CASE("a painting goes on where it was saved") {
+    const Terrain terrain = Terrain::flat(kRegion).value();
+    const LargeVector<Tree> placed = forest(1000, terrain);
+    Painter painter(placed, {}, kRegion, terrain, 1);
+    static_cast<void>(painter.erase(50.0F, 50.0F, 40.0F));
+    static_cast<void>(painter.paint(50.0F, 50.0F, Brush{}));
+    const Painting painting = painter.painting();
+    painter.saved();
+    CHECK_FALSE(painter.is_changed());
+    CHECK_FALSE(painting.trees.empty());
+    CHECK_FALSE(painting.erased.empty());
+    LargeVector<Tree> trees = placed;
+    apply_painting({{}, painting.erased}, kRegion, terrain, trees);
+    const Painter again(trees, painting, kRegion, terrain, 1);
+    CHECK(again.alive_count() == painter.alive_count());
+    CHECK(again.painting() == painting);
+    // Trees look the same whatever else is painted.
+    for (std::uint32_t i = 0; i < painter.tree_count(); ++i) {
+        if (i >= placed.size()) {
+            CHECK(painter.tree(i).number ==
+                  again.tree(static_cast<std::uint32_t>(trees.size() + i - placed.size())).number);
+        }
+    }
+}
+
+TEST_CASE("erased trees may still be among those that were placed") {
+    const Terrain terrain = Terrain::flat(kRegion).value();
+    const LargeVector<Tree> placed = forest(1000, terrain);
+    Painting painting;
+    painting.erased = {3, 500, 100'000}; // the last is of another placement
+    Painter painter(placed, painting, kRegion, terrain, 1);
+    CHECK(painter.alive_count() == 998);
+    for (std::uint32_t i = 0; i < placed.size(); ++i) {
+        CHECK(painter.is_alive(i) == (placed[i].number != 3 && placed[i].number != 500));
+    }
+    CHECK(painter.painting() == painting);
+    CHECK_FALSE(painter.is_changed());
+    painter.set_unsaved();
+    CHECK(painter.is_changed());
+}
+
+TEST_CASE("one tree is put where it is asked for, but not into another") {
+    const Terrain terrain = Terrain::flat(kRegion).value();
+    Painter painter({}, {}, kRegion, terrain, 1);
+    REQUIRE(painter.plant(30.0F, 40.0F, Brush{}).size() == 1);
+    CHECK(painter.tree(0).position == glm::vec3(30.0F, 0.0F, 40.0F));
+    CHECK(painter.plant(30.0F, 40.0F, Brush{}).empty());
+    CHECK(painter.plant(-1.0F, 40.0F, Brush{}).empty());
+    CHECK(painter.plant(30.5F, 40.0F, Brush{}).size() == 1);
+    CHECK(painter.undo().size() == 2);
+}
+
+TEST_CASE("a painter goes on with the same trees elsewhere, and not with others") {
+    const Terrain terrain = Terrain::flat(kRegion).value();
+    LargeVector<Tree> placed = forest(1000, terrain);
+    Painter painter(placed, {}, kRegion, terrain, 1);
+    static_cast<void>(painter.erase(50.0F, 50.0F, 40.0F));
+    static_cast<void>(painter.paint(50.0F, 50.0F, Brush{}));
+    const std::vector<std::uint8_t> before = alive(painter);
+    const Terrain again = Terrain::flat(kRegion).value();
+    const LargeVector<Tree> same = placed;
+    CHECK(painter.move_to(same, again));
+    placed.clear();
+    CHECK(alive(painter) == before);
+    CHECK_FALSE(painter.undo().empty());
+    CHECK(painter.alive_count() == 1000);
+    CHECK_FALSE(painter.move_to(forest(999, terrain), terrain));
+    const Terrain higher = Terrain::flat(kRegion, 3.0).value();
+    CHECK_FALSE(painter.move_to(forest(1000, higher), higher));
+}
+
+TEST_CASE("painting looks at as many trees in a small forest as in a large one") {
+    // Around the brush both are alike: what differs is how many there are elsewhere.
+    const Terrain terrain = Terrain::flat(kRegion).value();
+    const auto strokes = [&](std::uint64_t count) {
+        const LargeVector<Tree> placed = forest(count, terrain);
+        LargeVector<Tree> apart;
+        for (const Tree& tree : placed) {
+            if (tree.position.x > 100.0F) {
+                apart.push_back(tree);
+            }
+        }
+        Painter painter(apart, {}, kRegion, terrain, 1);
+        std::size_t changes = 0;
+        Brush brush;
+        brush.radius = 8.0F;
+        for (int i = 0; i < 50; ++i) {
+            changes += painter.paint(20.0F + static_cast<float>(i), 200.0F, brush).size();
+        }
+        return changes;
+    };
+    CHECK(strokes(1000) == strokes(200'000));
+}

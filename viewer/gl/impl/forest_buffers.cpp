@@ -1,0 +1,370 @@
+#include "viewer/gl/impl/forest_buffers.h"
+
+#include "runtime/meshing/texture.h"
+
+#include <glm/common.hpp>
+#include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <numbers>
+
+namespace lsys::view {
+
+namespace {
+
+// Bindings of forest.glsl and branch.frag.glsl.
+constexpr GLuint kBranches = 0;
+constexpr GLuint kTrees = 1;
+constexpr GLuint kForms = 2;
+constexpr GLuint kLooks = 3;
+constexpr GLuint kBranchAttribute = 4;
+
+struct Vertex {
+    std::array<std::int16_t, 3> position{}; // in 1/32767 of the form's box
+    std::uint16_t look = 0;
+    std::array<std::int8_t, 2> normal{}; // octahedral, in 1/127
+    std::array<std::uint8_t, 2> unused{};
+    std::array<std::uint16_t, 2> texture_coordinate{}; // binary16
+};
+static_assert(sizeof(Vertex) == 16);
+
+struct Look {
+    glm::vec3 colour{};
+    std::uint32_t kind = 0; // kTextured, kThrough
+};
+static_assert(sizeof(Look) == 16);
+constexpr std::uint32_t kTextured = 1; // what branch.frag.glsl asks for
+constexpr std::uint32_t kThrough = 2;
+
+struct FormRecord {
+    glm::vec4 cylinder{};
+    glm::vec4 pictures{};
+};
+
+struct TreeRecord {
+    glm::vec3 root{};
+    float scale = 1.0F;
+    std::uint32_t yaw_phase = 0;
+    std::uint32_t form_portrait = 0;
+};
+static_assert(sizeof(TreeRecord) == 24);
+
+/// Records for trees that are added; with more, all are copied within the device.
+constexpr std::size_t kRoomForTrees = std::size_t{1} << 14U;
+constexpr std::uint64_t kDigestStart = 0xCBF29CE484222325U;
+
+TreeRecord record_of(const ViewTree& tree, const Tree& full) {
+    const float turns = full.yaw / (2.0F * std::numbers::pi_v<float>);
+    const auto yaw = static_cast<std::uint32_t>(65536.0F * (turns - std::floor(turns))) & 0xFFFFU;
+    const std::uint32_t phase = full.number * 0x9E3779B1U >> 16U;
+    const auto portrait = static_cast<std::uint32_t>(tree.portrait & ~ViewTree::kGone);
+    return {tree.position, tree.scale, phase << 16U | yaw, portrait << 16U | tree.form};
+}
+
+/// Eight bytes at a time; only tells whether two are alike.
+template <typename T>
+std::uint64_t digest_of(std::span<const T> items, std::uint64_t digest) {
+    const std::span<const std::byte> bytes = std::as_bytes(items);
+    for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
+        digest = (digest ^ word) * 0x9E3779B97F4A7C15U;
+        digest ^= digest >> 29U;
+    }
+    return digest;
+}
+
+std::int16_t snorm16(float value) {
+    return static_cast<std::int16_t>(std::lround(std::clamp(value, -1.0F, 1.0F) * 32767.0F));
+}
+
+std::array<std::int8_t, 2> folded(const glm::vec3& n) {
+    const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    glm::vec2 e = sum > 0.0F ? glm::vec2(n.x, n.y) / sum : glm::vec2(0.0F);
+    if (n.z < 0.0F) {
+        e = {std::copysign(1.0F - std::abs(e.y), e.x), std::copysign(1.0F - std::abs(e.x), e.y)};
+    }
+    const auto part = [](float v) { return static_cast<std::int8_t>(std::lround(v * 127.0F)); };
+    return {part(e.x), part(e.y)};
+}
+
+/// By a texture of the program; of a picture of a file only the mean colour is there.
+bool is_textured(const Material& material) {
+    return material.textured && material.picture == nullptr;
+}
+
+BranchClass class_of(const Material& material) {
+    if (material.cut_out && is_textured(material)) {
+        return BranchClass::CutOut;
+    }
+    if (!material.two_sided) {
+        return BranchClass::OneSided;
+    }
+    return is_textured(material) ? BranchClass::TwoSided : BranchClass::Plain;
+}
+
+/// The looks of a mesh's materials, those alike once.
+std::vector<std::uint16_t> add_looks(const std::vector<Material>& materials,
+                                     std::vector<Look>& looks) {
+    std::vector<std::uint16_t> numbers;
+    for (const Material& material : materials) {
+        Look look;
+        look.colour = glm::vec3(material.colour);
+        if (material.picture != nullptr) {
+            look.colour *= mean_colour(*material.picture);
+        }
+        // Leaves, petals, and meshes of files that are seen from both sides: most are leaves.
+        const bool is_through = material.two_sided || material.kind == MaterialKind::Leaf ||
+                                material.kind == MaterialKind::Flower;
+        look.kind = (is_textured(material) ? kTextured : 0) | (is_through ? kThrough : 0);
+        const auto same = std::find_if(looks.begin(), looks.end(), [&](const Look& other) {
+            return other.colour == look.colour && other.kind == look.kind;
+        });
+        numbers.push_back(static_cast<std::uint16_t>(same - looks.begin()));
+        if (same == looks.end()) {
+            looks.push_back(look);
+        }
+    }
+    return numbers;
+}
+
+/// In the commands of what is drawn.
+constexpr std::size_t place_of(std::size_t kind, bool blends) {
+    return kind + (blends ? kBranchClasses : 0);
+}
+
+} // namespace
+
+ForestBuffers::Drawn ForestBuffers::make_drawn(Device& device) {
+    Drawn drawn{Buffer(device), Buffer(device), Buffer(device), {}};
+    for (Commands& commands : drawn.commands) {
+        commands.buffer = Buffer(device);
+    }
+    return drawn;
+}
+
+ForestBuffers::ForestBuffers(Device& device)
+    : array_(make_vertex_array(device)), vertices_(device), indices_(device), looks_(device),
+      forms_(device), cells_(device), forest_(make_drawn(device)), portrait_(make_drawn(device)) {
+    const GLuint array = array_.name();
+    for (GLuint i = 0; i <= kBranchAttribute; ++i) {
+        glEnableVertexArrayAttrib(array, i);
+        glVertexArrayAttribBinding(array, i, i == kBranchAttribute ? 1 : 0);
+    }
+    glVertexArrayAttribFormat(array, 0, 3, GL_SHORT, GL_TRUE, offsetof(Vertex, position));
+    glVertexArrayAttribIFormat(array, 1, 1, GL_UNSIGNED_SHORT, offsetof(Vertex, look));
+    glVertexArrayAttribFormat(array, 2, 2, GL_BYTE, GL_TRUE, offsetof(Vertex, normal));
+    glVertexArrayAttribFormat(array, 3, 2, GL_HALF_FLOAT, GL_FALSE,
+                              offsetof(Vertex, texture_coordinate));
+    glVertexArrayAttribIFormat(array, kBranchAttribute, 1, GL_UNSIGNED_INT, 0);
+    glVertexArrayBindingDivisor(array, 1, 1);
+}
+
+void ForestBuffers::turn_to(Subject subject) {
+    drawn_ = subject == Subject::Forest ? &forest_ : &portrait_;
+}
+
+void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
+    std::vector<Look> looks;
+    std::vector<FormRecord> forms;
+    std::uint64_t vertex_count = 0;
+    std::uint64_t index_count = 0;
+    std::vector<float> boxes;
+    for (const TreeForm& form : model.forms) {
+        float box = 1e-6F;
+        for (const InstanceMeshes& level : *form.meshes) {
+            vertex_count += level.mesh.positions.size();
+            index_count += level.mesh.indices.size();
+            for (const glm::vec3& at : level.mesh.positions) {
+                const glm::vec3 size = glm::abs(at);
+                box = std::max({box, size.x, size.y, size.z});
+            }
+        }
+        boxes.push_back(box);
+    }
+    for (std::size_t f = 0; f < plan.forms.size(); ++f) {
+        const PictureForm& form = plan.forms[f];
+        forms.push_back(
+            {{form.cylinder.radius, form.cylinder.low, form.cylinder.high, boxes[f % boxes.size()]},
+             {static_cast<float>(form.first_layer), f < boxes.size() ? 0.0F : 1.0F, 0.0F, 0.0F}});
+    }
+    vertices_.reserve(vertex_count * sizeof(Vertex));
+    indices_.reserve(index_count * sizeof(std::uint32_t));
+    mesh_bytes_ = vertex_count * sizeof(Vertex) + index_count * sizeof(std::uint32_t);
+    form_levels_.clear();
+    mesh_digests_.clear();
+    std::uint64_t first_vertex = 0;
+    std::uint64_t first_index = 0;
+    std::vector<Vertex> packed;
+    std::vector<std::uint32_t> listed;
+    for (std::size_t f = 0; f < model.forms.size(); ++f) {
+        auto& levels = form_levels_.emplace_back();
+        std::uint64_t& digest = mesh_digests_.emplace_back(kDigestStart);
+        digest = digest_of(std::span<const float>(&boxes[f], 1), digest);
+        const std::shared_ptr<const TreeMeshes> of_levels = std::move(model.forms[f].meshes);
+        for (std::size_t l = 0; l < kTreeLevels; ++l) {
+            const InstanceMeshes& meshes = (*of_levels)[l];
+            const Mesh& mesh = meshes.mesh;
+            const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
+            const std::vector<std::uint16_t> numbers = add_looks(mesh.materials, looks);
+            FormLevel& level = levels[l];
+            level.base_vertex = static_cast<std::int32_t>(first_vertex);
+            packed.assign(mesh.positions.size(), {});
+            for (std::size_t v = 0; v < packed.size(); ++v) {
+                const glm::vec3 at = mesh.positions[v] / boxes[f];
+                packed[v].position = {snorm16(at.x), snorm16(at.y), snorm16(at.z)};
+                packed[v].normal = folded(mesh.normals[v]);
+                if (!mesh.texture_coordinates.empty()) {
+                    const glm::vec2& uv = mesh.texture_coordinates[v];
+                    packed[v].texture_coordinate = {glm::packHalf1x16(uv.x),
+                                                    glm::packHalf1x16(uv.y)};
+                }
+            }
+            const auto instances = static_cast<std::uint32_t>(meshes.first_part.size()) - 1;
+            level.pieces.resize(instances);
+            listed.clear();
+            for (std::uint32_t i = 0; i < instances; ++i) {
+                // Parts are in order of materials, not of classes.
+                for (std::size_t kind = 0; kind < kBranchClasses; ++kind) {
+                    const std::size_t before = listed.size();
+                    for (const MeshPart& part : meshes.parts_of(i)) {
+                        if (static_cast<std::size_t>(class_of(mesh.materials[part.material])) !=
+                            kind) {
+                            continue;
+                        }
+                        for (std::uint64_t k = 0; k < part.index_count; ++k) {
+                            const std::uint32_t vertex = indices[part.first_index + k];
+                            packed[vertex].look = numbers[part.material];
+                            listed.push_back(vertex);
+                        }
+                    }
+                    level.pieces[i].first[kind] = static_cast<std::uint32_t>(first_index + before);
+                    level.pieces[i].count[kind] =
+                        static_cast<std::uint32_t>(listed.size() - before);
+                }
+            }
+            for (const std::uint16_t number : numbers) {
+                digest = digest_of(std::span<const Look>(&looks[number], 1), digest);
+            }
+            digest = digest_of(std::span<const Vertex>(packed), digest);
+            digest = digest_of(std::span<const std::uint32_t>(listed), digest);
+            vertices_.write(std::span<const Vertex>(packed), first_vertex * sizeof(Vertex));
+            indices_.write(std::span<const std::uint32_t>(listed),
+                           first_index * sizeof(std::uint32_t));
+            first_vertex += mesh.positions.size();
+            first_index += listed.size();
+        }
+    }
+    looks_.fill(std::span<const Look>(looks));
+    forms_.fill(std::span<const FormRecord>(forms));
+    glVertexArrayVertexBuffer(array_.name(), 0, vertices_.name(), 0, sizeof(Vertex));
+    glVertexArrayElementBuffer(array_.name(), indices_.name());
+}
+
+void ForestBuffers::upload_trees(const ForestView& view) {
+    const std::span<const ViewTree> trees = view.trees();
+    drawn_->trees.reserve((trees.size() + kRoomForTrees) * sizeof(TreeRecord));
+    constexpr std::size_t kPiece = std::size_t{1} << 16U;
+    std::vector<TreeRecord> records;
+    for (std::size_t first = 0; first < trees.size(); first += kPiece) {
+        records.clear();
+        for (std::size_t t = first; t < std::min(first + kPiece, trees.size()); ++t) {
+            records.push_back(record_of(trees[t], view.model().forest->trees[trees[t].tree]));
+        }
+        drawn_->trees.write(std::span<const TreeRecord>(records), first * sizeof(TreeRecord));
+    }
+    const auto forms = static_cast<std::uint32_t>(view.model().forms.size());
+    records.clear();
+    for (const ForestCell& cell : view.cells()) {
+        const auto number = static_cast<std::uint32_t>(records.size());
+        // Turned by quarters, so that squares stay squares.
+        const std::uint32_t drawn = number * 0x9E3779B1U;
+        const std::uint32_t yaw = drawn >> 30U << 14U;
+        const std::uint32_t phase = drawn & 0xFFFF0000U;
+        records.push_back({cell.middle, cell.scale, phase | yaw, forms + cell.form});
+    }
+    cells_.fill(std::span<const TreeRecord>(records));
+}
+
+void ForestBuffers::upload_tree(const ForestView& view, std::uint32_t number) {
+    const std::size_t offset = std::size_t{number} * sizeof(TreeRecord);
+    Buffer& trees = drawn_->trees;
+    if (offset + sizeof(TreeRecord) > trees.capacity()) {
+        trees.grow(offset + kRoomForTrees * sizeof(TreeRecord));
+    }
+    const TreeRecord record = record_of(view.view_tree(number), view.tree_of(number));
+    trees.write(std::span<const TreeRecord>(&record, 1), offset);
+}
+
+void ForestBuffers::bind_cells() const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, cells_.name());
+}
+
+void ForestBuffers::set_trees(std::span<const Tree> trees, std::uint32_t form) {
+    std::vector<TreeRecord> records;
+    for (const Tree& tree : trees) {
+        records.push_back({tree.position, tree.scale, 0, form});
+    }
+    drawn_->trees.fill(std::span<const TreeRecord>(records));
+}
+
+void ForestBuffers::upload_branches(BranchPool& pool) {
+    const std::span<const PoolBranch> all = pool.branches();
+    drawn_->branches.grow(std::bit_ceil(std::max<std::size_t>(all.size_bytes(), 1024)));
+    for (const PoolSpan& span : pool.take_written()) {
+        drawn_->branches.write(all.subspan(span.first, span.count),
+                               span.first * sizeof(PoolBranch));
+    }
+}
+
+void ForestBuffers::set_branches(std::span<const PoolBranch> branches) {
+    drawn_->branches.fill(branches);
+}
+
+void ForestBuffers::command(const ForestLists& lists) {
+    drawn_->lists.fill(std::span<const ListedBranch>(lists.branches));
+    glVertexArrayVertexBuffer(array_.name(), 1, drawn_->lists.name(), 0, sizeof(ListedBranch));
+    std::array<std::vector<DrawCommand>, 2 * kBranchClasses> commands;
+    for (const BranchRun& run : lists.runs) {
+        const FormLevel& level = form_levels_[run.form][run.level];
+        const Piece& piece = level.pieces[run.instance];
+        for (std::size_t kind = 0; kind < kBranchClasses; ++kind) {
+            if (piece.count[kind] != 0) {
+                commands[place_of(kind, run.blends)].push_back({piece.count[kind], run.count,
+                                                                piece.first[kind],
+                                                                level.base_vertex, run.first});
+            }
+        }
+    }
+    for (std::size_t i = 0; i < commands.size(); ++i) {
+        drawn_->commands[i].buffer.fill(std::span<const DrawCommand>(commands[i]));
+        drawn_->commands[i].count = static_cast<std::uint32_t>(commands[i].size());
+    }
+}
+
+std::uint64_t ForestBuffers::draw(BranchClass kind, bool blends) const {
+    const Commands& commands = drawn_->commands[place_of(static_cast<std::size_t>(kind), blends)];
+    if (commands.count == 0) {
+        return 0;
+    }
+    glBindVertexArray(array_.name());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.buffer.name());
+    (kind == BranchClass::OneSided ? glEnable : glDisable)(GL_CULL_FACE);
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
+                                static_cast<GLsizei>(commands.count), sizeof(DrawCommand));
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+    return 1;
+}
+
+void ForestBuffers::bind_storage() const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBranches, drawn_->branches.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, drawn_->trees.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kForms, forms_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kLooks, looks_.name());
+}
+
+} // namespace lsys::view

@@ -1,0 +1,49 @@
+#include "viewer/gl/impl/forest_programs.h"
+
+#include "viewer/gl/impl/program.h"
+
+#include <array>
+#include <string>
+#include <utility>
+
+namespace lsys::view {
+
+Result<ForestPrograms>
+make_forest_programs(Device& device, const ShaderSource& shaders, bool windy) {
+    ForestPrograms programs;
+    struct Wanted {
+        ProgramObject* program;
+        const char* vertex;
+        const char* fragment;
+        const char* defines;
+    };
+    constexpr const char* kBranch = "branch.vert.glsl";
+    constexpr const char* kImpostor = "impostor.vert.glsl";
+    const std::array<Wanted, 10> wanted = {
+        {{&programs.branches.solid, kBranch, "branch.frag.glsl", ""},
+         {&programs.branches.plain, kBranch, "leaf.frag.glsl", "#define LIT_AT_CORNERS\n"},
+         {&programs.branches.cut_out, kBranch, "leaf.frag.glsl",
+          "#define LIT_AT_CORNERS\n#define CUT_OUT\n"},
+         {&programs.blending_branches.solid, kBranch, "branch.frag.glsl", "#define BLENDS\n"},
+         {&programs.blending_branches.plain, kBranch, "leaf.frag.glsl",
+          "#define LIT_AT_CORNERS\n#define BLENDS\n"},
+         {&programs.blending_branches.cut_out, kBranch, "leaf.frag.glsl",
+          "#define LIT_AT_CORNERS\n#define CUT_OUT\n#define BLENDS\n"},
+         {&programs.impostor, kImpostor, "impostor.frag.glsl", ""},
+         {&programs.impostor_depth, kImpostor, "impostor.frag.glsl", "#define DEPTH\n"},
+         {&programs.blending_impostor_depth, kImpostor, "impostor.frag.glsl",
+          "#define DEPTH\n#define BLENDS\n"},
+         {&programs.impostor_shadow, kImpostor, "impostor.frag.glsl", "#define SHADOW\n"}}};
+    const std::string common = windy ? "#define ONE_TAP\n#define WIND\n" : "#define ONE_TAP\n";
+    for (const Wanted& one : wanted) {
+        Result<ProgramObject> made =
+            make_program(device, shaders, one.vertex, one.fragment, common + one.defines);
+        if (!made) {
+            return made.error();
+        }
+        *one.program = std::move(made.value());
+    }
+    return programs;
+}
+
+} // namespace lsys::view

@@ -1,0 +1,29 @@
+// LineSet: lines on the device, each vertex with a colour of its own.
+#pragma once
+
+#include "viewer/gl/impl/objects.h"
+#include "viewer/scene/lines.h"
+
+#include <cstdint>
+#include <span>
+
+namespace lsys::view {
+
+class LineSet {
+public:
+    explicit LineSet(Device& device);
+
+    void upload(std::span<const LineVertex> lines);
+    /// With the program of shaders/line bound; returns the number of draws.
+    std::uint64_t draw() const;
+
+    [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+
+private:
+    VertexArray array_;
+    Buffer vertices_;
+    std::uint64_t count_ = 0;
+    Bounds bounds_;
+};
+
+} // namespace lsys::view

@@ -1,0 +1,103 @@
+#include "viewer/gl/impl/plant_mesh.h"
+
+#include <array>
+#include <limits>
+#include <span>
+
+namespace lsys::view {
+
+namespace {
+
+struct Attribute {
+    GLuint location;
+    GLint floats;
+};
+constexpr std::array<Attribute, 4> kAttributes = {{{0, 3}, {1, 3}, {2, 2}, {3, 4}}};
+// What mesh.frag.glsl asks for.
+constexpr GLint kColour = 0;
+constexpr GLint kKind = 1;
+constexpr GLuint kBaseTexture = 1;
+constexpr GLuint kNormalTexture = 2;
+
+} // namespace
+
+PlantMesh::PlantMesh(Device& device)
+    : array_(make_vertex_array(device)), positions_(device), normals_(device),
+      texture_coordinates_(device), tangents_(device), indices_(device) {
+    for (const Attribute& attribute : kAttributes) {
+        glEnableVertexArrayAttrib(array_.name(), attribute.location);
+        glVertexArrayAttribFormat(array_.name(), attribute.location, attribute.floats, GL_FLOAT,
+                                  GL_FALSE, 0);
+        glVertexArrayAttribBinding(array_.name(), attribute.location, attribute.location);
+    }
+}
+
+void PlantMesh::upload(const Mesh& mesh, const MaterialTextures& textures) {
+    positions_.fill(std::span<const glm::vec3>(mesh.positions));
+    normals_.fill(std::span<const glm::vec3>(mesh.normals));
+    texture_coordinates_.fill(std::span<const glm::vec2>(mesh.texture_coordinates));
+    tangents_.fill(std::span<const glm::vec4>(mesh.tangents));
+    indices_.reserve(mesh.indices.size() * sizeof(std::uint32_t));
+    for_each_chunk(mesh.indices, [&](std::uint64_t first, std::span<const std::uint32_t> part) {
+        indices_.write(part, first * sizeof(std::uint32_t));
+    });
+    glVertexArrayVertexBuffer(array_.name(), 0, positions_.name(), 0, sizeof(glm::vec3));
+    glVertexArrayVertexBuffer(array_.name(), 1, normals_.name(), 0, sizeof(glm::vec3));
+    glVertexArrayVertexBuffer(array_.name(), 2, texture_coordinates_.name(), 0, sizeof(glm::vec2));
+    glVertexArrayVertexBuffer(array_.name(), 3, tangents_.name(), 0, sizeof(glm::vec4));
+    glVertexArrayElementBuffer(array_.name(), indices_.name());
+    parts_ = mesh.parts;
+    materials_ = mesh.materials;
+    pictures_.clear();
+    for (Material& material : materials_) {
+        TextureObject& picture = pictures_.emplace_back();
+        if (material.picture != nullptr) {
+            picture = textures.make(*material.picture);
+            material.picture.reset(); // it may be large
+        }
+    }
+    triangles_ = mesh.indices.size() / 3;
+    bounds_ = {};
+    for (const glm::vec3& position : mesh.positions) {
+        bounds_.add(position);
+    }
+}
+
+std::uint64_t PlantMesh::draw(MaterialTextures& textures, bool shaded) const {
+    glBindVertexArray(array_.name());
+    std::uint64_t draws = 0;
+    for (const MeshPart& part : parts_) {
+        const Material& material = materials_[part.material];
+        const bool bumpy = material.textured && material.kind == MaterialKind::Bark;
+        const TextureObject& picture = pictures_[part.material];
+        const bool through = material.kind == MaterialKind::Leaf ||
+                             material.kind == MaterialKind::Flower ||
+                             (picture && material.two_sided);
+        if (shaded) {
+            glUniform4f(kColour, material.colour.r, material.colour.g, material.colour.b,
+                        material.colour.a);
+        }
+        glUniform4i(kKind, material.textured ? 1 : 0, bumpy ? 1 : 0, material.cut_out ? 1 : 0,
+                    through ? 1 : 0);
+        if (material.textured) {
+            glBindTextureUnit(kBaseTexture,
+                              picture ? picture.name() : textures.base(material.kind));
+        }
+        if (bumpy && shaded) {
+            glBindTextureUnit(kNormalTexture, textures.bark_normals());
+        }
+        (material.two_sided ? glDisable : glEnable)(GL_CULL_FACE);
+        // A draw counts in 31 bits, in whole triangles.
+        constexpr std::uint64_t kMost = std::numeric_limits<GLsizei>::max() / 3 * std::uint64_t{3};
+        for (std::uint64_t first = 0; first < part.index_count; first += kMost) {
+            const std::uint64_t count = std::min(part.index_count - first, kMost);
+            const std::uintptr_t offset = (part.first_index + first) * sizeof(std::uint32_t);
+            glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                           reinterpret_cast<const void*>(offset)); // NOLINT: OpenGL's signature
+            ++draws;
+        }
+    }
+    return draws;
+}
+
+} // namespace lsys::view

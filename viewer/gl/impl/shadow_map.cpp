@@ -1,0 +1,31 @@
+#include "viewer/gl/impl/shadow_map.h"
+
+namespace lsys::view {
+
+ShadowMap::ShadowMap(Device& device, std::uint32_t texels)
+    : texels_(texels), depth_(make_texture(device, GL_TEXTURE_2D)),
+      framebuffer_(make_framebuffer(device)) {
+    const auto size = static_cast<GLsizei>(texels);
+    glTextureStorage2D(depth_.name(), 1, GL_DEPTH_COMPONENT32F, size, size);
+    glTextureParameteri(depth_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(depth_.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(depth_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(depth_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(depth_.name(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glTextureParameteri(depth_.name(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    glNamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
+    glNamedFramebufferDrawBuffer(framebuffer_.name(), GL_NONE);
+    glNamedFramebufferReadBuffer(framebuffer_.name(), GL_NONE);
+}
+
+void ShadowMap::begin(const glm::mat4& matrix) {
+    matrix_ = matrix;
+    stale_ = false;
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    glViewport(0, 0, static_cast<GLsizei>(texels_), static_cast<GLsizei>(texels_));
+    glDepthMask(GL_TRUE);
+    constexpr GLfloat kFarthest = 1.0F;
+    glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &kFarthest);
+}
+
+} // namespace lsys::view

@@ -1,0 +1,37 @@
+// ShadowMap: how far the sun's light reaches, as a depth texture that stays until what stands in
+// the light changes.
+#pragma once
+
+#include "viewer/gl/impl/objects.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <cstdint>
+
+namespace lsys::view {
+
+class ShadowMap {
+public:
+    ShadowMap(Device& device, std::uint32_t texels);
+
+    [[nodiscard]] std::uint32_t texels() const { return texels_; }
+    [[nodiscard]] GLuint texture() const { return depth_.name(); }
+
+    /// Whether it has to be drawn for this matrix.
+    [[nodiscard]] bool is_stale(const glm::mat4& matrix) const {
+        return stale_ || matrix != matrix_;
+    }
+    /// What casts shadows has changed.
+    void invalidate() { stale_ = true; }
+    /// Binds and clears it; what is drawn next casts shadows.
+    void begin(const glm::mat4& matrix);
+
+private:
+    std::uint32_t texels_;
+    TextureObject depth_;
+    Framebuffer framebuffer_;
+    glm::mat4 matrix_{0.0F};
+    bool stale_ = true;
+};
+
+} // namespace lsys::view

@@ -1,0 +1,194 @@
+#include "viewer/gl/impl/terrain_pass.h"
+
+#include "viewer/gl/impl/program.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace lsys::view {
+
+namespace {
+
+// What terrain.*.glsl ask for.
+constexpr GLuint kHeights = 1;
+constexpr GLuint kNoise = 2;
+constexpr GLint kOrigins = 0;
+constexpr GLint kRanges = 12;
+constexpr GLint kLevels = 13;
+constexpr std::uint32_t kNoiseTexels = 128;
+constexpr GLsizei kPatchIndices = 6 * kPatchCells * kPatchCells;
+
+float hashed(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
+    std::uint32_t h = x * 0x9E3779B1U ^ y * 0x85EBCA77U ^ (channel + 1) * 0xC2B2AE3DU;
+    h = (h ^ h >> 15U) * 0x2C1B3C6DU;
+    h = (h ^ h >> 12U) * 0x297A2D39U;
+    return static_cast<float>((h ^ h >> 15U) >> 8U) / 16777216.0F;
+}
+
+/// Smooth noise that repeats after the texture, 0 to 1: a sum of octaves of values.
+float noise_at(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
+    float sum = 0.0F;
+    float weight = 0.0F;
+    float part = 1.0F;
+    for (std::uint32_t cells = 4; cells <= 64; cells *= 2) {
+        const std::uint32_t step = kNoiseTexels / cells;
+        const std::uint32_t column = x / step;
+        const std::uint32_t row = y / step;
+        const auto smooth = [step](std::uint32_t at) {
+            const float t = static_cast<float>(at % step) / static_cast<float>(step);
+            return t * t * (3.0F - 2.0F * t);
+        };
+        const float u = smooth(x);
+        const float v = smooth(y);
+        const auto value = [&](std::uint32_t dx, std::uint32_t dy) {
+            return hashed((column + dx) % cells, (row + dy) % cells, channel * 16 + cells);
+        };
+        sum += part * ((1.0F - v) * ((1.0F - u) * value(0, 0) + u * value(1, 0)) +
+                       v * ((1.0F - u) * value(0, 1) + u * value(1, 1)));
+        weight += part;
+        part *= 0.6F;
+    }
+    // Spread about the middle, where sums crowd.
+    return std::clamp(0.5F + 1.6F * (sum / weight - 0.5F), 0.0F, 1.0F);
+}
+
+TextureObject make_noise(Device& device) {
+    std::vector<std::uint8_t> texels(std::size_t{4} * kNoiseTexels * kNoiseTexels);
+    for (std::uint32_t y = 0; y < kNoiseTexels; ++y) {
+        for (std::uint32_t x = 0; x < kNoiseTexels; ++x) {
+            for (std::uint32_t c = 0; c < 4; ++c) {
+                texels[4 * (y * kNoiseTexels + x) + c] =
+                    static_cast<std::uint8_t>(std::lround(255.0F * noise_at(x, y, c)));
+            }
+        }
+    }
+    TextureObject texture = make_texture(device, GL_TEXTURE_2D);
+    const auto size = static_cast<GLsizei>(kNoiseTexels);
+    glTextureStorage2D(texture.name(), 8, GL_RGBA8, size, size);
+    glTextureSubImage2D(texture.name(), 0, 0, 0, size, size, GL_RGBA, GL_UNSIGNED_BYTE,
+                        texels.data());
+    device.add_upload(texels.size());
+    glGenerateTextureMipmap(texture.name());
+    glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+    glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    return texture;
+}
+
+} // namespace
+
+TerrainPass::TerrainPass(Device& device)
+    : device_(&device), array_(make_vertex_array(device)), corners_(device), indices_(device),
+      patches_(device) {}
+
+Result<Done> TerrainPass::reload(const ShaderSource& shaders) {
+    Result<ProgramObject> made = make_program(*device_, shaders, "terrain.vert.glsl",
+                                              "terrain.frag.glsl", "#define TWO_TAPS\n");
+    if (!made) {
+        return made.error();
+    }
+    program_ = std::move(made.value());
+    return Done{};
+}
+
+void TerrainPass::show(const Terrain& terrain, float reach) {
+    view_ = std::make_unique<TerrainView>(terrain, reach);
+    if (!noise_) {
+        noise_ = make_noise(*device_);
+        std::vector<std::array<std::uint8_t, 2>> corners;
+        std::vector<std::uint8_t> indices;
+        constexpr std::uint32_t kRow = kPatchCells + 1;
+        for (std::uint32_t z = 0; z < kRow; ++z) {
+            for (std::uint32_t x = 0; x < kRow; ++x) {
+                corners.push_back({static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(z)});
+                if (x < kPatchCells && z < kPatchCells) {
+                    const std::uint32_t a = z * kRow + x;
+                    for (const std::uint32_t i :
+                         {a, a + kRow, a + kRow + 1, a, a + kRow + 1, a + 1}) {
+                        indices.push_back(static_cast<std::uint8_t>(i));
+                    }
+                }
+            }
+        }
+        corners_.fill(std::span<const std::array<std::uint8_t, 2>>(corners));
+        indices_.fill(std::span<const std::uint8_t>(indices));
+        const GLuint array = array_.name();
+        glEnableVertexArrayAttrib(array, 0);
+        glVertexArrayAttribIFormat(array, 0, 2, GL_UNSIGNED_BYTE, 0);
+        glVertexArrayAttribBinding(array, 0, 0);
+        glVertexArrayVertexBuffer(array, 0, corners_.name(), 0, 2);
+        glEnableVertexArrayAttrib(array, 1);
+        glVertexArrayAttribIFormat(array, 1, 3, GL_INT, 0);
+        glVertexArrayAttribBinding(array, 1, 1);
+        glVertexArrayBindingDivisor(array, 1, 1);
+        glVertexArrayElementBuffer(array, indices_.name());
+    }
+    const auto size = static_cast<GLsizei>(kHeightTexels);
+    heights_ = make_texture(*device_, GL_TEXTURE_2D_ARRAY);
+    glTextureStorage3D(heights_.name(), 1, GL_R32F, size, size,
+                       static_cast<GLsizei>(view_->levels()));
+    glTextureParameteri(heights_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(heights_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+void TerrainPass::prepare(const ViewVolume& volume) {
+    view_->select(volume);
+    const auto size = static_cast<GLsizei>(kHeightTexels);
+    for (const std::uint32_t level : view_->changed()) {
+        const std::vector<float>& heights = view_->grid(level).heights;
+        glTextureSubImage3D(heights_.name(), 0, 0, 0, static_cast<GLint>(level), size, size, 1,
+                            GL_RED, GL_FLOAT, heights.data());
+        device_->add_upload(heights.size() * sizeof(float));
+    }
+}
+
+FrameStats TerrainPass::draw() {
+    FrameStats stats;
+    const std::vector<TerrainPatch>& patches = view_->patches();
+    if (patches.empty()) {
+        return stats;
+    }
+    static_assert(sizeof(TerrainPatch) == 12);
+    patches_.fill(std::span<const TerrainPatch>(patches));
+    glVertexArrayVertexBuffer(array_.name(), 1, patches_.name(), 0, sizeof(TerrainPatch));
+    glUseProgram(program_.name());
+    std::array<GLint, std::size_t{2} * kTerrainLevels> origins{};
+    for (std::uint32_t level = 0; level < view_->levels(); ++level) {
+        origins[std::size_t{2} * level] = view_->grid(level).origin.x;
+        origins[std::size_t{2} * level + 1] = view_->grid(level).origin.y;
+    }
+    glUniform2iv(kOrigins, static_cast<GLsizei>(kTerrainLevels), origins.data());
+    glUniform4f(kRanges, kFinestCell, TerrainView::range(0),
+                TerrainView::morph_start(0) / TerrainView::range(0), view_->eye_height());
+    glUniform1i(kLevels, static_cast<GLint>(view_->levels()));
+    glBindTextureUnit(kHeights, heights_.name());
+    glBindTextureUnit(kNoise, noise_.name());
+    glEnable(GL_CULL_FACE);
+    glBindVertexArray(array_.name());
+    glDrawElementsInstanced(GL_TRIANGLES, kPatchIndices, GL_UNSIGNED_BYTE, nullptr,
+                            static_cast<GLsizei>(patches.size()));
+    glDisable(GL_CULL_FACE);
+    stats.draws = 1;
+    stats.triangles = patches.size() * kPatchIndices / 3;
+    return stats;
+}
+
+std::uint64_t TerrainPass::texture_bytes() const {
+    return view_ == nullptr ? 0
+                            : std::uint64_t{4} * kHeightTexels * kHeightTexels * view_->levels() +
+                                  std::uint64_t{4} * kNoiseTexels * kNoiseTexels * 4 / 3;
+}
+
+std::vector<float> TerrainPass::read_heights(std::uint32_t level) const {
+    std::vector<float> heights(std::size_t{kHeightTexels} * kHeightTexels);
+    const auto size = static_cast<GLsizei>(kHeightTexels);
+    glGetTextureSubImage(heights_.name(), 0, 0, 0, static_cast<GLint>(level), size, size, 1, GL_RED,
+                         GL_FLOAT, static_cast<GLsizei>(heights.size() * sizeof(float)),
+                         heights.data());
+    return heights;
+}
+
+} // namespace lsys::view

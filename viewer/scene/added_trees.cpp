@@ -1,0 +1,64 @@
+#include "viewer/scene/added_trees.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+
+namespace lsys::view {
+
+namespace {
+
+constexpr std::uint32_t kSide = 64; // cells along X and Z
+
+} // namespace
+
+std::uint32_t AddedTrees::cell_of(const glm::vec3& place) const {
+    const auto part = [](double at, double size) {
+        return static_cast<std::uint32_t>(std::clamp(at / size, 0.0, 1.0 - 1e-9) *
+                                          static_cast<double>(kSide));
+    };
+    return part(static_cast<double>(place.z) - region_.z, region_.depth) * kSide +
+           part(static_cast<double>(place.x) - region_.x, region_.width);
+}
+
+bool AddedTrees::is_another(std::uint32_t slot, const Tree& tree) const {
+    if (slot >= added_.size()) {
+        return true;
+    }
+    const Tree& there = added_[slot].tree;
+    return there.position != tree.position || there.yaw != tree.yaw || there.scale != tree.scale ||
+           there.number != tree.number || there.species != tree.species;
+}
+
+void AddedTrees::put(std::uint32_t slot,
+                     const Tree& tree,
+                     const ViewTree& made,
+                     const Bounds& box) {
+    cells_.resize(std::size_t{kSide} * kSide);
+    if (slot < added_.size()) {
+        std::erase(cells_[cell_of(added_[slot].tree.position)].trees, slot);
+    } else {
+        Added none;
+        none.made.portrait = ViewTree::kGone;
+        added_.resize(std::size_t{slot} + 1, none);
+    }
+    added_[slot] = {tree, made};
+    const std::uint32_t number = cell_of(tree.position);
+    Cell& cell = cells_[number];
+    if (cell.trees.empty() && std::find(used_.begin(), used_.end(), number) == used_.end()) {
+        used_.push_back(number);
+        cell.low = box.low;
+        cell.high = box.high;
+    }
+    cell.trees.push_back(slot);
+    cell.low = glm::min(cell.low, box.low);
+    cell.high = glm::max(cell.high, box.high);
+}
+
+void AddedTrees::set_alive(std::uint32_t slot, bool alive) {
+    if (slot < added_.size() && added_[slot].made.gone() == alive) {
+        added_[slot].made.portrait ^= ViewTree::kGone;
+    }
+}
+
+} // namespace lsys::view

@@ -1,0 +1,353 @@
+#include "viewer/scene/forest_model.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsys::view {
+
+namespace {
+
+/// Radii of twigs that a level leaves out, as a part of the tree's height.
+constexpr std::array<float, kTreeLevels> kThinnest = {0.0F, 0.0F, 0.0008F, 0.0016F};
+/// Of how many leaves a level shows one.
+constexpr std::array<std::uint32_t, kTreeLevels> kLeavesOfOne = {1, 1, 2, 4};
+/// Of all forms together, unless there are more forms.
+constexpr std::size_t kAllPortraits = 16;
+/// With fewer, all are shown.
+constexpr std::size_t kFewLeaves = 24;
+
+/// Of a form.
+std::size_t most_portraits_of(std::size_t forms) {
+    return std::clamp<std::size_t>(kAllPortraits / std::max<std::size_t>(forms, 1), 1,
+                                   kMostPortraits);
+}
+
+bool is_leaf(const PlacedObject& object) {
+    return object.kind == TurtleOperation::Leaf || object.kind == TurtleOperation::MeshFile ||
+           object.kind == TurtleOperation::Flower;
+}
+
+/// Whether a leaf is one of those that are shown; those of a level are among those of a finer one.
+bool is_shown(std::size_t leaf, std::uint32_t leaves_of_one) {
+    const std::uint64_t mixed = (leaf + 1) * 0x9E3779B97F4A7C15U;
+    return (mixed >> 40 & (leaves_of_one - 1)) == 0;
+}
+
+Ball ball_of(const Bounds& bounds) {
+    if (bounds.empty) {
+        return {};
+    }
+    return {0.5F * (bounds.low + bounds.high), 0.5F * glm::distance(bounds.low, bounds.high)};
+}
+
+/// The smallest ball around both.
+Ball joined(const Ball& a, const Ball& b) {
+    const float distance = glm::distance(a.centre, b.centre);
+    if (distance + b.radius <= a.radius) {
+        return a;
+    }
+    if (distance + a.radius <= b.radius) {
+        return b;
+    }
+    const float radius = 0.5F * (distance + a.radius + b.radius);
+    return {a.centre + (b.centre - a.centre) * ((radius - a.radius) / distance),
+            radius * 1.0001F}; // and rounding
+}
+
+/// The first tree whose whole plant is `instance`.
+bool find_portrait(const InstanceCache& cache,
+                   std::uint64_t key,
+                   std::uint32_t instance,
+                   Tree& tree) {
+    constexpr std::uint32_t kMostTries = 4096;
+    TreeExpander expander(cache, key);
+    for (tree.number = 0; tree.number < kMostTries; ++tree.number) {
+        if (expander.root_instance(tree) == instance) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void find_portraits(TreeForm& form, std::uint64_t key, std::size_t most) {
+    const InstanceCache& cache = *form.cache;
+    const InstanceSlot& whole = cache.slots[0];
+    form.portrait_of.assign(cache.instances.size(), 0);
+    for (std::uint32_t v = 0; v < whole.variant_count; ++v) {
+        const std::uint32_t instance = cache.variants[whole.first_variant + v];
+        Tree tree;
+        if (form.portraits.size() < most && find_portrait(cache, key, instance, tree)) {
+            form.portrait_of[instance] = static_cast<std::uint32_t>(form.portraits.size());
+            form.portraits.push_back(tree);
+        } else {
+            form.portrait_of[instance] = static_cast<std::uint32_t>(v % most);
+        }
+    }
+    for (std::uint32_t& portrait : form.portrait_of) {
+        portrait = std::min(portrait, static_cast<std::uint32_t>(form.portraits.size()) - 1);
+    }
+}
+
+/// The cylinder about the portraits, and how many branches they have. `seen`: the surface of what a
+/// tree is drawn of.
+void measure_portraits(TreeForm& form, std::uint64_t key, const InstanceMeshes& seen) {
+    const LargeVector<std::uint32_t> indices = seen.mesh.indices.expanded();
+    const LargeVector<glm::vec3>& positions = seen.mesh.positions;
+    TreeExpander expander(*form.cache, key);
+    const auto count = static_cast<double>(form.portraits.size());
+    float radius2 = 0.0F;
+    for (const Tree& tree : form.portraits) {
+        expander.expand(tree, [&](const BranchInstance& branch) {
+            form.branches += 1.0 / count;
+            const InstancePose pose = pose_of(branch, form.cache->instances[branch.instance]);
+            const glm::mat3 turn = pose.scale * glm::mat3_cast(pose.rotation);
+            for (const MeshPart& part : seen.parts_of(branch.instance)) {
+                for (std::uint64_t i = 0; i < part.index_count; ++i) {
+                    const glm::vec3 at =
+                        turn * positions[indices[part.first_index + i]] + pose.translation;
+                    radius2 = std::max(radius2, at.x * at.x + at.z * at.z);
+                    form.low = std::min(form.low, at.y);
+                    form.high = std::max(form.high, at.y);
+                }
+            }
+        });
+    }
+    form.radius = std::sqrt(radius2);
+}
+
+/// Of the triangles of each instance at any level, seen from its entry.
+std::vector<Bounds> bounds_of_levels(const InstanceCache& cache, const TreeMeshes& levels) {
+    std::vector<Bounds> all(cache.instances.size());
+    for (const InstanceMeshes& level : levels) {
+        const std::vector<Bounds> bounds = bounds_of(cache, level);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (!bounds[i].empty) {
+                all[i].add(bounds[i].low);
+                all[i].add(bounds[i].high);
+            }
+        }
+    }
+    return all;
+}
+
+/// Around boxes that are seen from the entries of instances, where the heroes have them.
+std::vector<Ball> balls_in_heroes(const InstanceCache& cache, const std::vector<Bounds>& bounds) {
+    std::vector<Ball> balls;
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+        if (bounds[i].empty) {
+            balls.push_back({{}, -1.0F});
+            continue;
+        }
+        const Instance& instance = cache.instances[i];
+        const Ball ball = ball_of(bounds[i]);
+        balls.push_back(
+            {glm::vec3(instance.position) + glm::quat(instance.frame) * ball.centre, ball.radius});
+    }
+    return balls;
+}
+
+InstanceMeshStatus make_form(const InstanceCache& cache,
+                             std::uint64_t key,
+                             const std::vector<UserMesh>& user_meshes,
+                             const MeshOptions& options,
+                             std::size_t most_portraits,
+                             TreeForm& form) {
+    form.cache = &cache;
+    const auto meshes = std::make_shared<TreeMeshes>();
+    TreeMeshes& levels = *meshes;
+    form.meshes = meshes;
+    MeshOptions level_options = options;
+    level_options.tangents = false;
+    level_options.colours = false;
+    InstanceMeshStatus status = make_instance_meshes(cache, user_meshes, level_options, levels[0]);
+    if (status != InstanceMeshStatus::Ok) {
+        return status;
+    }
+    find_portraits(form, key, most_portraits);
+    measure_portraits(form, key, levels[0]);
+    for (std::uint32_t level = 1; level < kTreeLevels; ++level) {
+        level_options.level = options.level + level;
+        status = make_instance_meshes(coarsened(cache, level, form.height()), user_meshes,
+                                      level_options, levels[level]);
+        if (status != InstanceMeshStatus::Ok) {
+            return status;
+        }
+    }
+    for (std::uint32_t level = 0; level < kTreeLevels; ++level) {
+        form.mesh_triangles[level].resize(cache.instances.size());
+        for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
+            form.mesh_triangles[level][i] =
+                static_cast<std::uint32_t>(levels[level].triangles_of(i));
+        }
+    }
+    const std::vector<Bounds> bounds = bounds_of_levels(cache, levels);
+    form.reach = reaches_of(cache, bounds)[0];
+    form.mesh_balls = balls_in_heroes(cache, bounds);
+    TreeExpander expander(cache, key);
+    const auto count = static_cast<double>(form.portraits.size());
+    for (const Tree& tree : form.portraits) {
+        expander.expand(tree, [&](const BranchInstance& branch) {
+            for (std::uint32_t level = 0; level < kTreeLevels; ++level) {
+                form.triangles[level] += form.mesh_triangles[level][branch.instance] / count;
+            }
+        });
+    }
+    return InstanceMeshStatus::Ok;
+}
+
+} // namespace
+
+std::uint64_t ForestModel::mesh_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const TreeForm& form : forms) {
+        for (std::size_t l = 0; form.meshes != nullptr && l < kTreeLevels; ++l) {
+            bytes += (*form.meshes)[l].byte_count();
+        }
+    }
+    return bytes;
+}
+
+std::vector<Bounds> bounds_of(const InstanceCache& cache, const InstanceMeshes& meshes) {
+    const LargeVector<std::uint32_t> indices = meshes.mesh.indices.expanded();
+    std::vector<Bounds> bounds(cache.instances.size());
+    for (std::uint32_t i = 0; i < bounds.size(); ++i) {
+        const Instance& instance = cache.instances[i];
+        const glm::quat inverse = glm::conjugate(glm::quat(instance.frame));
+        for (const MeshPart& part : meshes.parts_of(i)) {
+            for (std::uint64_t k = 0; k < part.index_count; ++k) {
+                const glm::vec3& at = meshes.mesh.positions[indices[part.first_index + k]];
+                bounds[i].add(inverse * (at - glm::vec3(instance.position)));
+            }
+        }
+    }
+    return bounds;
+}
+
+std::vector<Ball> reaches_of(const InstanceCache& cache, const std::vector<Bounds>& bounds) {
+    std::vector<Ball> reaches(cache.slots.size());
+    std::vector<bool> known(cache.slots.size());
+    // Depth first; what an exit leads to is known before what has the exit.
+    std::vector<std::uint32_t> pending{0};
+    std::vector<bool> begun(cache.slots.size());
+    while (!pending.empty()) {
+        const std::uint32_t index = pending.back();
+        const InstanceSlot& slot = cache.slots[index];
+        if (known[index]) {
+            pending.pop_back();
+            continue;
+        }
+        const bool again = begun[index];
+        begun[index] = true;
+        bool waits = false;
+        for (std::uint32_t v = 0; v < slot.variant_count && !again; ++v) {
+            const Instance& instance = cache.instances[cache.variants[slot.first_variant + v]];
+            for (std::uint32_t e = 0; e < instance.exit_count; ++e) {
+                const std::uint32_t next = cache.exits[instance.first_exit + e].slot;
+                if (!known[next] && !begun[next]) {
+                    pending.push_back(next);
+                    waits = true;
+                }
+            }
+        }
+        if (waits) {
+            continue;
+        }
+        Ball all;
+        for (std::uint32_t v = 0; v < slot.variant_count; ++v) {
+            const std::uint32_t i = cache.variants[slot.first_variant + v];
+            const Instance& instance = cache.instances[i];
+            Ball ball = ball_of(bounds[i]);
+            for (std::uint32_t e = 0; e < instance.exit_count; ++e) {
+                const InstanceExit& exit = cache.exits[instance.first_exit + e];
+                const Ball& further = reaches[exit.slot];
+                ball =
+                    joined(ball, {exit.position + exit.rotation * further.centre, further.radius});
+            }
+            all = v == 0 ? ball : joined(all, ball);
+        }
+        reaches[index] = all;
+        known[index] = true;
+        pending.pop_back();
+    }
+    return reaches;
+}
+
+InstanceCache coarsened(const InstanceCache& cache, std::uint32_t level, float height) {
+    InstanceCache coarse = cache;
+    Skeleton& skeleton = coarse.skeleton;
+    const float thinnest = kThinnest[level] * height;
+    for (Segment& segment : skeleton.segments) {
+        if (std::max(segment.base_radius, segment.tip_radius) < thinnest) {
+            segment.base_radius = 0.0F;
+            segment.tip_radius = 0.0F;
+        }
+    }
+    const std::uint32_t leaves_of_one = kLeavesOfOne[level];
+    const float larger = std::sqrt(static_cast<float>(leaves_of_one));
+    const std::size_t heroes = std::max(cache.heroes, 1U);
+    if (skeleton.objects.size() >= kFewLeaves * heroes) {
+        for (std::size_t i = 0; i < skeleton.objects.size(); ++i) {
+            PlacedObject& object = skeleton.objects[i];
+            if (is_leaf(object)) {
+                object.size *= is_shown(i, leaves_of_one) ? larger : 0.0F;
+            }
+        }
+    }
+    if (skeleton.polygons.size() >= kFewLeaves * heroes) {
+        for (std::size_t i = 0; i < skeleton.polygons.size(); ++i) {
+            const Polygon& polygon = skeleton.polygons[i];
+            const float factor = is_shown(i, leaves_of_one) ? larger : 0.0F;
+            const glm::vec3 stem = skeleton.corners[polygon.first_corner];
+            for (std::uint32_t c = 1; c < polygon.corner_count; ++c) {
+                glm::vec3& corner = skeleton.corners[polygon.first_corner + c];
+                corner = stem + factor * (corner - stem);
+            }
+        }
+    }
+    return coarse;
+}
+
+InstanceMeshStatus make_forest_model(const Forest& forest,
+                                     const Terrain& terrain,
+                                     const std::vector<std::vector<UserMesh>>& user_meshes,
+                                     const MeshOptions& options,
+                                     ForestModel& model,
+                                     const KnownModel& known) {
+    model = {};
+    model.forest = &forest;
+    model.terrain = &terrain;
+    std::size_t forms = 0;
+    for (const ForestSpecies& species : forest.species) {
+        forms += species.stages.size();
+    }
+    const std::size_t most_portraits = most_portraits_of(forms);
+    const bool knows = known.model != nullptr && known.key == forest.key &&
+                       known.options == options &&
+                       most_portraits == most_portraits_of(known.model->forms.size());
+    for (std::size_t s = 0; s < forest.species.size(); ++s) {
+        model.first_form.push_back(static_cast<std::uint32_t>(model.forms.size()));
+        if (knows && known.species[s]) {
+            const std::uint32_t first = known.model->first_form[*known.species[s]];
+            for (std::uint32_t i = 0; i < forest.species[s].stages.size(); ++i) {
+                TreeForm& form = model.forms.emplace_back(known.model->forms[first + i]);
+                form.cache = &forest.species[s].stages[i].cache;
+            }
+            continue;
+        }
+        for (const ForestStage& stage : forest.species[s].stages) {
+            const InstanceMeshStatus status =
+                make_form(stage.cache, forest.key, user_meshes[s], options, most_portraits,
+                          model.forms.emplace_back());
+            if (status != InstanceMeshStatus::Ok) {
+                return status;
+            }
+        }
+    }
+    return InstanceMeshStatus::Ok;
+}
+
+} // namespace lsys::view

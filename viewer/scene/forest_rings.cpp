@@ -1,0 +1,333 @@
+// Which trees are in which ring of a picture: ForestView::select().
+#include "viewer/scene/forest_view.h"
+#include "viewer/scene/portrait_plan.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace lsys::view {
+
+namespace {
+
+constexpr std::uint32_t kFewTrees = 8; // a cell of fewer is never drawn as one
+constexpr std::uint32_t kTurnsKept = 32;
+constexpr int kDetailSteps = 24;
+constexpr float kNearest = 0.1F; // m: distances below count as this
+
+float pixels_of(const ViewVolume& volume, const glm::vec3& place, float height) {
+    return height * volume.pixels / std::max(glm::distance(volume.eye, place), kNearest);
+}
+
+/// Where between two rings something is that is `pixels` large, 0 to 1: from the size where the
+/// smaller ring ends to `blend` times that.
+float between_rings(float pixels, float ring, float blend) {
+    return blend > 1.0F ? std::clamp((pixels / ring - 1.0F) / (blend - 1.0F), 0.0F, 1.0F) : 1.0F;
+}
+
+/// How far wind moves trees in a box, which is at least as high and wide as each of them; m.
+float sway_within(const glm::vec3& low, const glm::vec3& high, const Sway& sway) {
+    const glm::vec3 size = high - low;
+    return sway.of(size.y, std::max(size.x, size.z));
+}
+
+/// Around a box of trees in the wind.
+Ball swaying_box(const glm::vec3& low, const glm::vec3& high, const Sway& sway) {
+    return {0.5F * (low + high), 0.5F * glm::distance(low, high) + sway_within(low, high, sway)};
+}
+
+} // namespace
+
+Sway sway_in(const Wind& wind) {
+    // The largest values of the terms of in_wind() in shaders/forest.glsl.
+    constexpr float kPush = 0.004F;
+    constexpr float kTrunk = 1.35F * 1.2F * 1.2F;
+    constexpr float kBoughs = 0.35F * 1.54F;
+    constexpr float kMostFlutter = 0.05F;
+    const float gust = 1.0F + std::abs(wind.gust);
+    const float push = kPush * glm::length(wind.velocity) * gust;
+    return {push * kTrunk, push * gust * kBoughs,
+            std::min(push, kMostFlutter) * std::numbers::sqrt3_v<float>};
+}
+
+const ForestLists&
+ForestView::select(const ViewVolume& volume, const RingOptions& options, GroundHorizon* ground) {
+    lists_.branches.clear();
+    lists_.runs.clear();
+    lists_.trees.clear();
+    lists_.clumps.clear();
+    lists_.trees_of_level = {};
+    lists_.far_trees = 0;
+    lists_.clumped_trees = 0;
+    lists_.blended = 0;
+    lists_.hidden = 0;
+    lists_.triangles = 0;
+    lists_.expanded = 0;
+    lists_.waiting = 0;
+    sway_ = sway_in(options.wind);
+    ground_ = ground;
+    candidates_.clear();
+    far_.clear();
+    seen_cells_.clear();
+    for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+        const ForestCell& cell = cells_[c];
+        if (cell.count == 0) {
+            continue;
+        }
+        if (volume.meets(swaying_box(cell.low, cell.high, sway_))) {
+            seen_cells_.emplace_back(
+                glm::distance(volume.eye, glm::clamp(volume.eye, cell.low, cell.high)), c);
+        }
+    }
+    std::sort(seen_cells_.begin(), seen_cells_.end());
+    for (const auto& [distance, c] : seen_cells_) {
+        const ForestCell& cell = cells_[c];
+        if (is_behind_ground({cell.low, cell.high, false},
+                             sway_within(cell.low, cell.high, sway_))) {
+            lists_.hidden += cell.count;
+            continue;
+        }
+        visit_cell(c, distance, volume, options);
+    }
+    added_.visit(
+        [&](const AddedTrees::Cell& cell) {
+            return volume.meets(swaying_box(cell.low, cell.high, sway_));
+        },
+        [&](std::uint32_t slot) { visit_tree(first_added() + slot, volume, options); });
+    lists_.detail = fitting_detail(options);
+    pool_.begin_turn(kTurnsKept);
+    list_branches(volume, options);
+    lists_.far_trees += far_.size();
+    lists_.trees.insert(lists_.trees.end(), far_.begin(), far_.end());
+    for (std::vector<Listed>* list : {&lists_.trees, &lists_.clumps}) {
+        std::stable_partition(list->begin(), list->end(),
+                              [](const Listed& each) { return each.part == kWhole; });
+    }
+    return lists_;
+}
+
+float ForestView::sway_of(const ViewTree& tree) const {
+    const TreeForm& form = model_.forms[tree.form];
+    const float width = glm::length(form.reach.centre) + form.reach.radius;
+    return sway_.of(tree.scale * form.height(), tree.scale * width);
+}
+
+Ball ForestView::swaying(const Ball& ball, const ViewTree& tree) const {
+    return {ball.centre, ball.radius + sway_of(tree)};
+}
+
+Bounds ForestView::portrait_box(const ViewTree& tree, const glm::vec3& eye) const {
+    // Pictures have a margin, and those from above lean back: shaders/impostor.glsl.
+    constexpr float kLevel = 0.3F; // sine, below which they are seen from the side
+    const Ball ball = portrait_ball(tree);
+    const float wide = kPortraitMargin * ball.radius;
+    const bool is_level =
+        std::abs(eye.y - ball.centre.y) < kLevel * glm::distance(eye, ball.centre);
+    const float high =
+        is_level ? kPortraitMargin * 0.5F * tree.scale * model_.forms[tree.form].height() : wide;
+    const glm::vec3 half(wide, high, wide);
+    return {ball.centre - half, ball.centre + half, false};
+}
+
+bool ForestView::is_behind_ground(const Bounds& box, float sway) const {
+    return ground_ != nullptr && ground_->hides(box.low - sway, box.high + sway);
+}
+
+void ForestView::visit_cell(std::uint32_t index,
+                            float distance,
+                            const ViewVolume& volume,
+                            const RingOptions& options) {
+    const ForestCell& cell = cells_[index];
+    Part part = kWhole; // of its trees
+    if (cell.count >= kFewTrees && cell.gone == 0 && options.horizon_pixels > 0.0F) {
+        const float pixels = cell.tallest * volume.pixels / std::max(distance, kNearest);
+        part = pixels < options.horizon_pixels
+                   ? 0.0F
+                   : between_rings(pixels, options.horizon_pixels, options.blend);
+    }
+    if (part < kWhole) {
+        lists_.clumps.push_back({index, part > 0.0F ? part - 1.0F : kWhole});
+    }
+    if (part <= 0.0F) {
+        lists_.clumped_trees += cell.count;
+        return;
+    }
+    lists_.blended += part < kWhole ? cell.count : 0;
+    for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
+        if (!trees_[t].gone()) {
+            visit_tree(t, volume, options, part);
+        }
+    }
+}
+
+void ForestView::visit_tree(std::uint32_t number,
+                            const ViewVolume& volume,
+                            const RingOptions& options,
+                            Part part) {
+    const ViewTree& tree = view_tree(number);
+    const Ball portrait = portrait_ball(tree);
+    const float pixels =
+        pixels_of(volume, portrait.centre, tree.scale * model_.forms[tree.form].height());
+    if (pixels >= options.level_pixels.back()) {
+        if (volume.meets(swaying(reach_of(tree, tree_of(number).yaw), tree))) {
+            candidates_.push_back({number, pixels});
+        }
+    } else if (volume.meets(swaying(portrait, tree))) {
+        if (is_behind_ground(portrait_box(tree, volume.eye), sway_of(tree))) {
+            ++lists_.hidden;
+            return;
+        }
+        far_.push_back({number, part});
+    }
+}
+
+std::uint32_t ForestView::level_of(float pixels, const RingOptions& options) {
+    std::uint32_t level = 0;
+    while (level < kTreeLevels && pixels < options.level_pixels[level]) {
+        ++level;
+    }
+    return level;
+}
+
+float ForestView::fitting_detail(const RingOptions& options) const {
+    const auto fits = [&](float detail) {
+        double triangles = 0.0;
+        for (const Candidate& candidate : candidates_) {
+            const std::uint32_t level = level_of(candidate.pixels * detail, options);
+            if (level < kTreeLevels) {
+                triangles += model_.forms[view_tree(candidate.tree).form].triangles[level];
+            }
+        }
+        return triangles <= static_cast<double>(options.most_triangles);
+    };
+    if (fits(1.0F)) {
+        return 1.0F;
+    }
+    // Halving, so that a camera that moves a little changes the level of few trees.
+    float most = 0.0F; // that fits: nothing has branches
+    float least = 1.0F;
+    for (int step = 0; step < kDetailSteps; ++step) {
+        const float middle = 0.5F * (most + least);
+        (fits(middle) ? most : least) = middle;
+    }
+    return most;
+}
+
+void ForestView::see_branches(const PoolSpan& span,
+                              const ViewTree& tree,
+                              float yaw,
+                              std::uint32_t part_steps,
+                              const ViewVolume& volume) {
+    const Ball whole = swaying(reach_of(tree, yaw), tree);
+    const bool is_within = volume.holds(whole);
+    const float sway = whole.radius - tree.scale * model_.forms[tree.form].reach.radius;
+    const std::vector<Ball>& balls = model_.forms[tree.form].mesh_balls;
+    for (std::uint32_t place = span.first; place < span.first + span.count; ++place) {
+        const PoolBranch& branch = pool_.branches()[place];
+        const Ball& ball = balls[branch.mesh];
+        if (ball.radius < 0.0F) {
+            continue;
+        }
+        if (is_within ||
+            volume.meets({branch.at(ball.centre), branch.scale * ball.radius + sway})) {
+            seen_branches_.emplace_back(place, part_steps);
+        }
+    }
+}
+
+PoolSpan ForestView::branches_of(std::uint32_t number, const RingOptions& options) {
+    const PoolSpan span = pool_.find(number);
+    if (span.count != 0 || lists_.expanded >= options.most_expansions) {
+        return span;
+    }
+    const std::uint32_t form = view_tree(number).form;
+    const InstanceCache& cache = *model_.forms[form].cache;
+    made_branches_.clear();
+    expanders_[form].expand(tree_of(number), [&](const BranchInstance& branch) {
+        made_branches_.push_back(pool_branch(branch, cache.instances[branch.instance], number));
+    });
+    const PoolSpan made = pool_.add(number, made_branches_);
+    lists_.expanded += made.count != 0 ? 1 : 0;
+    return made;
+}
+
+void ForestView::list_branches(const ViewVolume& volume, const RingOptions& options) {
+    seen_branches_.clear();
+    seen_trees_.clear();
+    std::fill(mesh_counts_.begin(), mesh_counts_.end(), 0);
+    constexpr std::uint32_t kAll = ListedBranch::kPartSteps;
+    for (const Candidate& candidate : candidates_) {
+        const ViewTree& tree = view_tree(candidate.tree);
+        const float pixels = candidate.pixels * lists_.detail;
+        const std::uint32_t level = level_of(pixels, options);
+        const PoolSpan span =
+            level == kTreeLevels ? PoolSpan{} : branches_of(candidate.tree, options);
+        if (span.count == 0) {
+            lists_.trees.push_back({candidate.tree, kWhole});
+            ++lists_.far_trees;
+            lists_.waiting += level == kTreeLevels ? 0 : 1;
+            continue;
+        }
+        std::uint32_t steps = kAll;
+        if (level + 1 == kTreeLevels) {
+            const float part = between_rings(pixels, options.level_pixels.back(), options.blend);
+            steps = static_cast<std::uint32_t>(std::lround(part * static_cast<float>(kAll)));
+        }
+        const auto instances =
+            static_cast<std::uint32_t>(model_.forms[tree.form].cache->instances.size());
+        const auto first = static_cast<std::uint32_t>(seen_branches_.size());
+        see_branches(span, tree, tree_of(candidate.tree).yaw, steps, volume);
+        if (seen_branches_.size() == first) {
+            continue;
+        }
+        ++lists_.trees_of_level[level];
+        if (steps != kAll) {
+            const Part part = static_cast<float>(steps) / static_cast<float>(kAll);
+            lists_.trees.push_back({candidate.tree, steps == 0 ? kWhole : part - 1.0F});
+            ++lists_.blended;
+        }
+        seen_trees_.push_back(
+            {first, static_cast<std::uint32_t>(seen_branches_.size()),
+             first_mesh_[tree.form] + (steps == kAll ? level : kBlending) * instances});
+        for (std::uint32_t i = first; i < seen_branches_.size(); ++i) {
+            const std::uint32_t mesh = pool_.branches()[seen_branches_[i].place()].mesh;
+            ++mesh_counts_[seen_trees_.back().first_mesh + mesh];
+        }
+    }
+    list_runs();
+}
+
+void ForestView::list_runs() {
+    // Finer levels first: they are nearer, and hide what comes behind.
+    std::uint32_t first = 0;
+    for (std::uint32_t group = 0; group <= kBlending; ++group) {
+        const std::uint32_t level = std::min(group, kTreeLevels - 1);
+        for (std::uint32_t f = 0; f < model_.forms.size(); ++f) {
+            const TreeForm& form = model_.forms[f];
+            const auto instances = static_cast<std::uint32_t>(form.cache->instances.size());
+            for (std::uint32_t i = 0; i < instances; ++i) {
+                std::uint32_t& place = mesh_counts_[first_mesh_[f] + group * instances + i];
+                const std::uint32_t count = std::exchange(place, first); // where its list goes on
+                if (count != 0) {
+                    lists_.runs.push_back({f, level, i, first, count, group == kBlending});
+                    lists_.triangles += std::uint64_t{count} * form.mesh_triangles[level][i];
+                    first += count;
+                }
+            }
+        }
+    }
+    lists_.branches.resize(seen_branches_.size());
+    for (const SeenTree& tree : seen_trees_) {
+        for (std::uint32_t i = tree.first; i < tree.end; ++i) {
+            const ListedBranch branch = seen_branches_[i];
+            const std::uint32_t mesh = pool_.branches()[branch.place()].mesh;
+            lists_.branches[mesh_counts_[tree.first_mesh + mesh]++] = branch;
+        }
+    }
+}
+
+} // namespace lsys::view

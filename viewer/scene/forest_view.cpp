@@ -1,0 +1,182 @@
+#include "viewer/scene/forest_view.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsys::view {
+
+namespace {
+
+constexpr double kTreesOfCell = 16.0;
+
+} // namespace
+
+ForestView::ForestView(const ForestModel& model) : model_(model), added_(model.terrain->region()) {
+    std::uint32_t meshes = 0;
+    for (const TreeForm& form : model_.forms) {
+        expanders_.emplace_back(*form.cache, model_.forest->key);
+        first_mesh_.push_back(meshes);
+        meshes += (kBlending + 1) * static_cast<std::uint32_t>(form.cache->instances.size());
+    }
+    mesh_counts_.resize(meshes);
+    sort_into_cells();
+}
+
+Ball ForestView::reach_of(const ViewTree& tree, float yaw) const {
+    const TreeForm& form = model_.forms[tree.form];
+    const glm::vec3& c = form.reach.centre;
+    const glm::vec3 turned(std::cos(yaw) * c.x + std::sin(yaw) * c.z, c.y,
+                           std::cos(yaw) * c.z - std::sin(yaw) * c.x);
+    return {tree.position + tree.scale * turned, tree.scale * form.reach.radius};
+}
+
+Ball ForestView::portrait_ball(const ViewTree& tree) const {
+    const TreeForm& form = model_.forms[tree.form];
+    return {tree.position + glm::vec3(0.0F, tree.scale * 0.5F * (form.low + form.high), 0.0F),
+            tree.scale * std::hypot(form.radius, 0.5F * form.height())};
+}
+
+std::uint64_t ForestView::cell_of(const glm::vec3& place) const {
+    const auto column =
+        static_cast<std::uint64_t>(static_cast<double>(place.x - cells_low_.x) / cell_size_);
+    const auto row =
+        static_cast<std::uint64_t>(static_cast<double>(place.z - cells_low_.y) / cell_size_);
+    return std::min(row, rows_ - 1) * columns_ + std::min(column, columns_ - 1);
+}
+
+ViewTree ForestView::made_of(const Tree& tree, std::uint32_t index) {
+    ViewTree made;
+    made.position = tree.position;
+    made.scale = tree.scale;
+    made.tree = index;
+    made.form = static_cast<std::uint16_t>(model_.form_of(tree));
+    made.portrait = static_cast<std::uint16_t>(
+        model_.forms[made.form].portrait_of[expanders_[made.form].root_instance(tree)]);
+    return made;
+}
+
+void ForestView::sort_into_cells() {
+    const LargeVector<Tree>& trees = model_.forest->trees;
+    alive_count_ = trees.size();
+    if (trees.empty()) {
+        return;
+    }
+    glm::vec2 low(trees.front().position.x, trees.front().position.z);
+    glm::vec2 high = low;
+    for (const Tree& tree : trees) {
+        const glm::vec2 at(tree.position.x, tree.position.z);
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    }
+    const double area = std::max(static_cast<double>(high.x - low.x), 1.0) *
+                        std::max(static_cast<double>(high.y - low.y), 1.0);
+    cell_size_ = std::sqrt(area * kTreesOfCell / static_cast<double>(trees.size()));
+    cells_low_ = low;
+    columns_ = static_cast<std::uint64_t>(static_cast<double>(high.x - low.x) / cell_size_) + 1;
+    rows_ = static_cast<std::uint64_t>(static_cast<double>(high.y - low.y) / cell_size_) + 1;
+    cells_.resize(columns_ * rows_);
+    for (const Tree& tree : trees) {
+        ++cells_[cell_of(tree.position)].count;
+    }
+    std::uint32_t sum = 0;
+    for (ForestCell& cell : cells_) {
+        cell.first = sum;
+        sum += cell.count;
+        cell.count = 0;
+    }
+    trees_.resize(trees.size());
+    for (std::uint32_t i = 0; i < trees.size(); ++i) {
+        ForestCell& cell = cells_[cell_of(trees[i].position)];
+        trees_[cell.first + cell.count++] = made_of(trees[i], i);
+    }
+    std::vector<std::uint32_t> of_form(model_.forms.size());
+    for (ForestCell& cell : cells_) {
+        Bounds box;
+        std::fill(of_form.begin(), of_form.end(), 0);
+        glm::dvec4 total(0.0);
+        for (std::uint32_t i = 0; i < cell.count; ++i) {
+            const ViewTree& tree = trees_[cell.first + i];
+            const Ball reach = reach_of(tree, trees[tree.tree].yaw);
+            const Ball portrait = portrait_ball(tree);
+            for (const Ball& ball : {reach, portrait}) {
+                box.add(ball.centre - ball.radius);
+                box.add(ball.centre + ball.radius);
+            }
+            cell.tallest = std::max(cell.tallest, tree.scale * model_.forms[tree.form].height());
+            ++of_form[tree.form];
+            total += glm::dvec4(glm::dvec3(tree.position), static_cast<double>(tree.scale));
+        }
+        total /= std::max(static_cast<double>(cell.count), 1.0);
+        cell.middle = glm::vec3(total);
+        cell.scale = static_cast<float>(total.w);
+        cell.low = box.low;
+        cell.high = box.high;
+        cell.form = static_cast<std::uint16_t>(std::max_element(of_form.begin(), of_form.end()) -
+                                               of_form.begin());
+        if (cell.count != 0) {
+            bounds_.add(box.low);
+            bounds_.add(box.high);
+        }
+    }
+}
+
+void ForestView::find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const {
+    for (const ForestCell& cell : cells_) {
+        if (cell.count != 0 && cell.low.x <= box.high.x && cell.high.x >= box.low.x &&
+            cell.low.z <= box.high.z && cell.high.z >= box.low.z) {
+            for (std::uint32_t i = 0; i < cell.count; ++i) {
+                if (!trees_[cell.first + i].gone()) {
+                    trees.push_back(cell.first + i);
+                }
+            }
+        }
+    }
+    added_.visit(
+        [&](const AddedTrees::Cell& cell) {
+            return cell.low.x <= box.high.x && cell.high.x >= box.low.x &&
+                   cell.low.z <= box.high.z && cell.high.z >= box.low.z;
+        },
+        [&](std::uint32_t slot) { trees.push_back(first_added() + slot); });
+}
+
+std::uint32_t ForestView::change_tree(std::uint32_t index, const Tree& tree, bool alive) {
+    if (index >= trees_.size()) {
+        const std::uint32_t slot = index - first_added();
+        const bool was_alive = added_.is_alive(slot);
+        if (alive && added_.is_another(slot, tree)) {
+            pool_.forget(index);
+            const ViewTree made = made_of(tree, index);
+            Bounds box;
+            for (const Ball& ball : {reach_of(made, tree.yaw), portrait_ball(made)}) {
+                box.add(ball.centre - ball.radius);
+                box.add(ball.centre + ball.radius);
+            }
+            added_.put(slot, tree, made, box);
+            bounds_.add(box.low);
+            bounds_.add(box.high);
+        }
+        added_.set_alive(slot, alive);
+        alive_count_ += static_cast<std::uint64_t>(alive) - static_cast<std::uint64_t>(was_alive);
+        return index;
+    }
+    ForestCell& cell = cells_[cell_of(tree.position)];
+    std::uint32_t number = cell.first;
+    while (trees_[number].tree != index) {
+        ++number;
+    }
+    if (trees_[number].gone() == alive) {
+        trees_[number].portrait ^= ViewTree::kGone;
+        cell.gone += alive ? ~std::uint32_t{0} : 1U;
+        alive_count_ += alive ? 1 : ~std::uint64_t{0};
+    }
+    return number;
+}
+
+std::uint64_t ForestView::byte_count() const {
+    return trees_.size() * sizeof(ViewTree) + cells_.size() * sizeof(ForestCell);
+}
+
+} // namespace lsys::view

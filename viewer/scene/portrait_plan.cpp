@@ -1,0 +1,86 @@
+#include "viewer/scene/portrait_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lsys::view {
+
+namespace {
+
+/// The finest level that portraits are drawn of, while a tree has at most so many triangles.
+constexpr std::uint32_t kFinestLevel = 1;
+constexpr double kMostTriangles = 70'000.0;
+constexpr std::uint32_t kRow = 4; // trees of a cell along a side
+
+/// Part of 1, the same for the same numbers.
+float drawn(std::uint32_t a, std::uint32_t b) {
+    std::uint32_t h = a * 0x9E3779B1U ^ b * 0x85EBCA77U;
+    h = (h ^ h >> 15U) * 0x2C1B3C6DU;
+    h = (h ^ h >> 12U) * 0x297A2D39U;
+    return static_cast<float>((h ^ h >> 15U) >> 8U) / 16777216.0F;
+}
+
+/// The mean scale of the trees of each form; 0 if it has none.
+std::vector<float> mean_scales(const ForestView& view) {
+    std::vector<double> sums(view.model().forms.size());
+    std::vector<double> counts(sums.size());
+    for (const ViewTree& tree : view.trees()) {
+        sums[tree.form] += static_cast<double>(tree.scale);
+        counts[tree.form] += 1.0;
+    }
+    std::vector<float> scales(sums.size());
+    for (std::size_t f = 0; f < sums.size(); ++f) {
+        scales[f] = counts[f] > 0.0 ? static_cast<float>(sums[f] / counts[f]) : 0.0F;
+    }
+    return scales;
+}
+
+} // namespace
+
+PortraitPlan plan_portraits(const ForestView& view) {
+    PortraitPlan plan;
+    const std::vector<TreeForm>& forms = view.model().forms;
+    for (std::uint32_t f = 0; f < forms.size(); ++f) {
+        const TreeForm& form = forms[f];
+        plan.forms.push_back(
+            {{form.radius, form.low, form.high}, static_cast<std::uint32_t>(plan.layers.size())});
+        std::uint32_t level = kFinestLevel;
+        while (level + 1 < kTreeLevels && form.triangles[level] > kMostTriangles) {
+            ++level;
+        }
+        for (const Tree& tree : form.portraits) {
+            plan.layers.push_back({f, level, {tree}});
+        }
+    }
+    plan.has_cells = view.trees().size() >= kTreesForCells;
+    if (!plan.has_cells) {
+        return plan;
+    }
+    const std::vector<float> scales = mean_scales(view);
+    for (std::uint32_t f = 0; f < forms.size(); ++f) {
+        const TreeForm& form = forms[f];
+        const float side =
+            static_cast<float>(view.cell_size()) / (scales[f] > 0.0F ? scales[f] : 1.0F);
+        const float step = side / static_cast<float>(kRow);
+        plan.forms.push_back(
+            {{0.5F * side * std::numbers::sqrt2_v<float> + form.radius, form.low, form.high},
+             static_cast<std::uint32_t>(plan.layers.size())});
+        Portrait& cell = plan.layers.emplace_back();
+        cell.form = f;
+        cell.level = kTreeLevels - 1;
+        for (std::uint32_t i = 0; i < kRow * kRow; ++i) {
+            Tree tree = form.portraits[i % form.portraits.size()];
+            const std::uint32_t row = i / kRow;
+            tree.yaw = 2.0F * std::numbers::pi_v<float> * drawn(i, 1);
+            tree.position.x =
+                step * (static_cast<float>(i % kRow) + 0.1F + 0.8F * drawn(i, 2)) - 0.5F * side;
+            tree.position.z =
+                step * (static_cast<float>(row) + 0.1F + 0.8F * drawn(i, 3)) - 0.5F * side;
+            cell.trees.push_back(tree);
+        }
+    }
+    return plan;
+}
+
+} // namespace lsys::view

@@ -1,0 +1,221 @@
+#include "viewer/scene/terrain_view.h"
+
+#include "runtime/base/workers.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsys::view {
+
+namespace {
+
+constexpr std::int32_t kNodeCells = 2 * static_cast<std::int32_t>(kPatchCells);
+constexpr float kNearestRange = 34.0F; // m, of level 0
+// A border of two levels has to be whole: corners of the finer one have moved by its range, and
+// those of the coarser one begin to move no nearer than the farthest corner of a node that meets
+// that range: 0.85 * 2 * 34 >= 34 + sqrt(2) * 16.
+constexpr float kMorphStart = 0.85F;
+// The grid's middle follows the camera in steps, so that it is made anew only now and then.
+constexpr std::int64_t kGridStep = 16;
+constexpr std::uint64_t kRowsOfPiece = 16;
+
+std::int64_t floor_to(double value, std::int64_t step) {
+    return static_cast<std::int64_t>(std::floor(value / static_cast<double>(step))) * step;
+}
+
+/// As the shader has it.
+float morph_of(float distance, std::uint32_t level, std::uint32_t levels) {
+    if (level + 1 == levels) {
+        return 0.0F;
+    }
+    const float start = TerrainView::morph_start(level);
+    return std::clamp((distance - start) / (TerrainView::range(level) - start), 0.0F, 1.0F);
+}
+
+} // namespace
+
+float TerrainView::range(std::uint32_t level) {
+    return kNearestRange * static_cast<float>(1U << level);
+}
+
+float TerrainView::morph_start(std::uint32_t level) {
+    return kMorphStart * range(level);
+}
+
+TerrainView::TerrainView(const Terrain& terrain, float reach) : terrain_(terrain) {
+    while (levels_ < kTerrainLevels && range(levels_ - 1) < reach) {
+        ++levels_;
+    }
+}
+
+void TerrainView::make_grid(std::uint32_t level, const glm::vec3& eye) {
+    const auto size = static_cast<double>(cell(level));
+    const auto half = static_cast<std::int64_t>(kHeightTexels) / 2 - kGridStep / 2;
+    const glm::ivec2 origin(floor_to(static_cast<double>(eye.x) / size, kGridStep) - half,
+                            floor_to(static_cast<double>(eye.z) / size, kGridStep) - half);
+    HeightGrid& grid = grids_[level];
+    if (grid.there && grid.origin == origin) {
+        return;
+    }
+    grid.there = true;
+    grid.origin = origin;
+    grid.heights.resize(std::size_t{kHeightTexels} * kHeightTexels);
+    Workers workers(0);
+    workers.for_each(kHeightTexels / kRowsOfPiece, [&](std::uint64_t piece) {
+        for (std::uint64_t row = piece * kRowsOfPiece; row < (piece + 1) * kRowsOfPiece; ++row) {
+            const float z =
+                static_cast<float>(origin.y + static_cast<std::int32_t>(row)) * cell(level);
+            for (std::uint64_t column = 0; column < kHeightTexels; ++column) {
+                const float x =
+                    static_cast<float>(origin.x + static_cast<std::int32_t>(column)) * cell(level);
+                grid.heights[row * kHeightTexels + column] = terrain_.height(x, z);
+            }
+        }
+    });
+    const auto [low, high] = std::minmax_element(grid.heights.begin(), grid.heights.end());
+    grid.lowest = *low;
+    grid.highest = *high;
+    changed_.push_back(level);
+}
+
+void TerrainView::select(const ViewVolume& volume) {
+    patches_.clear();
+    changed_.clear();
+    eye_ = volume.eye;
+    eye_height_ = std::max(eye_.y - terrain_.height(eye_.x, eye_.z), 0.0F);
+    for (std::uint32_t level = 0; level < levels_; ++level) {
+        if (range(level) > eye_height_ || level + 1 == levels_) {
+            make_grid(level, eye_);
+        }
+    }
+    const std::uint32_t top = levels_ - 1;
+    const double node = static_cast<double>(cell(top)) * kNodeCells;
+    const auto reach = static_cast<double>(range(top));
+    const auto index = [&](double at) { return static_cast<std::int64_t>(std::floor(at / node)); };
+    for (std::int64_t z = index(static_cast<double>(eye_.z) - reach);
+         z <= index(static_cast<double>(eye_.z) + reach); ++z) {
+        for (std::int64_t x = index(static_cast<double>(eye_.x) - reach);
+             x <= index(static_cast<double>(eye_.x) + reach); ++x) {
+            visit({x, z, top}, volume);
+        }
+    }
+    std::stable_sort(
+        patches_.begin(), patches_.end(),
+        [](const TerrainPatch& a, const TerrainPatch& b) { return a.level < b.level; });
+}
+
+float TerrainView::distance_to(const Node& node) const {
+    const float size = cell(node.level) * static_cast<float>(kNodeCells);
+    const glm::vec2 low(static_cast<float>(node.x) * size, static_cast<float>(node.z) * size);
+    const glm::vec2 eye(eye_.x, eye_.z);
+    const glm::vec2 away = eye - glm::clamp(eye, low, low + size);
+    return glm::length(glm::vec3(away, eye_height_));
+}
+
+bool TerrainView::is_seen(const TerrainPatch& at,
+                          std::int32_t cells,
+                          const ViewVolume& volume) const {
+    const HeightGrid& grid = grids_[at.level];
+    const float size = cell(at.level);
+    const glm::vec3 low(static_cast<float>(at.x) * size, grid.lowest,
+                        static_cast<float>(at.z) * size);
+    const glm::vec3 high(static_cast<float>(at.x + cells) * size, grid.highest,
+                         static_cast<float>(at.z + cells) * size);
+    return std::all_of(volume.planes.begin(), volume.planes.end(), [&](const glm::vec4& plane) {
+        // The corner that lies farthest inside.
+        const glm::vec3 corner(plane.x > 0.0F ? high.x : low.x, plane.y > 0.0F ? high.y : low.y,
+                               plane.z > 0.0F ? high.z : low.z);
+        return glm::dot(glm::vec3(plane), corner) + plane.w >= 0.0F;
+    });
+}
+
+bool TerrainView::visit(const Node& node, const ViewVolume& volume) {
+    if (distance_to(node) >= range(node.level)) {
+        return false;
+    }
+    const TerrainPatch all{static_cast<std::int32_t>(node.x) * kNodeCells,
+                           static_cast<std::int32_t>(node.z) * kNodeCells, node.level};
+    if (!is_seen(all, kNodeCells, volume)) {
+        return true;
+    }
+    for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
+        const bool finer = node.level != 0 && visit({2 * node.x + (quarter & 1U),
+                                                     2 * node.z + (quarter >> 1U), node.level - 1},
+                                                    volume);
+        constexpr auto kCells = static_cast<std::int32_t>(kPatchCells);
+        const TerrainPatch patch{all.x + static_cast<std::int32_t>(quarter & 1U) * kCells,
+                                 all.z + static_cast<std::int32_t>(quarter >> 1U) * kCells,
+                                 node.level};
+        if (!finer && is_seen(patch, kCells, volume)) {
+            patches_.push_back(patch);
+        }
+    }
+    return true;
+}
+
+float TerrainView::drawn_height(float x, float z) const {
+    Node node;
+    node.level = levels_ - 1;
+    const auto index = [](float at, float size) {
+        return static_cast<std::int64_t>(std::floor(at / size));
+    };
+    const auto size_of = [](std::uint32_t level) {
+        return cell(level) * static_cast<float>(kNodeCells);
+    };
+    while (node.level != 0) {
+        const Node child{index(x, size_of(node.level - 1)), index(z, size_of(node.level - 1)),
+                         node.level - 1};
+        if (distance_to(child) >= range(child.level)) {
+            break;
+        }
+        node = child;
+    }
+    // The corners of the cell, where they have moved to.
+    const std::uint32_t level = node.level;
+    const HeightGrid& grid = grids_[level];
+    const float size = cell(level);
+    const auto corner = [&](std::int32_t cx, std::int32_t cz) {
+        const glm::vec2 place(static_cast<float>(cx) * size, static_cast<float>(cz) * size);
+        const float distance =
+            glm::length(glm::vec3(place - glm::vec2(eye_.x, eye_.z), eye_height_));
+        const float morph = morph_of(distance, level, levels_);
+        const std::int32_t even_x = cx - (cx & 1);
+        const std::int32_t even_z = cz - (cz & 1);
+        const glm::vec2 even(static_cast<float>(even_x) * size, static_cast<float>(even_z) * size);
+        const glm::vec2 moved = glm::mix(place, even, morph);
+        const float height = glm::mix(grid.at(cx, cz), grid.at(even_x, even_z), morph);
+        return glm::vec3(moved.x, height, moved.y);
+    };
+    const auto cx = static_cast<std::int32_t>(std::floor(x / size));
+    const auto cz = static_cast<std::int32_t>(std::floor(z / size));
+    // Corners move down to even places, so what covers a place lies at most one cell beyond.
+    for (std::int32_t dz = 0; dz <= 1; ++dz) {
+        for (std::int32_t dx = 0; dx <= 1; ++dx) {
+            const glm::vec3 a = corner(cx + dx, cz + dz);
+            const glm::vec3 b = corner(cx + dx + 1, cz + dz);
+            const glm::vec3 c = corner(cx + dx, cz + dz + 1);
+            const glm::vec3 d = corner(cx + dx + 1, cz + dz + 1);
+            for (const auto& [p, q, r] : {std::array{a, c, d}, std::array{a, d, b}}) {
+                const glm::vec2 u(q.x - p.x, q.z - p.z);
+                const glm::vec2 v(r.x - p.x, r.z - p.z);
+                const glm::vec2 w(x - p.x, z - p.z);
+                const float area = u.x * v.y - u.y * v.x;
+                if (std::abs(area) < 1e-9F) {
+                    continue;
+                }
+                const float s = (w.x * v.y - w.y * v.x) / area;
+                const float t = (u.x * w.y - u.y * w.x) / area;
+                constexpr float kSlack = 1e-4F;
+                if (s >= -kSlack && t >= -kSlack && s + t <= 1.0F + kSlack) {
+                    return p.y + s * (q.y - p.y) + t * (r.y - p.y);
+                }
+            }
+        }
+    }
+    return std::nanf("");
+}
+
+} // namespace lsys::view

@@ -1,0 +1,98 @@
+// TerrainView: which squares of the ground are drawn for a camera, how fine, and the heights there
+// (CDLOD, Strugar 2010, "Continuous Distance-Dependent Level of Detail for Rendering Heightmaps").
+// The ground is a quadtree of squares without end. Each level has a grid of its own around the
+// camera, twice as coarse as that of the level before, with the terrain's heights at its corners,
+// so every corner that is drawn lies on the terrain. No OpenGL.
+#pragma once
+
+#include "runtime/terrain/terrain.h"
+#include "viewer/scene/view_volume.h"
+
+#include <glm/vec2.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace lsys::view {
+
+inline constexpr std::uint32_t kPatchCells = 8;     // along a side: a quarter of a node
+inline constexpr std::uint32_t kHeightTexels = 256; // along a side of a level's grid
+inline constexpr std::uint32_t kTerrainLevels = 12;
+inline constexpr float kFinestCell = 0.5F; // m
+
+/// A quarter of a node: kPatchCells cells a side.
+struct TerrainPatch {
+    std::int32_t x = 0; // of its lowest corner, in cells of its level
+    std::int32_t z = 0;
+    std::uint32_t level = 0;
+
+    friend bool operator==(const TerrainPatch&, const TerrainPatch&) = default;
+};
+
+/// Heights of a level around the camera.
+struct HeightGrid {
+    glm::ivec2 origin{}; // in cells of the level, of its first texel
+    bool there = false;
+    float lowest = 0.0F;
+    float highest = 0.0F;
+    std::vector<float> heights; // rows along X
+
+    /// `x`, `z` in cells of the level.
+    [[nodiscard]] float at(std::int32_t x, std::int32_t z) const {
+        return heights[static_cast<std::size_t>(z - origin.y) * kHeightTexels +
+                       static_cast<std::size_t>(x - origin.x)];
+    }
+};
+
+class TerrainView {
+public:
+    /// The terrain outlives the view. `reach`: m from the camera, as far as ground is drawn.
+    TerrainView(const Terrain& terrain, float reach);
+
+    /// Makes the heights that are needed for this camera and lists the patches in its view, near
+    /// levels first.
+    void select(const ViewVolume& volume);
+    [[nodiscard]] const std::vector<TerrainPatch>& patches() const { return patches_; }
+    [[nodiscard]] const HeightGrid& grid(std::uint32_t level) const { return grids_[level]; }
+    /// Levels whose heights were made anew by the last select().
+    [[nodiscard]] const std::vector<std::uint32_t>& changed() const { return changed_; }
+    [[nodiscard]] std::uint32_t levels() const { return levels_; }
+
+    /// m; what is farther from the eye is drawn by a coarser level.
+    [[nodiscard]] static float range(std::uint32_t level);
+    /// m from the eye, where corners begin to move to those of the next level; they are there at
+    /// the range.
+    [[nodiscard]] static float morph_start(std::uint32_t level);
+    [[nodiscard]] static float cell(std::uint32_t level) {
+        return kFinestCell * static_cast<float>(1U << level);
+    }
+    /// The eye's height above the ground below it: distances to the ground count this, not the
+    /// height of each hill.
+    [[nodiscard]] float eye_height() const { return eye_height_; }
+    /// The height of the surface that is drawn at a place for the last camera, whatever is in view.
+    [[nodiscard]] float drawn_height(float x, float z) const;
+
+private:
+    struct Node {
+        std::int64_t x = 0; // in nodes of its level
+        std::int64_t z = 0;
+        std::uint32_t level = 0;
+    };
+    void make_grid(std::uint32_t level, const glm::vec3& eye);
+    /// Whether the node was drawn, in whole or by its children.
+    bool visit(const Node& node, const ViewVolume& volume);
+    [[nodiscard]] float distance_to(const Node& node) const;
+    [[nodiscard]] bool
+    is_seen(const TerrainPatch& at, std::int32_t cells, const ViewVolume& volume) const;
+
+    const Terrain& terrain_;
+    std::uint32_t levels_ = 1;
+    std::array<HeightGrid, kTerrainLevels> grids_;
+    std::vector<TerrainPatch> patches_;
+    std::vector<std::uint32_t> changed_;
+    glm::vec3 eye_{};
+    float eye_height_ = 0.0F;
+};
+
+} // namespace lsys::view
