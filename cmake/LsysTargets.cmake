@@ -4,6 +4,8 @@
 add_library(lsys_options INTERFACE)
 target_include_directories(lsys_options INTERFACE "${PROJECT_SOURCE_DIR}")
 target_compile_definitions(lsys_options INTERFACE "LSYS_THREADS=$<BOOL:${LSYS_THREADS}>")
+# Header-only parts of both are in precompiled headers.
+target_link_libraries(lsys_options INTERFACE fmt::fmt glm::glm)
 target_compile_options(lsys_options INTERFACE
   -ffp-contract=off
   # What users get names no folder of the machine that built it.
@@ -40,7 +42,8 @@ add_library(lsys_precompiled STATIC "${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp")
 target_link_libraries(lsys_precompiled PRIVATE lsys_options lsys_warnings)
 target_precompile_headers(lsys_precompiled PRIVATE
   <algorithm> <array> <cmath> <cstddef> <cstdint> <cstring> <functional> <limits> <memory> <optional>
-  <span> <string> <string_view> <unordered_map> <utility> <vector>)
+  <span> <string> <string_view> <unordered_map> <utility> <vector>
+  <fmt/format.h> <glm/geometric.hpp> <glm/gtc/quaternion.hpp> <glm/vec3.hpp>)
 function(lsys_precompile target)
   if(LSYS_PRECOMPILED)
     target_precompile_headers(${target} REUSE_FROM lsys_precompiled)

@@ -1,8 +1,9 @@
 #include "compiler/bytecode/module_file.h"
 #include "runtime/cli/commands.h"
-#include "runtime/cli/files.h"
 #include "runtime/cli/fixes.h"
-#include "runtime/cli/grammar_file.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/program/files.h"
+#include "runtime/program/host.h"
 
 #include <fmt/format.h>
 
@@ -12,21 +13,24 @@ namespace lsys::lsc {
 
 namespace {
 
-Status check_text(const std::string& path,
-                  GrammarText text,
-                  const CheckCommand& command,
-                  const Console& console) {
-    Grammar grammar;
-    const Result<Done> compiled =
-        compile_text(path, std::move(text), command.grammar, make_loader(console), grammar);
-    const Status status = console.show(grammar.diagnostics, grammar.sources);
+ExitStatus check_text(const std::string& path,
+                      GrammarText text,
+                      const CheckCommand& command,
+                      const Console& console) {
+    Result<CompiledText> compiled =
+        compile_text(path, std::move(text), command.grammar, command.run.limits.max_modules,
+                     make_loader(make_project(console, command.run)));
     if (!compiled) {
-        console.error(compiled.error().message);
-        return Status::Failure;
+        return report_error(compiled.error(), console);
+    }
+    Diagnostics& diagnostics = compiled.value().diagnostics;
+    const ExitStatus status = console.show(diagnostics, *compiled.value().grammar.sources);
+    if (compiled.value().definition_error) {
+        return report_error(*compiled.value().definition_error, console);
     }
     console.detail(fmt::format("`{}`: {} errors, {} warnings", shown_path(path),
-                               grammar.diagnostics.count(Severity::Error),
-                               grammar.diagnostics.count(Severity::Warning)));
+                               diagnostics.count(Severity::Error),
+                               diagnostics.count(Severity::Warning)));
     return status;
 }
 
@@ -55,18 +59,19 @@ Result<Done> write_fixed(const std::string& path,
     return Done{};
 }
 
-Status fix_file(const std::string& path,
-                const GrammarText& text,
-                const CheckCommand& command,
-                const Console& console) {
+ExitStatus fix_file(const std::string& path,
+                    const GrammarText& text,
+                    const CheckCommand& command,
+                    const Console& console) {
     FixedGrammar fixed;
-    Result<Done> done = fix_text(path, text, command.grammar, console, fixed);
+    Result<Done> done =
+        fix_text(path, text, command.grammar, make_project(console, command.run), fixed);
     if (done && !console.interrupted()) {
         done = write_fixed(path, text.bytes, fixed, console);
     }
     if (!done) {
         console.error(done.error().message);
-        return Status::Failure;
+        return ExitStatus::Failure;
     }
     for (const std::string& line : fixed.lines) {
         console.line(line);
@@ -74,25 +79,26 @@ Status fix_file(const std::string& path,
     if (fixed.fix_count > fixed.lines.size()) {
         console.info(fmt::format("{} more fixes", fixed.fix_count - fixed.lines.size()));
     }
-    return console.show(fixed.grammar.diagnostics, fixed.grammar.sources);
+    return console.show(fixed.compiled.diagnostics, *fixed.compiled.grammar.sources);
 }
 
 } // namespace
 
-Status run_check(const CheckCommand& command, const Console& console) {
-    Status status = Status::Fine;
+ExitStatus run_check(const CheckCommand& command, const Console& console) {
+    ExitStatus status = ExitStatus::Ok;
     for (const std::string& path : command.files) {
-        Result<GrammarText> text = read_grammar(path, command.grammar.dialect, console);
-        if (!text) {
-            console.error(text.error().message);
-            status = worse(status, Status::Failure);
-        } else if (is_module_file(text.value().bytes)) {
+        GrammarText text;
+        const ExitStatus read = console.take(
+            read_grammar(path, command.grammar.dialect, make_project(console, command.run)), text);
+        if (read != ExitStatus::Ok) {
+            status = worse(status, read);
+        } else if (is_module_file(text.bytes)) {
             console.error(fmt::format("`{}` is compiled; only grammars can be checked", path));
-            status = worse(status, Status::Failure);
+            status = worse(status, ExitStatus::Failure);
         } else if (command.fix) {
-            status = worse(status, fix_file(path, text.value(), command, console));
+            status = worse(status, fix_file(path, text, command, console));
         } else {
-            status = worse(status, check_text(path, std::move(text.value()), command, console));
+            status = worse(status, check_text(path, std::move(text), command, console));
         }
     }
     return status;

@@ -1,23 +1,25 @@
 #include "compiler/bytecode/module_file.h"
 #include "runtime/cli/commands.h"
-#include "runtime/cli/files.h"
-#include "runtime/cli/grammar_file.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/program/files.h"
+#include "runtime/program/host.h"
 
 #include <fmt/format.h>
 
 namespace lsys::lsc {
 
-Status run_compile(const CompileCommand& command, const Console& console) {
+ExitStatus run_compile(const CompileCommand& command, const Console& console) {
     Grammar grammar;
-    const Status status = load_grammar(command.file, command.grammar, console, grammar);
-    if (status != Status::Fine) {
+    const ExitStatus status = console.take(
+        load_grammar(command.file, command.grammar, make_project(console, command.run)), grammar);
+    if (status != ExitStatus::Ok) {
         return status;
     }
     if (grammar.is_module_file) {
         console.error(fmt::format("`{}` is compiled already", shown_path(command.file)));
-        return Status::Failure;
+        return ExitStatus::Failure;
     }
-    Bytecode& bytecode = *grammar.bytecode;
+    Bytecode& bytecode = grammar.bytecode;
     if (command.grammar.generations) {
         bytecode.generations = command.grammar.generations;
     }
@@ -28,11 +30,11 @@ Status run_compile(const CompileCommand& command, const Console& console) {
     const std::string bytes = write_module_file(bytecode);
     if (const Result<Done> written = write_file(command.output, bytes, console); !written) {
         console.error(written.error().message);
-        return Status::Failure;
+        return ExitStatus::Failure;
     }
     console.detail(fmt::format("`{}`: {} bytes, {} symbols, {} productions", command.output,
                                bytes.size(), bytecode.symbols.size(), bytecode.productions.size()));
-    return Status::Fine;
+    return ExitStatus::Ok;
 }
 
 } // namespace lsys::lsc

@@ -5,10 +5,12 @@
 #include "grammar/format/tokens.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/dump_word.h"
-#include "runtime/cli/files.h"
-#include "runtime/cli/grammar_file.h"
-#include "runtime/cli/plant.h"
-#include "runtime/cli/tell.h"
+#include "runtime/cli/plant_options.h"
+#include "runtime/cli/progress.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/plant.h"
+#include "runtime/program/files.h"
+#include "runtime/program/host.h"
 #include "runtime/scene/scene.h"
 
 #include <fmt/format.h>
@@ -23,8 +25,8 @@ namespace {
 /// Options that do not go together, in words; empty if all is well.
 std::string find_conflict(const DumpCommand& command) {
     const bool saves = command.steps || !command.save_state.empty() || !command.from.empty();
-    const bool meshes = command.stage == Stage::Mesh;
-    const bool draws = meshes || command.stage == Stage::Skeleton;
+    const bool meshes = command.stage == DumpStage::Mesh;
+    const bool draws = meshes || command.stage == DumpStage::Skeleton;
     if (!meshes && command.mesh != MeshOptions{}) {
         return "only --stage mesh makes a mesh, so --method, --sides, --level, --deviation, "
                "--subdivisions, --bark-noise and --droop do not go with another stage";
@@ -40,13 +42,13 @@ std::string find_conflict(const DumpCommand& command) {
     if (draws) {
         return {};
     }
-    if (command.rho && command.stage != Stage::Instanced) {
+    if (command.rho && command.stage != DumpStage::Instanced) {
         return "only --stage instanced has a probability, so --rho does not go with another stage";
     }
     if (command.origins && command.count) {
         return "--count prints no modules, so --origins does not go with it";
     }
-    if (command.stage != Stage::Word) {
+    if (command.stage != DumpStage::Word) {
         const bool derives = command.all || command.count || command.stream || command.origins ||
                              saves || command.seed;
         return derives ? "only --stage word derives, so --all, --count, --stream, --origins, "
@@ -63,66 +65,72 @@ std::string find_conflict(const DumpCommand& command) {
     return {};
 }
 
-Status write_stage(const DumpCommand& command, const std::string& text, const Console& console) {
+ExitStatus
+write_stage(const DumpCommand& command, const std::string& text, const Console& console) {
     if (const Result<Done> written = write_file(command.output, text, console); !written) {
-        return fail(written.error(), console);
+        return report_error(written.error(), console);
     }
-    return Status::Fine;
+    return ExitStatus::Ok;
 }
 
 /// Tokens and the tree need no compiler, and are there for wrong grammars too.
-Status dump_syntax(const DumpCommand& command, const Console& console) {
-    Result<GrammarText> grammar = read_grammar(command.file, command.grammar.dialect, console);
-    if (!grammar) {
-        return fail(grammar.error(), console);
+ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
+    const Project project = make_project(console, command.run);
+    GrammarText grammar;
+    if (const ExitStatus read =
+            console.take(read_grammar(command.file, command.grammar.dialect, project), grammar);
+        read != ExitStatus::Ok) {
+        return read;
     }
-    const Dialect dialect = grammar.value().dialect;
-    if (command.stage == Stage::Tokens && dialect != Dialect::Lsys) {
-        return fail(Error{fmt::format("--stage tokens shows those of .lsys, and `{}` is {}",
-                                      shown_path(command.file), row_of(dialect).title)},
-                    console);
+    const Dialect dialect = grammar.dialect;
+    if (command.stage == DumpStage::Tokens && dialect != Dialect::Lsys) {
+        return report_error(Error{fmt::format("--stage tokens shows those of .lsys, and `{}` is {}",
+                                              shown_path(command.file), row_of(dialect).title)},
+                            console);
     }
     if (const Result<Done> fine = check_system(command.file, dialect, command.grammar); !fine) {
-        return fail(fine.error(), console);
+        return report_error(fine.error(), console);
     }
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
-    const FileId root = sources.add(shown_path(command.file), std::move(grammar.value().bytes));
-    const FileLoader load = make_loader(console);
+    const FileId root = sources.add(shown_path(command.file), std::move(grammar.bytes));
+    const FileLoader load = make_loader(project);
     const ParseContext context{
         sources, names, diagnostics, load, command.grammar.bug_compatible, command.grammar.system};
-    const std::string text = command.stage == Stage::Tokens
+    const std::string text = command.stage == DumpStage::Tokens
                                  ? dump_tokens(sources.file(root))
                                  : dump_ast(parse_dialect(root, dialect, context), names, sources);
     return worse(console.show(diagnostics, sources), write_stage(command, text, console));
 }
 
 /// What cannot be made from a compiled grammar.
-Status lacks_program(const DumpCommand& command, const Console& console) {
-    return fail(Error{fmt::format("`{}` is compiled; its program is not in it, --stage bytecode is",
-                                  command.file)},
-                console);
+ExitStatus lacks_program(const DumpCommand& command, const Console& console) {
+    return report_error(
+        Error{fmt::format("`{}` is compiled; its program is not in it, --stage bytecode is",
+                          command.file)},
+        console);
 }
 
-Status dump_instanced(const DumpCommand& command, const Grammar& grammar, const Console& console) {
+ExitStatus
+dump_instanced(const DumpCommand& command, const Grammar& grammar, const Console& console) {
     Diagnostics diagnostics;
     const std::optional<std::string> list =
-        list_instanced(*grammar.program, grammar.names, grammar.sources,
+        list_instanced(*grammar.program, grammar.names, *grammar.sources,
                        command.rho.value_or(kSceneRho), diagnostics);
-    const Status shown = console.show(diagnostics, grammar.sources);
+    const ExitStatus shown = console.show(diagnostics, *grammar.sources);
     return list ? worse(shown, write_stage(command, *list, console)) : shown;
 }
 
 /// `append` puts line `i` of `lines` to the end of a text.
 template <typename Append>
-Status write_lines(const DumpCommand& command,
-                   const Console& console,
-                   std::uint64_t lines,
-                   const Append& append) {
+ExitStatus write_lines(const DumpCommand& command,
+                       const Console& console,
+                       std::uint64_t lines,
+                       const Append& append) {
     Result<Output> output = Output::open(command.output, console);
     if (!output) {
-        return fail(output.error(), console);
+        return report_error(output.error(), console);
     }
     constexpr std::size_t kPieceOfText = std::size_t{1} << 18;
     std::string text;
@@ -130,41 +138,43 @@ Status write_lines(const DumpCommand& command,
         append(line, text);
         if (text.size() >= kPieceOfText || line + 1 == lines) {
             if (console.interrupted()) {
-                return Status::Interrupted;
+                return ExitStatus::Interrupted;
             }
             if (const Result<Done> written = output.value().write(text); !written) {
-                return fail(written.error(), console);
+                return report_error(written.error(), console);
             }
             text.clear();
         }
     }
     const Result<Done> done = output.value().commit();
-    return done ? Status::Fine : fail(done.error(), console);
+    return done ? ExitStatus::Ok : report_error(done.error(), console);
 }
 
-Status dump_plant(const DumpCommand& command, Grammar& grammar, const Console& console) {
+ExitStatus dump_plant(const DumpCommand& command, Grammar& grammar, const Console& console) {
     Plant plant;
-    PlantRequest request = plant_request(command);
-    request.origins = command.origins;
-    Status status = grow_plant(request, grammar, console, plant);
-    if (status != Status::Fine) {
+    PlantOptions options = plant_options(command);
+    options.origins = command.origins;
+    Project project = make_project(console, command.run);
+    PipelineProgress progress(console, project.host);
+    Outcome<Plant> grown = grow_plant(options, grammar, project);
+    progress.clear();
+    ExitStatus status = console.take(std::move(grown), plant);
+    if (status != ExitStatus::Ok) {
         return status;
     }
-    if (command.stage == Stage::Skeleton) {
-        OriginPrinter origins(*grammar.bytecode);
+    if (command.stage == DumpStage::Skeleton) {
+        OriginPrinter origins(grammar.bytecode);
         return write_lines(command, console, line_count(plant.skeleton),
                            [&](std::uint64_t line, std::string& text) {
                                append_line(plant.skeleton, line,
                                            command.origins ? &origins : nullptr, text);
                            });
     }
-    MeshOptions options = command.mesh;
-    options.threads = command.threads;
-    options.max_bytes = command.max_bytes;
-    options.segments = true;
+    MeshOptions mesh_options = command.mesh;
+    mesh_options.segments = true;
     Mesh mesh;
-    status = mesh_plant(plant, plant.skeleton, options, grammar, console, mesh);
-    if (status != Status::Fine) {
+    status = console.take(mesh_plant(plant, plant.skeleton, mesh_options, project), mesh);
+    if (status != ExitStatus::Ok) {
         return status;
     }
     return write_lines(
@@ -174,38 +184,39 @@ Status dump_plant(const DumpCommand& command, Grammar& grammar, const Console& c
 
 } // namespace
 
-Status run_dump(const DumpCommand& command, const Console& console) {
+ExitStatus run_dump(const DumpCommand& command, const Console& console) {
     if (const std::string conflict = find_conflict(command); !conflict.empty()) {
-        return fail(Error{conflict}, console);
+        return report_error(Error{conflict}, console);
     }
-    if (command.stage == Stage::Tokens || command.stage == Stage::Ast) {
+    if (command.stage == DumpStage::Tokens || command.stage == DumpStage::Ast) {
         return dump_syntax(command, console);
     }
     Grammar grammar;
-    const Status status = load_grammar(command.file, command.grammar, console, grammar);
-    if (status != Status::Fine) {
+    const ExitStatus status = console.take(
+        load_grammar(command.file, command.grammar, make_project(console, command.run)), grammar);
+    if (status != ExitStatus::Ok) {
         return status;
     }
     switch (command.stage) {
-    case Stage::Program:
+    case DumpStage::Program:
         if (!grammar.program) {
             return lacks_program(command, console);
         }
         return write_stage(command, dump_program(*grammar.program, grammar.names), console);
-    case Stage::Instanced:
+    case DumpStage::Instanced:
         if (!grammar.program) {
             return lacks_program(command, console);
         }
         return dump_instanced(command, grammar, console);
-    case Stage::Bytecode:
-        return write_stage(command, disassemble(*grammar.bytecode), console);
-    case Stage::Skeleton:
-    case Stage::Mesh:
+    case DumpStage::Bytecode:
+        return write_stage(command, disassemble(grammar.bytecode), console);
+    case DumpStage::Skeleton:
+    case DumpStage::Mesh:
         grammar.program.reset();
         return dump_plant(command, grammar, console);
-    case Stage::Tokens:
-    case Stage::Ast:
-    case Stage::Word:
+    case DumpStage::Tokens:
+    case DumpStage::Ast:
+    case DumpStage::Word:
         break;
     }
     grammar.program.reset(); // the word wants its memory

@@ -62,7 +62,7 @@ std::string explain(const DiagnosticInfo& row, const Explanation& explanation) {
 
 } // namespace
 
-Status run_explain(const ExplainCommand& command, const Console& console) {
+ExitStatus run_explain(const ExplainCommand& command, const Console& console) {
     std::string text;
     if (command.code.empty()) {
         text = list_all();
@@ -80,7 +80,7 @@ Status run_explain(const ExplainCommand& command, const Console& console) {
             const auto nearest = nearest_name(command.code, names);
             console.help(nearest ? fmt::format("did you mean `{}`?", *nearest)
                                  : std::string("`lsc explain` lists all of them"));
-            return Status::Failure;
+            return ExitStatus::Failure;
         }
         text = explain(info(*code), *found);
     }
@@ -90,9 +90,9 @@ Status run_explain(const ExplainCommand& command, const Console& console) {
     }
     if (!written) {
         console.error(written.error().message);
-        return Status::Failure;
+        return ExitStatus::Failure;
     }
-    return Status::Fine;
+    return ExitStatus::Ok;
 }
 
 } // namespace lsys::lsc

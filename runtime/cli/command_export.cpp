@@ -1,13 +1,16 @@
 #include "runtime/cli/commands.h"
+#include "runtime/cli/derivation_report.h"
 #include "runtime/cli/export_stats.h"
-#include "runtime/cli/files.h"
-#include "runtime/cli/plant.h"
-#include "runtime/cli/stopwatch.h"
-#include "runtime/cli/tell.h"
+#include "runtime/cli/plant_options.h"
+#include "runtime/cli/progress.h"
 #include "runtime/derive/runtime_diagnostic.h"
 #include "runtime/export/export.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/physics/animation.h"
+#include "runtime/pipeline/plant.h"
+#include "runtime/pipeline/stopwatch.h"
+#include "runtime/program/files.h"
+#include "runtime/program/host.h"
 #include "runtime/turtle/turtle_diagnostic.h"
 
 #include <fmt/format.h>
@@ -55,33 +58,35 @@ private:
 };
 
 /// What the end of an export makes of the run.
-Status tell_exported(ExportStatus status,
-                     const Sink& sink,
-                     const ExportCommand& command,
-                     const Grammar& grammar,
-                     const Console& console) {
+ExitStatus tell_exported(ExportStatus status,
+                         const Sink& sink,
+                         const ExportCommand& command,
+                         const Grammar& grammar,
+                         const Console& console) {
     switch (status) {
     case ExportStatus::Ok:
-        return Status::Fine;
+        return ExitStatus::Ok;
     case ExportStatus::Nothing:
-        return fail(Error{"the plant has nothing to draw, so no file is written"}, console);
+        return report_error(Error{"the plant has nothing to draw, so no file is written"}, console);
     case ExportStatus::TooLarge:
-        return fail(Error{"the plant is larger than a file of this format can be; another format, "
-                          "fewer sides or a coarser --level may hold it"},
-                    console);
+        return report_error(
+            Error{"the plant is larger than a file of this format can be; another format, "
+                  "fewer sides or a coarser --level may hold it"},
+            console);
     case ExportStatus::TooManyJoints:
-        return show(plant_limit_diagnostic(
-                        "the skin", fmt::format("{} joints", grouped_digits(kMostJoints)),
-                        "ask for fewer generations with `-n`, or for a numbered series in "
-                        "another format, which is any but glTF: `-o tree.ply`"),
-                    Status::Limit, grammar, console);
+        return show_diagnostic(
+            plant_limit_diagnostic(
+                "the skin", fmt::format("{} joints", grouped_digits(kMostJoints)),
+                "ask for fewer generations with `-n`, or for a numbered series in "
+                "another format, which is any but glTF: `-o tree.ply`"),
+            ExitStatus::Limit, grammar, console);
     case ExportStatus::Stopped:
-        return sink.failure() ? fail(*sink.failure(), console) : Status::Interrupted;
+        return sink.failure() ? report_error(*sink.failure(), console) : ExitStatus::Interrupted;
     case ExportStatus::OutOfMemory:
-        return show(plant_limit_diagnostic("the file", command.max_bytes), Status::Limit, grammar,
-                    console);
+        return show_diagnostic(plant_limit_diagnostic("the file", command.run.limits.max_bytes),
+                               ExitStatus::Limit, grammar, console);
     }
-    return Status::Failure;
+    return ExitStatus::Failure;
 }
 
 /// Files of one plant, all complete or all absent.
@@ -91,30 +96,30 @@ public:
         : command_(command), grammar_(grammar), console_(console) {}
 
     /// Writes one, which is not to be seen yet.
-    Status add(const std::string& path,
-               ExportTiming& timing,
-               const std::function<ExportStatus(const ByteSink&)>& write) {
+    ExitStatus add(const std::string& path,
+                   ExportTiming& timing,
+                   const std::function<ExportStatus(const ByteSink&)>& write) {
         Result<Output> output = Output::open(path, console_);
         if (!output) {
-            return fail(output.error(), console_);
+            return report_error(output.error(), console_);
         }
         Sink sink(output.value(), console_);
         const ExportStatus status = write([&sink](std::string_view bytes) { return sink(bytes); });
         timing.bytes += sink.written();
-        const Status told = tell_exported(status, sink, command_, grammar_, console_);
-        if (told == Status::Fine) {
+        const ExitStatus told = tell_exported(status, sink, command_, grammar_, console_);
+        if (told == ExitStatus::Ok) {
             outputs_.push_back(std::move(output.value()));
         }
         return told;
     }
     /// Lets all be seen, in order.
-    Status commit() {
+    ExitStatus commit() {
         for (Output& output : outputs_) {
             if (const Result<Done> done = output.commit(); !done) {
-                return fail(done.error(), console_);
+                return report_error(done.error(), console_);
             }
         }
-        return Status::Fine;
+        return ExitStatus::Ok;
     }
 
 private:
@@ -130,6 +135,7 @@ struct Export {
     ExportFormat format;
     const Grammar& grammar;
     const Console& console;
+    const Project& project;
     const Plant& plant;
     ExportTiming timing;
     Mesh mesh;                      // of the last file
@@ -138,13 +144,13 @@ struct Export {
 
 /// What lies beside the file at `path`: pictures, and the materials of an OBJ. `info` gets their
 /// names.
-Status
+ExitStatus
 add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info, Files& files) {
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
     std::vector<PictureFile> pictures;
     if (make_picture_files(run.mesh, run.format, info, pictures) != ExportStatus::Ok) {
-        return show(plant_limit_diagnostic("the file", run.command.max_bytes), Status::Limit,
-                    run.grammar, run.console);
+        return show_diagnostic(plant_limit_diagnostic("the file", run.command.run.limits.max_bytes),
+                               ExitStatus::Limit, run.grammar, run.console);
     }
     const auto put = [](std::string_view bytes, const ByteSink& sink) {
         return sink(bytes) ? ExportStatus::Ok : ExportStatus::Stopped;
@@ -153,15 +159,15 @@ add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info,
         if (!run.pictures.insert(picture.name).second) {
             continue;
         }
-        const Status status =
+        const ExitStatus status =
             files.add(path.parent_path() / picture.name, run.timing,
                       [&](const ByteSink& sink) { return put(picture.bytes, sink); });
-        if (status != Status::Fine) {
+        if (status != ExitStatus::Ok) {
             return status;
         }
     }
     if (run.format != ExportFormat::Obj) {
-        return Status::Fine;
+        return ExitStatus::Ok;
     }
     const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
     info.mtl_name = library.filename().string();
@@ -179,26 +185,24 @@ bool is_regular(const std::string& path) {
 }
 
 /// Meshes `skeleton` and writes it to `path`; with `animation`, whose first pose it is, as a skin.
-Status write_plant(Export& run,
-                   const Skeleton& skeleton,
-                   const std::string& path,
-                   const PlantAnimation* animation = nullptr) {
+ExitStatus write_plant(Export& run,
+                       const Skeleton& skeleton,
+                       const std::string& path,
+                       const PlantAnimation* animation = nullptr) {
     const ExportCommand& command = run.command;
-    Clock::time_point start = Clock::now();
+    SteadyClock::time_point start = SteadyClock::now();
     if (uses_mesh(run.format)) {
         MeshOptions options = command.mesh;
-        options.threads = command.threads;
-        options.max_bytes = command.max_bytes;
         options.segments = animation != nullptr;
         run.mesh = {};
-        const Status status =
-            mesh_plant(run.plant, skeleton, options, run.grammar, run.console, run.mesh);
-        if (status != Status::Fine) {
+        const ExitStatus status =
+            run.console.take(mesh_plant(run.plant, skeleton, options, run.project), run.mesh);
+        if (status != ExitStatus::Ok) {
             return status;
         }
     }
     run.timing.mesh_seconds += seconds_since(start);
-    start = Clock::now();
+    start = SteadyClock::now();
     ExportInfo info;
     info.grammar = std::filesystem::path(command.file).filename().string();
     info.seed = run.plant.seed;
@@ -206,18 +210,18 @@ Status write_plant(Export& run,
     info.generator = "lsc " LSC_VERSION;
     info.user_meshes = &run.plant.user_meshes;
     info.animation = animation;
-    info.threads = command.threads;
+    info.threads = command.run.threads;
     Files files(command, run.grammar, run.console);
-    Status status = Status::Fine;
+    ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
         status = add_side_files(run, path, info, files);
     }
-    if (status == Status::Fine) {
+    if (status == ExitStatus::Ok) {
         status = files.add(path, run.timing, [&](const ByteSink& sink) {
             return export_mesh(run.mesh, skeleton, run.format, info, sink);
         });
     }
-    if (status == Status::Fine) {
+    if (status == ExitStatus::Ok) {
         status = files.commit();
     }
     run.timing.write_seconds += seconds_since(start);
@@ -230,14 +234,16 @@ bool holds_motion(ExportFormat format) {
 }
 
 /// One file with all frames.
-Status write_animation(Export& run, PlantPhysics& physics) {
+ExitStatus write_animation(Export& run, PlantPhysics& physics) {
     const ExportCommand& command = run.command;
-    if (animation_bytes(run.plant.skeleton.segments.size(), command.frames) > command.max_bytes) {
-        return show(plant_limit_diagnostic("the animation", byte_size_text(command.max_bytes),
-                                           "ask for fewer frames with `--frames`, for fewer "
-                                           "generations with `-n`, or raise the limit with "
-                                           "`--max-memory`"),
-                    Status::Limit, run.grammar, run.console);
+    if (animation_bytes(run.plant.skeleton.segments.size(), command.frames) >
+        command.run.limits.max_bytes) {
+        return show_diagnostic(
+            plant_limit_diagnostic("the animation", byte_size_text(command.run.limits.max_bytes),
+                                   "ask for fewer frames with `--frames`, for fewer "
+                                   "generations with `-n`, or raise the limit with "
+                                   "`--max-memory`"),
+            ExitStatus::Limit, run.grammar, run.console);
     }
     Skeleton first;
     physics.pose(first);
@@ -246,7 +252,7 @@ Status write_animation(Export& run, PlantPhysics& physics) {
 }
 
 /// The plant bent by its weight and by wind: at rest, or at moments of its motion.
-Status write_bent(Export& run) {
+ExitStatus write_bent(Export& run) {
     const ExportCommand& command = run.command;
     constexpr double kRadians = 1e-6;
     constexpr std::uint32_t kRounds = 10'000;
@@ -254,8 +260,8 @@ Status write_bent(Export& run) {
     PhysicsOptions options;
     options.gravity = command.gravity.value_or(0.0F);
     options.wind = command.wind.value_or(Wind{});
-    options.damping = run.grammar.bytecode->settings.damping;
-    options.threads = command.threads;
+    options.damping = run.grammar.bytecode.settings.damping;
+    options.threads = command.run.threads;
     // Whole steps from one frame to the next.
     const auto steps = static_cast<std::uint32_t>(
         std::max(1.0F, std::ceil(kStepsPerSecond / command.frames_per_second)));
@@ -274,52 +280,59 @@ Status write_bent(Export& run) {
     }
     for (std::uint32_t frame = 1; frame <= command.frames; ++frame) {
         physics.pose(bent);
-        const Status status = write_plant(run, bent, numbered(command.output, frame));
-        if (status != Status::Fine) {
+        const ExitStatus status = write_plant(run, bent, numbered(command.output, frame));
+        if (status != ExitStatus::Ok) {
             return status;
         }
         for (std::uint32_t step = 0; step < steps; ++step) {
             physics.step();
         }
     }
-    return Status::Fine;
+    return ExitStatus::Ok;
 }
 
 } // namespace
 
-Status run_export(const ExportCommand& command, const Console& console) {
+ExitStatus run_export(const ExportCommand& command, const Console& console) {
     const std::optional<ExportFormat> format =
         command.format ? command.format : format_of_path(command.output);
     if (!format) {
-        return fail(Error{fmt::format("the name `{}` does not tell a format; say which with "
-                                      "--format",
-                                      command.output)},
-                    console);
+        return report_error(
+            Error{fmt::format("the name `{}` does not tell a format; say which with "
+                              "--format",
+                              command.output)},
+            console);
     }
     const bool bends = command.gravity || command.wind;
     if ((command.settle || command.frames != 0) && !bends) {
-        return fail(Error{"--settle and --frames need a force: --gravity or --wind"}, console);
+        return report_error(Error{"--settle and --frames need a force: --gravity or --wind"},
+                            console);
     }
     if (command.frames != 0 && command.output == "-" && !holds_motion(*format)) {
-        return fail(Error{"--frames writes several files of this format, which do not go to "
-                          "standard output; glb and gltf hold all frames in one"},
-                    console);
+        return report_error(
+            Error{"--frames writes several files of this format, which do not go to "
+                  "standard output; glb and gltf hold all frames in one"},
+            console);
     }
     Grammar grammar;
-    Status status = load_grammar(command.file, command.grammar, console, grammar);
-    if (status != Status::Fine) {
+    Project project = make_project(console, command.run);
+    ExitStatus status = console.take(load_grammar(command.file, command.grammar, project), grammar);
+    if (status != ExitStatus::Ok) {
         return status;
     }
     grammar.program.reset(); // the plant wants its memory
     Plant plant;
-    status = grow_plant(plant_request(command), grammar, console, plant);
-    if (status != Status::Fine) {
+    PipelineProgress progress(console, project.host);
+    Outcome<Plant> grown = grow_plant(plant_options(command), grammar, project);
+    progress.clear();
+    status = console.take(std::move(grown), plant);
+    if (status != ExitStatus::Ok) {
         return status;
     }
-    Export run{command, *format, grammar, console, plant, {}, {}, {}};
-    const Clock::time_point start = Clock::now();
+    Export run{command, *format, grammar, console, project, plant, {}, {}, {}};
+    const SteadyClock::time_point start = SteadyClock::now();
     status = bends ? write_bent(run) : write_plant(run, plant.skeleton, command.output);
-    if (status != Status::Fine || !command.stats) {
+    if (status != ExitStatus::Ok || !command.stats) {
         return status;
     }
     if (bends) { // what neither meshes nor writes
@@ -334,7 +347,7 @@ Status run_export(const ExportCommand& command, const Console& console) {
         return status;
     }
     const Result<Done> written = console.write(text);
-    return written ? status : fail(written.error(), console);
+    return written ? status : report_error(written.error(), console);
 }
 
 } // namespace lsys::lsc

@@ -1,10 +1,10 @@
 #include "runtime/cli/commands.h"
-#include "runtime/cli/files.h"
-#include "runtime/cli/forest_scene.h"
-#include "runtime/cli/grow_forest.h"
-#include "runtime/cli/tell.h"
 #include "runtime/export/export_forest.h"
+#include "runtime/pipeline/forest.h"
+#include "runtime/pipeline/stopwatch.h"
 #include "runtime/placement/domination.h"
+#include "runtime/program/files.h"
+#include "runtime/program/host.h"
 #include "runtime/turtle/turtle_diagnostic.h"
 
 #include <fmt/format.h>
@@ -21,8 +21,6 @@
 namespace lsys::lsc {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t kGroundCells = 128; // along each side
 
@@ -91,6 +89,7 @@ std::string find_conflict(const ForestCommand& command, const Target& target) {
 struct Run {
     const ForestCommand& command;
     const Console& console;
+    const Project& project;
     const Target& target;
     const Scene& scene;
     GrownForest grown;
@@ -98,61 +97,35 @@ struct Run {
     std::optional<Mesh> ground;
 };
 
-Status show_limit(Diagnostic diagnostic, const Console& console) {
-    Diagnostics diagnostics;
-    diagnostics.add(std::move(diagnostic));
-    static_cast<void>(console.show(diagnostics, {}));
-    return Status::Limit;
-}
-
-Status make_meshes(Run& run) {
-    MeshOptions options = run.command.mesh;
-    options.threads = run.command.threads;
-    options.max_bytes = run.command.max_bytes;
-    const Forest& forest = run.grown.forest;
-    for (std::size_t s = 0; s < forest.species.size(); ++s) {
-        std::vector<InstanceMeshes>& meshes = run.meshes.emplace_back();
-        for (const ForestStage& stage : forest.species[s].stages) {
-            switch (make_instance_meshes(stage.cache, run.grown.user_meshes[s], options,
-                                         meshes.emplace_back())) {
-            case InstanceMeshStatus::Ok:
-            case InstanceMeshStatus::Joined: // only of boxes, which are not offered
-                break;
-            case InstanceMeshStatus::TooManyVertices:
-                return fail(Error{"the heroes have more than 4,294,967,295 vertices; ask for fewer "
-                                  "--heroes, --sides or generations"},
-                            run.console);
-            case InstanceMeshStatus::Limit:
-            case InstanceMeshStatus::OutOfMemory:
-                return show_limit(
-                    plant_limit_diagnostic("the mesh of the heroes", run.command.max_bytes),
-                    run.console);
-            }
-        }
+ExitStatus make_meshes(Run& run) {
+    const ExitStatus status =
+        run.console.take(mesh_forest(run.grown, run.command.mesh, run.project), run.meshes);
+    if (status != ExitStatus::Ok) {
+        return status;
     }
     if (run.scene.terrain.kind != TerrainKind::Flat || run.command.files.size() == 1) {
         TerrainMeshOptions ground;
         ground.columns = kGroundCells;
         ground.rows = kGroundCells;
-        ground.threads = run.command.threads;
+        ground.threads = run.command.run.threads;
         Result<Mesh> made = make_terrain_mesh(*run.grown.terrain, ground);
         if (!made) {
-            return fail(made.error(), run.console);
+            return report_error(made.error(), run.console);
         }
         run.ground = std::move(made.value());
     }
-    return Status::Fine;
+    return ExitStatus::Ok;
 }
 
 /// Writes `write`'s bytes to `path`, complete or not at all.
 template <typename Write>
-Status write_output(Run& run, const std::string& path, const Write& write) {
+ExitStatus write_output(Run& run, const std::string& path, const Write& write) {
     Result<Output> output = Output::open(path, run.console);
     if (!output) {
-        return fail(output.error(), run.console);
+        return report_error(output.error(), run.console);
     }
     std::optional<Error> failure;
-    const Status status = write([&](std::string_view bytes) {
+    const ExitStatus status = write([&](std::string_view bytes) {
         if (run.console.interrupted()) {
             return false;
         }
@@ -163,54 +136,58 @@ Status write_output(Run& run, const std::string& path, const Write& write) {
         return done.ok();
     });
     if (failure) {
-        return fail(*failure, run.console);
+        return report_error(*failure, run.console);
     }
-    if (status != Status::Fine) {
+    if (status != ExitStatus::Ok) {
         return status;
     }
     const Result<Done> done = output.value().commit();
-    return done ? Status::Fine : fail(done.error(), run.console);
+    return done ? ExitStatus::Ok : report_error(done.error(), run.console);
 }
 
-Status tell(ForestExportStatus status, const Run& run) {
+ExitStatus tell(ForestExportStatus status, const Run& run) {
     switch (status) {
     case ForestExportStatus::Ok:
-        return Status::Fine;
+        return ExitStatus::Ok;
     case ForestExportStatus::Nothing:
-        return fail(Error{"the forest has nothing to draw, so no file is written"}, run.console);
+        return report_error(Error{"the forest has nothing to draw, so no file is written"},
+                            run.console);
     case ForestExportStatus::TooLarge:
-        return fail(Error{"the forest is larger than a file of this format can be"}, run.console);
+        return report_error(Error{"the forest is larger than a file of this format can be"},
+                            run.console);
     case ForestExportStatus::TooManyNodes:
-        return show_limit(plant_limit_diagnostic("the expanded forest", "1,000,000 branches",
-                                                 "without --expand, branches are instances"),
-                          run.console);
+        return run.console.show(plant_limit_diagnostic("the expanded forest", "1,000,000 branches",
+                                                       "without --expand, branches are instances"),
+                                ExitStatus::Limit);
     case ForestExportStatus::Stopped:
-        return Status::Interrupted;
+        return ExitStatus::Interrupted;
     case ForestExportStatus::OutOfMemory:
-        return show_limit(plant_limit_diagnostic("the file", run.command.max_bytes), run.console);
+        return run.console.show(
+            plant_limit_diagnostic("the file", run.command.run.limits.max_bytes),
+            ExitStatus::Limit);
     }
-    return Status::Failure;
+    return ExitStatus::Failure;
 }
 
-Status write_instances(Run& run, const ForestScene& scene, const std::string& path) {
+ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string& path) {
     ForestExportInfo info;
     info.name = std::filesystem::path(path).stem().string();
     info.generator = "lsc " LSC_VERSION;
     info.cell = run.command.cell;
-    info.threads = run.command.threads;
+    info.threads = run.command.run.threads;
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
     if (run.target.forest == ForestFormat::Usda) {
         info.textures = path != "-";
         std::vector<PictureFile> pictures;
-        const Status status = tell(make_forest_picture_files(scene, info, pictures), run);
-        if (status != Status::Fine) {
+        const ExitStatus status = tell(make_forest_picture_files(scene, info, pictures), run);
+        if (status != ExitStatus::Ok) {
             return status;
         }
         for (const PictureFile& picture : pictures) {
             const std::string beside =
                 (std::filesystem::path(path).parent_path() / picture.name).string();
             if (const Result<Done> done = write_file(beside, picture.bytes, run.console); !done) {
-                return fail(done.error(), run.console);
+                return report_error(done.error(), run.console);
             }
         }
     }
@@ -220,19 +197,21 @@ Status write_instances(Run& run, const ForestScene& scene, const std::string& pa
     });
 }
 
-Status write_baked(Run& run, const ForestScene& scene, const std::string& path) {
+ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& path) {
     Mesh mesh;
-    switch (bake_forest(scene, run.command.max_bytes, run.command.threads, mesh)) {
+    switch (bake_forest(scene, run.command.run.limits.max_bytes, run.command.run.threads, mesh)) {
     case MeshStatus::Ok:
         break;
     case MeshStatus::TooManyVertices:
-        return fail(Error{"the baked forest has more than 4,294,967,295 vertices; without --bake, "
-                          "branches are instances"},
-                    run.console);
+        return report_error(
+            Error{"the baked forest has more than 4,294,967,295 vertices; without --bake, "
+                  "branches are instances"},
+            run.console);
     case MeshStatus::Limit:
     case MeshStatus::OutOfMemory:
-        return show_limit(plant_limit_diagnostic("the baked forest", run.command.max_bytes),
-                          run.console);
+        return run.console.show(
+            plant_limit_diagnostic("the baked forest", run.command.run.limits.max_bytes),
+            ExitStatus::Limit);
     }
     ExportInfo info;
     info.grammar = std::filesystem::path(path).stem().string();
@@ -243,28 +222,30 @@ Status write_baked(Run& run, const ForestScene& scene, const std::string& path) 
     return write_output(run, path, [&](const ByteSink& sink) {
         switch (export_mesh(mesh, none, run.target.mesh, info, sink)) {
         case ExportStatus::Ok:
-            return Status::Fine;
+            return ExitStatus::Ok;
         case ExportStatus::Nothing:
-            return fail(Error{"the forest has nothing to draw, so no file is written"},
-                        run.console);
+            return report_error(Error{"the forest has nothing to draw, so no file is written"},
+                                run.console);
         case ExportStatus::Stopped:
-            return Status::Interrupted;
+            return ExitStatus::Interrupted;
         case ExportStatus::OutOfMemory:
-            return show_limit(plant_limit_diagnostic("the file", run.command.max_bytes),
-                              run.console);
+            return run.console.show(
+                plant_limit_diagnostic("the file", run.command.run.limits.max_bytes),
+                ExitStatus::Limit);
         case ExportStatus::TooLarge:
         case ExportStatus::TooManyJoints:
             break;
         }
-        return fail(Error{"the forest is larger than a file of this format can be"}, run.console);
+        return report_error(Error{"the forest is larger than a file of this format can be"},
+                            run.console);
     });
 }
 
-Status write_forest(Run& run, const std::string& path) {
+ExitStatus write_forest(Run& run, const std::string& path) {
     const ForestScene scene{run.grown.forest, run.meshes, run.ground ? &*run.ground : nullptr};
     switch (run.target.kind) {
     case Kind::None:
-        return Status::Fine;
+        return ExitStatus::Ok;
     case Kind::Instances:
         return write_instances(run, scene, path);
     case Kind::Mesh:
@@ -272,15 +253,15 @@ Status write_forest(Run& run, const std::string& path) {
     case Kind::Statistics:
         break;
     }
-    const std::string text = forest_stats_json(scene, {true, run.command.threads}) + "\n";
+    const std::string text = forest_stats_json(scene, {true, run.command.run.threads}) + "\n";
     const Result<Done> done = write_file(path, text, run.console);
-    return done ? Status::Fine : fail(done.error(), run.console);
+    return done ? ExitStatus::Ok : report_error(done.error(), run.console);
 }
 
 /// The statistics as a table.
 std::string stats_text(const Run& run, const ForestCounts& counts, double seconds) {
     const Forest& forest = run.grown.forest;
-    const std::uint64_t different = count_different_trees(forest, run.command.threads);
+    const std::uint64_t different = count_different_trees(forest, run.command.run.threads);
     std::string text = fmt::format(
         "trees      {}, {} of them different\n"
         "branches   {} ({:.1f} a tree, at most {})\n"
@@ -333,28 +314,28 @@ std::string stats_text(const Run& run, const ForestCounts& counts, double second
     return text;
 }
 
-Status print_stats(const Run& run) {
+ExitStatus print_stats(const Run& run) {
     std::string text;
     if (run.command.messages.format == MessageFormat::Json) {
         const ForestScene scene{run.grown.forest, run.meshes, nullptr};
-        text = forest_stats_json(scene, {true, run.command.threads}) + "\n";
+        text = forest_stats_json(scene, {true, run.command.run.threads}) + "\n";
     } else {
-        const Clock::time_point start = Clock::now();
-        const ForestCounts counts = count_forest(run.grown.forest, run.command.threads);
-        const double spent = std::chrono::duration<double>(Clock::now() - start).count();
-        text = stats_text(run, counts, spent);
+        const Stopwatch counting;
+        const ForestCounts counts = count_forest(run.grown.forest, run.command.run.threads);
+        text = stats_text(run, counts, counting.seconds());
     }
     const Result<Done> done = run.console.write(text);
-    return done ? Status::Fine : fail(done.error(), run.console);
+    return done ? ExitStatus::Ok : report_error(done.error(), run.console);
 }
 
 /// The forest in `frames` of its years, the last one included.
-Status write_years(Run& run, const ForestLimits& limits) {
+ExitStatus write_years(Run& run) {
     PlacementOptions options = run.scene.placement;
-    options.threads = limits.threads;
+    options.threads = run.project.threads;
     Result<Domination> begun = Domination::begin(options, *run.grown.terrain);
     if (!begun) {
-        return fail(Error{fmt::format("placement: {}", begun.error().message)}, run.console);
+        return report_error(Error{fmt::format("placement: {}", begun.error().message)},
+                            run.console);
     }
     Domination& domination = begun.value();
     for (std::uint32_t frame = 1; frame <= run.command.frames; ++frame) {
@@ -362,68 +343,70 @@ Status write_years(Run& run, const ForestLimits& limits) {
             static_cast<std::uint32_t>(std::uint64_t{options.years} * frame / run.command.frames);
         while (domination.year() < year) {
             if (run.console.interrupted()) {
-                return Status::Interrupted;
+                return ExitStatus::Interrupted;
             }
             if (const Result<Done> done = domination.step(); !done) {
-                return fail(
+                return report_error(
                     Error{fmt::format("year {}: {}", domination.year() + 1, done.error().message)},
                     run.console);
             }
         }
         run.grown.forest.trees = domination.trees();
         const std::string path = numbered(run.command.output, frame);
-        const Status status = write_forest(run, path);
-        if (status != Status::Fine) {
+        const ExitStatus status = write_forest(run, path);
+        if (status != ExitStatus::Ok) {
             return status;
         }
         run.console.detail(
             fmt::format("{}: year {}, {} plants", path, year, run.grown.forest.trees.size()));
     }
-    return Status::Fine;
+    return ExitStatus::Ok;
 }
 
 } // namespace
 
-Status run_forest(const ForestCommand& command, const Console& console) {
+ExitStatus run_forest(const ForestCommand& command, const Console& console) {
     const Result<Target> target = target_of(command);
     if (!target) {
-        return fail(target.error(), console);
+        return report_error(target.error(), console);
     }
     if (const std::string conflict = find_conflict(command, target.value()); !conflict.empty()) {
-        return fail(Error{conflict}, console);
+        return report_error(Error{conflict}, console);
     }
-    CommandScene loaded;
-    if (const Status status = load_command_scene(command, console, loaded);
-        status != Status::Fine) {
+    const Project project = make_project(console, command.run);
+    LoadedScene loaded;
+    if (const ExitStatus status =
+            console.take(load_scene(command.files, command.overrides, project), loaded);
+        status != ExitStatus::Ok) {
         return status;
     }
     const Scene& scene = loaded.scene;
     const bool grows = scene.placement.method == PlacementMethod::Domination;
     if (command.frames != 0 && !grows) {
-        return fail(Error{"--frames shows a forest that grows, which is --placement domination"},
-                    console);
+        return report_error(
+            Error{"--frames shows a forest that grows, which is --placement domination"}, console);
     }
-    const ForestLimits limits{command.threads, command.grammar.max_modules, command.max_bytes};
-    Run run{command, console, target.value(), scene, {}, {}, {}};
-    Status status = grow_species(scene, loaded.sources, loaded.folder, limits, console, run.grown);
-    if (status != Status::Fine || command.check) {
+    Run run{command, console, project, target.value(), scene, {}, {}, {}};
+    ExitStatus status = console.take(grow_species(loaded, project, {}), run.grown);
+    if (status != ExitStatus::Ok || command.check) {
         return status;
     }
     if (target.value().kind != Kind::None || command.messages.format == MessageFormat::Json) {
         status = make_meshes(run);
-        if (status != Status::Fine) {
+        if (status != ExitStatus::Ok) {
             return status;
         }
     }
     if (command.frames != 0) {
-        status = write_years(run, limits);
+        status = write_years(run);
     } else {
-        status = place_forest(scene, limits, console, run.grown);
-        if (status == Status::Fine) {
+        Done placed;
+        status = console.take(place_forest(scene, project, run.grown), placed);
+        if (status == ExitStatus::Ok) {
             status = write_forest(run, command.output);
         }
     }
-    if (status == Status::Fine && command.stats) {
+    if (status == ExitStatus::Ok && command.stats) {
         status = print_stats(run);
     }
     return status;

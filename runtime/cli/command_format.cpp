@@ -1,7 +1,8 @@
 #include "grammar/format/format.h"
 #include "runtime/cli/commands.h"
-#include "runtime/cli/files.h"
-#include "runtime/cli/grammar_file.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/program/files.h"
+#include "runtime/program/host.h"
 
 #include <fmt/format.h>
 
@@ -12,24 +13,26 @@ namespace lsys::lsc {
 
 namespace {
 
-Status format_file(const std::string& path, const FormatCommand& command, const Console& console) {
-    Result<GrammarText> grammar = read_grammar(path, command.dialect, console);
-    if (!grammar) {
-        console.error(grammar.error().message);
-        return Status::Failure;
+ExitStatus
+format_file(const std::string& path, const FormatCommand& command, const Console& console) {
+    const Project project = make_project(console, {});
+    GrammarText grammar;
+    if (const ExitStatus read = console.take(read_grammar(path, command.dialect, project), grammar);
+        read != ExitStatus::Ok) {
+        return read;
     }
-    if (grammar.value().dialect != Dialect::Lsys) {
+    if (grammar.dialect != Dialect::Lsys) {
         console.error(fmt::format("`{}` is {}; only .lsys files are laid out", shown_path(path),
-                                  row_of(grammar.value().dialect).title));
+                                  row_of(grammar.dialect).title));
         console.help("`lsc import` makes a .lsys file of it");
-        return Status::Failure;
+        return ExitStatus::Failure;
     }
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
-    const FileLoader load = make_loader(console);
-    const std::string before = grammar.value().bytes;
-    const FileId file = sources.add(shown_path(path), std::move(grammar.value().bytes));
+    const FileLoader load = make_loader(project);
+    const std::string before = grammar.bytes;
+    const FileId file = sources.add(shown_path(path), std::move(grammar.bytes));
     const std::optional<std::string> text = format_lsys(file, {sources, names, diagnostics, load});
     if (!text) { // nothing is written; the messages say why
         return console.show(diagnostics, sources);
@@ -37,31 +40,31 @@ Status format_file(const std::string& path, const FormatCommand& command, const 
     if (command.check) {
         if (*text != before) {
             console.line(fmt::format("{}: not formatted", shown_path(path)));
-            return Status::AuthorErrors;
+            return ExitStatus::AuthorErrors;
         }
-        return Status::Fine;
+        return ExitStatus::Ok;
     }
     if (path != "-" && *text == before) {
-        return Status::Fine;
+        return ExitStatus::Ok;
     }
     if (Result<Done> written = write_file(path, *text, console); !written) {
         console.error(written.error().message);
-        return Status::Failure;
+        return ExitStatus::Failure;
     }
     if (path != "-") {
         console.detail(fmt::format("`{}`: formatted", shown_path(path)));
     }
-    return Status::Fine;
+    return ExitStatus::Ok;
 }
 
 } // namespace
 
-Status run_format(const FormatCommand& command, const Console& console) {
-    Status status = Status::Fine;
+ExitStatus run_format(const FormatCommand& command, const Console& console) {
+    ExitStatus status = ExitStatus::Ok;
     for (const std::string& path : command.files) {
         status = worse(status, format_file(path, command, console));
         if (console.interrupted()) {
-            return Status::Interrupted;
+            return ExitStatus::Interrupted;
         }
     }
     return status;

@@ -1,8 +1,8 @@
 #include "grammar/format/format.h"
 #include "runtime/cli/commands.h"
-#include "runtime/cli/files.h"
-#include "runtime/cli/grammar_file.h"
-#include "runtime/cli/tell.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/program/files.h"
+#include "runtime/program/host.h"
 
 #include <fmt/format.h>
 
@@ -30,33 +30,39 @@ struct Imported {
 
 /// Compiles as every other command does, so that it says the same. Fine: the text derives what the
 /// file derives.
-Status import_text(const std::string& path,
-                   GrammarText text,
-                   const GrammarOptions& options,
-                   const Console& console,
-                   Imported& imported) {
+ExitStatus import_text(const std::string& path,
+                       GrammarText text,
+                       const GrammarOptions& options,
+                       const RunOptions& run,
+                       const Console& console,
+                       Imported& imported) {
+    const Project project = make_project(console, run);
     imported.dialect = text.dialect;
-    Grammar grammar;
-    const Result<Done> compiled =
-        compile_text(path, std::move(text), options, make_loader(console), grammar);
+    Result<CompiledText> compiled = compile_text(path, std::move(text), options,
+                                                 project.limits.max_modules, make_loader(project));
     if (!compiled) {
-        return fail(compiled.error(), console);
+        return report_error(compiled.error(), console);
     }
-    const Status status = console.show(grammar.diagnostics, grammar.sources);
-    imported.warnings = grammar.diagnostics.count(Severity::Warning);
-    if (status == Status::Fine) {
+    CompiledText& made = compiled.value();
+    if (made.definition_error) {
+        return report_error(*made.definition_error, console);
+    }
+    const ExitStatus status = console.show(made.diagnostics, *made.grammar.sources);
+    imported.warnings = made.diagnostics.count(Severity::Warning);
+    if (status == ExitStatus::Ok) {
         imported.text = fmt::format(
             "// Imported from `{}`, {}{}.\n{}", fs::path(shown_path(path)).filename().string(),
             row_of(imported.dialect).title,
             options.system.empty() ? std::string() : fmt::format(": {}", options.system),
-            format_text(grammar.translation));
+            format_text(made.grammar.translation));
     }
     return status;
 }
 
-Status write_imported(const std::string& path, const std::string& text, const Console& console) {
+ExitStatus
+write_imported(const std::string& path, const std::string& text, const Console& console) {
     const Result<Done> written = write_file(path, text, console);
-    return written ? Status::Fine : fail(written.error(), console);
+    return written ? ExitStatus::Ok : report_error(written.error(), console);
 }
 
 /// The regular files of a folder by name.
@@ -78,7 +84,7 @@ Result<std::vector<fs::path>> files_of(const std::string& folder) {
 
 /// What came of many.
 struct Tally {
-    Status status = Status::Fine;
+    ExitStatus status = ExitStatus::Ok;
     std::uint64_t done = 0;
     std::uint64_t lost = 0;
 };
@@ -98,20 +104,21 @@ std::string file_name(std::string_view name) {
 Result<Done> import_one(const std::string& path,
                         GrammarText text,
                         const GrammarOptions& options,
+                        const RunOptions& run,
                         const fs::path& to,
                         const Console& console,
                         Tally& tally) {
     const std::string_view title = row_of(text.dialect).title;
     Imported imported;
-    Status one = import_text(path, std::move(text), options, console, imported);
-    if (one == Status::Fine) {
+    ExitStatus one = import_text(path, std::move(text), options, run, console, imported);
+    if (one == ExitStatus::Ok) {
         one = write_imported(to.string(), imported.text, console);
     }
-    (one == Status::Fine ? tally.done : tally.lost) += 1;
+    (one == ExitStatus::Ok ? tally.done : tally.lost) += 1;
     tally.status = worse(tally.status, one);
     const std::string what =
         options.system.empty() ? path : fmt::format("{}: `{}`", path, options.system);
-    return console.write(one == Status::Fine
+    return console.write(one == ExitStatus::Ok
                              ? fmt::format("{}: {}, {} warnings, written to {}\n", what, title,
                                            imported.warnings, to.string())
                              : fmt::format("{}: {}, not imported\n", what, title));
@@ -129,7 +136,7 @@ Result<Done> import_systems(const std::string& path,
     std::set<std::string> known;
     for (const std::string& system : systems_in(text.dialect, text.bytes)) {
         if (console.interrupted()) {
-            tally.status = Status::Interrupted;
+            tally.status = ExitStatus::Interrupted;
             return Done{};
         }
         std::string low = system;
@@ -138,7 +145,7 @@ Result<Done> import_systems(const std::string& path,
         });
         if (!known.insert(low).second) {
             ++tally.lost;
-            tally.status = worse(tally.status, Status::AuthorErrors);
+            tally.status = worse(tally.status, ExitStatus::AuthorErrors);
             if (Result<Done> written = console.write(fmt::format(
                     "{}: `{}`: a second system of this name, not imported\n", path, system));
                 !written) {
@@ -149,8 +156,8 @@ Result<Done> import_systems(const std::string& path,
         GrammarOptions options = command.grammar;
         options.system = system;
         if (Result<Done> written =
-                import_one(path, text, options, folder / (prefix + file_name(system) + ".lsys"),
-                           console, tally);
+                import_one(path, text, options, command.run,
+                           folder / (prefix + file_name(system) + ".lsys"), console, tally);
             !written) {
             return written;
         }
@@ -166,38 +173,39 @@ Result<Done> make_folder(const fs::path& folder) {
                  : Done{};
 }
 
-Status end_tally(const Result<Done>& result, const Tally& tally, const Console& console) {
+ExitStatus end_tally(const Result<Done>& result, const Tally& tally, const Console& console) {
     if (!result) {
-        return fail(result.error(), console);
+        return report_error(result.error(), console);
     }
-    if (tally.status == Status::Interrupted) {
+    if (tally.status == ExitStatus::Interrupted) {
         return tally.status;
     }
     const Result<Done> written =
         console.write(fmt::format("{} imported, {} not\n", tally.done, tally.lost));
-    return written ? tally.status : fail(written.error(), console);
+    return written ? tally.status : report_error(written.error(), console);
 }
 
 /// A line for each system of the files; what is no grammar of a known dialect is passed over.
-Status import_folder(const ImportCommand& command, const Console& console) {
+ExitStatus import_folder(const ImportCommand& command, const Console& console) {
     const Result<std::vector<fs::path>> files = files_of(command.folder);
     if (!files) {
-        return fail(files.error(), console);
+        return report_error(files.error(), console);
     }
     const fs::path target =
         command.output.empty() ? fs::path(command.folder) : fs::path(command.output);
     if (const Result<Done> made = make_folder(target); !made) {
-        return fail(made.error(), console);
+        return report_error(made.error(), console);
     }
     Tally tally;
     for (const fs::path& path : files.value()) {
         if (console.interrupted()) {
-            return Status::Interrupted;
+            return ExitStatus::Interrupted;
         }
         if (path.extension() == ".lsb") {
             continue;
         }
-        Result<GrammarText> text = read_grammar(path.string(), command.grammar.dialect, console);
+        Outcome<GrammarText> text = read_grammar(path.string(), command.grammar.dialect,
+                                                 make_project(console, command.run));
         if (!text || text.value().dialect == Dialect::Lsys) {
             continue;
         }
@@ -208,19 +216,19 @@ Status import_folder(const ImportCommand& command, const Console& console) {
             several ? import_systems(path.string(), text.value(), command, target, name + ".",
                                      console, tally)
                     : import_one(path.string(), std::move(text.value()), command.grammar,
-                                 target / (name + ".lsys"), console, tally);
+                                 command.run, target / (name + ".lsys"), console, tally);
         if (!result) {
-            return fail(result.error(), console);
+            return report_error(result.error(), console);
         }
     }
     return end_tally(Done{}, tally, console);
 }
 
 /// `-o FOLDER` of a file of several systems.
-Status
+ExitStatus
 import_to_folder(const ImportCommand& command, const GrammarText& text, const Console& console) {
     if (const Result<Done> made = make_folder(command.output); !made) {
-        return fail(made.error(), console);
+        return report_error(made.error(), console);
     }
     Tally tally;
     const Result<Done> result =
@@ -235,31 +243,33 @@ bool is_folder(const std::string& path) {
 
 } // namespace
 
-Status run_import(const ImportCommand& command, const Console& console) {
+ExitStatus run_import(const ImportCommand& command, const Console& console) {
     if (command.file.empty() == command.folder.empty()) {
-        return fail(Error{command.file.empty() ? "FILE is missing, or --all FOLDER"
-                                               : "FILE and --all do not go together"},
-                    console);
+        return report_error(Error{command.file.empty() ? "FILE is missing, or --all FOLDER"
+                                                       : "FILE and --all do not go together"},
+                            console);
     }
     if (!command.folder.empty()) {
         return import_folder(command, console);
     }
-    Result<GrammarText> text = read_grammar(command.file, command.grammar.dialect, console);
-    if (!text) {
-        return fail(text.error(), console);
+    GrammarText text;
+    const ExitStatus read = console.take(
+        read_grammar(command.file, command.grammar.dialect, make_project(console, command.run)),
+        text);
+    if (read != ExitStatus::Ok) {
+        return read;
     }
-    if (text.value().dialect == Dialect::Lsys) {
-        return fail(Error{fmt::format("`{}` is a .lsys file already", shown_path(command.file))},
-                    console);
+    if (text.dialect == Dialect::Lsys) {
+        return report_error(
+            Error{fmt::format("`{}` is a .lsys file already", shown_path(command.file))}, console);
     }
-    if (has_systems(text.value().dialect) && command.grammar.system.empty() &&
-        is_folder(command.output)) {
-        return import_to_folder(command, text.value(), console);
+    if (has_systems(text.dialect) && command.grammar.system.empty() && is_folder(command.output)) {
+        return import_to_folder(command, text, console);
     }
     Imported imported;
-    const Status status =
-        import_text(command.file, std::move(text.value()), command.grammar, console, imported);
-    if (status != Status::Fine) {
+    const ExitStatus status =
+        import_text(command.file, std::move(text), command.grammar, command.run, console, imported);
+    if (status != ExitStatus::Ok) {
         return status;
     }
     return write_imported(command.output.empty() ? "-" : command.output, imported.text, console);

@@ -2,8 +2,7 @@
 
 #include "grammar/base/diagnostic.h"
 #include "grammar/dialects/dialect.h"
-#include "runtime/cli/arguments.h"
-#include "runtime/cli/option_parsers.h"
+#include "runtime/program/option_parsers.h"
 #include "runtime/turtle/turtle.h"
 
 #include <CLI/CLI.hpp>
@@ -18,172 +17,6 @@
 #include <vector>
 
 namespace lsys::lsc {
-
-void add_messages(CLI::App& app, MessageOptions& options) {
-    app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
-    add_choice<MessageFormat>(app, "--message-format", options.format,
-                              {{"human", MessageFormat::Human},
-                               {"short", MessageFormat::Short},
-                               {"json", MessageFormat::Json}},
-                              "How messages are written (default human)")
-        ->group("Messages");
-    add_choice<ColourMode>(
-        app, "--color", options.colour,
-        {{"auto", ColourMode::Auto}, {"always", ColourMode::Always}, {"never", ColourMode::Never}},
-        "Colour in messages; auto: on a terminal (default auto)")
-        ->group("Messages");
-    app.add_flag("-q,--quiet", options.quiet, "Errors only")->group("Messages");
-    app.add_flag("-v,--verbose", options.verbose, "Say what is done")->group("Messages");
-}
-
-void add_deny(CLI::App& app, MessageOptions& options) {
-    add_choice<bool>(app, "--deny", options.deny_warnings, {{"warnings", true}},
-                     "Take every warning for an error")
-        ->group("Messages");
-}
-
-void add_dialect(CLI::App& app, std::string& dialect) {
-    std::vector<std::pair<std::string, std::string>> names;
-    for (const DialectRow& row : dialects()) {
-        names.emplace_back(row.name, row.name);
-    }
-    add_choice<std::string>(app, "--dialect", dialect, std::move(names),
-                            "The language of the file (default: what it holds and its name tell)")
-        ->group("Grammar");
-}
-
-void add_grammar(CLI::App& app, GrammarOptions& options) {
-    add_parsed(app, "-n,--generations", options.generations, whole(0, kMaxGenerations),
-               "Generations, instead of #n")
-        ->type_name("N")
-        ->group("Grammar");
-    app.add_option_function<std::vector<std::string>>(
-           "-D,--define",
-           [&options](const std::vector<std::string>& texts) {
-               for (const std::string& text : texts) {
-                   Result<Definition> definition = parse_definition(text);
-                   if (!definition) {
-                       throw CLI::ValidationError("--define", definition.error().message);
-                   }
-                   for (const Definition& known : options.definitions) {
-                       if (known.name == definition.value().name) {
-                           throw CLI::ValidationError(
-                               "--define", fmt::format("`{}` is given twice", known.name));
-                       }
-                   }
-                   options.definitions.push_back(std::move(definition.value()));
-               }
-           },
-           "The value of a #define or #param; may be repeated")
-        ->type_name("NAME=NUMBER")
-        ->allow_extra_args(false)
-        ->group("Grammar");
-    add_dialect(app, options.dialect);
-    app.add_flag("--bug-compatible", options.bug_compatible,
-                 "Keep the bugs of the program that owns the dialect (l3d, lplus), its random "
-                 "numbers and surfaces too")
-        ->group("Grammar");
-    app.add_option("--system", options.system,
-                   "Which system of a file that holds several (default: the only one)")
-        ->type_name("NAME")
-        ->group("Grammar");
-    add_parsed(app, "--max-modules", options.max_modules,
-               whole(1, std::numeric_limits<std::uint64_t>::max()),
-               "The most modules a word may have (default 4294967296)")
-        ->type_name("N")
-        ->group("Limits");
-}
-
-void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed) {
-    add_parsed(app, "-s,--seed", seed, whole(0, std::numeric_limits<std::uint64_t>::max()),
-               "Seed of all random numbers, instead of `#set seed` (default 0)")
-        ->type_name("S")
-        ->group("Grammar");
-}
-
-void add_run_limits(CLI::App& app, std::uint64_t& max_bytes, std::uint32_t& threads) {
-    max_bytes = half_of_memory();
-    add_parsed(
-        app, "--max-memory", max_bytes, parse_size,
-        "The most memory each of word, skeleton and mesh may take: 500M, 2G (default half of "
-        "the machine's)")
-        ->type_name("SIZE")
-        ->group("Limits");
-    constexpr std::uint64_t kMaxThreads = 1024;
-    add_parsed(app, "--threads", threads, whole(1, kMaxThreads),
-               "Threads to work with; the result is the same (default all cores)")
-        ->type_name("N")
-        ->group("Limits");
-}
-
-void add_mesh(CLI::App& app, MeshOptions& mesh) {
-    add_choice<MeshMethod>(app, "--method", mesh.method,
-                           {{"tubes", MeshMethod::Tubes},
-                            {"cylinders", MeshMethod::Cylinders},
-                            {"boxes", MeshMethod::Boxes}},
-                           "Branches as tubes without joints, as a cylinder a segment, or as "
-                           "joined boxes that are smoothed (default tubes)")
-        ->group("Mesh");
-    add_parsed(app, "--sides", mesh.sides, whole(kMinSides, kMaxSides),
-               "Sides of every cross-section, instead of the grammar's")
-        ->type_name("N")
-        ->group("Mesh");
-    constexpr std::uint64_t kMaxLevel = 8;
-    add_parsed(app, "--level", mesh.level, whole(0, kMaxLevel),
-               "Level of detail: 0 the finest, each next one with about half the sides (default 0)")
-        ->type_name("K")
-        ->group("Mesh");
-    constexpr float kMaxDeviation = 1000.0F;
-    add_parsed(
-        app, "--deviation", mesh.deviation,
-        [](const std::string& text) { return parse_number(text, 0.0F, kMaxDeviation); },
-        "Give each ring of a tube only the sides that keep it so near to its circle; 0: all "
-        "(default 0)")
-        ->type_name("METRES")
-        ->group("Mesh");
-    constexpr std::uint64_t kMaxSubdivisions = 5;
-    add_parsed(app, "--subdivisions", mesh.subdivisions, whole(0, kMaxSubdivisions),
-               "Rounds of smoothing of --method boxes (default 2)")
-        ->type_name("N")
-        ->group("Mesh");
-    add_parsed(app, "--bark-noise", mesh.bark_noise, fraction,
-               "Unevenness of the bark, as part of the radius, 0 to 1 (default 0)")
-        ->type_name("A")
-        ->group("Mesh");
-    add_parsed(app, "--droop", mesh.droop, fraction,
-               "Bending of leaves by gravity, 0 to 1 (default 0)")
-        ->type_name("D")
-        ->group("Mesh");
-}
-
-UsageError describe(const CLI::ParseError& error, const CLI::App& app, const std::string& command) {
-    UsageError usage;
-    usage.help = fmt::format("`{} --help` lists what may be written", command);
-    usage.message = error.what();
-    const auto is = [&](CLI::ExitCodes code) {
-        return error.get_exit_code() == static_cast<int>(code);
-    };
-    if (is(CLI::ExitCodes::ExtrasError)) {
-        const std::vector<std::string> extras = app.remaining(true);
-        const std::string extra = extras.empty() ? std::string() : extras.front();
-        usage.message = extra.starts_with('-') ? fmt::format("unknown option `{}`", extra)
-                                               : fmt::format("unexpected argument `{}`", extra);
-        std::vector<std::string> names;
-        for (const CLI::Option* option : app.get_options()) {
-            for (const std::string& name : option->get_lnames()) {
-                names.push_back("--" + name);
-            }
-        }
-        const std::vector<std::string_view> candidates(names.begin(), names.end());
-        if (const auto nearest = nearest_name(extra, candidates)) {
-            usage.help = fmt::format("did you mean `{}`?", *nearest);
-        }
-    } else if (is(CLI::ExitCodes::RequiredError)) {
-        usage.message =
-            fmt::format("{} is missing", usage.message.substr(0, usage.message.find(' ')));
-    }
-    return usage;
-}
 
 namespace {
 
@@ -203,7 +36,7 @@ struct AllCommands {
 void add_check(CLI::App& app, CheckCommand& command) {
     app.add_option("FILE", command.files, "Grammars; `-` is standard input")->required();
     app.add_flag("--fix", command.fix, "Apply every repair that is certain to the files");
-    add_grammar(app, command.grammar);
+    add_grammar(app, command.grammar, command.run);
     add_messages(app, command.messages);
     add_deny(app, command.messages);
     app.footer("Exit status: 0 no errors, 1 errors in a grammar, 2 a file or the command line.\n"
@@ -215,7 +48,7 @@ void add_compile(CLI::App& app, CompileCommand& command) {
     app.add_option("-o,--output", command.output, "The .lsb file; `-` is standard output")
         ->required()
         ->type_name("FILE");
-    add_grammar(app, command.grammar);
+    add_grammar(app, command.grammar, command.run);
     add_seed(app, command.seed);
     add_messages(app, command.messages);
     add_deny(app, command.messages);
@@ -228,17 +61,18 @@ void add_dump(CLI::App& app, DumpCommand& command) {
         ->required();
     app.add_option("-o,--output", command.output, "Where to write (default standard output)")
         ->type_name("FILE");
-    add_choice<Stage>(app, "--stage", command.stage,
-                      {{"tokens", Stage::Tokens},
-                       {"ast", Stage::Ast},
-                       {"program", Stage::Program},
-                       {"instanced", Stage::Instanced},
-                       {"bytecode", Stage::Bytecode},
-                       {"word", Stage::Word},
-                       {"skeleton", Stage::Skeleton},
-                       {"mesh", Stage::Mesh}},
-                      "What is written: what a step of the compiler made, the derived word, what "
-                      "the turtle draws for it, or the triangles of that (default word)");
+    add_choice<DumpStage>(
+        app, "--stage", command.stage,
+        {{"tokens", DumpStage::Tokens},
+         {"ast", DumpStage::Ast},
+         {"program", DumpStage::Program},
+         {"instanced", DumpStage::Instanced},
+         {"bytecode", DumpStage::Bytecode},
+         {"word", DumpStage::Word},
+         {"skeleton", DumpStage::Skeleton},
+         {"mesh", DumpStage::Mesh}},
+        "What is written: what a step of the compiler made, the derived word, what "
+        "the turtle draws for it, or the triangles of that (default word)");
     add_parsed(app, "--rho", command.rho, fraction,
                "With --stage instanced: the probability that a branch is taken from recorded "
                "ones (default 0.6)")
@@ -254,9 +88,9 @@ void add_dump(CLI::App& app, DumpCommand& command) {
         "Say of each module, one a line, or of each part of the skeleton: which production "
         "or the axiom wrote it, where that stands, and in which generation");
     add_mesh(app, command.mesh);
-    add_grammar(app, command.grammar);
+    add_grammar(app, command.grammar, command.run);
     add_seed(app, command.seed);
-    add_run_limits(app, command.max_bytes, command.threads);
+    add_run_limits(app, command.run);
     add_parsed(app, "--steps", command.steps, whole(0, kMaxGenerations),
                "Make only K of the generations in this run")
         ->type_name("K")
@@ -322,9 +156,9 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_parsed(app, "--fps", command.frames_per_second, rate, "Frames a second (default 24)")
         ->type_name("F")
         ->group("Physics");
-    add_grammar(app, command.grammar);
+    add_grammar(app, command.grammar, command.run);
     add_seed(app, command.seed);
-    add_run_limits(app, command.max_bytes, command.threads);
+    add_run_limits(app, command.run);
     add_messages(app, command.messages);
     add_deny(app, command.messages);
     app.footer(
@@ -336,6 +170,58 @@ void add_export(CLI::App& app, ExportCommand& command) {
         "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 48 --fps 24");
 }
 
+void add_forest(CLI::App& app, ForestCommand& command) {
+    app.add_option("FILE", command.files, "A scene (.toml), or grammars, one for each species")
+        ->required();
+    app.add_option("-o,--output", command.output,
+                   "The file, whose name tells the format: glb, gltf or usda with instances, json "
+                   "statistics; with --bake also obj, ply, off or stl")
+        ->type_name("FILE");
+    app.add_flag("--check", command.check, "Read the scene and its grammars, write nothing");
+    app.add_flag("--stats", command.stats,
+                 "Print trees, branches, how many trees differ, and what the caches hold");
+    app.add_flag("--expand", command.expand,
+                 "glTF without EXT_mesh_gpu_instancing: a node for each branch");
+    app.add_flag("--bake", command.bake, "One mesh of all triangles");
+    add_parsed(
+        app, "--cell", command.cell,
+        [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); },
+        "Side of the squares of ground whose trees are instanced together; 0: all are "
+        "(default 100)")
+        ->type_name("METRES");
+    add_scene_overrides(app, command.overrides, "--size");
+    constexpr std::uint64_t kMostFrames = 10'000;
+    add_parsed(app, "--frames", command.frames, whole(0, kMostFrames),
+               "Write the forest of domination so many times while it grows, as a numbered series")
+        ->type_name("N")
+        ->group("Placement");
+    add_parsed(app, "--sides", command.mesh.sides, whole(kMinSides, kMaxSides),
+               "Sides of every cross-section, instead of the grammar's")
+        ->type_name("N")
+        ->group("Mesh");
+    constexpr std::uint64_t kMaxLevel = 8;
+    add_parsed(app, "--level", command.mesh.level, whole(0, kMaxLevel),
+               "Level of detail, 0 the finest (default 0)")
+        ->type_name("K")
+        ->group("Mesh");
+    add_parsed(app, "--droop", command.mesh.droop, fraction,
+               "Bending of leaves by gravity, 0 to 1 (default 0)")
+        ->type_name("D")
+        ->group("Mesh");
+    add_grammar(app, command.overrides.grammar, command.run);
+    add_seed(app, command.overrides.seed);
+    add_run_limits(app, command.run);
+    add_messages(app, command.messages);
+    add_deny(app, command.messages);
+    app.footer("Options take the place of what the scene says; -n, -D and the options of instances "
+               "are for every\nspecies. samples/scenes shows scenes.\n"
+               "Examples: lsc forest wood.toml -o wood.glb\n"
+               "          lsc forest oak.lsys birch.lsys --count 10000 --size 500 -o wood.glb\n"
+               "          lsc forest wood.toml --stats\n"
+               "          lsc forest pine.lsys --placement jittered --spacing 4 --tile 0,1,100 -o "
+               "tile.glb");
+}
+
 void add_import(CLI::App& app, ImportCommand& command) {
     app.add_option("FILE", command.file, "A grammar of another dialect; `-` is standard input");
     app.add_option("--all", command.folder, "Import every grammar of a folder instead")
@@ -345,7 +231,7 @@ void add_import(CLI::App& app, ImportCommand& command) {
                    "holds several; `-` is standard output (default: standard output; with --all "
                    "beside the originals)")
         ->type_name("FILE");
-    add_grammar(app, command.grammar);
+    add_grammar(app, command.grammar, command.run);
     add_messages(app, command.messages);
     add_deny(app, command.messages);
     app.footer("What is written derives the same word.\n"
@@ -355,7 +241,7 @@ void add_import(CLI::App& app, ImportCommand& command) {
 void add_stats(CLI::App& app, StatsCommand& command) {
     app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
         ->required();
-    add_grammar(app, command.grammar);
+    add_grammar(app, command.grammar, command.run);
     add_messages(app, command.messages);
     add_deny(app, command.messages);
     app.footer(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runtime/cli/options.h"
+#include "runtime/program/option_parsers.h"
 
 #include <cstdint>
 #include <span>
@@ -9,17 +10,6 @@
 #include <variant>
 
 namespace lsys::lsc {
-
-/// Text to print instead of running a command: --help, --version.
-struct PrintText {
-    std::string text;
-};
-
-/// What is wrong with a command line.
-struct UsageError {
-    std::string message;
-    std::string help;
-};
 
 using CommandLine = std::variant<PrintText,
                                  UsageError,

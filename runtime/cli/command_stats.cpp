@@ -1,10 +1,11 @@
 #include "compiler/growth/growth.h"
-#include "runtime/cli/arguments.h"
 #include "runtime/cli/commands.h"
-#include "runtime/cli/files.h"
-#include "runtime/cli/grammar_file.h"
-#include "runtime/cli/tell.h"
+#include "runtime/cli/derivation_report.h"
 #include "runtime/derive/derive.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/program/arguments.h"
+#include "runtime/program/files.h"
+#include "runtime/program/host.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -123,16 +124,16 @@ GenerationSize size_of(const Bytecode& bytecode, const Word& word) {
 }
 
 /// Derives the words, of which nothing is known before, and counts what they hold.
-Status count_words(const StatsCommand& command,
-                   std::uint32_t generations,
-                   const Grammar& grammar,
-                   const Console& console,
-                   GrowthPrediction& growth) {
-    const Bytecode& bytecode = *grammar.bytecode;
+ExitStatus count_words(const StatsCommand& command,
+                       std::uint32_t generations,
+                       const Grammar& grammar,
+                       const Console& console,
+                       GrowthPrediction& growth) {
+    const Bytecode& bytecode = grammar.bytecode;
     DeriveOptions options;
     options.generations = generations;
     options.seed = bytecode.settings.seed;
-    options.limits = {command.grammar.max_modules, half_of_memory()};
+    options.limits = {command.run.limits.max_modules, half_of_memory()};
     options.cancelled = console.io().interrupted;
     Derivation derivation(bytecode, options);
     DeriveStatus status = derivation.start();
@@ -144,7 +145,8 @@ Status count_words(const StatsCommand& command,
         }
         status = derivation.step();
     }
-    return tell(status, derivation.error(), derivation.limit(), options.limits, grammar, console);
+    return report_derivation(status, derivation.error(), derivation.limit(), options.limits,
+                             grammar, console);
 }
 
 /// As a JSON number where it is one exactly, else as text.
@@ -188,28 +190,29 @@ std::string make_json(const GrowthPrediction& growth, bool predicted) {
 
 } // namespace
 
-Status run_stats(const StatsCommand& command, const Console& console) {
+ExitStatus run_stats(const StatsCommand& command, const Console& console) {
     Grammar grammar;
-    const Status status = load_grammar(command.file, command.grammar, console, grammar);
-    if (status != Status::Fine) {
+    const ExitStatus status = console.take(
+        load_grammar(command.file, command.grammar, make_project(console, command.run)), grammar);
+    if (status != ExitStatus::Ok) {
         return status;
     }
     const std::uint32_t wanted =
-        command.grammar.generations.value_or(grammar.bytecode->generations.value_or(0));
+        command.grammar.generations.value_or(grammar.bytecode.generations.value_or(0));
     const std::uint32_t shown = std::min(wanted, kMaxRows);
-    const bool known = is_growth_known(*grammar.bytecode);
+    const bool known = is_growth_known(grammar.bytecode);
     GrowthPrediction growth;
-    Status counted = Status::Fine;
+    ExitStatus counted = ExitStatus::Ok;
     std::string kind;
     if (known) {
-        growth = predict_growth(*grammar.bytecode, shown);
+        growth = predict_growth(grammar.bytecode, shown);
         kind = kind_of(growth);
     } else {
         counted = count_words(command, shown, grammar, console, growth);
         kind = fmt::format("counted in the words of seed {}, which were derived: the grammar {}\n",
-                           grammar.bytecode->settings.seed,
-                           grammar.bytecode->cuts() ? "cuts branches off with `%`"
-                                                    : "has `#decompose`");
+                           grammar.bytecode.settings.seed,
+                           grammar.bytecode.cuts() ? "cuts branches off with `%`"
+                                                   : "has `#decompose`");
         if (growth.low.empty()) {
             return counted;
         }
@@ -219,7 +222,7 @@ Status run_stats(const StatsCommand& command, const Console& console) {
                                  : make_table(growth, kind);
     if (const Result<Done> written = write_file("-", text, console); !written) {
         console.error(written.error().message);
-        return Status::Failure;
+        return ExitStatus::Failure;
     }
     if (shown < wanted) {
         console.info(fmt::format("only the first {} of {} generations are shown", shown, wanted));

@@ -1,16 +1,17 @@
 #include "runtime/cli/dump_word.h"
 
-#include "runtime/cli/files.h"
-#include "runtime/cli/foresight.h"
+#include "runtime/cli/derivation_report.h"
 #include "runtime/cli/module_lines.h"
-#include "runtime/cli/plant.h"
 #include "runtime/cli/progress.h"
-#include "runtime/cli/tell.h"
 #include "runtime/derive/derive.h"
 #include "runtime/derive/runtime_diagnostic.h"
 #include "runtime/derive/state_file.h"
 #include "runtime/derive/stream.h"
 #include "runtime/derive/word_text.h"
+#include "runtime/pipeline/growth_forecast.h"
+#include "runtime/pipeline/plant.h"
+#include "runtime/program/files.h"
+#include "runtime/program/host.h"
 
 #include <fmt/format.h>
 
@@ -79,15 +80,15 @@ Result<Done> plan_from_state(const DumpCommand& command,
 }
 
 Result<Plan> make_plan(const DumpCommand& command, const Grammar& grammar, const Console& console) {
-    const Bytecode& bytecode = *grammar.bytecode;
+    const Bytecode& bytecode = grammar.bytecode;
     Plan plan;
     plan.derive.generations =
         command.grammar.generations.value_or(bytecode.generations.value_or(0));
     plan.derive.seed =
         command.seed.value_or(bytecode.settings.has_seed ? bytecode.settings.seed : 0);
-    plan.derive.threads = command.threads;
+    plan.derive.threads = command.run.threads;
     plan.derive.origins = command.origins;
-    plan.derive.limits = {command.grammar.max_modules, command.max_bytes};
+    plan.derive.limits = command.run.limits;
     plan.derive.cancelled = console.io().interrupted;
     if (!command.from.empty()) {
         if (const Result<Done> taken = plan_from_state(command, bytecode, console, plan); !taken) {
@@ -132,19 +133,19 @@ using OnGeneration = std::function<bool(const Derivation&)>;
 
 /// Runs the derivation of `plan`; `on_generation` sees the words of all ages, or of the last only.
 /// Its false ends the run as Cancelled.
-Status derive(Derivation& derivation,
-              const DumpCommand& command,
-              const Plan& plan,
-              const Grammar& grammar,
-              const Console& console,
-              const OnGeneration& on_generation) {
+ExitStatus derive(Derivation& derivation,
+                  const DumpCommand& command,
+                  const Plan& plan,
+                  const Grammar& grammar,
+                  const Console& console,
+                  const OnGeneration& on_generation) {
     DeriveStatus status = DeriveStatus::Ok;
     if (command.from.empty()) {
         status = derivation.start();
     } else {
-        Result<SavedState> state = read_saved(plan, command.from, *grammar.bytecode);
+        Result<SavedState> state = read_saved(plan, command.from, grammar.bytecode);
         if (!state) {
-            return fail(state.error(), console);
+            return report_error(state.error(), console);
         }
         status = derivation.resume(std::move(state.value().word), state.value().header.age);
     }
@@ -161,15 +162,15 @@ Status derive(Derivation& derivation,
             }
         }
         if ((is_last || command.all) && !on_generation(derivation)) {
-            return console.interrupted() ? Status::Interrupted : Status::Failure;
+            return console.interrupted() ? ExitStatus::Interrupted : ExitStatus::Failure;
         }
         if (is_last) {
-            return Status::Fine;
+            return ExitStatus::Ok;
         }
         status = derivation.step();
     }
-    return tell(status, derivation.error(), derivation.limit(), plan.derive.limits, grammar,
-                console);
+    return report_derivation(status, derivation.error(), derivation.limit(), plan.derive.limits,
+                             grammar, console);
 }
 
 Result<Done> save_state(const Plan& plan,
@@ -203,18 +204,18 @@ Result<Done> open_outputs(const DumpCommand& command,
     return Done{};
 }
 
-Status dump_stored(const DumpCommand& command,
-                   const Plan& plan,
-                   Grammar& grammar,
-                   const Console& console) {
-    const Bytecode& bytecode = *grammar.bytecode;
+ExitStatus dump_stored(const DumpCommand& command,
+                       const Plan& plan,
+                       Grammar& grammar,
+                       const Console& console) {
+    const Bytecode& bytecode = grammar.bytecode;
     const auto ignore = [](const Derivation&) { return true; };
     if (command.all && !command.count && command.output == "-") {
         // What is on standard output cannot be taken back, so a first run shows whether there will
         // be a second.
         Derivation rehearsal(bytecode, plan.derive);
-        const Status status = derive(rehearsal, command, plan, grammar, console, ignore);
-        if (status != Status::Fine) {
+        const ExitStatus status = derive(rehearsal, command, plan, grammar, console, ignore);
+        if (status != ExitStatus::Ok) {
             return status;
         }
     }
@@ -222,7 +223,7 @@ Status dump_stored(const DumpCommand& command,
     std::optional<Writer> state_writer;
     if (const Result<Done> opened = open_outputs(command, console, word_writer, state_writer);
         !opened) {
-        return fail(opened.error(), console);
+        return report_error(opened.error(), console);
     }
     Writer& writer = *word_writer;
     Derivation derivation(bytecode, plan.derive);
@@ -242,11 +243,11 @@ Status dump_stored(const DumpCommand& command,
         }
         return WordPrinter(bytecode).print(now.word(), put) && writer.write("\n");
     };
-    const Status status = derive(derivation, command, plan, grammar, console, print);
+    const ExitStatus status = derive(derivation, command, plan, grammar, console, print);
     if (writer.failure()) {
-        return fail(*writer.failure(), console);
+        return report_error(*writer.failure(), console);
     }
-    if (status != Status::Fine) {
+    if (status != ExitStatus::Ok) {
         return status;
     }
     static_cast<void>(writer.write(counts));
@@ -254,42 +255,43 @@ Status dump_stored(const DumpCommand& command,
     if (done && state_writer) {
         done = save_state(plan, derivation, bytecode, *state_writer);
     }
-    return done ? Status::Fine : fail(done.error(), console);
+    return done ? ExitStatus::Ok : report_error(done.error(), console);
 }
 
 // -----------------------------------------------------------------------------------------
 // streamed words
 
 /// One streamed run into `consumer`.
-Status stream(const Plan& plan,
-              const Grammar& grammar,
-              const Console& console,
-              const StreamConsumer& consumer,
-              StreamOutcome& outcome) {
-    outcome = derive_streamed(*grammar.bytecode, plan.derive, consumer);
-    return tell(outcome.status, outcome.error, outcome.limit, plan.derive.limits, grammar, console);
+ExitStatus stream(const Plan& plan,
+                  const Grammar& grammar,
+                  const Console& console,
+                  const StreamConsumer& consumer,
+                  StreamOutcome& outcome) {
+    outcome = derive_streamed(grammar.bytecode, plan.derive, consumer);
+    return report_derivation(outcome.status, outcome.error, outcome.limit, plan.derive.limits,
+                             grammar, console);
 }
 
-Status dump_streamed(const DumpCommand& command,
-                     const Plan& plan,
-                     const Grammar& grammar,
-                     const Console& console) {
-    const Bytecode& bytecode = *grammar.bytecode;
+ExitStatus dump_streamed(const DumpCommand& command,
+                         const Plan& plan,
+                         const Grammar& grammar,
+                         const Console& console) {
+    const Bytecode& bytecode = grammar.bytecode;
     if (const std::optional<std::string> reason = why_not_streamable(bytecode)) {
-        return fail(Error{fmt::format("--stream: {}", *reason)}, console);
+        return report_error(Error{fmt::format("--stream: {}", *reason)}, console);
     }
     StreamOutcome outcome;
     const auto ignore = [&](const StreamChunk&) { return !console.interrupted(); };
     if (command.count || command.output == "-") {
         // The rehearsal of standard output, and all that a count needs.
-        const Status status = stream(plan, grammar, console, ignore, outcome);
-        if (status != Status::Fine) {
+        const ExitStatus status = stream(plan, grammar, console, ignore, outcome);
+        if (status != ExitStatus::Ok) {
             return status;
         }
     }
     Result<Output> output = Output::open(command.output, console);
     if (!output) {
-        return fail(output.error(), console);
+        return report_error(output.error(), console);
     }
     Writer writer(std::move(output.value()));
     if (command.count) {
@@ -314,19 +316,19 @@ Status dump_streamed(const DumpCommand& command,
             text.clear();
             return fine && !console.interrupted();
         };
-        const Status status = stream(plan, grammar, console, print, outcome);
+        const ExitStatus status = stream(plan, grammar, console, print, outcome);
         text += begun ? printer.quote() : "";
         text += command.origins ? "" : "\n";
-        if (status == Status::Fine) {
+        if (status == ExitStatus::Ok) {
             static_cast<void>(writer.write(text));
         } else if (!writer.failure()) {
             return status;
         }
     }
     if (const Result<Done> done = writer.commit(); !done) {
-        return fail(done.error(), console);
+        return report_error(done.error(), console);
     }
-    return Status::Fine;
+    return ExitStatus::Ok;
 }
 
 // -----------------------------------------------------------------------------------------
@@ -334,19 +336,20 @@ Status dump_streamed(const DumpCommand& command,
 
 /// Prints the counts if they are known without deriving. The start of a derivation still shows
 /// whether the constants can be drawn.
-std::optional<Status> count_unseen(const DumpCommand& command,
-                                   const Plan& plan,
-                                   const Grammar& grammar,
-                                   const Console& console) {
+std::optional<ExitStatus> print_predicted_counts(const DumpCommand& command,
+                                                 const Plan& plan,
+                                                 const Grammar& grammar,
+                                                 const Console& console) {
     const std::optional<std::vector<std::uint64_t>> counts =
-        foresee_counts(*grammar.bytecode, plan.last_age, plan.derive.limits);
+        predict_counts(grammar.bytecode, plan.last_age, plan.derive.limits);
     if (!counts) {
         return std::nullopt;
     }
-    Derivation derivation(*grammar.bytecode, plan.derive);
-    const Status status = tell(derivation.start(), derivation.error(), derivation.limit(),
-                               plan.derive.limits, grammar, console);
-    if (status != Status::Fine) {
+    Derivation derivation(grammar.bytecode, plan.derive);
+    const ExitStatus status =
+        report_derivation(derivation.start(), derivation.error(), derivation.limit(),
+                          plan.derive.limits, grammar, console);
+    if (status != ExitStatus::Ok) {
         return status;
     }
     console.detail("counted by the growth matrix");
@@ -355,15 +358,15 @@ std::optional<Status> count_unseen(const DumpCommand& command,
         text += fmt::format("{}\n", (*counts)[i]);
     }
     const Result<Done> written = write_file(command.output, text, console);
-    return written ? Status::Fine : fail(written.error(), console);
+    return written ? ExitStatus::Ok : report_error(written.error(), console);
 }
 
 } // namespace
 
-Status dump_word(const DumpCommand& command, Grammar& grammar, const Console& console) {
+ExitStatus dump_word(const DumpCommand& command, Grammar& grammar, const Console& console) {
     Result<Plan> planned = make_plan(command, grammar, console);
     if (!planned) {
-        return fail(planned.error(), console);
+        return report_error(planned.error(), console);
     }
     Plan& plan = planned.value();
     console.detail(
@@ -371,24 +374,25 @@ Status dump_word(const DumpCommand& command, Grammar& grammar, const Console& co
     const bool from_axiom = command.from.empty();
     if (from_axiom && !command.stream) { // which stores no word of the generations before the last
         const std::optional<LimitReport> limit =
-            foresee_limit(*grammar.bytecode, plan.last_age, plan.derive.limits);
+            predict_limit(grammar.bytecode, plan.last_age, plan.derive.limits);
         if (limit) {
-            return show(limit_diagnostic(*limit, plan.derive.limits, *grammar.bytecode,
-                                         !grammar.is_module_file),
-                        Status::Limit, grammar, console);
+            return show_diagnostic(limit_diagnostic(*limit, plan.derive.limits, grammar.bytecode,
+                                                    !grammar.is_module_file),
+                                   ExitStatus::Limit, grammar, console);
         }
     }
     if (from_axiom && command.count && command.save_state.empty()) {
-        if (const std::optional<Status> counted = count_unseen(command, plan, grammar, console)) {
+        if (const std::optional<ExitStatus> counted =
+                print_predicted_counts(command, plan, grammar, console)) {
             return *counted;
         }
     }
     if (from_axiom && command.save_state.empty()) { // a state file has the codes of the grammar
-        fold_modules(plan.derive, grammar);
+        fold_modules(plan.derive, grammar.bytecode);
     }
     const bool shows = console.shows_progress();
     Progress progress(shows ? &console.io().err : nullptr, plan.last_age, Progress::Clock::now(),
-                      shows && from_axiom ? expect_modules(*grammar.bytecode, plan.last_age)
+                      shows && from_axiom ? expect_modules(grammar.bytecode, plan.last_age)
                                           : std::vector<double>());
     plan.derive.progress = [&](std::uint32_t generation, std::uint64_t modules) {
         progress.update(generation, modules, Progress::Clock::now());

@@ -1,8 +1,8 @@
 // What `lsc export --stats` prints.
 #pragma once
 
-#include "runtime/cli/plant.h"
 #include "runtime/meshing/mesh.h"
+#include "runtime/pipeline/plant.h"
 
 #include <cstdint>
 #include <string>

@@ -1,6 +1,6 @@
 #include "runtime/cli/fixes.h"
 
-#include "runtime/cli/files.h"
+#include "runtime/program/files.h"
 
 #include <fmt/format.h>
 
@@ -108,35 +108,39 @@ std::string apply_edits(std::string_view text, const std::vector<const Edit*>& e
 Result<Done> fix_text(const std::string& path,
                       const GrammarText& original,
                       const GrammarOptions& options,
-                      const Console& console,
+                      const Project& project,
                       FixedGrammar& fixed) {
     const std::string root = shown_path(path);
     std::map<std::string, std::string>& changed = fixed.changed;
-    const FileLoader from_disk = make_loader(console);
+    const FileLoader from_disk = make_loader(project);
     const FileLoader load = [&](const std::string& wanted) -> Result<std::string> {
         const auto known = changed.find(wanted);
         return known != changed.end() ? Result<std::string>(known->second) : from_disk(wanted);
     };
     for (int round = 0;; ++round) {
-        fixed.grammar = Grammar();
-        Grammar& grammar = fixed.grammar;
         const auto mended = changed.find(root);
         const std::string& bytes = mended != changed.end() ? mended->second : original.bytes;
-        Result<Done> compiled =
-            compile_text(path, {bytes, original.dialect}, options, load, grammar);
+        Result<CompiledText> compiled = compile_text(path, {bytes, original.dialect}, options,
+                                                     project.limits.max_modules, load);
         if (!compiled) {
-            return compiled;
+            return compiled.error();
         }
-        grammar.diagnostics.sort_by_place();
-        if (round == kMaxRounds || console.interrupted()) {
+        fixed.compiled = std::move(compiled.value());
+        if (fixed.compiled.definition_error) {
+            return *fixed.compiled.definition_error;
+        }
+        Diagnostics& diagnostics = fixed.compiled.diagnostics;
+        const SourceMap& sources = *fixed.compiled.grammar.sources;
+        diagnostics.sort_by_place();
+        if (round == kMaxRounds || project.is_cancelled()) {
             return Done{};
         }
-        const FileEdits edits = choose_edits(grammar.diagnostics, grammar.sources, fixed);
+        const FileEdits edits = choose_edits(diagnostics, sources, fixed);
         if (edits.empty()) {
             return Done{};
         }
-        for (std::uint32_t i = 0; i < grammar.sources.file_count(); ++i) {
-            const SourceFile& file = grammar.sources.file(static_cast<FileId>(i));
+        for (std::uint32_t i = 0; i < sources.file_count(); ++i) {
+            const SourceFile& file = sources.file(static_cast<FileId>(i));
             if (const auto found = edits.find(file.path()); found != edits.end()) {
                 std::string text(file.has_byte_order_mark() ? kByteOrderMark : "");
                 text += apply_edits(file.text(), found->second);

@@ -3,9 +3,8 @@
 #pragma once
 
 #include "grammar/base/result.h"
-#include "runtime/cli/console.h"
-#include "runtime/cli/grammar_file.h"
-#include "runtime/cli/options.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/project.h"
 
 #include <cstdint>
 #include <map>
@@ -20,8 +19,7 @@ struct FixedGrammar {
     /// One line a fix: `tree.lsys:7:26: fixed: write A S(1) [code]`; the first kMaxFixLines.
     std::vector<std::string> lines;
     std::uint64_t fix_count = 0;
-    /// What the mended text compiles to, with the diagnostics that are left.
-    Grammar grammar;
+    CompiledText compiled; // the mended text, with the diagnostics that are left
 };
 inline constexpr std::size_t kMaxFixLines = 50;
 
@@ -29,7 +27,7 @@ inline constexpr std::size_t kMaxFixLines = 50;
 [[nodiscard]] Result<Done> fix_text(const std::string& path,
                                     const GrammarText& text,
                                     const GrammarOptions& options,
-                                    const Console& console,
+                                    const Project& project,
                                     FixedGrammar& fixed);
 
 /// Chooses of `diagnostics` the first machine-applicable fix of each, leaving out those that touch

@@ -16,7 +16,7 @@ namespace {
 struct Dispatch {
     const Io& io;
 
-    Status operator()(const PrintText& text) const {
+    ExitStatus operator()(const PrintText& text) const {
         const Console console(io, {});
         Result<Done> written = console.write(text.text);
         if (written) {
@@ -24,41 +24,41 @@ struct Dispatch {
         }
         if (!written) {
             console.error(written.error().message);
-            return Status::Failure;
+            return ExitStatus::Failure;
         }
-        return Status::Fine;
+        return ExitStatus::Ok;
     }
-    Status operator()(const UsageError& usage) const {
+    ExitStatus operator()(const UsageError& usage) const {
         const Console console(io, {});
         console.error(usage.message);
         console.help(usage.help);
-        return Status::Failure;
+        return ExitStatus::Failure;
     }
-    Status operator()(const CheckCommand& command) const {
+    ExitStatus operator()(const CheckCommand& command) const {
         return run_check(command, {io, command.messages});
     }
-    Status operator()(const CompileCommand& command) const {
+    ExitStatus operator()(const CompileCommand& command) const {
         return run_compile(command, {io, command.messages});
     }
-    Status operator()(const DumpCommand& command) const {
+    ExitStatus operator()(const DumpCommand& command) const {
         return run_dump(command, {io, command.messages});
     }
-    Status operator()(const ExportCommand& command) const {
+    ExitStatus operator()(const ExportCommand& command) const {
         return run_export(command, {io, command.messages});
     }
-    Status operator()(const ForestCommand& command) const {
+    ExitStatus operator()(const ForestCommand& command) const {
         return run_forest(command, {io, command.messages});
     }
-    Status operator()(const ImportCommand& command) const {
+    ExitStatus operator()(const ImportCommand& command) const {
         return run_import(command, {io, command.messages});
     }
-    Status operator()(const StatsCommand& command) const {
+    ExitStatus operator()(const StatsCommand& command) const {
         return run_stats(command, {io, command.messages});
     }
-    Status operator()(const FormatCommand& command) const {
+    ExitStatus operator()(const FormatCommand& command) const {
         return run_format(command, {io, command.messages});
     }
-    Status operator()(const ExplainCommand& command) const {
+    ExitStatus operator()(const ExplainCommand& command) const {
         return run_explain(command, {io, command.messages});
     }
 };
@@ -66,18 +66,18 @@ struct Dispatch {
 /// Without allocating: there is no memory.
 int out_of_memory(const Io& io) {
     io.err << io.program << ": error: out of memory\n" << std::flush;
-    return static_cast<int>(Status::Limit);
+    return static_cast<int>(ExitStatus::Limit);
 }
 
 } // namespace
 
 int run(std::span<const std::string> arguments, const Io& io) {
     try {
-        const Status status = std::visit(Dispatch{io}, parse_command_line(arguments));
+        const ExitStatus status = std::visit(Dispatch{io}, parse_command_line(arguments));
         const bool interrupted =
             io.interrupted != nullptr && io.interrupted->load(std::memory_order_relaxed);
         io.err << (interrupted ? "lsc: interrupted\n" : "") << std::flush;
-        return static_cast<int>(interrupted ? Status::Interrupted : status);
+        return static_cast<int>(interrupted ? ExitStatus::Interrupted : status);
     } catch (const std::bad_alloc&) {
         return out_of_memory(io);
     } catch (const std::length_error&) { // what a string or vector throws when it cannot be so long

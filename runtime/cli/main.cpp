@@ -1,5 +1,5 @@
-#include "runtime/cli/process.h"
+#include "runtime/program/process.h"
 
 int main(int argc, char** argv) {
-    return lsys::lsc::run_process(argc, argv, "lsc", lsys::lsc::run);
+    return lsys::run_process(argc, argv, "lsc", lsys::lsc::run);
 }

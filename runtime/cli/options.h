@@ -1,13 +1,14 @@
-// What the command line asks for, one struct a command. Made by command_line.cpp, read by the
+// The options of each command, one struct per command. Made by command_line.cpp, read by the
 // command of the same name.
 #pragma once
 
-#include "compiler/compile.h"
-#include "grammar/rendering/render_diagnostic.h"
 #include "runtime/export/export.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/physics/physics.h"
-#include "runtime/placement/placement.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/scene_overrides.h"
+#include "runtime/program/message_options.h"
+#include "runtime/program/run_options.h"
 
 #include <cstdint>
 #include <optional>
@@ -16,30 +17,10 @@
 
 namespace lsys::lsc {
 
-enum class ColourMode : std::uint8_t { Auto, Always, Never };
-
-/// How messages are shown; every command has these.
-struct MessageOptions {
-    MessageFormat format = MessageFormat::Human;
-    ColourMode colour = ColourMode::Auto;
-    bool deny_warnings = false;
-    bool quiet = false;   // errors only, no progress
-    bool verbose = false; // what is done, and how large it is
-};
-
-/// How a grammar is read and compiled.
-struct GrammarOptions {
-    std::string dialect; // empty: by what the file holds, else by its extension
-    bool bug_compatible = false;
-    std::string system; // of a file that holds several; empty: the only one
-    std::vector<Definition> definitions;
-    std::optional<std::uint32_t> generations; // -n
-    std::uint64_t max_modules = std::uint64_t{1} << 32;
-};
-
 struct CheckCommand {
     MessageOptions messages;
     GrammarOptions grammar;
+    RunOptions run;
     std::vector<std::string> files;
     bool fix = false;
 };
@@ -47,22 +28,31 @@ struct CheckCommand {
 struct CompileCommand {
     MessageOptions messages;
     GrammarOptions grammar;
+    RunOptions run;
     std::optional<std::uint64_t> seed;
     std::string file;
     std::string output;
 };
 
-enum class Stage : std::uint8_t { Tokens, Ast, Program, Instanced, Bytecode, Word, Skeleton, Mesh };
+enum class DumpStage : std::uint8_t {
+    Tokens,
+    Ast,
+    Program,
+    Instanced,
+    Bytecode,
+    Word,
+    Skeleton,
+    Mesh
+};
 
 struct DumpCommand {
     MessageOptions messages;
     GrammarOptions grammar;
+    RunOptions run;
     std::optional<std::uint64_t> seed;
-    std::uint32_t threads = 0; // 0: as many as the machine has
-    std::uint64_t max_bytes = 0;
     std::string file;
     std::string output = "-";
-    Stage stage = Stage::Word;
+    DumpStage stage = DumpStage::Word;
     MeshOptions mesh;
     bool all = false;
     bool count = false;
@@ -77,9 +67,8 @@ struct DumpCommand {
 struct ExportCommand {
     MessageOptions messages;
     GrammarOptions grammar;
+    RunOptions run;
     std::optional<std::uint64_t> seed;
-    std::uint32_t threads = 0; // 0: as many as the machine has
-    std::uint64_t max_bytes = 0;
     std::string file;
     std::string output;
     std::optional<ExportFormat> format; // none: by the output's name
@@ -93,33 +82,12 @@ struct ExportCommand {
     bool stats = false;
 };
 
-/// A tile of an unbounded forest: a square of `size` metres, `column` along X and `row` along Z.
-struct ForestTile {
-    std::int64_t column = 0;
-    std::int64_t row = 0;
-    double size = 0.0;
-};
-
-/// What is left out is the scene's.
 struct ForestCommand {
     MessageOptions messages;
-    GrammarOptions grammar;
     std::vector<std::string> files; // one scene, or grammars
     std::string output;             // empty: none
-    std::optional<std::uint64_t> key;
-    std::optional<std::uint64_t> seed; // of the heroes
-    std::optional<std::uint32_t> heroes;
-    std::optional<float> rho;
-    std::optional<std::uint32_t> cache_cap;
-    std::optional<float> tolerance;
-    std::optional<PlacementMethod> method;
-    std::optional<std::uint64_t> count;
-    std::optional<float> size;    // m, of a square around the origin
-    std::optional<float> spacing; // m
-    std::optional<float> density; // places a square metre
-    std::string density_map;
-    std::optional<std::uint32_t> years;
-    std::optional<ForestTile> tile;
+    SceneOverrides overrides;
+    RunOptions run;
     bool expand = false;
     bool bake = false;
     float cell = 100.0F; // m, of the squares whose instances are one node; 0: all are
@@ -127,19 +95,19 @@ struct ForestCommand {
     bool check = false;
     bool stats = false;
     MeshOptions mesh;
-    std::uint32_t threads = 0; // 0: as many as the machine has
-    std::uint64_t max_bytes = 0;
 };
 
 struct StatsCommand {
     MessageOptions messages;
     GrammarOptions grammar;
+    RunOptions run;
     std::string file;
 };
 
 struct ImportCommand {
     MessageOptions messages;
     GrammarOptions grammar;
+    RunOptions run;
     std::string file;   // empty: all of `folder`
     std::string folder; // whose files are all imported
     std::string output; // a file, or a folder for --all

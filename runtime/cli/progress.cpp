@@ -85,4 +85,16 @@ void Progress::clear() {
     }
 }
 
+PipelineProgress::PipelineProgress(const Console& console, Host& host) {
+    if (!console.shows_progress()) {
+        return;
+    }
+    host.progress = [this, &console](const DerivationProgress& progress) {
+        if (!bar_) {
+            bar_.emplace(&console.io().err, progress.generations, begin_, progress.expected);
+        }
+        bar_->update(progress.generation, progress.modules, Progress::Clock::now());
+    };
+}
+
 } // namespace lsys::lsc

@@ -2,9 +2,13 @@
 // of its threads but never from two at once.
 #pragma once
 
+#include "runtime/pipeline/project.h"
+#include "runtime/program/console.h"
+
 #include <chrono>
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,6 +50,19 @@ private:
     std::uint64_t modules_ = 0;    // of that update
     std::uint64_t before_ = 0;     // of all generations before it
     bool drawn_ = false;
+};
+
+/// The progress bar of the pipeline's derivations.
+class PipelineProgress {
+public:
+    /// Has `host` report progress to this bar, if `console` shows progress. Outlives the work.
+    PipelineProgress(const Console& console, Host& host);
+    /// Takes the bar away.
+    void clear() { bar_.reset(); }
+
+private:
+    Progress::Clock::time_point begin_ = Progress::Clock::now();
+    std::optional<Progress> bar_; // of the derivation that has begun
 };
 
 } // namespace lsys::lsc

@@ -365,6 +365,14 @@ DeriveStatus Derivation::run_to(std::uint32_t age) {
     return status;
 }
 
+DeriveStatus Derivation::derive() {
+    DeriveStatus status = start();
+    if (status == DeriveStatus::Ok) {
+        status = run_to(state_->options.generations);
+    }
+    return status == DeriveStatus::Ok ? check_brackets() : status;
+}
+
 DeriveStatus Derivation::check_brackets() {
     State& state = *state_;
     std::optional<std::uint64_t> found;

@@ -74,6 +74,9 @@ public:
     [[nodiscard]] DeriveStatus step();
     /// Steps until the age is `age` or something ends it.
     [[nodiscard]] DeriveStatus run_to(std::uint32_t age);
+    /// The whole derivation from the axiom: start(), run_to() the generations asked for,
+    /// check_brackets().
+    [[nodiscard]] DeriveStatus derive();
     /// Checks that every `]` of the word has its `[`; commands that derive call it on the last
     /// word. Error names the production that wrote it if only one can have.
     [[nodiscard]] DeriveStatus check_brackets();

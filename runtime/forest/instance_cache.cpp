@@ -228,15 +228,6 @@ private:
     std::uint32_t hero_ = 0;
 };
 
-/// Derives hero after hero; its word is good until the next.
-DeriveStatus derive_hero(Derivation& derivation, const CacheOptions& options) {
-    DeriveStatus status = derivation.start();
-    if (status == DeriveStatus::Ok) {
-        status = derivation.run_to(options.generations);
-    }
-    return status == DeriveStatus::Ok ? derivation.check_brackets() : status;
-}
-
 CacheOutcome
 record_heroes(const Bytecode& bytecode, const CacheOptions& options, InstanceCache& cache) {
     CacheOutcome outcome;
@@ -258,7 +249,7 @@ record_heroes(const Bytecode& bytecode, const CacheOptions& options, InstanceCac
         derive.limits = options.limits;
         derive.cancelled = options.cancelled;
         Derivation derivation(bytecode, derive);
-        outcome.derived = derive_hero(derivation, options);
+        outcome.derived = derivation.derive();
         if (outcome.derived != DeriveStatus::Ok) {
             outcome.error = derivation.error();
             outcome.limit = derivation.limit();

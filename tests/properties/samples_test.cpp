@@ -1,6 +1,6 @@
 // What must hold for every grammar, tried on the samples of the gallery.
 #include "grammar/lsys/parse.h"
-#include "runtime/cli/console.h"
+#include "runtime/program/console.h"
 #include "runtime/cli/grammar_file.h"
 #include "tests/support/lsc_run.h"
 
@@ -43,11 +43,11 @@ with_axiom(const std::filesystem::path& path, const std::string& text, const std
     std::istringstream in;
     std::ostringstream out;
     std::ostringstream err;
-    const lsc::Console console({in, out, err}, {});
+    const Console console({in, out, err}, {});
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
-    const FileLoader load = lsc::make_loader(console);
+    const FileLoader load = make_loader(console);
     const FileId root = sources.add(path.string(), text);
     const Ast ast = parse_lsys(root, {sources, names, diagnostics, load});
     for (const Statement& statement : ast.statements) {

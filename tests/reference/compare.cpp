@@ -259,7 +259,7 @@ Run run_lsc(const std::vector<std::string>& arguments) {
     std::ostringstream out;
     std::ostringstream err;
     Run run;
-    run.status = lsc::run(arguments, lsc::Io{in, out, err, false});
+    run.status = lsc::run(arguments, Io{in, out, err, false});
     run.out = out.str();
     run.err = err.str();
     return run;

@@ -111,9 +111,9 @@ TEST_CASE("what a mesh looks for is told, so that it can be waited for") {
     std::istringstream in;
     std::ostringstream out;
     std::ostringstream err;
-    const lsc::Console console({in, out, err, false, nullptr, "lsview"}, {});
+    const Console console({in, out, err, false, nullptr, "lsview"}, {});
     PlantDocument document;
-    REQUIRE(make_plant_document(options, console, document) == lsc::Status::Fine);
+    REQUIRE(make_plant_document(options, console, document) == ExitStatus::Fine);
     const std::vector<std::string> files = files_of(options, document);
     for (const char* const name : {"card.obj", "card.mtl", "a card.png"}) {
         CHECK(std::find(files.begin(), files.end(), card.folder / name) != files.end());

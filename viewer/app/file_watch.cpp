@@ -1,6 +1,6 @@
 #include "viewer/app/file_watch.h"
 
-#include "runtime/cli/descriptor.h"
+#include "runtime/program/descriptor.h"
 
 #include <algorithm>
 #include <array>
@@ -77,8 +77,8 @@ struct Watched {
 struct FileWatch::State {
     Options options;
     Changed changed;
-    lsc::Descriptor wake{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
-    lsc::Descriptor inotify;
+    Descriptor wake{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+    Descriptor inotify;
     std::mutex mutex; // of the next two
     std::optional<std::vector<std::string>> asked;
     bool stops = false;

@@ -1,8 +1,7 @@
 #include "viewer/app/forest_document.h"
 
-#include "runtime/cli/forest_scene.h"
-#include "runtime/cli/stopwatch.h"
-#include "runtime/cli/tell.h"
+#include "runtime/pipeline/forest.h"
+#include "runtime/pipeline/stopwatch.h"
 #include "runtime/turtle/turtle_diagnostic.h"
 
 #include <algorithm>
@@ -18,14 +17,14 @@ struct Wish {
     const ForestDocument* known = nullptr;
 };
 
-lsc::Status make_model(const ViewOptions& options,
+ExitStatus make_model(const ViewOptions& options,
                        const ForestDocument* before,
-                       const lsc::Console& console,
+                       const Console& console,
                        ForestDocument& document) {
     MeshOptions mesh = options.mesh;
     mesh.threads = options.threads;
     mesh.max_bytes = options.max_bytes;
-    const lsc::GrownForest& grown = document.grown;
+    const GrownForest& grown = document.grown;
     KnownModel known;
     if (before != nullptr) {
         known = {&before->model, before->grown.forest.key, before->mesh_options, grown.known};
@@ -36,7 +35,7 @@ lsc::Status make_model(const ViewOptions& options,
     case InstanceMeshStatus::Ok:
         break;
     case InstanceMeshStatus::Joined:
-        return lsc::fail(Error{"--method boxes: a branch and its parent are one surface there, so "
+        return report_error(Error{"--method boxes: a branch and its parent are one surface there, so "
                                "a forest cannot be put together from them"},
                          console);
     case InstanceMeshStatus::TooManyVertices:
@@ -45,67 +44,67 @@ lsc::Status make_model(const ViewOptions& options,
         Diagnostics diagnostics;
         diagnostics.add(plant_limit_diagnostic("the mesh of the heroes", options.max_bytes));
         static_cast<void>(console.show(diagnostics, {}));
-        return lsc::Status::Limit;
+        return ExitStatus::Limit;
     }
     }
-    return lsc::Status::Fine;
+    return ExitStatus::Ok;
 }
 
-lsc::Status make(const ViewOptions& options,
+ExitStatus make(const ViewOptions& options,
                  const Wish& wish,
-                 const lsc::Console& console,
+                 const Console& console,
                  ForestDocument& document) {
-    lsc::Clock::time_point start = lsc::Clock::now();
+    SteadyClock::time_point start = SteadyClock::now();
     lsc::ForestCommand command = options.forest;
     command.grammar = options.grammar;
     command.seed = options.seed;
     lsc::CommandScene loaded;
-    lsc::Status status = lsc::load_command_scene(command, console, loaded);
-    if (status != lsc::Status::Fine) {
+    ExitStatus status = lsc::load_command_scene(command, console, loaded);
+    if (status != ExitStatus::Ok) {
         return status;
     }
     if (wish.edits != nullptr) {
         apply(*wish.edits, loaded.scene);
     }
     document.scene = loaded.scene;
-    document.parse_seconds = lsc::seconds_since(start);
+    document.parse_seconds = seconds_since(start);
     const lsc::ForestLimits limits{options.threads, options.grammar.max_modules, options.max_bytes};
-    lsc::KnownForest known;
+    KnownForest known;
     if (wish.known != nullptr) {
         known = {&wish.known->scene, &wish.known->grown};
     }
-    status = lsc::grow_species(loaded.scene, loaded.sources, loaded.folder, limits, console,
+    status = grow_species(loaded.scene, loaded.sources, loaded.folder, limits, console,
                                document.grown, known);
     if (wish.edits != nullptr) {
         loaded.scene.painting = {};
     }
-    if (status == lsc::Status::Fine) {
-        status = lsc::place_forest(loaded.scene, limits, console, document.grown);
+    if (status == ExitStatus::Ok) {
+        status = place_forest(loaded.scene, limits, console, document.grown);
     }
-    if (status != lsc::Status::Fine) {
+    if (status != ExitStatus::Ok) {
         return status;
     }
     if (console.interrupted()) {
-        return lsc::Status::Interrupted;
+        return ExitStatus::Interrupted;
     }
-    start = lsc::Clock::now();
+    start = SteadyClock::now();
     status = make_model(options, wish.known, console, document);
-    document.mesh_seconds = lsc::seconds_since(start);
+    document.mesh_seconds = seconds_since(start);
     return status;
 }
 
 } // namespace
 
-lsc::Status make_forest_document(const ViewOptions& options,
-                                 const lsc::Console& console,
+ExitStatus make_forest_document(const ViewOptions& options,
+                                 const Console& console,
                                  ForestDocument& document) {
     return make(options, {}, console, document);
 }
 
-lsc::Status make_live_forest(const ViewOptions& options,
+ExitStatus make_live_forest(const ViewOptions& options,
                              const ForestEdits& edits,
                              const ForestDocument* known,
-                             const lsc::Console& console,
+                             const Console& console,
                              ForestDocument& document) {
     return make(options, {&edits, known}, console, document);
 }

@@ -2,8 +2,8 @@
 // is to say on the way is said on the console that is handed in.
 #pragma once
 
-#include "runtime/cli/console.h"
-#include "runtime/cli/grow_forest.h"
+#include "runtime/program/console.h"
+#include "runtime/pipeline/forest.h"
 #include "viewer/app/forest_edits.h"
 #include "viewer/app/options.h"
 #include "viewer/scene/forest_model.h"
@@ -12,7 +12,7 @@ namespace lsys::view {
 
 struct ForestDocument {
     Scene scene; // as it was asked for
-    lsc::GrownForest grown;
+    GrownForest grown;
     ForestModel model; // of `grown`, which must not move
     MeshOptions mesh_options;
     double parse_seconds = 0.0;
@@ -20,17 +20,17 @@ struct ForestDocument {
 };
 
 /// Reads, derives, places and meshes. Fine: all of it is there.
-[[nodiscard]] lsc::Status make_forest_document(const ViewOptions& options,
-                                               const lsc::Console& console,
+[[nodiscard]] ExitStatus make_forest_document(const ViewOptions& options,
+                                               const Console& console,
                                                ForestDocument& document);
 
 /// The same for a window: with what was set there, and with all trees that were placed. Those that
 /// `scene.painting` says were erased or painted come and go later. What `known`, which may be none,
 /// has of the heroes is taken from there.
-[[nodiscard]] lsc::Status make_live_forest(const ViewOptions& options,
+[[nodiscard]] ExitStatus make_live_forest(const ViewOptions& options,
                                            const ForestEdits& edits,
                                            const ForestDocument* known,
-                                           const lsc::Console& console,
+                                           const Console& console,
                                            ForestDocument& document);
 
 /// Files that the document is made of, or would have been.

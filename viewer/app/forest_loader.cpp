@@ -1,7 +1,7 @@
 #include "viewer/app/forest_loader.h"
 
-#include "runtime/cli/console.h"
-#include "runtime/cli/stopwatch.h"
+#include "runtime/program/console.h"
+#include "runtime/pipeline/stopwatch.h"
 
 #include <new>
 #include <sstream>
@@ -16,10 +16,10 @@ ForestOutcome make_forest(const ForestRequest& request, const std::atomic<bool>&
     std::istringstream in;
     std::ostringstream out;
     std::ostringstream messages;
-    lsc::MessageOptions shown = request.options.messages;
-    shown.colour = lsc::ColourMode::Never;
-    const lsc::Console console({in, out, messages, false, &given_up, "lsview"}, shown);
-    const lsc::Clock::time_point start = lsc::Clock::now();
+    MessageOptions shown = request.options.messages;
+    shown.colour = ColourMode::Never;
+    const Console console({in, out, messages, false, &given_up, "lsview"}, shown);
+    const SteadyClock::time_point start = SteadyClock::now();
     bool made = false;
     outcome.document = std::make_shared<ForestDocument>();
     try {
@@ -29,16 +29,16 @@ ForestOutcome make_forest(const ForestRequest& request, const std::atomic<bool>&
         outcome.files = files_of(request.options, *outcome.document);
         made = true;
     } catch (const std::bad_alloc&) {
-        outcome.status = lsc::Status::Limit;
+        outcome.status = ExitStatus::Limit;
     } catch (const std::length_error&) { // what a string or vector throws when it cannot be so long
-        outcome.status = lsc::Status::Limit;
+        outcome.status = ExitStatus::Limit;
     }
     if (!made) {
         console.error("out of memory");
         outcome.files = request.options.forest.files;
     }
     outcome.request.known.reset();
-    outcome.seconds = lsc::seconds_since(start);
+    outcome.seconds = seconds_since(start);
     outcome.messages = std::move(messages).str();
     return outcome;
 }

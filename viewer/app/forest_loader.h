@@ -21,7 +21,7 @@ struct ForestRequest {
 };
 
 struct ForestOutcome {
-    lsc::Status status = lsc::Status::Failure;
+    ExitStatus status = ExitStatus::Failure;
     std::shared_ptr<ForestDocument> document; // what there is of it; all, if Fine
     std::string messages;                     // as `lsc` prints them, without colour
     std::vector<std::string> files;

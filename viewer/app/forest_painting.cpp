@@ -1,6 +1,6 @@
 #include "viewer/app/forest_painting.h"
 
-#include "runtime/cli/files.h"
+#include "runtime/program/files.h"
 
 #include <glm/geometric.hpp>
 
@@ -95,7 +95,7 @@ std::string ForestPainting::follow(std::shared_ptr<const ForestDocument> documen
     const bool is_other_file = in_file_ && *in_file_ != read;
     in_file_ = read;
     std::string note;
-    const lsc::GrownForest& grown = document->grown;
+    const GrownForest& grown = document->grown;
     const bool same_names = painter_ && names_ == names_of(document->scene);
     if (painter_ && painter_->is_changed()) {
         if (is_other_file) {
@@ -238,11 +238,11 @@ std::uint64_t ForestPainting::tree_count() const {
     return document_ ? document_->grown.forest.trees.size() : 0;
 }
 
-Result<Done> ForestPainting::save(const std::string& file, const lsc::Console& console) {
+Result<Done> ForestPainting::save(const std::string& file, const Console& console) {
     if (!painter_) {
         return Done{}; // what is there is what was read
     }
-    Result<std::string> before = lsc::read_file(file, kMaxSourceBytes, console);
+    Result<std::string> before = read_file(file, kMaxSourceBytes, console);
     if (!before) {
         return before.error();
     }
@@ -251,7 +251,7 @@ Result<Done> ForestPainting::save(const std::string& file, const lsc::Console& c
     if (!text) {
         return text.error();
     }
-    if (Result<Done> written = lsc::write_file(file, text.value(), console); !written) {
+    if (Result<Done> written = write_file(file, text.value(), console); !written) {
         return written;
     }
     saved_text_ = std::move(text.value());

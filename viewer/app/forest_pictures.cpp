@@ -91,11 +91,11 @@ std::string stats_text(const ViewOptions& options,
 
 } // namespace
 
-lsc::Status take_forest_pictures(const ViewOptions& options,
+ExitStatus take_forest_pictures(const ViewOptions& options,
                                  const Camera& camera,
                                  const ForestDocument& document,
                                  Renderer& renderer,
-                                 const lsc::Console& console) {
+                                 const Console& console) {
     PictureSeries series;
     std::vector<double> cull;
     FrameStats shadow;
@@ -107,8 +107,8 @@ lsc::Status take_forest_pictures(const ViewOptions& options,
     };
     Frame frame = frame_of(options, camera);
     frame.light = forest_light(document);
-    const lsc::Status status = take_series(options, frame, renderer, console, {}, after, series);
-    return status != lsc::Status::Fine || options.stats.empty()
+    const ExitStatus status = take_series(options, frame, renderer, console, {}, after, series);
+    return status != ExitStatus::Ok || options.stats.empty()
                ? status
                : write_stats_text(
                      options, stats_text(options, camera, document, renderer, series, cull, shadow),

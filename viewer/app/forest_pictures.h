@@ -1,7 +1,7 @@
 // Pictures of a forest as files, without a window.
 #pragma once
 
-#include "runtime/cli/console.h"
+#include "runtime/program/console.h"
 #include "viewer/app/forest_document.h"
 #include "viewer/app/options.h"
 #include "viewer/gl/renderer.h"
@@ -9,10 +9,10 @@
 namespace lsys::view {
 
 /// `renderer` shows the forest.
-[[nodiscard]] lsc::Status take_forest_pictures(const ViewOptions& options,
+[[nodiscard]] ExitStatus take_forest_pictures(const ViewOptions& options,
                                                const Camera& camera,
                                                const ForestDocument& document,
                                                Renderer& renderer,
-                                               const lsc::Console& console);
+                                               const Console& console);
 
 } // namespace lsys::view

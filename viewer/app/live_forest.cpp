@@ -1,8 +1,8 @@
 #include "viewer/app/live_forest.h"
 
-#include "runtime/cli/files.h"
-#include "runtime/cli/forest_scene.h"
-#include "runtime/cli/stopwatch.h"
+#include "runtime/program/files.h"
+#include "runtime/pipeline/forest.h"
+#include "runtime/pipeline/stopwatch.h"
 
 #include <fmt/format.h>
 
@@ -59,7 +59,7 @@ std::vector<CacheNumbers> cache_numbers(const Forest& forest) {
 }
 
 LiveForest::LiveForest(const ViewOptions& options,
-                       const lsc::Console& console,
+                       const Console& console,
                        Renderer& renderer,
                        std::function<void()> wake)
     : LiveScreen(options, console, renderer), settings(first_settings(options)),
@@ -92,7 +92,7 @@ void LiveForest::files_changed(const std::vector<std::string>& files,
     }
     if (files.size() == 1) {
         const std::lock_guard lock(saved_mutex_);
-        const Result<std::string> text = lsc::read_file(files.front(), kMaxSourceBytes, console_);
+        const Result<std::string> text = read_file(files.front(), kMaxSourceBytes, console_);
         if (!saved_text_.empty() && text && text.value() == saved_text_) {
             return; // that is what is shown
         }
@@ -154,7 +154,7 @@ void LiveForest::take_outcome(ForestOutcome outcome) {
     if (outcome.request.options.forest.files != options_.forest.files) {
         return; // another one is on its way
     }
-    const bool fine = outcome.status == lsc::Status::Fine;
+    const bool fine = outcome.status == ExitStatus::Ok;
     take_messages(outcome.messages, fine);
     if (fine) {
         files_ = outcome.files;
@@ -200,10 +200,10 @@ void LiveForest::swap(ForestOutcome outcome) {
         settings.brush.greatest_scale = first.greatest_scale;
     }
     stats_.caches = cache_numbers(document_->grown.forest);
-    stats_.upload_seconds = lsc::seconds_since(start);
+    stats_.upload_seconds = seconds_since(start);
     stats_.make_seconds = outcome.seconds;
     since_ = outcome.request.since;
-    stats_.swap_seconds = lsc::seconds_since(since_);
+    stats_.swap_seconds = seconds_since(since_);
     ++stats_.swaps;
     tells_shown_ = true;
     changed_ = true;
@@ -221,7 +221,7 @@ bool LiveForest::draw(std::uint32_t width, std::uint32_t height) {
     frame.most_expansions = kMostExpansions;
     if (settings.windy) {
         frame.wind = settings.wind;
-        frame.time = lsc::seconds_since(start_);
+        frame.time = seconds_since(start_);
     }
     if (document_ != nullptr) {
         frame.light = forest_light(*document_);
@@ -234,7 +234,7 @@ bool LiveForest::draw(std::uint32_t width, std::uint32_t height) {
         return false; // the next forest would wait for a picture of this one
     }
     has_worked_ = false;
-    is_coarse_ = is_slow_ && lsc::seconds_since(last_motion_) < kRest;
+    is_coarse_ = is_slow_ && seconds_since(last_motion_) < kRest;
     if (is_coarse_) {
         frame.samples = 1;
         frame.most_triangles = std::min(frame.most_triangles, coarse_triangles_);
@@ -259,7 +259,7 @@ void LiveForest::shown(double draw_seconds) {
     if (!std::exchange(tells_shown_, false)) {
         return;
     }
-    stats_.shown_seconds = lsc::seconds_since(since_);
+    stats_.shown_seconds = seconds_since(since_);
     console_.detail(fmt::format(
         "loaded {}: {} trees of {} species, {:.0f} ms; changed after {:.0f} ms, seen {:.0f} ms "
         "after the change",
@@ -401,7 +401,7 @@ void LiveForest::redo() {
 }
 
 void LiveForest::save() {
-    if (!lsc::is_scene(file())) {
+    if (!is_scene(file())) {
         say("this forest is of no scene file, so there is nothing to save it into");
         return;
     }

@@ -70,7 +70,7 @@ class LiveForest final : public LiveScreen {
 public:
     /// `wake` is called on any thread when update() has something to do.
     LiveForest(const ViewOptions& options,
-               const lsc::Console& console,
+               const Console& console,
                Renderer& renderer,
                std::function<void()> wake);
     ~LiveForest() override;

@@ -1,6 +1,6 @@
 #include "viewer/app/live_screen.h"
 
-#include "runtime/cli/files.h"
+#include "runtime/program/files.h"
 #include "runtime/meshing/texture.h"
 #include "viewer/app/shader_folder.h"
 
@@ -13,7 +13,7 @@
 
 namespace lsys::view {
 
-LiveScreen::LiveScreen(const ViewOptions& options, const lsc::Console& console, Renderer& renderer)
+LiveScreen::LiveScreen(const ViewOptions& options, const Console& console, Renderer& renderer)
     : options_(options), console_(console), renderer_(&renderer) {}
 
 void LiveScreen::take_messages(const std::string& messages, bool fine) {
@@ -74,7 +74,7 @@ void LiveScreen::write_screenshot() {
     picture.width = frame_->width;
     picture.height = frame_->height;
     renderer_->read(picture.texels);
-    const Result<Done> written = lsc::write_file(name, encode_png(picture), console_);
+    const Result<Done> written = write_file(name, encode_png(picture), console_);
     say(written ? fmt::format("wrote {}", name) : written.error().message);
 }
 

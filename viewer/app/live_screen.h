@@ -2,7 +2,7 @@
 // shaders. A context has to be current whenever it is called.
 #pragma once
 
-#include "runtime/cli/console.h"
+#include "runtime/program/console.h"
 #include "viewer/app/options.h"
 #include "viewer/gl/renderer.h"
 
@@ -15,7 +15,7 @@ namespace lsys::view {
 
 class LiveScreen {
 public:
-    LiveScreen(const ViewOptions& options, const lsc::Console& console, Renderer& renderer);
+    LiveScreen(const ViewOptions& options, const Console& console, Renderer& renderer);
     LiveScreen(const LiveScreen&) = delete;
     LiveScreen& operator=(const LiveScreen&) = delete;
     virtual ~LiveScreen() = default;
@@ -66,7 +66,7 @@ protected:
     [[nodiscard]] std::vector<std::string> watched(std::vector<std::string> files) const;
 
     ViewOptions options_;
-    lsc::Console console_;
+    Console console_;
     Renderer* renderer_;
     std::string shader_message_;
     // The last picture.

@@ -1,6 +1,6 @@
 #include "viewer/app/live_view.h"
 
-#include "runtime/cli/stopwatch.h"
+#include "runtime/pipeline/stopwatch.h"
 
 #include <fmt/format.h>
 
@@ -55,7 +55,7 @@ LiveSettings first_settings(const ViewOptions& options) {
 } // namespace
 
 LiveView::LiveView(const ViewOptions& options,
-                   const lsc::Console& console,
+                   const Console& console,
                    Renderer& renderer,
                    std::function<void()> wake)
     : LiveScreen(options, console, renderer), settings(first_settings(options)),
@@ -123,7 +123,7 @@ void LiveView::take_outcome(LoadOutcome outcome) {
     if (outcome.options.file != settings.file) {
         return; // another one is on its way
     }
-    const bool fine = outcome.status == lsc::Status::Fine;
+    const bool fine = outcome.status == ExitStatus::Ok;
     if (!fine && drop_unknown_definitions(*outcome.document)) {
         return;
     }
@@ -174,9 +174,9 @@ void LiveView::swap(LoadOutcome outcome) {
     if (std::exchange(is_new_file_, false)) {
         settings.bending.forces.damping = document_->grammar.bytecode->settings.damping;
     }
-    stats_.upload_seconds = lsc::seconds_since(start);
+    stats_.upload_seconds = seconds_since(start);
     stats_.make_seconds = outcome.seconds;
-    stats_.swap_seconds = lsc::seconds_since(outcome.since);
+    stats_.swap_seconds = seconds_since(outcome.since);
     ++stats_.swaps;
     shown_outcome_ = std::move(outcome);
     tells_shown_ = true;
@@ -279,7 +279,7 @@ void LiveView::shown(double draw_seconds) {
     if (!std::exchange(tells_shown_, false)) {
         return;
     }
-    stats_.shown_seconds = lsc::seconds_since(shown_outcome_.since);
+    stats_.shown_seconds = seconds_since(shown_outcome_.since);
     console_.detail(
         fmt::format("loaded {}: {} modules, {} segments, {} triangles, {:.0f} ms; seen "
                     "{:.0f} ms after the change",

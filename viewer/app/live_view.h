@@ -59,7 +59,7 @@ class LiveView final : public LiveScreen {
 public:
     /// `wake` is called on any thread when update() has something to do.
     LiveView(const ViewOptions& options,
-             const lsc::Console& console,
+             const Console& console,
              Renderer& renderer,
              std::function<void()> wake);
 

@@ -1,13 +1,13 @@
 #include "viewer/app/live_views.h"
 
-#include "runtime/cli/forest_scene.h"
+#include "runtime/pipeline/forest.h"
 
 #include <utility>
 
 namespace lsys::view {
 
 LiveViews::LiveViews(const ViewOptions& options,
-                     const lsc::Console& console,
+                     const Console& console,
                      Renderer& renderer,
                      std::function<void()> wake)
     : options_(options), console_(console), renderer_(&renderer), wake_(std::move(wake)) {
@@ -36,8 +36,8 @@ void LiveViews::open(const std::string& file) {
         return;
     }
     refused_.clear();
-    const bool is_forest = lsc::is_scene(file);
-    if (forest_ != nullptr && lsc::is_scene(forest_->file())) {
+    const bool is_forest = is_scene(file);
+    if (forest_ != nullptr && is_scene(forest_->file())) {
         last_scene_ = forest_->file();
     }
     if (is_forest && forest_ != nullptr) {

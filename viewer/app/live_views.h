@@ -13,7 +13,7 @@ namespace lsys::view {
 class LiveViews {
 public:
     LiveViews(const ViewOptions& options,
-              const lsc::Console& console,
+              const Console& console,
               Renderer& renderer,
               std::function<void()> wake);
 
@@ -32,7 +32,7 @@ private:
     void make(const ViewOptions& options);
 
     ViewOptions options_;
-    lsc::Console console_;
+    Console console_;
     Renderer* renderer_;
     std::function<void()> wake_;
     std::string last_scene_;

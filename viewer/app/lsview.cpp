@@ -1,7 +1,6 @@
 #include "viewer/app/lsview.h"
 
-#include "runtime/cli/console.h"
-#include "runtime/cli/tell.h"
+#include "runtime/program/console.h"
 #include "viewer/app/forest_document.h"
 #include "viewer/app/forest_pictures.h"
 #include "viewer/app/options.h"
@@ -26,8 +25,8 @@ namespace lsys::view {
 
 namespace {
 
-using lsc::Console;
-using lsc::Status;
+using Console;
+using ExitStatus;
 
 /// A renderer without a window, and the context that it draws in.
 struct HiddenRenderer {
@@ -35,28 +34,28 @@ struct HiddenRenderer {
     std::unique_ptr<Renderer> renderer;
 };
 
-Status make_renderer(const ViewOptions& options, const Console& console, HiddenRenderer& made) {
+ExitStatus make_renderer(const ViewOptions& options, const Console& console, HiddenRenderer& made) {
     Result<std::unique_ptr<Headless>> context = Headless::make();
     if (!context) {
-        return lsc::fail(context.error(), console);
+        return report_error(context.error(), console);
     }
     made.context = std::move(context.value());
     Result<std::unique_ptr<Renderer>> renderer =
         Renderer::make(shaders_of(options.shaders, console));
     if (!renderer) {
-        return lsc::fail(renderer.error(), console);
+        return report_error(renderer.error(), console);
     }
     made.renderer = std::move(renderer.value());
     console.detail(
         fmt::format("drawing by {}: {}", made.context->way(), made.renderer->device_name()));
-    return Status::Fine;
+    return ExitStatus::Ok;
 }
 
-Status
+ExitStatus
 run_forest_pictures(const ViewOptions& options, const Camera& camera, const Console& console) {
     ForestDocument document;
-    Status status = make_forest_document(options, console, document);
-    if (status != Status::Fine) {
+    ExitStatus status = make_forest_document(options, console, document);
+    if (status != ExitStatus::Ok) {
         return status;
     }
     const Camera from = above_ground(
@@ -66,26 +65,26 @@ run_forest_pictures(const ViewOptions& options, const Camera& camera, const Cons
         *document.grown.terrain);
     HiddenRenderer made;
     status = make_renderer(options, console, made);
-    if (status != Status::Fine) {
+    if (status != ExitStatus::Ok) {
         return status;
     }
     if (const Result<Done> shown = made.renderer->show_forest(std::move(document.model)); !shown) {
-        return lsc::fail(shown.error(), console);
+        return report_error(shown.error(), console);
     }
     static_cast<void>(made.renderer->make_portraits(std::numeric_limits<double>::infinity()));
     return take_forest_pictures(options, from, document, *made.renderer, console);
 }
 
-Status
+ExitStatus
 run_plant_pictures(const ViewOptions& options, const Camera& camera, const Console& console) {
     PlantDocument document;
-    Status status = make_plant_document(options, console, document);
-    if (status != Status::Fine) {
+    ExitStatus status = make_plant_document(options, console, document);
+    if (status != ExitStatus::Ok) {
         return status;
     }
     HiddenRenderer made;
     status = make_renderer(options, console, made);
-    if (status != Status::Fine) {
+    if (status != ExitStatus::Ok) {
         return status;
     }
     Renderer& renderer = *made.renderer;
@@ -99,30 +98,30 @@ run_plant_pictures(const ViewOptions& options, const Camera& camera, const Conso
     return take_pictures(options, from, document, renderer, console);
 }
 
-Status run_pictures(const ViewOptions& options, const Console& console) {
+ExitStatus run_pictures(const ViewOptions& options, const Console& console) {
     const Result<Camera> camera = parse_camera(options.camera, Camera{});
     if (!camera) {
-        return lsc::fail(Error{fmt::format("--camera: {}", camera.error().message)}, console);
+        return report_error(Error{fmt::format("--camera: {}", camera.error().message)}, console);
     }
     return options.is_forest ? run_forest_pictures(options, camera.value(), console)
                              : run_plant_pictures(options, camera.value(), console);
 }
 
 struct Dispatch {
-    const lsc::Io& io;
+    const Io& io;
 
-    Status operator()(const lsc::PrintText& text) const {
+    ExitStatus operator()(const PrintText& text) const {
         const Console console(io, {});
         const Result<Done> written = console.write(text.text);
-        return written ? Status::Fine : lsc::fail(written.error(), console);
+        return written ? ExitStatus::Ok : report_error(written.error(), console);
     }
-    Status operator()(const lsc::UsageError& usage) const {
+    ExitStatus operator()(const UsageError& usage) const {
         const Console console(io, {});
         console.error(usage.message);
         console.help(usage.help);
-        return Status::Failure;
+        return ExitStatus::Failure;
     }
-    Status operator()(const ViewOptions& options) const {
+    ExitStatus operator()(const ViewOptions& options) const {
         const Console console(io, options.messages);
         return options.screenshot.empty() ? run_window(options, console)
                                           : run_pictures(options, console);
@@ -130,14 +129,14 @@ struct Dispatch {
 };
 
 /// Without allocating: there is no memory.
-int out_of_memory(const lsc::Io& io) {
+int out_of_memory(const Io& io) {
     io.err << io.program << ": error: out of memory\n" << std::flush;
-    return static_cast<int>(Status::Limit);
+    return static_cast<int>(ExitStatus::Limit);
 }
 
 } // namespace
 
-int run(std::span<const std::string> arguments, const lsc::Io& io) {
+int run(std::span<const std::string> arguments, const Io& io) {
     try {
         return static_cast<int>(std::visit(Dispatch{io}, parse_options(arguments)));
     } catch (const std::bad_alloc&) {

@@ -1,8 +1,8 @@
 #include "viewer/app/options.h"
 
-#include "runtime/cli/arguments.h"
-#include "runtime/cli/forest_scene.h"
-#include "runtime/cli/option_parsers.h"
+#include "runtime/program/arguments.h"
+#include "runtime/pipeline/forest.h"
+#include "runtime/program/option_parsers.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -15,9 +15,9 @@ namespace lsys::view {
 
 namespace {
 
-using lsc::add_parsed;
-using lsc::parse_number;
-using lsc::whole;
+using add_parsed;
+using parse_number;
+using whole;
 
 constexpr std::uint64_t kMostPixels = 16'384; // along a side of a picture
 constexpr std::uint64_t kMostFrames = 1'000'000;
@@ -30,11 +30,11 @@ struct Size {
 Result<Size> parse_picture_size(const std::string& text) {
     const std::size_t cross = text.find('x');
     const Result<std::uint64_t> width =
-        lsc::parse_whole(std::string_view(text).substr(0, cross), 1, kMostPixels);
+        parse_whole(std::string_view(text).substr(0, cross), 1, kMostPixels);
     const Result<std::uint64_t> height =
         cross == std::string::npos
             ? Result<std::uint64_t>(Error{})
-            : lsc::parse_whole(std::string_view(text).substr(cross + 1), 1, kMostPixels);
+            : parse_whole(std::string_view(text).substr(cross + 1), 1, kMostPixels);
     if (!width || !height) {
         return Error{fmt::format("`{}` is no size of a picture; write WIDTHxHEIGHT, each 1 to {}",
                                  text, kMostPixels)};
@@ -94,7 +94,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
     app.add_flag("!--no-shadows", options.shadows, "Without shadows")->group("Picture");
     app.add_flag("!--no-ground", options.ground, "Without the ground under a plant")
         ->group("Picture");
-    lsc::add_choice<PlantStyle>(app, "--style", options.style,
+    add_choice<PlantStyle>(app, "--style", options.style,
                                 {{"surface", PlantStyle::Surface},
                                  {"wireframe", PlantStyle::Wireframe},
                                  {"none", PlantStyle::None}},
@@ -104,7 +104,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
            "--wireframe", [&options] { options.style = PlantStyle::Wireframe; },
            "The same as --style wireframe")
         ->group("Picture");
-    lsc::add_choice<LineKind>(
+    add_choice<LineKind>(
         app, "--lines", options.lines,
         {{"none", LineKind::None},
          {"skeleton", LineKind::Skeleton},
@@ -115,7 +115,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
     add_parsed(
         app, "--samples", options.samples,
         [](const std::string& text) -> Result<std::uint64_t> {
-            const Result<std::uint64_t> samples = lsc::parse_whole(text, 1, 4);
+            const Result<std::uint64_t> samples = parse_whole(text, 1, 4);
             return samples && (samples.value() == 1 || samples.value() == 4)
                        ? samples
                        : Result<std::uint64_t>(Error{fmt::format("`{}` is neither 1 nor 4", text)});
@@ -144,7 +144,7 @@ void add_bending(CLI::App& app, ViewOptions& options) {
         "Let the plant bend under its weight: m/s^2, 9.81 on earth")
         ->type_name("G")
         ->group("Bending");
-    add_parsed(app, "--wind", options.wind, lsc::parse_wind,
+    add_parsed(app, "--wind", options.wind, parse_wind,
                "Let wind bend it: x,y,z in m/s, and the gusts' part of it")
         ->type_name("X,Y,Z[,GUST]")
         ->group("Bending");
@@ -167,13 +167,13 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
                    "A grammar or a .lsb file; a scene (.toml), or the grammars of a forest")
         ->required();
     add_picture(app, options);
-    lsc::add_grammar(app, options.grammar);
-    lsc::add_seed(app, options.seed);
+    add_grammar(app, options.grammar);
+    add_seed(app, options.seed);
     add_bending(app, options);
     lsc::add_forest_scene(app, options.forest, "--forest-size");
-    lsc::add_mesh(app, options.mesh);
-    lsc::add_run_limits(app, options.max_bytes, options.threads);
-    lsc::add_messages(app, options.messages);
+    add_mesh(app, options.mesh);
+    add_run_limits(app, options.max_bytes, options.threads);
+    add_messages(app, options.messages);
     app.set_version_flag("--version", "lsview " LSC_VERSION, "Print the version and exit");
     app.footer(
         "Without --screenshot a window opens; F1 shows its keys. Files that change are shown at "
@@ -188,31 +188,31 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     try {
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
     } catch (const CLI::CallForHelp&) {
-        return lsc::PrintText{app.help()};
+        return PrintText{app.help()};
     } catch (const CLI::CallForVersion&) {
-        return lsc::PrintText{"lsview " LSC_VERSION "\n"};
+        return PrintText{"lsview " LSC_VERSION "\n"};
     } catch (const CLI::ParseError& error) {
-        return lsc::describe(error, app, "lsview");
+        return describe(error, app, "lsview");
     }
     options.file = options.forest.files.front();
-    options.is_forest = options.forest.files.size() > 1 || lsc::is_scene(options.file) ||
+    options.is_forest = options.forest.files.size() > 1 || is_scene(options.file) ||
                         asks_for_forest(options.forest);
     if (options.is_forest && options.gravity) {
-        return lsc::UsageError{"--gravity bends a plant, not a forest", "leave it out"};
+        return UsageError{"--gravity bends a plant, not a forest", "leave it out"};
     }
     if ((options.frames != 0 || !options.stats.empty()) && options.screenshot.empty()) {
-        return lsc::UsageError{"--frames and --stats belong to pictures",
+        return UsageError{"--frames and --stats belong to pictures",
                                "add `--screenshot FILE`"};
     }
     if (options.turntable && options.frames == 0) {
-        return lsc::UsageError{"--turntable is a series of pictures", "add `--frames N`"};
+        return UsageError{"--turntable is a series of pictures", "add `--frames N`"};
     }
     if (options.frames != 0 && options.screenshot == "-") {
-        return lsc::UsageError{"a series of pictures does not go to standard output",
+        return UsageError{"a series of pictures does not go to standard output",
                                "write `--screenshot FILE`"};
     }
     if (options.file == "-" && options.screenshot.empty()) {
-        return lsc::UsageError{"a window reads its file again and again, so it cannot show "
+        return UsageError{"a window reads its file again and again, so it cannot show "
                                "standard input",
                                "add `--screenshot FILE`, or write the grammar to a file"};
     }

@@ -17,8 +17,8 @@
 namespace lsys::view {
 
 struct ViewOptions {
-    lsc::MessageOptions messages;
-    lsc::GrammarOptions grammar;
+    MessageOptions messages;
+    GrammarOptions grammar;
     std::optional<std::uint64_t> seed;
     std::string file;          // the first one
     bool is_forest = false;    // a scene, or grammars with options of forests
@@ -48,7 +48,7 @@ struct ViewOptions {
     std::string stats;      // a JSON file; `-`: standard output
 };
 
-using ParsedOptions = std::variant<ViewOptions, lsc::PrintText, lsc::UsageError>;
+using ParsedOptions = std::variant<ViewOptions, PrintText, UsageError>;
 [[nodiscard]] ParsedOptions parse_options(std::span<const std::string> arguments);
 
 } // namespace lsys::view

@@ -1,7 +1,6 @@
 #include "viewer/app/picture_series.h"
 
-#include "runtime/cli/files.h"
-#include "runtime/cli/tell.h"
+#include "runtime/program/files.h"
 #include "runtime/meshing/texture.h"
 
 #include <fmt/format.h>
@@ -86,18 +85,18 @@ Frame frame_of(const ViewOptions& options, const Camera& camera) {
     return frame;
 }
 
-lsc::Status take_series(const ViewOptions& options,
+ExitStatus take_series(const ViewOptions& options,
                         Frame frame,
                         Renderer& renderer,
-                        const lsc::Console& console,
-                        const std::function<lsc::Status(const Frame& frame)>& prepare,
+                        const Console& console,
+                        const std::function<ExitStatus(const Frame& frame)>& prepare,
                         const std::function<void(const Frame& frame)>& after,
                         PictureSeries& series) {
     const Camera camera = frame.camera;
     const std::uint32_t count = std::max(options.frames, 1U);
     for (std::uint32_t i = 0; i < count; ++i) {
         if (console.interrupted()) {
-            return lsc::Status::Interrupted;
+            return ExitStatus::Interrupted;
         }
         frame.time = static_cast<double>(options.time) +
                      static_cast<double>(i) / static_cast<double>(options.frames_per_second);
@@ -109,7 +108,7 @@ lsc::Status take_series(const ViewOptions& options,
         }
         if (prepare) {
             const Clock::time_point start = Clock::now();
-            if (const lsc::Status status = prepare(frame); status != lsc::Status::Fine) {
+            if (const ExitStatus status = prepare(frame); status != ExitStatus::Ok) {
                 return status;
             }
             series.prepare.push_back(milliseconds_since(start));
@@ -127,25 +126,25 @@ lsc::Status take_series(const ViewOptions& options,
         series.digest = series.digest * 0x9E3779B97F4A7C15U + digest_of(picture.texels);
         const std::string bytes = encode_png(picture);
         if (bytes.empty()) {
-            return lsc::fail(Error{"there is no memory for the picture"}, console);
+            return report_error(Error{"there is no memory for the picture"}, console);
         }
         const std::string path =
-            options.frames == 0 ? options.screenshot : lsc::numbered(options.screenshot, i + 1);
-        if (const Result<Done> written = lsc::write_file(path, bytes, console); !written) {
-            return lsc::fail(written.error(), console);
+            options.frames == 0 ? options.screenshot : numbered(options.screenshot, i + 1);
+        if (const Result<Done> written = write_file(path, bytes, console); !written) {
+            return report_error(written.error(), console);
         }
         series.write.push_back(milliseconds_since(start));
     }
     return renderer.errors().empty()
-               ? lsc::Status::Fine
-               : lsc::fail(Error{fmt::format("OpenGL: {}", renderer.errors().front())}, console);
+               ? ExitStatus::Ok
+               : report_error(Error{fmt::format("OpenGL: {}", renderer.errors().front())}, console);
 }
 
-lsc::Status
-write_stats_text(const ViewOptions& options, const std::string& text, const lsc::Console& console) {
+ExitStatus
+write_stats_text(const ViewOptions& options, const std::string& text, const Console& console) {
     const Result<Done> written =
-        options.stats == "-" ? console.write(text) : lsc::write_file(options.stats, text, console);
-    return written ? lsc::Status::Fine : lsc::fail(written.error(), console);
+        options.stats == "-" ? console.write(text) : write_file(options.stats, text, console);
+    return written ? ExitStatus::Ok : report_error(written.error(), console);
 }
 
 } // namespace lsys::view

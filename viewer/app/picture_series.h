@@ -1,7 +1,7 @@
 // PictureSeries: pictures of a run as files, one or a numbered series, and how long each took.
 #pragma once
 
-#include "runtime/cli/console.h"
+#include "runtime/program/console.h"
 #include "viewer/app/options.h"
 #include "viewer/gl/renderer.h"
 
@@ -31,16 +31,16 @@ struct PictureSeries {
 /// Draws and writes the pictures that the options ask for, from `frame` on. `prepare`, which may be
 /// empty, is called before each with its frame; other than Fine ends the series. So is `after`,
 /// after each was drawn. Fails if OpenGL reports an error.
-[[nodiscard]] lsc::Status take_series(const ViewOptions& options,
+[[nodiscard]] ExitStatus take_series(const ViewOptions& options,
                                       Frame frame,
                                       Renderer& renderer,
-                                      const lsc::Console& console,
-                                      const std::function<lsc::Status(const Frame& frame)>& prepare,
+                                      const Console& console,
+                                      const std::function<ExitStatus(const Frame& frame)>& prepare,
                                       const std::function<void(const Frame& frame)>& after,
                                       PictureSeries& series);
 
 /// Writes the text where --stats says.
-[[nodiscard]] lsc::Status
-write_stats_text(const ViewOptions& options, const std::string& text, const lsc::Console& console);
+[[nodiscard]] ExitStatus
+write_stats_text(const ViewOptions& options, const std::string& text, const Console& console);
 
 } // namespace lsys::view

@@ -91,24 +91,24 @@ std::string stats_text(const ViewOptions& options,
 
 } // namespace
 
-lsc::Status take_pictures(const ViewOptions& options,
+ExitStatus take_pictures(const ViewOptions& options,
                           const Camera& camera,
                           PlantDocument& document,
                           Renderer& renderer,
-                          const lsc::Console& console) {
+                          const Console& console) {
     Motion motion(options, document);
     Skeleton pose;
     MeshOptions mesh_options = options.mesh;
     mesh_options.threads = options.threads;
     mesh_options.max_bytes = options.max_bytes;
-    std::function<lsc::Status(const Frame&)> prepare;
+    std::function<ExitStatus(const Frame&)> prepare;
     if (motion.moves()) {
         prepare = [&](const Frame& frame) {
             motion.go_to(frame.time);
             motion.pose(pose);
-            const lsc::Status status = lsc::mesh_plant(document.plant, pose, mesh_options,
+            const ExitStatus status = mesh_plant(document.plant, pose, mesh_options,
                                                        document.grammar, console, document.mesh);
-            if (status == lsc::Status::Fine) {
+            if (status == ExitStatus::Ok) {
                 renderer.show_plant(document.mesh);
                 renderer.show_lines(make_lines(pose, options.lines));
             }
@@ -116,9 +116,9 @@ lsc::Status take_pictures(const ViewOptions& options,
         };
     }
     PictureSeries series;
-    const lsc::Status status =
+    const ExitStatus status =
         take_series(options, frame_of(options, camera), renderer, console, prepare, {}, series);
-    return status != lsc::Status::Fine || options.stats.empty()
+    return status != ExitStatus::Ok || options.stats.empty()
                ? status
                : write_stats_text(options, stats_text(options, camera, document, renderer, series),
                                   console);

@@ -1,17 +1,17 @@
 // Pictures of a plant as files, without a window: one, or a numbered series.
 #pragma once
 
-#include "runtime/cli/console.h"
+#include "runtime/program/console.h"
 #include "viewer/app/options.h"
 #include "viewer/app/plant_document.h"
 #include "viewer/gl/renderer.h"
 
 namespace lsys::view {
 
-[[nodiscard]] lsc::Status take_pictures(const ViewOptions& options,
+[[nodiscard]] ExitStatus take_pictures(const ViewOptions& options,
                                         const Camera& camera,
                                         PlantDocument& document,
                                         Renderer& renderer,
-                                        const lsc::Console& console);
+                                        const Console& console);
 
 } // namespace lsys::view

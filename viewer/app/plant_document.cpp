@@ -1,24 +1,24 @@
 #include "viewer/app/plant_document.h"
 
-#include "runtime/cli/stopwatch.h"
+#include "runtime/pipeline/stopwatch.h"
 
 #include <chrono>
 #include <filesystem>
 
 namespace lsys::view {
 
-lsc::Status make_plant_document(const ViewOptions& options,
-                                const lsc::Console& console,
+ExitStatus make_plant_document(const ViewOptions& options,
+                                const Console& console,
                                 PlantDocument& document) {
-    lsc::Clock::time_point start = lsc::Clock::now();
-    lsc::Status status =
-        lsc::load_grammar(options.file, options.grammar, console, document.grammar);
-    if (status != lsc::Status::Fine) {
+    SteadyClock::time_point start = SteadyClock::now();
+    ExitStatus status =
+        load_grammar(options.file, options.grammar, console, document.grammar);
+    if (status != ExitStatus::Ok) {
         return status;
     }
-    document.load_seconds = lsc::seconds_since(start);
+    document.load_seconds = seconds_since(start);
     if (console.interrupted()) {
-        return lsc::Status::Interrupted;
+        return ExitStatus::Interrupted;
     }
     lsc::PlantRequest request;
     request.file = options.file;
@@ -27,20 +27,20 @@ lsc::Status make_plant_document(const ViewOptions& options,
     request.threads = options.threads;
     request.max_modules = options.grammar.max_modules;
     request.max_bytes = options.max_bytes;
-    status = lsc::grow_plant(request, document.grammar, console, document.plant);
-    if (status != lsc::Status::Fine) {
+    status = grow_plant(request, document.grammar, console, document.plant);
+    if (status != ExitStatus::Ok) {
         return status;
     }
     if (console.interrupted()) {
-        return lsc::Status::Interrupted;
+        return ExitStatus::Interrupted;
     }
-    start = lsc::Clock::now();
+    start = SteadyClock::now();
     MeshOptions mesh = options.mesh;
     mesh.threads = options.threads;
     mesh.max_bytes = options.max_bytes;
-    status = lsc::mesh_plant(document.plant, document.plant.skeleton, mesh, document.grammar,
+    status = mesh_plant(document.plant, document.plant.skeleton, mesh, document.grammar,
                              console, document.mesh);
-    document.mesh_seconds = lsc::seconds_since(start);
+    document.mesh_seconds = seconds_since(start);
     return status;
 }
 

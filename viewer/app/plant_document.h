@@ -2,9 +2,9 @@
 // on the way is said on the console that is handed in, so that a window can show it.
 #pragma once
 
-#include "runtime/cli/console.h"
-#include "runtime/cli/grammar_file.h"
-#include "runtime/cli/plant.h"
+#include "runtime/program/console.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/plant.h"
 #include "runtime/meshing/mesh.h"
 #include "viewer/app/options.h"
 
@@ -14,8 +14,8 @@
 namespace lsys::view {
 
 struct PlantDocument {
-    lsc::Grammar grammar;
-    lsc::Plant plant;
+    Grammar grammar;
+    Plant plant;
     Mesh mesh; // of the plant at rest
     double load_seconds = 0.0;
     double mesh_seconds = 0.0;
@@ -23,8 +23,8 @@ struct PlantDocument {
 
 /// Reads, compiles, derives, draws and meshes. Fine: all of it is there. Else what was made until
 /// then is.
-[[nodiscard]] lsc::Status make_plant_document(const ViewOptions& options,
-                                              const lsc::Console& console,
+[[nodiscard]] ExitStatus make_plant_document(const ViewOptions& options,
+                                              const Console& console,
                                               PlantDocument& document);
 
 /// The files that the document was made of, as far as they are known: the grammar, what it

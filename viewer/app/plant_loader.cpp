@@ -1,6 +1,6 @@
 #include "viewer/app/plant_loader.h"
 
-#include "runtime/cli/console.h"
+#include "runtime/program/console.h"
 
 #include <atomic>
 #include <new>
@@ -19,9 +19,9 @@ LoadOutcome make(const LoadRequest& request, const std::atomic<bool>& given_up) 
     std::istringstream in;
     std::ostringstream out;
     std::ostringstream messages;
-    lsc::MessageOptions shown = request.options.messages;
-    shown.colour = lsc::ColourMode::Never;
-    const lsc::Console console({in, out, messages, false, &given_up, "lsview"}, shown);
+    MessageOptions shown = request.options.messages;
+    shown.colour = ColourMode::Never;
+    const Console console({in, out, messages, false, &given_up, "lsview"}, shown);
     const SteadyClock::time_point start = SteadyClock::now();
     try {
         auto document = std::make_shared<PlantDocument>();
@@ -29,9 +29,9 @@ LoadOutcome make(const LoadRequest& request, const std::atomic<bool>& given_up) 
         outcome.files = files_of(request.options, *document);
         outcome.document = std::move(document);
     } catch (const std::bad_alloc&) {
-        outcome.status = lsc::Status::Limit;
+        outcome.status = ExitStatus::Limit;
     } catch (const std::length_error&) { // what a string or vector throws when it cannot be so long
-        outcome.status = lsc::Status::Limit;
+        outcome.status = ExitStatus::Limit;
     }
     if (outcome.document == nullptr) {
         console.error("out of memory");

@@ -15,7 +15,7 @@
 namespace lsys::view {
 
 struct LoadOutcome {
-    lsc::Status status = lsc::Status::Failure;
+    ExitStatus status = ExitStatus::Failure;
     /// What there is of it; all, if Fine.
     std::shared_ptr<const PlantDocument> document;
     std::string messages; // as `lsc` prints them, without colour

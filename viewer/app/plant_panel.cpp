@@ -22,7 +22,7 @@ void draw_numbers(const LiveView& view) {
         line("no plant yet");
         return;
     }
-    const lsc::Plant& plant = document->plant;
+    const Plant& plant = document->plant;
     line(fmt::format("{} modules, {} segments", grouped(plant.modules),
                      grouped(plant.skeleton.segments.size())));
     line(fmt::format("{} triangles; profile {}", grouped(document->mesh.indices.size() / 3),

@@ -1,6 +1,6 @@
 #include "viewer/app/shader_folder.h"
 
-#include "runtime/cli/files.h"
+#include "runtime/program/files.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -10,14 +10,14 @@
 
 namespace lsys::view {
 
-ShaderSource shaders_of(const std::string& folder, const lsc::Console& console) {
+ShaderSource shaders_of(const std::string& folder, const Console& console) {
     if (folder.empty()) {
         return built_in_shader;
     }
     return [folder, console](std::string_view name) -> std::optional<std::string> {
         constexpr std::uint64_t kMostBytes = 1 << 20;
         Result<std::string> text =
-            lsc::read_file((std::filesystem::path(folder) / name).string(), kMostBytes, console);
+            read_file((std::filesystem::path(folder) / name).string(), kMostBytes, console);
         return text ? std::optional(std::move(text.value())) : std::nullopt;
     };
 }

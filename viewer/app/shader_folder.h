@@ -1,7 +1,7 @@
 // Where shaders come from: a folder, or the program itself.
 #pragma once
 
-#include "runtime/cli/console.h"
+#include "runtime/program/console.h"
 #include "viewer/gl/renderer.h"
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace lsys::view {
 
 /// Those of `folder`; those that are built in if its name is empty.
-[[nodiscard]] ShaderSource shaders_of(const std::string& folder, const lsc::Console& console);
+[[nodiscard]] ShaderSource shaders_of(const std::string& folder, const Console& console);
 /// The files of `folder` that may be shaders.
 [[nodiscard]] std::vector<std::string> shader_files(const std::string& folder);
 

@@ -1,7 +1,6 @@
 #include "viewer/app/window_run.h"
 
-#include "runtime/cli/files.h"
-#include "runtime/cli/tell.h"
+#include "runtime/program/files.h"
 #include "viewer/app/controls.h"
 #include "viewer/app/live_views.h"
 #include "viewer/app/panels.h"
@@ -114,27 +113,27 @@ private:
 
 } // namespace
 
-lsc::Status run_window(const ViewOptions& options, const lsc::Console& console) {
+ExitStatus run_window(const ViewOptions& options, const Console& console) {
     const Result<Camera> camera = parse_camera(options.camera, Camera{});
     if (!camera) {
-        return lsc::fail(Error{fmt::format("--camera: {}", camera.error().message)}, console);
+        return report_error(Error{fmt::format("--camera: {}", camera.error().message)}, console);
     }
     // A file that cannot be read is a mistake on the command line; one with errors is shown.
-    if (const Result<std::string> bytes = lsc::read_file(options.file, ~std::uint64_t{0}, console);
+    if (const Result<std::string> bytes = read_file(options.file, ~std::uint64_t{0}, console);
         !bytes) {
-        return lsc::fail(bytes.error(), console);
+        return report_error(bytes.error(), console);
     }
     Result<std::unique_ptr<Window>> window =
         Window::make(title_of(options.file), options.width, options.height);
     if (!window) {
-        const lsc::Status status = lsc::fail(window.error(), console);
+        const ExitStatus status = report_error(window.error(), console);
         console.help("`--screenshot FILE` makes a picture without a window");
         return status;
     }
     Result<std::unique_ptr<Renderer>> renderer =
         Renderer::make(shaders_of(options.shaders, console));
     if (!renderer) {
-        return lsc::fail(renderer.error(), console);
+        return report_error(renderer.error(), console);
     }
     console.detail(fmt::format("drawing by a window: {}", renderer.value()->device_name()));
     LiveViews views(options, console, *renderer.value(),
@@ -143,15 +142,15 @@ lsc::Status run_window(const ViewOptions& options, const lsc::Console& console) 
     WindowRun run(*window.value(), views);
     while (run.step()) {
         if (console.interrupted()) {
-            return lsc::Status::Interrupted;
+            return ExitStatus::Interrupted;
         }
     }
     console.detail(fmt::format("--camera \"{}\"", to_text(views.shown().camera())));
     if (!renderer.value()->errors().empty()) {
-        return lsc::fail(Error{fmt::format("OpenGL: {}", renderer.value()->errors().front())},
+        return report_error(Error{fmt::format("OpenGL: {}", renderer.value()->errors().front())},
                          console);
     }
-    return lsc::Status::Fine;
+    return ExitStatus::Ok;
 }
 
 } // namespace lsys::view

@@ -1,4 +1,4 @@
-#include "runtime/cli/arguments.h"
+#include "runtime/program/arguments.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "runtime/cli/files.h"
+#include "runtime/program/files.h"
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>

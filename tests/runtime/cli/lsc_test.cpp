@@ -22,7 +22,7 @@ using lsys::tests::write_text;
 constexpr const char* kEndless = "#n = 4000000000; #w : F; #p : F : * : F;";
 constexpr const char* kWrong = "#n = 1; #w : F(x);";
 
-int run(const std::vector<std::string>& arguments, const lsys::lsc::Io& io) {
+int run(const std::vector<std::string>& arguments, const lsys::Io& io) {
     return lsys::lsc::run(arguments, io);
 }
 

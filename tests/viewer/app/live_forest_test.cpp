@@ -106,7 +106,7 @@ public:
     std::ostringstream err;
 
 private:
-    lsc::Console console_;
+    Console console_;
 
 public:
     std::unique_ptr<Renderer> renderer;

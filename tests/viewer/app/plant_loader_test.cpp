@@ -42,7 +42,7 @@ TEST_CASE("a loader makes the plant and says which files are behind it") {
     PlantLoader loader([] {});
     loader.request(options_of(sample("teach-include")), SteadyClock::now());
     const LoadOutcome outcome = wait_for(loader);
-    CHECK(outcome.status == lsc::Status::Fine);
+    CHECK(outcome.status == ExitStatus::Fine);
     CHECK(outcome.messages.empty());
     CHECK(outcome.document->plant.modules > 0);
     CHECK_FALSE(outcome.document->mesh.indices.empty());
@@ -58,7 +58,7 @@ TEST_CASE("what is wrong is said as lsc says it, and missing files are known") {
     PlantLoader loader([] {});
     loader.request(options_of(folder / "bad.lsys"), SteadyClock::now());
     const LoadOutcome outcome = wait_for(loader);
-    CHECK(outcome.status == lsc::Status::AuthorErrors);
+    CHECK(outcome.status == ExitStatus::AuthorErrors);
     CHECK(outcome.messages == run_lsc({"check", folder / "bad.lsys"}, "").err);
     CHECK(outcome.files == std::vector<std::string>{folder / "bad.lsys", folder / "none.lsys"});
 }
@@ -78,7 +78,7 @@ TEST_CASE("the newest request wins, and what takes long is given up") {
         loader.request(newer, SteadyClock::now());
     }
     const LoadOutcome outcome = wait_for(loader);
-    CHECK(outcome.status == lsc::Status::Fine);
+    CHECK(outcome.status == ExitStatus::Fine);
     CHECK(outcome.document->plant.generations == 4);
     CHECK_FALSE(loader.take());
 }

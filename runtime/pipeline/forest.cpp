@@ -1,0 +1,332 @@
+#include "runtime/pipeline/forest.h"
+
+#include "compiler/instancing/instance.h"
+#include "grammar/dialects/dialect.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/impl/drawing_end.h"
+#include "runtime/pipeline/impl/mesh_files.h"
+#include "runtime/pipeline/impl/step.h"
+#include "runtime/pipeline/stopwatch.h"
+#include "runtime/turtle/turtle_diagnostic.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+constexpr double kUsualSize = 100.0; // m
+constexpr std::uint64_t kUsualCount = 1000;
+
+std::string path_in(const std::string& folder, const std::string& path) {
+    return (std::filesystem::path(folder) / path).string();
+}
+
+/// A scene of grammars alone.
+Scene scene_of(const std::vector<std::string>& grammars) {
+    Scene scene;
+    scene.terrain.region = {0.0, 0.0, kUsualSize, kUsualSize};
+    scene.placement.region = scene.terrain.region;
+    scene.placement.count = kUsualCount;
+    for (const std::string& path : grammars) {
+        SceneSpecies& species = scene.species.emplace_back();
+        species.name = std::filesystem::path(path).stem().string();
+        species.grammar.path = path;
+        scene.placement.species.emplace_back();
+    }
+    return scene;
+}
+
+/// An error about a file or another name, where the scene has it.
+Step::Ended fail_at(SourceSpan place, const Error& error, const LoadedScene& loaded, Step& step) {
+    if (place.file == kNoFile || step.project().is_cancelled()) {
+        return step.fail(error);
+    }
+    step.diagnose(make_diagnostic(DiagnosticCode::BadSceneValue, place, error.message),
+                  loaded.sources);
+    return step.end(Stop::Failed);
+}
+
+Result<GreyMap>
+read_map(const std::string& path, std::uint32_t columns, std::uint32_t rows, const Step& step) {
+    const Result<std::string> bytes = step.read(path, ~std::uint64_t{0});
+    if (!bytes) {
+        return bytes.error();
+    }
+    Result<GreyMap> map =
+        columns != 0 ? read_grey_raw(bytes.value(), columns, rows) : read_grey_png(bytes.value());
+    if (!map) {
+        return Error{fmt::format("cannot use `{}`: {}", path, map.error().message)};
+    }
+    return map;
+}
+
+Result<Terrain>
+make_terrain(const SceneTerrain& terrain, const std::string& folder, const Step& step) {
+    switch (terrain.kind) {
+    case TerrainKind::Flat:
+        return Terrain::flat(terrain.region, terrain.base);
+    case TerrainKind::Noise:
+        return Terrain::noise(terrain.region, terrain.noise);
+    case TerrainKind::HeightMap:
+        break;
+    }
+    Result<GreyMap> map =
+        read_map(path_in(folder, terrain.map.path), terrain.map_columns, terrain.map_rows, step);
+    if (!map) {
+        return map.error();
+    }
+    return Terrain::height_map(terrain.region, std::move(map.value()), terrain.height_map);
+}
+
+/// The heroes of one species with one number of generations, and its meshes.
+struct GrownStage {
+    ForestStage stage;
+    std::vector<UserMesh> user_meshes;
+};
+
+Outcome<GrownStage> grow_stage(const SceneSpecies& species,
+                               const std::string& path,
+                               std::optional<std::uint32_t> generations,
+                               const Project& project) {
+    Step step(project);
+    GrammarOptions options;
+    options.dialect = species.dialect.text;
+    options.bug_compatible = species.bug_compatible;
+    options.system = species.system.text;
+    options.generations = generations;
+    for (const SceneDefinition& definition : species.definitions) {
+        options.definitions.push_back({definition.name, definition.value});
+    }
+    Grammar grammar;
+    if (!step.take(load_grammar(path, options, project), grammar)) {
+        return step.end();
+    }
+    if (!grammar.program) {
+        return step.fail(fmt::format("`{}` is compiled; a forest needs the grammar itself", path));
+    }
+    GrownStage grown;
+    ForestStage& stage = grown.stage;
+    stage.generations = generations.value_or(grammar.bytecode.generations.value_or(0));
+    Diagnostics diagnostics;
+    std::optional<InstancedSystem> system = compile_instanced(
+        std::move(*grammar.program), grammar.names, *grammar.sources, species.rho, diagnostics);
+    if (!step.diagnose(std::move(diagnostics), grammar.sources) || !system) {
+        return step.end(Stop::Diagnosed);
+    }
+    grammar.program.reset();
+    grammar.bytecode = std::move(system->bytecode);
+    MeshFiles meshes;
+    if (!step.take(read_mesh_files(path, grammar.bytecode, project), meshes)) {
+        return step.end();
+    }
+    grown.user_meshes = std::move(meshes.meshes);
+    CacheOptions cache = species.cache;
+    cache.mesh_lengths = std::move(meshes.lengths);
+    cache.generations = stage.generations;
+    cache.knows_up = system->knows_up;
+    cache.threads = project.threads;
+    cache.limits = project.limits;
+    cache.max_bytes = project.limits.max_bytes;
+    cache.cancelled = project.host.cancelled;
+    const CacheOutcome outcome = make_instance_cache(grammar.bytecode, cache, stage.cache);
+    if (const std::optional<Stop> stop =
+            report_drawing({outcome.derived, outcome.error, outcome.limit}, outcome.drawn,
+                           outcome.error, outcome.faults, grammar, step)) {
+        return step.end(*stop);
+    }
+    const bool any_hit = std::any_of(stage.cache.slots.begin(), stage.cache.slots.end(),
+                                     [](const InstanceSlot& slot) { return slot.hits != 0; });
+    if (system->kind_count != 0 && species.rho > 0.0F && !any_hit) {
+        step.messages.add_info(
+            fmt::format("{}: no branch was ever taken, because no two have equal keys, so "
+                        "instancing adds nothing; --instance-tolerance lets them differ",
+                        species.name));
+    }
+    return step.done(std::move(grown));
+}
+
+/// Whether both make the same heroes from the same files.
+bool is_grown_alike(const SceneSpecies& a, const SceneSpecies& b) {
+    const auto same_definition = [](const SceneDefinition& one, const SceneDefinition& other) {
+        return one.name == other.name && one.value == other.value;
+    };
+    return a.grammar.path == b.grammar.path && a.dialect.text == b.dialect.text &&
+           a.system.text == b.system.text && a.bug_compatible == b.bug_compatible &&
+           a.stages == b.stages && a.rho == b.rho && a.cache.heroes == b.cache.heroes &&
+           a.cache.seed == b.cache.seed && a.cache.cap == b.cache.cap &&
+           a.cache.tolerance == b.cache.tolerance &&
+           std::equal(a.definitions.begin(), a.definitions.end(), b.definitions.begin(),
+                      b.definitions.end(), same_definition);
+}
+
+/// The index of the species of `known` that has the heroes of `species`, or nothing.
+std::optional<std::size_t> find_known(const SceneSpecies& species, const KnownForest& known) {
+    if (known.scene == nullptr) {
+        return std::nullopt;
+    }
+    for (std::size_t i = 0; i < known.scene->species.size(); ++i) {
+        if (is_grown_alike(species, known.scene->species[i])) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+bool is_scene(const std::string& path) {
+    return std::filesystem::path(path).extension() == ".toml";
+}
+
+Outcome<LoadedScene> load_scene(const std::vector<std::string>& files,
+                                const SceneOverrides& overrides,
+                                const Project& project) {
+    Step step(project);
+    LoadedScene loaded;
+    const auto sources = std::make_shared<SourceMap>();
+    loaded.sources = sources;
+    if (std::none_of(files.begin(), files.end(), is_scene)) {
+        loaded.scene = scene_of(files);
+    } else if (files.size() > 1) {
+        return step.fail("a scene names its grammars, so it stands alone");
+    } else {
+        const std::string& path = files.front();
+        Result<std::string> text = step.read(path, kMaxSourceBytes);
+        if (!text) {
+            return step.fail(text.error());
+        }
+        const FileId file = sources->add(shown_path(path), std::move(text.value()));
+        Diagnostics diagnostics;
+        std::optional<Scene> read = parse_scene(file, *sources, diagnostics);
+        if (!step.diagnose(std::move(diagnostics), sources) || !read) {
+            return step.end(Stop::Diagnosed);
+        }
+        loaded.scene = std::move(*read);
+        loaded.folder = std::filesystem::path(path).parent_path().string();
+    }
+    if (const Result<Done> applied = apply(overrides, loaded.scene); !applied) {
+        return step.fail(applied.error());
+    }
+    return step.done(std::move(loaded));
+}
+
+Outcome<GrownForest>
+grow_species(const LoadedScene& loaded, const Project& project, const KnownForest& known) {
+    Step step(project);
+    const Scene& scene = loaded.scene;
+    GrownForest grown;
+    Result<Terrain> terrain = make_terrain(scene.terrain, loaded.folder, step);
+    if (!terrain) {
+        return fail_at(scene.terrain.map.span,
+                       Error{fmt::format("terrain: {}", terrain.error().message)}, loaded, step);
+    }
+    grown.terrain.emplace(std::move(terrain.value()));
+    if (!scene.density_map.path.empty()) {
+        Result<GreyMap> map = read_map(path_in(loaded.folder, scene.density_map.path), 0, 0, step);
+        if (!map) {
+            return fail_at(scene.density_map.span, map.error(), loaded, step);
+        }
+        grown.density_map = std::move(map.value());
+    }
+    const Stopwatch growing;
+    grown.forest.key = scene.placement.key;
+    for (const SceneSpecies& species : scene.species) {
+        const std::string path = path_in(loaded.folder, species.grammar.path);
+        if (!project.host.file_exists(path)) {
+            return fail_at(species.grammar.span, Error{fmt::format("there is no file `{}`", path)},
+                           loaded, step);
+        }
+        if (!species.dialect.text.empty() && !find_dialect(species.dialect.text)) {
+            return fail_at(species.dialect.span,
+                           Error{fmt::format("there is no dialect `{}`", species.dialect.text)},
+                           loaded, step);
+        }
+        ForestSpecies& made = grown.forest.species.emplace_back();
+        made.name = species.name;
+        made.years_of_stage = species.years_of_stage;
+        std::vector<UserMesh>& meshes = grown.user_meshes.emplace_back();
+        Messages& messages = grown.messages.emplace_back();
+        const std::optional<std::size_t> at = grown.known.emplace_back(find_known(species, known));
+        if (at) {
+            messages = known.grown->messages[*at];
+            step.messages.append(messages);
+            made.stages = known.grown->forest.species[*at].stages;
+            meshes = known.grown->user_meshes[*at];
+            continue;
+        }
+        const std::size_t stages = std::max<std::size_t>(species.stages.size(), 1);
+        for (std::size_t i = 0; i < stages; ++i) {
+            const std::optional<std::uint32_t> generations =
+                species.stages.empty() ? std::nullopt : std::optional(species.stages[i]);
+            Outcome<GrownStage> stage = grow_stage(species, path, generations, project);
+            messages.append(stage.messages());
+            step.messages.append(stage.messages());
+            if (!stage) {
+                return step.end(stage.stop());
+            }
+            made.stages.push_back(std::move(stage.value().stage));
+            meshes = std::move(stage.value().user_meshes);
+        }
+    }
+    grown.cache_seconds = growing.seconds();
+    return step.done(std::move(grown));
+}
+
+Outcome<std::vector<std::vector<InstanceMeshes>>>
+mesh_forest(const GrownForest& grown, const MeshOptions& options, const Project& project) {
+    Step step(project);
+    MeshOptions limited = options;
+    limited.threads = project.threads;
+    limited.max_bytes = project.limits.max_bytes;
+    std::vector<std::vector<InstanceMeshes>> meshes;
+    for (std::size_t s = 0; s < grown.forest.species.size(); ++s) {
+        std::vector<InstanceMeshes>& made = meshes.emplace_back();
+        for (const ForestStage& stage : grown.forest.species[s].stages) {
+            switch (make_instance_meshes(stage.cache, grown.user_meshes[s], limited,
+                                         made.emplace_back())) {
+            case InstanceMeshStatus::Ok:
+            case InstanceMeshStatus::Joined: // only of boxes, which are not offered
+                break;
+            case InstanceMeshStatus::TooManyVertices:
+                return step.fail("the heroes have more than 4,294,967,295 vertices; ask for fewer "
+                                 "--heroes, --sides or generations");
+            case InstanceMeshStatus::Limit:
+            case InstanceMeshStatus::OutOfMemory:
+                step.diagnose(plant_limit_diagnostic("the mesh of the heroes", limited.max_bytes),
+                              nullptr);
+                return step.end(Stop::Limit);
+            }
+        }
+    }
+    return step.done(std::move(meshes));
+}
+
+Outcome<Done> place_forest(const Scene& scene, const Project& project, GrownForest& grown) {
+    Step step(project);
+    const Stopwatch placing;
+    PlacementOptions options = scene.placement;
+    options.threads = project.threads;
+    if (grown.density_map) {
+        options.density_map = &*grown.density_map;
+        options.map_region = scene.terrain.region;
+    }
+    Result<Placement> placed = place_trees(options, *grown.terrain);
+    if (!placed) {
+        return step.fail(fmt::format("placement: {}", placed.error().message));
+    }
+    grown.forest.trees = std::move(placed.value().trees);
+    apply_painting(scene.painting, options.region, *grown.terrain, grown.forest.trees);
+    grown.placed = placed.value().report;
+    grown.place_seconds = placing.seconds();
+    if (std::string note = placement_note(grown.placed); !note.empty()) {
+        step.messages.add_info(std::move(note));
+    }
+    return step.done(Done{});
+}
+
+} // namespace lsys

@@ -1,0 +1,210 @@
+#include "runtime/pipeline/grammar.h"
+
+#include "compiler/bytecode/module_file.h"
+#include "compiler/compile.h"
+#include "runtime/pipeline/impl/step.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::string_view kModuleExtension = ".lsb";
+
+/// `lsys, sys, ...`
+std::string dialect_names() {
+    std::string names;
+    for (const DialectRow& row : dialects()) {
+        names += names.empty() ? "" : ", ";
+        names += row.name;
+    }
+    return names;
+}
+
+Error unknown_dialect(const std::string& path) {
+    if (path.ends_with(kModuleExtension)) {
+        return Error{fmt::format("`{}` is compiled; this needs the grammar itself", path)};
+    }
+    return Error{fmt::format("neither the name of `{}` nor what it holds tells its language; say "
+                             "which with --dialect ({})",
+                             path, dialect_names())};
+}
+
+/// The dialect of a file: as asked for, else as it tells.
+Result<Dialect> dialect_of(const std::string& path,
+                           const std::string& dialect,
+                           std::string_view bytes,
+                           Messages& messages) {
+    if (!dialect.empty()) {
+        const std::optional<Dialect> asked = find_dialect(dialect);
+        return asked ? Result<Dialect>(*asked)
+                     : Error{fmt::format("there is no dialect `{}`", dialect)};
+    }
+    if (path.ends_with(kModuleExtension)) {
+        return unknown_dialect(path);
+    }
+    if (is_module_file(bytes)) {
+        return Dialect::Lsys; // which the caller tells apart
+    }
+    const DetectedDialect detected = detect_dialect(path, bytes);
+    if (!detected.dialect) {
+        return path == "-" ? Result<Dialect>(Dialect::Lsys) : unknown_dialect(path);
+    }
+    if (*detected.dialect != Dialect::Lsys) {
+        messages.add_detail(fmt::format("`{}` is read as {}: {} tells", shown_path(path),
+                                        row_of(*detected.dialect).title, detected.by));
+    }
+    return *detected.dialect;
+}
+
+/// The -D that no constant answers to, with the nearest that does.
+Error unknown_definition(const std::string& name, const Grammar& grammar) {
+    std::string text = fmt::format("-D {}: the grammar has no #define or #param `{}`", name, name);
+    if (grammar.program) {
+        std::vector<std::string_view> known;
+        for (const Constant& constant : grammar.program->constants) {
+            known.push_back(grammar.names.text(constant.name));
+        }
+        if (const auto nearest = nearest_name(name, known)) {
+            text += fmt::format("; did you mean `{}`?", *nearest);
+        }
+    }
+    return Error{text};
+}
+
+Outcome<Grammar> load_module(std::string_view bytes,
+                             const std::string& path,
+                             const GrammarOptions& options,
+                             Step step) {
+    if (!options.system.empty()) {
+        return step.fail(fmt::format("--system: `{}` is compiled and holds one system only", path));
+    }
+    if (!options.definitions.empty()) {
+        step.messages.add_error(fmt::format("-D cannot change `{}`, which is compiled", path));
+        step.messages.add_help("compile the grammar again with this -D");
+        return step.end(Stop::Failed);
+    }
+    Result<Bytecode> bytecode = read_module_file(bytes);
+    if (!bytecode) {
+        return step.fail(fmt::format("cannot use `{}`: {}", path, bytecode.error().message));
+    }
+    Grammar grammar;
+    grammar.bytecode = std::move(bytecode.value());
+    grammar.is_module_file = true;
+    if (!options.generations && !grammar.bytecode.generations) {
+        const Diagnostic missing =
+            make_diagnostic(DiagnosticCode::MissingGenerations, {},
+                            fmt::format("`{}` does not say how many generations to derive", path));
+        if (!step.diagnose(missing, grammar.sources)) {
+            return step.end(Stop::Diagnosed);
+        }
+    }
+    return step.done(std::move(grammar));
+}
+
+} // namespace
+
+std::string shown_path(const std::string& path) {
+    return path == "-" ? "<stdin>" : path;
+}
+
+FileLoader make_loader(const Project& project) {
+    return [read = project.host.read_file](const std::string& path) {
+        return read(path, kMaxSourceBytes);
+    };
+}
+
+Outcome<GrammarText>
+read_grammar(const std::string& path, const std::string& dialect, const Project& project) {
+    Step step(project);
+    Result<std::string> bytes = step.read(path, kMaxSourceBytes);
+    if (!bytes) {
+        return step.fail(bytes.error());
+    }
+    const Result<Dialect> found = dialect_of(path, dialect, bytes.value(), step.messages);
+    if (!found) {
+        return step.fail(found.error());
+    }
+    return step.done(GrammarText{std::move(bytes.value()), found.value()});
+}
+
+Result<Done> check_system(const std::string& path, Dialect dialect, const GrammarOptions& options) {
+    return options.system.empty() || has_systems(dialect)
+               ? Result<Done>(Done{})
+               : Error{fmt::format("--system: `{}` is {} and holds one system only",
+                                   shown_path(path), row_of(dialect).title)};
+}
+
+Result<CompiledText> compile_text(const std::string& path,
+                                  GrammarText text,
+                                  const GrammarOptions& options,
+                                  std::uint64_t max_modules,
+                                  const FileLoader& load) {
+    if (Result<Done> fine = check_system(path, text.dialect, options); !fine) {
+        return fine.error();
+    }
+    CompiledText compiled;
+    Grammar& grammar = compiled.grammar;
+    const FileId root = grammar.sources->add(shown_path(path), std::move(text.bytes));
+    Ast ast = parse_dialect(root, text.dialect,
+                            {*grammar.sources, grammar.names, compiled.diagnostics, load,
+                             options.bug_compatible, options.system},
+                            &grammar.translation);
+    const bool foreign = text.dialect != Dialect::Lsys;
+    if (foreign && compiled.diagnostics.has_errors()) {
+        return compiled; // nothing can be said of the rest
+    }
+    CompileOptions compile_options;
+    compile_options.definitions = options.definitions;
+    compile_options.generations = options.generations;
+    compile_options.max_modules = max_modules;
+    CompileOutcome outcome = compile(std::move(ast), grammar.names, *grammar.sources,
+                                     compile_options, compiled.diagnostics);
+    if (foreign) {
+        compiled.diagnostics.drop_repairs("`#"); // they are written in .lsys
+    }
+    grammar.program = std::move(outcome.program);
+    if (outcome.bytecode) {
+        grammar.bytecode = std::move(*outcome.bytecode);
+        compiled.has_bytecode = true;
+    }
+    if (!outcome.unknown_definitions.empty()) {
+        compiled.definition_error =
+            unknown_definition(outcome.unknown_definitions.front(), grammar);
+    }
+    return compiled;
+}
+
+Outcome<Grammar>
+load_grammar(const std::string& path, const GrammarOptions& options, const Project& project) {
+    Step step(project);
+    Result<std::string> bytes = step.read(path, kMaxSourceBytes);
+    if (!bytes) {
+        return step.fail(bytes.error());
+    }
+    if (is_module_file(bytes.value()) || path.ends_with(kModuleExtension)) {
+        return load_module(bytes.value(), path, options, std::move(step));
+    }
+    const Result<Dialect> dialect = dialect_of(path, options.dialect, bytes.value(), step.messages);
+    if (!dialect) {
+        return step.fail(dialect.error());
+    }
+    Result<CompiledText> compiled =
+        compile_text(path, {std::move(bytes.value()), dialect.value()}, options,
+                     project.limits.max_modules, make_loader(project));
+    if (!compiled) {
+        return step.fail(compiled.error());
+    }
+    CompiledText& text = compiled.value();
+    const bool fine = step.diagnose(std::move(text.diagnostics), text.grammar.sources);
+    if (text.definition_error) {
+        return step.fail(*text.definition_error);
+    }
+    return fine ? step.done(std::move(text.grammar)) : step.end(Stop::Diagnosed);
+}
+
+} // namespace lsys

@@ -1,0 +1,123 @@
+#include "runtime/pipeline/growth_forecast.h"
+
+#include "compiler/growth/growth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace lsys {
+
+namespace {
+
+/// Larger programs take longer to predict than many runs take.
+constexpr std::size_t kMostProductions = 10'000;
+
+bool is_small(const Bytecode& bytecode) {
+    return bytecode.productions.size() <= kMostProductions;
+}
+
+std::uint64_t saturated(const Count& count) {
+    constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
+    return count.at_most(kMax) ? static_cast<std::uint64_t>(count.value) : kMax;
+}
+
+/// Whether every `]` has its `[` within the template.
+bool closes_what_it_opens(const Bytecode& bytecode, const WordTemplate& words) {
+    std::uint64_t open = 0;
+    const std::span codes(bytecode.template_codes.data() + words.codes.first, words.codes.count);
+    for (const Code code : codes) {
+        const SymbolKind kind = bytecode.symbol(bytecode.symbol_of(code)).kind;
+        if (kind == SymbolKind::BranchClose && open == 0) {
+            return false;
+        }
+        open += kind == SymbolKind::BranchOpen ? 1 : 0;
+        open -= kind == SymbolKind::BranchClose ? 1 : 0;
+    }
+    return true;
+}
+
+bool rewrites_brackets(const Bytecode& bytecode, const BytecodeProduction& production) {
+    const std::span items(bytecode.patterns.data() + production.predecessor.first,
+                          production.predecessor.count);
+    return std::any_of(items.begin(), items.end(), [&](const PatternItem& item) {
+        const SymbolKind kind = bytecode.symbol(item.symbol).kind;
+        return kind == SymbolKind::BranchOpen || kind == SymbolKind::BranchClose;
+    });
+}
+
+/// Whether no derivation of the program can end in an error, once its constants are drawn.
+bool cannot_fail(const Bytecode& bytecode) {
+    const auto is_plain = [](const BytecodeSymbol& symbol) { return symbol.parameter_count == 0; };
+    const auto is_safe = [&](const BytecodeProduction& production) {
+        return production.condition == kNone && !rewrites_brackets(bytecode, production) &&
+               closes_what_it_opens(bytecode, production.successor);
+    };
+    return std::all_of(bytecode.symbols.begin(), bytecode.symbols.end(), is_plain) &&
+           closes_what_it_opens(bytecode, bytecode.axiom) &&
+           std::all_of(bytecode.productions.begin(), bytecode.productions.end(), is_safe);
+}
+
+} // namespace
+
+std::optional<LimitReport>
+predict_limit(const Bytecode& bytecode, std::uint32_t generations, const Limits& limits) {
+    if (!is_small(bytecode)) {
+        return std::nullopt;
+    }
+    const std::optional<GrowthLimit> found =
+        find_growth_limit(bytecode, generations, limits.max_modules);
+    if (!found || !found->exact || !found->at_largest.modules.at_most(limits.max_modules)) {
+        return std::nullopt;
+    }
+    LimitReport report;
+    report.kind = LimitKind::Modules;
+    report.generation = found->largest_fitting;
+    report.modules = saturated(found->at_largest.modules);
+    report.predicted_modules = saturated(found->at_next.modules);
+    report.predicted_bytes = saturated(found->at_next.bytes);
+    if (found->dominant != kNoProduction) {
+        report.production = static_cast<std::uint32_t>(found->dominant);
+    }
+    return report;
+}
+
+std::optional<std::vector<std::uint64_t>>
+predict_counts(const Bytecode& bytecode, std::uint32_t generations, const Limits& limits) {
+    if (!is_small(bytecode) || !cannot_fail(bytecode)) {
+        return std::nullopt;
+    }
+    const GrowthPrediction growth = predict_growth(bytecode, generations);
+    if (!growth.exact || growth.low.size() <= generations) {
+        return std::nullopt;
+    }
+    std::vector<std::uint64_t> counts;
+    for (const GenerationSize& size : growth.low) {
+        if (!size.modules.at_most(limits.max_modules)) {
+            return std::nullopt;
+        }
+        counts.push_back(static_cast<std::uint64_t>(size.modules.value));
+    }
+    return counts;
+}
+
+std::vector<double> expect_modules(const Bytecode& bytecode, std::uint32_t generations) {
+    if (!is_small(bytecode)) {
+        return {};
+    }
+    const GrowthPrediction growth = predict_growth(bytecode, generations);
+    if (growth.low.size() <= generations || (!growth.exact && !growth.has_expected)) {
+        return {};
+    }
+    if (growth.has_expected) {
+        return growth.expected_modules;
+    }
+    std::vector<double> modules;
+    for (const GenerationSize& size : growth.low) {
+        modules.push_back(std::exp2(size.modules.approximate_log2()));
+    }
+    return modules;
+}
+
+} // namespace lsys

@@ -1,0 +1,31 @@
+// What the end of a derivation and of the drawing of its word means for a step: shared by single
+// plants and the heroes of forests.
+#pragma once
+
+#include "runtime/derive/derive.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/impl/step.h"
+#include "runtime/turtle/turtle.h"
+
+#include <array>
+#include <optional>
+
+namespace lsys {
+
+struct DerivationEnd {
+    DeriveStatus status = DeriveStatus::Ok;
+    RuntimeError error;
+    LimitReport limit;
+};
+
+/// Adds the diagnostics of a derivation and of its drawing to `step`. `drawing_error`: of a turtle
+/// that ended as NotInterpreted. Returns why the step has to end, or nothing.
+[[nodiscard]] std::optional<Stop>
+report_drawing(const DerivationEnd& derived,
+               TurtleStatus drawn,
+               const RuntimeError& drawing_error,
+               const std::array<TurtleFault, kTurtleFaultKinds>& faults,
+               const Grammar& grammar,
+               Step& step);
+
+} // namespace lsys

@@ -1,0 +1,193 @@
+#include "runtime/pipeline/impl/mesh_files.h"
+
+#include "grammar/base/source.h"
+#include "runtime/meshing/texture.h"
+#include "runtime/meshing/user_mesh.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/impl/step.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::uint64_t kMaxPictureBytes = std::uint64_t{1} << 30;
+
+std::string beside(const std::string& path, const std::string& name) {
+    return (std::filesystem::path(path).parent_path() / name).string();
+}
+
+/// A material file that could be read.
+struct Library {
+    std::string path;
+    std::string text;
+    std::unordered_map<std::string, MaterialPicture> materials;
+    FileId file = kNoFile; // once it has a diagnostic
+};
+
+/// Finds and reads the picture of a mesh that was read from `text`, the file `path`.
+class PictureSearch {
+public:
+    PictureSearch(const std::string& path, const std::string& text, UserMesh& mesh)
+        : path_(path), text_(text), mesh_(mesh) {}
+
+    void run(const Project& project) {
+        for (const ObjName& name : mesh_.libraries) {
+            Library library{beside(path_, name.name), {}, {}};
+            Result<std::string> read = project.host.read_file(library.path, kMaxSourceBytes);
+            if (!read) {
+                warn(path_, text_, obj_, name,
+                     fmt::format("cannot read `{}`: {}", shown_path(library.path),
+                                 read.error().message));
+                continue;
+            }
+            library.text = std::move(read.value());
+            library.materials = pictures_of(library.text);
+            libraries_.push_back(std::move(library));
+        }
+        if (libraries_.empty()) {
+            return;
+        }
+        if (mesh_.materials.empty()) {
+            return;
+        }
+        const Found first = find(mesh_.materials.front());
+        for (const ObjName& material : mesh_.materials) {
+            if (find(material).path != first.path) {
+                warn(path_, text_, obj_, material,
+                     "faces of several pictures: all of the mesh looks as its first face");
+                break;
+            }
+        }
+        if (!first.path.empty()) {
+            read(first, project);
+        }
+    }
+
+    Diagnostics diagnostics;
+    std::shared_ptr<SourceMap> sources = std::make_shared<SourceMap>();
+
+private:
+    void warn(const std::string& path,
+              const std::string& text,
+              FileId& file,
+              const ObjName& name,
+              std::string message) {
+        if (text.size() > kMaxSourceBytes) {
+            diagnostics.add(DiagnosticCode::MeshPicture, SourceSpan{},
+                            fmt::format("{}: {}", shown_path(path), message));
+            return;
+        }
+        if (file == kNoFile) {
+            file = sources->add(shown_path(path), text);
+        }
+        const auto begin = static_cast<std::uint32_t>(name.offset);
+        diagnostics.add(DiagnosticCode::MeshPicture,
+                        {file, begin, begin + static_cast<std::uint32_t>(name.name.size())},
+                        std::move(message));
+    }
+
+    /// The picture of a material; no path: it has none.
+    struct Found {
+        std::string path;
+        Library* library = nullptr;
+        const MaterialPicture* picture = nullptr;
+    };
+    Found find(const ObjName& material) {
+        if (material.name.empty()) {
+            return {};
+        }
+        for (Library& library : libraries_) {
+            const auto found = library.materials.find(material.name);
+            if (found == library.materials.end()) {
+                continue;
+            }
+            const MaterialPicture& picture = found->second;
+            return {picture.file.name.empty() ? std::string()
+                                              : beside(library.path, picture.file.name),
+                    &library, &picture};
+        }
+        if (libraries_.size() == mesh_.libraries.size() &&
+            !std::exchange(reported_unknown_, true)) {
+            warn(path_, text_, obj_, material,
+                 fmt::format("no file of materials has `{}`", material.name));
+        }
+        return {};
+    }
+
+    void read(const Found& found, const Project& project) {
+        const std::string& path = found.path;
+        const auto say = [&](std::string message) {
+            Library& library = *found.library;
+            warn(library.path, library.text, library.file, found.picture->file, std::move(message));
+        };
+        const Result<std::string> bytes = project.host.read_file(path, kMaxPictureBytes);
+        if (!bytes) {
+            say(fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message));
+            return;
+        }
+        Result<Texture> picture = read_picture(bytes.value());
+        if (!picture) {
+            say(fmt::format("cannot use `{}`: {}", shown_path(path), picture.error().message));
+            return;
+        }
+        if (found.picture->has_options) {
+            say("options before the name of a picture are left out");
+        }
+        if (mesh_.texture_coordinates.empty()) {
+            say(fmt::format("`{}` has no texture coordinates to show this picture by",
+                            shown_path(path_)));
+            return;
+        }
+        mesh_.picture = std::make_shared<const Texture>(std::move(picture.value()));
+    }
+
+    const std::string& path_;
+    const std::string& text_;
+    UserMesh& mesh_;
+    FileId obj_ = kNoFile;
+    bool reported_unknown_ = false;
+    std::vector<Library> libraries_;
+};
+
+} // namespace
+
+Outcome<MeshFiles>
+read_mesh_files(const std::string& grammar_file, const Bytecode& bytecode, const Project& project) {
+    Step step(project);
+    MeshFiles files;
+    bool fine = true;
+    const std::filesystem::path folder = std::filesystem::path(grammar_file).parent_path();
+    for (std::size_t i = 0; i < bytecode.symbols.size(); ++i) {
+        const BytecodeSymbol& symbol = bytecode.symbols[i];
+        if (symbol.turtle != TurtleOperation::MeshFile) {
+            continue;
+        }
+        const std::string path = (folder / symbol.mesh_file).string();
+        Result<std::string> text = step.read(path, ~std::uint64_t{0});
+        if (!text) {
+            return step.fail(text.error());
+        }
+        Result<UserMesh> mesh = read_obj(text.value());
+        if (!mesh) {
+            return step.fail(fmt::format("cannot use `{}`: {}", path, mesh.error().message));
+        }
+        PictureSearch search(path, text.value(), mesh.value());
+        search.run(project);
+        fine = step.diagnose(std::move(search.diagnostics), search.sources) && fine;
+        files.lengths.resize(bytecode.symbols.size(), 1.0F);
+        files.lengths[i] = mesh.value().length();
+        files.meshes.push_back(std::move(mesh.value()));
+    }
+    return fine ? step.done(std::move(files)) : step.end(Stop::Diagnosed);
+}
+
+} // namespace lsys

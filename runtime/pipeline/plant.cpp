@@ -1,0 +1,192 @@
+#include "runtime/pipeline/plant.h"
+
+#include "runtime/derive/fold_reached.h"
+#include "runtime/derive/runtime_diagnostic.h"
+#include "runtime/derive/stream.h"
+#include "runtime/pipeline/growth_forecast.h"
+#include "runtime/pipeline/impl/drawing_end.h"
+#include "runtime/pipeline/impl/mesh_files.h"
+#include "runtime/pipeline/impl/step.h"
+#include "runtime/pipeline/stopwatch.h"
+#include "runtime/turtle/turtle.h"
+#include "runtime/turtle/turtle_diagnostic.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+/// Derives, then draws the last word.
+DerivationEnd draw_stored(const DeriveOptions& options,
+                          const Bytecode& bytecode,
+                          Turtle& turtle,
+                          TurtleStatus& drawn,
+                          Plant& plant) {
+    const Stopwatch deriving;
+    Derivation derivation(bytecode, options);
+    const DeriveStatus status = derivation.derive();
+    if (status != DeriveStatus::Ok) {
+        return {status, derivation.error(), derivation.limit()};
+    }
+    plant.modules = derivation.word().module_count();
+    plant.derive_seconds = deriving.seconds();
+    const Stopwatch drawing;
+    drawn = turtle.reserve(derivation.word());
+    if (drawn == TurtleStatus::Ok) {
+        drawn = turtle.feed(derivation.word());
+    }
+    plant.draw_seconds = drawing.seconds();
+    return {};
+}
+
+/// Draws during the derivation, which stores no word.
+DerivationEnd draw_streamed(const DeriveOptions& options,
+                            const Bytecode& bytecode,
+                            Turtle& turtle,
+                            TurtleStatus& drawn,
+                            Plant& plant) {
+    const Stopwatch deriving;
+    StreamOutcome outcome = derive_streamed(bytecode, options, [&](const StreamChunk& chunk) {
+        drawn = turtle.feed(chunk.codes, chunk.parameters, chunk.origins);
+        return drawn == TurtleStatus::Ok;
+    });
+    plant.modules = outcome.modules;
+    plant.derive_seconds = deriving.seconds();
+    if (drawn != TurtleStatus::Ok) {
+        return {}; // the turtle ended it
+    }
+    return {outcome.status, std::move(outcome.error), outcome.limit};
+}
+
+} // namespace
+
+Stop stop_of(DeriveStatus status) {
+    switch (status) {
+    case DeriveStatus::Ok:
+    case DeriveStatus::Error:
+        return Stop::Diagnosed;
+    case DeriveStatus::Limit:
+        return Stop::Limit;
+    case DeriveStatus::OutOfMemory:
+        return Stop::OutOfMemory;
+    case DeriveStatus::Cancelled:
+        break;
+    }
+    return Stop::Cancelled;
+}
+
+Diagnostic derivation_diagnostic(DeriveStatus status,
+                                 const RuntimeError& error,
+                                 const LimitReport& limit,
+                                 const Limits& limits,
+                                 const Grammar& grammar) {
+    const bool has_sources = !grammar.is_module_file;
+    return status == DeriveStatus::Error
+               ? runtime_diagnostic(error, grammar.bytecode, has_sources)
+               : limit_diagnostic(limit, limits, grammar.bytecode, has_sources);
+}
+
+DeriveOptions
+derive_options(const PlantOptions& options, const Bytecode& bytecode, const Project& project) {
+    DeriveOptions derive;
+    derive.generations = options.generations.value_or(bytecode.generations.value_or(0));
+    derive.seed = options.seed.value_or(bytecode.settings.has_seed ? bytecode.settings.seed : 0);
+    derive.threads = project.threads;
+    derive.origins = options.origins;
+    derive.limits = project.limits;
+    derive.cancelled = project.host.cancelled;
+    return derive;
+}
+
+void fold_modules(const DeriveOptions& options, Bytecode& bytecode) {
+    if (std::optional<Bytecode> folded =
+            fold_reached(bytecode, options.seed, options.generations)) {
+        bytecode = std::move(*folded);
+    }
+}
+
+Outcome<Plant> grow_plant(const PlantOptions& options, Grammar& grammar, const Project& project) {
+    Step step(project);
+    Bytecode& bytecode = grammar.bytecode;
+    DeriveOptions derive = derive_options(options, bytecode, project);
+    Plant plant;
+    plant.generations = derive.generations;
+    plant.seed = derive.seed;
+    if (options.stream) {
+        if (const std::optional<std::string> reason = why_not_streamable(bytecode)) {
+            return step.fail(fmt::format("--stream: {}", *reason));
+        }
+    } else if (const std::optional<LimitReport> limit =
+                   predict_limit(bytecode, derive.generations, derive.limits)) {
+        step.diagnose(limit_diagnostic(*limit, derive.limits, bytecode, !grammar.is_module_file),
+                      grammar.sources);
+        return step.end(Stop::Limit);
+    }
+    fold_modules(derive, bytecode);
+    std::vector<double> expected;
+    if (project.host.progress) {
+        expected = expect_modules(bytecode, derive.generations);
+        derive.progress = [&](std::uint32_t generation, std::uint64_t modules) {
+            project.host.progress({generation, derive.generations, modules, expected});
+        };
+    }
+    TurtleOptions turtle_options;
+    MeshFiles meshes;
+    if (!step.take(read_mesh_files(options.file, bytecode, project), meshes)) {
+        return step.end();
+    }
+    plant.user_meshes = std::move(meshes.meshes);
+    turtle_options.mesh_lengths = std::move(meshes.lengths);
+    turtle_options.max_bytes = project.limits.max_bytes;
+    turtle_options.cancelled = project.host.cancelled;
+    turtle_options.seed = derive.seed;
+    turtle_options.generations = derive.generations;
+    Turtle turtle(bytecode, turtle_options);
+    TurtleStatus drawn = TurtleStatus::Ok;
+    const DerivationEnd derived = options.stream
+                                      ? draw_streamed(derive, bytecode, turtle, drawn, plant)
+                                      : draw_stored(derive, bytecode, turtle, drawn, plant);
+    if (derived.status == DeriveStatus::Ok && drawn == TurtleStatus::Ok) {
+        drawn = turtle.finish();
+    }
+    if (const std::optional<Stop> stop = report_drawing(
+            derived, drawn, drawn == TurtleStatus::NotInterpreted ? turtle.error() : RuntimeError{},
+            turtle.faults(), grammar, step)) {
+        return step.end(*stop);
+    }
+    plant.skeleton = turtle.take_skeleton();
+    return step.done(std::move(plant));
+}
+
+Outcome<Mesh> mesh_plant(const Plant& plant,
+                         const Skeleton& skeleton,
+                         const MeshOptions& options,
+                         const Project& project) {
+    Step step(project);
+    MeshOptions limited = options;
+    limited.threads = project.threads;
+    limited.max_bytes = project.limits.max_bytes;
+    Mesh mesh;
+    switch (make_mesh(skeleton, plant.user_meshes, limited, mesh)) {
+    case MeshStatus::Ok:
+        return step.done(std::move(mesh));
+    case MeshStatus::TooManyVertices:
+        step.diagnose(plant_limit_diagnostic("the mesh", "4,294,967,295 vertices",
+                                             "ask for fewer sides with `--sides`, for a coarser "
+                                             "`--level`, or for fewer generations with `-n`"),
+                      nullptr);
+        return step.end(Stop::Limit);
+    case MeshStatus::Limit:
+        break;
+    case MeshStatus::OutOfMemory:
+        step.diagnose(plant_limit_diagnostic("the mesh", limited.max_bytes), nullptr);
+        return step.end(Stop::OutOfMemory);
+    }
+    step.diagnose(plant_limit_diagnostic("the mesh", limited.max_bytes), nullptr);
+    return step.end(Stop::Limit);
+}
+
+} // namespace lsys

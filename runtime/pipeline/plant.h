@@ -1,0 +1,65 @@
+// Plant: from a compiled grammar to a skeleton and its mesh.
+#pragma once
+
+#include "grammar/base/outcome.h"
+#include "runtime/derive/derive.h"
+#include "runtime/meshing/mesh.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/project.h"
+#include "runtime/turtle/skeleton.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+struct PlantOptions {
+    std::string file; // the grammar's path: files of `#object` lie beside it
+    std::optional<std::uint32_t> generations; // none: those of #n
+    std::optional<std::uint64_t> seed;        // none: that of #set seed
+    bool stream = false;                      // store no word
+    bool origins = false;                     // of what is drawn
+};
+
+/// A plant and how long its steps took.
+struct Plant {
+    Skeleton skeleton;
+    std::vector<UserMesh> user_meshes; // of skeleton.mesh_files
+    std::uint64_t modules = 0;         // of the derived word
+    std::uint32_t generations = 0;
+    std::uint64_t seed = 0;
+    double derive_seconds = 0.0; // with drawing, where no word is stored
+    double draw_seconds = 0.0;
+};
+
+/// Generations, seed, limits and threads of a derivation of the grammar; reports progress to the
+/// host.
+[[nodiscard]] DeriveOptions
+derive_options(const PlantOptions& options, const Bytecode& bytecode, const Project& project);
+
+/// Folds all modules that a derivation from the axiom can reach: the bytecode becomes a program
+/// that derives the same words faster, with codes of its own.
+void fold_modules(const DeriveOptions& options, Bytecode& bytecode);
+
+/// Derives and draws. The grammar's bytecode is folded.
+[[nodiscard]] Outcome<Plant>
+grow_plant(const PlantOptions& options, Grammar& grammar, const Project& project);
+
+/// Meshes a skeleton of the plant, bent or not. Threads and limit of memory are the project's.
+[[nodiscard]] Outcome<Mesh> mesh_plant(const Plant& plant,
+                                       const Skeleton& skeleton,
+                                       const MeshOptions& options,
+                                       const Project& project);
+
+/// The diagnostic of a derivation that did not end as Ok or Cancelled.
+[[nodiscard]] Diagnostic derivation_diagnostic(DeriveStatus status,
+                                               const RuntimeError& error,
+                                               const LimitReport& limit,
+                                               const Limits& limits,
+                                               const Grammar& grammar);
+/// Why a derivation ended that did not end as Ok.
+[[nodiscard]] Stop stop_of(DeriveStatus status);
+
+} // namespace lsys

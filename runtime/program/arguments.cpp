@@ -1,0 +1,136 @@
+#include "runtime/program/arguments.h"
+
+#include "grammar/base/names.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <system_error>
+#include <unistd.h>
+
+namespace lsys {
+
+namespace {
+
+template <typename T>
+struct Parsed {
+    std::errc error{};
+    T value{};
+};
+
+/// All of `text` as a number.
+template <typename T>
+Parsed<T> parse_all(std::string_view text) {
+    Parsed<T> parsed;
+    const char* const end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data(), end, parsed.value);
+    parsed.error = error == std::errc() && last != end ? std::errc::invalid_argument : error;
+    return parsed;
+}
+
+} // namespace
+
+Result<std::uint64_t> parse_whole(std::string_view text, std::uint64_t low, std::uint64_t high) {
+    const Parsed<std::uint64_t> parsed = parse_all<std::uint64_t>(text);
+    if (parsed.error != std::errc() || parsed.value < low || parsed.value > high) {
+        return Error{fmt::format("`{}` is not a whole number from {} to {}", text, low, high)};
+    }
+    return parsed.value;
+}
+
+Result<float> parse_number(std::string_view text, float low, float high) {
+    const Parsed<float> parsed = parse_all<float>(text);
+    if (parsed.error != std::errc() || !(parsed.value >= low && parsed.value <= high)) {
+        return Error{fmt::format("`{}` is not a number from {} to {}", text, low, high)};
+    }
+    return parsed.value;
+}
+
+Result<Wind> parse_wind(std::string_view text) {
+    std::array<float, 4> values{};
+    std::size_t count = 0;
+    std::string_view rest = text;
+    bool more = true;
+    while (more && count < values.size()) {
+        const std::size_t comma = rest.find(',');
+        const Parsed<float> parsed = parse_all<float>(rest.substr(0, comma));
+        if (parsed.error != std::errc() || !std::isfinite(parsed.value)) {
+            return Error{fmt::format("`{}` is not a wind such as 5,0,0 or 5,0,0,0.5", text)};
+        }
+        values[count++] = parsed.value;
+        more = comma != std::string_view::npos;
+        rest = more ? rest.substr(comma + 1) : std::string_view();
+    }
+    if (more || count < 3 || values[3] < 0.0F) {
+        return Error{fmt::format("`{}` is not a wind such as 5,0,0 or 5,0,0,0.5", text)};
+    }
+    return Wind{{values[0], values[1], values[2]}, values[3]};
+}
+
+Result<std::uint64_t> parse_size(std::string_view text) {
+    std::string_view digits = text;
+    double unit = 1.0;
+    for (const std::string_view tail : {"iB", "B"}) {
+        if (digits.size() > tail.size() + 1 && digits.ends_with(tail)) {
+            digits.remove_suffix(tail.size());
+            break;
+        }
+    }
+    constexpr std::string_view kSuffixes = "KMGT";
+    if (!digits.empty()) {
+        const char last = digits.back() == 'k' ? 'K' : digits.back();
+        if (const std::size_t power = kSuffixes.find(last); power != std::string_view::npos) {
+            unit = std::ldexp(1.0, 10 * static_cast<int>(power + 1));
+            digits.remove_suffix(1);
+        }
+    }
+    const Parsed<double> parsed = parse_all<double>(digits);
+    const double bytes = parsed.value * unit;
+    constexpr double kMost = 9.2e18;
+    const bool whole = unit > 1.0 || bytes == std::floor(bytes);
+    if (parsed.error != std::errc() || !(bytes >= 1.0) || !(bytes < kMost) || !whole) {
+        return Error{fmt::format("`{}` is not a size such as 500M, 1.5G or 1048576", text)};
+    }
+    return static_cast<std::uint64_t>(bytes);
+}
+
+Result<Definition> parse_definition(std::string_view text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string_view::npos) {
+        return Error{fmt::format("`{}` is not of the form NAME=number", text)};
+    }
+    Definition definition{std::string(text.substr(0, equals)), 0.0F};
+    if (!is_identifier(definition.name)) {
+        return Error{fmt::format("`{}` is not the name of a constant", definition.name)};
+    }
+    const std::string_view number = text.substr(equals + 1);
+    const Parsed<float> parsed = parse_all<float>(number);
+    if (parsed.error == std::errc::result_out_of_range) {
+        // Too large is an error; too small is the number next to it, or zero.
+        const Parsed<double> wide = parse_all<double>(number);
+        if (wide.error == std::errc() && std::abs(wide.value) < 1.0) {
+            definition.value = static_cast<float>(wide.value);
+            return definition;
+        }
+        return Error{fmt::format("`{}` does not fit into binary32", number)};
+    }
+    if (parsed.error != std::errc() || !std::isfinite(parsed.value)) {
+        return Error{fmt::format("`{}` is not a number", number)};
+    }
+    definition.value = parsed.value;
+    return definition;
+}
+
+std::uint64_t half_of_memory() {
+    const long pages = ::sysconf(_SC_PHYS_PAGES);
+    const long page_size = ::sysconf(_SC_PAGESIZE);
+    if (pages <= 0 || page_size <= 0) {
+        return std::numeric_limits<std::uint64_t>::max();
+    }
+    return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_size) / 2;
+}
+
+} // namespace lsys

@@ -1,0 +1,37 @@
+// The values of options as text: numbers, sizes, definitions. Every message says what is allowed.
+#pragma once
+
+#include "compiler/compile.h"
+#include "grammar/base/result.h"
+#include "runtime/physics/physics.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace lsys {
+
+/// The most generations that can be asked for (LANGUAGE.md section 2).
+inline constexpr std::uint64_t kMaxGenerations = 0xFFFF'FFFEu;
+
+/// A whole number from `low` to `high`, in decimal digits.
+[[nodiscard]] Result<std::uint64_t>
+parse_whole(std::string_view text, std::uint64_t low, std::uint64_t high);
+
+/// A number from `low` to `high`.
+[[nodiscard]] Result<float> parse_number(std::string_view text, float low, float high);
+
+/// `x,y,z` or `x,y,z,gust`: metres a second, and the gusts' part of it.
+[[nodiscard]] Result<Wind> parse_wind(std::string_view text);
+
+/// Bytes: a whole number, or one with a fraction and a suffix K, M, G or T (powers of 1024; `KiB`
+/// and `KB` mean the same as `K`).
+[[nodiscard]] Result<std::uint64_t> parse_size(std::string_view text);
+
+/// `NAME=number`.
+[[nodiscard]] Result<Definition> parse_definition(std::string_view text);
+
+/// Half of the physical memory, in bytes.
+[[nodiscard]] std::uint64_t half_of_memory();
+
+} // namespace lsys

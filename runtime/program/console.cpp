@@ -1,0 +1,182 @@
+#include "runtime/program/console.h"
+
+#include "grammar/rendering/render_diagnostic.h"
+#include "runtime/program/files.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <istream>
+#include <ostream>
+
+namespace lsys {
+
+namespace {
+
+bool wants_colour(const Io& io, ColourMode mode) {
+    switch (mode) {
+    case ColourMode::Always:
+        return true;
+    case ColourMode::Never:
+        return false;
+    case ColourMode::Auto:
+        break;
+    }
+    const char* const no_colour = std::getenv("NO_COLOR"); // https://no-color.org
+    return io.err_is_terminal && (no_colour == nullptr || *no_colour == '\0');
+}
+
+/// Without what --quiet leaves out.
+Diagnostics errors_only(const Diagnostics& diagnostics) {
+    Diagnostics errors;
+    for (const Diagnostic& diagnostic : diagnostics.all()) {
+        if (diagnostic.severity == Severity::Error) {
+            errors.add(diagnostic);
+        }
+    }
+    return errors;
+}
+
+Result<Done> output_result(std::ostream& out) {
+    if (out.good()) {
+        return Done{};
+    }
+    const int reason = errno;
+    std::string message = "cannot write standard output";
+    if (reason != 0) {
+        message += ": ";
+        message += reason_text(reason);
+    }
+    return Error{message};
+}
+
+} // namespace
+
+Console::Console(const Io& io, const MessageOptions& options) : io_(io), options_(options) {}
+
+bool Console::interrupted() const {
+    return io_.interrupted != nullptr && io_.interrupted->load(std::memory_order_relaxed);
+}
+
+bool Console::shows_progress() const {
+    return io_.err_is_terminal && !options_.quiet && options_.format != MessageFormat::Json;
+}
+
+void Console::say(std::string_view severity, std::string_view message) const {
+    if (options_.format == MessageFormat::Json) {
+        nlohmann::ordered_json object;
+        object["severity"] = severity;
+        object["message"] = message;
+        io_.err << object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+                << '\n';
+    } else {
+        io_.err << io_.program << ": " << severity << ": " << message << '\n';
+    }
+}
+
+void Console::error(std::string_view message) const {
+    say("error", message);
+}
+
+void Console::help(std::string_view message) const {
+    if (options_.format != MessageFormat::Json) {
+        say("help", message);
+    }
+}
+
+void Console::info(std::string_view message) const {
+    if (!options_.quiet) {
+        if (options_.format == MessageFormat::Json) {
+            say("note", message);
+        } else {
+            io_.err << io_.program << ": " << message << '\n';
+        }
+    }
+}
+
+void Console::line(std::string_view text) const {
+    if (options_.format == MessageFormat::Json) {
+        info(text);
+    } else if (!options_.quiet) {
+        io_.err << text << '\n';
+    }
+}
+
+void Console::detail(std::string_view message) const {
+    if (options_.verbose) {
+        info(message);
+    }
+}
+
+RenderOptions Console::render_options() const {
+    RenderOptions render;
+    render.format = options_.format;
+    render.colour = options_.format != MessageFormat::Json && wants_colour(io_, options_.colour);
+    return render;
+}
+
+void Console::show(const Messages& messages) const {
+    for (const Message& message : messages.all()) {
+        switch (message.kind) {
+        case Message::Kind::Diagnostics:
+            print(message.diagnostics, message.sources ? *message.sources : SourceMap());
+            break;
+        case Message::Kind::Error:
+            error(message.text);
+            break;
+        case Message::Kind::Help:
+            help(message.text);
+            break;
+        case Message::Kind::Info:
+            info(message.text);
+            break;
+        case Message::Kind::Detail:
+            detail(message.text);
+            break;
+        }
+    }
+}
+
+ExitStatus report_error(const Error& error, const Console& console) {
+    console.error(error.message);
+    return ExitStatus::Failure;
+}
+
+ExitStatus Console::show(Diagnostic diagnostic, ExitStatus status) const {
+    Diagnostics diagnostics;
+    diagnostics.add(std::move(diagnostic));
+    static_cast<void>(show(diagnostics, SourceMap()));
+    return status;
+}
+
+void Console::print(const Diagnostics& diagnostics, const SourceMap& sources) const {
+    std::string text;
+    render_all(options_.quiet ? errors_only(diagnostics) : diagnostics, sources, render_options(),
+               text);
+    io_.err << text << std::flush;
+}
+
+ExitStatus Console::show(Diagnostics& diagnostics, const SourceMap& sources) const {
+    if (options_.deny_warnings) {
+        diagnostics.promote_warnings();
+    }
+    diagnostics.sort_by_place();
+    print(diagnostics, sources);
+    return diagnostics.has_errors() ? ExitStatus::AuthorErrors : ExitStatus::Ok;
+}
+
+Result<Done> Console::write(std::string_view text) const {
+    errno = 0;
+    io_.out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    return output_result(io_.out);
+}
+
+Result<Done> Console::flush() const {
+    errno = 0;
+    io_.out.flush();
+    return output_result(io_.out);
+}
+
+} // namespace lsys

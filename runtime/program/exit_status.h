@@ -1,0 +1,39 @@
+// Exit statuses of the programs.
+#pragma once
+
+#include "grammar/base/outcome.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace lsys {
+
+/// The worst last but for Interrupted, which overrides all.
+enum class ExitStatus : std::uint8_t {
+    Ok = 0,
+    AuthorErrors = 1,
+    Failure = 2, // usage, environment
+    Limit = 3,
+    Interrupted = 130
+};
+
+[[nodiscard]] constexpr ExitStatus worse(ExitStatus a, ExitStatus b) {
+    return std::max(a, b);
+}
+
+[[nodiscard]] constexpr ExitStatus status_of(Stop stop) {
+    switch (stop) {
+    case Stop::Diagnosed:
+        return ExitStatus::AuthorErrors;
+    case Stop::Limit:
+    case Stop::OutOfMemory:
+        return ExitStatus::Limit;
+    case Stop::Cancelled:
+        return ExitStatus::Interrupted;
+    case Stop::Failed:
+        break;
+    }
+    return ExitStatus::Failure;
+}
+
+} // namespace lsys

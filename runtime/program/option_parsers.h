@@ -1,0 +1,103 @@
+// What the options of several commands share: how values are read, and the options themselves.
+#pragma once
+
+#include "grammar/base/result.h"
+#include "runtime/meshing/mesh.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/scene_overrides.h"
+#include "runtime/program/arguments.h"
+#include "runtime/program/message_options.h"
+#include "runtime/program/run_options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lsys {
+
+/// Text to print instead of running a command: --help, --version.
+struct PrintText {
+    std::string text;
+};
+
+/// What is wrong with a command line.
+struct UsageError {
+    std::string message;
+    std::string help;
+};
+
+/// An option whose value `parse` reads into `target`.
+template <typename Target, typename Parse>
+CLI::Option*
+add_parsed(CLI::App& app, const std::string& name, Target& target, Parse parse, const char* text) {
+    return app.add_option_function<std::string>(
+        name,
+        [&target, parse, name](const std::string& value) {
+            auto parsed = parse(value);
+            if (!parsed) {
+                throw CLI::ValidationError(name.substr(name.rfind(',') + 1),
+                                           parsed.error().message);
+            }
+            target = static_cast<Target>(std::move(parsed.value()));
+        },
+        text);
+}
+
+/// An option that takes one of a few words.
+template <typename Target>
+CLI::Option* add_choice(CLI::App& app,
+                        const std::string& name,
+                        Target& target,
+                        std::vector<std::pair<std::string, Target>> choices,
+                        const char* text) {
+    std::string words;
+    for (const auto& choice : choices) {
+        words += (words.empty() ? "" : "|") + choice.first;
+    }
+    const auto parse = [choices = std::move(choices),
+                        words](const std::string& value) -> Result<Target> {
+        for (const auto& [word, meaning] : choices) {
+            if (word == value) {
+                return meaning;
+            }
+        }
+        return Error{choices.size() == 1 ? fmt::format("`{}` is not `{}`", value, words)
+                                         : fmt::format("`{}` is none of {}", value, words)};
+    };
+    return add_parsed(app, name, target, parse, text)->type_name(words);
+}
+
+inline auto whole(std::uint64_t low, std::uint64_t high) {
+    return [low, high](const std::string& text) { return parse_whole(text, low, high); };
+}
+
+/// A number from 0 to 1.
+inline Result<float> fraction(const std::string& text) {
+    return parse_number(text, 0.0F, 1.0F);
+}
+
+/// The message that CLI11 has for a mistake, in this program's words, with the nearest name.
+/// `command` is what is written before the options of `app`.
+[[nodiscard]] UsageError
+describe(const CLI::ParseError& error, const CLI::App& app, const std::string& command);
+
+void add_messages(CLI::App& app, MessageOptions& options);
+void add_deny(CLI::App& app, MessageOptions& options);
+void add_dialect(CLI::App& app, std::string& dialect);
+void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run);
+void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed);
+/// What make_mesh() is asked for.
+void add_mesh(CLI::App& app, MeshOptions& mesh);
+void add_run_limits(CLI::App& app, RunOptions& run);
+
+/// The options of forests that take the place of what a scene says: key, placement, instances.
+/// `size`: the name of the one for the side of the ground.
+void add_scene_overrides(CLI::App& app, SceneOverrides& overrides, const char* size);
+
+} // namespace lsys

@@ -1,0 +1,18 @@
+// The process around a program of ours: its streams, its terminal and Ctrl-C.
+#pragma once
+
+#include "runtime/program/io.h"
+
+#include <span>
+#include <string>
+
+namespace lsys {
+
+/// Calls `run` with the arguments after the program's name and the streams of the process, and
+/// returns its exit status. Once a process. `program`: the name that messages begin with.
+[[nodiscard]] int run_process(int argc,
+                              char** argv,
+                              const char* program,
+                              int (*run)(std::span<const std::string> arguments, const Io& io));
+
+} // namespace lsys

@@ -1,0 +1,121 @@
+#include "runtime/program/option_parsers.h"
+#include "runtime/scene/scene.h"
+
+#include <charconv>
+#include <limits>
+#include <string_view>
+
+namespace lsys {
+
+namespace {
+
+/// `column,row,size`.
+Result<ForestTile> parse_tile(const std::string& text) {
+    const Error wrong{
+        fmt::format("`{}` is not column,row,size: two whole numbers and metres", text)};
+    ForestTile tile;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::int64_t* part : {&tile.column, &tile.row}) {
+        const auto [next, failure] = std::from_chars(at, end, *part);
+        if (failure != std::errc() || next == end || *next != ',') {
+            return wrong;
+        }
+        at = next + 1;
+    }
+    const Result<float> size =
+        parse_number(std::string_view(at, static_cast<std::size_t>(end - at)), 0.0F, 1e6F);
+    constexpr std::int64_t kMost = 1'000'000;
+    if (!size || size.value() == 0.0F || tile.column < -kMost || tile.column > kMost ||
+        tile.row < -kMost || tile.row > kMost) {
+        return wrong;
+    }
+    tile.size = static_cast<double>(size.value());
+    return tile;
+}
+
+auto metres(float least) {
+    return [least](const std::string& text) { return parse_number(text, least, 1e6F); };
+}
+
+void add_placement(CLI::App& app, SceneOverrides& overrides, const char* size) {
+    const char* const group = "Placement";
+    add_choice<std::optional<PlacementMethod>>(
+        app, "--placement", overrides.method,
+        {{"uniform", PlacementMethod::Uniform},
+         {"poisson-disk", PlacementMethod::PoissonDisk},
+         {"density-map", PlacementMethod::DensityMap},
+         {"domination", PlacementMethod::Domination},
+         {"jittered", PlacementMethod::Jittered},
+         {"uniform-cells", PlacementMethod::UniformCells},
+         {"poisson-cells", PlacementMethod::PoissonCells},
+         {"density-cells", PlacementMethod::DensityCells}},
+        "How trees are placed (default uniform); the last four make tiles that fit")
+        ->group(group);
+    add_parsed(app, "--count", overrides.count, whole(0, kMaxTrees),
+               "Trees of uniform placement, or plants of the first year of domination "
+               "(default 1000)")
+        ->type_name("N")
+        ->group(group);
+    add_parsed(app, size, overrides.size, metres(1e-3F),
+               "Side of the ground, a square from the origin on (default 100)")
+        ->type_name("METRES")
+        ->group(group);
+    add_parsed(app, "--spacing", overrides.spacing, metres(1e-3F),
+               "Distance of trees: of the grid for jittered, the least for poisson-disk and "
+               "poisson-cells")
+        ->type_name("METRES")
+        ->group(group);
+    add_parsed(
+        app, "--density", overrides.density,
+        [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); },
+        "Trees a square metre; where the density map is white")
+        ->type_name("D")
+        ->group(group);
+    app.add_option("--density-map", overrides.density_map, "A grey PNG that spans the ground")
+        ->type_name("FILE")
+        ->group(group);
+    add_parsed(app, "--years", overrides.years, whole(0, kMaxYears),
+               "Years that a forest of domination grows")
+        ->type_name("N")
+        ->group(group);
+    add_parsed(app, "--tile", overrides.tile, parse_tile,
+               "One tile of an unbounded forest, a square of SIZE metres; neighbours fit, "
+               "wherever they are made")
+        ->type_name("COLUMN,ROW,SIZE")
+        ->group(group);
+}
+
+void add_cache(CLI::App& app, SceneOverrides& overrides) {
+    const char* const group = "Instances";
+    add_parsed(app, "--heroes", overrides.heroes, whole(1, kMaxHeroes),
+               "Plants of each species that are derived whole (default 10)")
+        ->type_name("H")
+        ->group(group);
+    add_parsed(app, "--rho", overrides.rho, fraction,
+               "Probability that a branch is taken from recorded ones (default 0.6)")
+        ->type_name("P")
+        ->group(group);
+    add_parsed(app, "--cache-cap", overrides.cache_cap,
+               whole(0, std::numeric_limits<std::uint32_t>::max()),
+               "The most branches kept for one key; 0: all (default 0)")
+        ->type_name("N")
+        ->group(group);
+    add_parsed(app, "--instance-tolerance", overrides.tolerance, fraction,
+               "Part by which values of one key may differ (default 0: not at all)")
+        ->type_name("T")
+        ->group(group);
+}
+
+} // namespace
+
+void add_scene_overrides(CLI::App& app, SceneOverrides& overrides, const char* size) {
+    add_parsed(app, "--key", overrides.key,
+               whole(0, static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())),
+               "What the forest is made from: the same key, the same forest (default 0)")
+        ->type_name("K");
+    add_placement(app, overrides, size);
+    add_cache(app, overrides);
+}
+
+} // namespace lsys
