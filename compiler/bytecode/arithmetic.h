@@ -1,7 +1,7 @@
-// The arithmetic of expressions (LANGUAGE.md section 4): every value is an IEEE binary32; + - * /
-// and sqrt round correctly, other functions and powers are computed in binary64 and rounded once.
-// The compiler folds constants and the runtime evaluates instructions with these same functions, so
-// the two cannot differ. Angles are degrees.
+// The arithmetic of expressions (docs/language.md section 4): every value is an IEEE binary32; + -
+// * / and sqrt round correctly, other functions and powers are computed in binary64 and rounded
+// once. The compiler folds constants and the runtime evaluates instructions with these same
+// functions, so the two cannot differ. Angles are degrees.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

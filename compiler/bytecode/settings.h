@@ -8,7 +8,7 @@
 
 namespace lsys {
 
-/// How a generation rewrites the word (LANGUAGE.md section 5).
+/// How a generation rewrites the word (docs/language.md section 5).
 enum class RewritingMode : std::uint8_t { Parallel, Sequential, Cyclic, Leftmost };
 /// Whether each module draws its production, or all modules of a rule share one draw a generation.
 enum class ChoiceScope : std::uint8_t { Module, Generation };

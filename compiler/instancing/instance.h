@@ -1,5 +1,5 @@
 // Instancing for those who use the compiler: from a checked Program to the bytecode of its
-// instanced system, and the list of that system's productions (LANGUAGE.md section 9).
+// instanced system, and the list of that system's productions (docs/language.md section 9).
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -1,7 +1,7 @@
-// The checks of a Program: what a grammar may say but hardly means, and the rules of LANGUAGE.md
-// that need the whole program. Each check is one function in a file of its own; checks.cpp lists
-// them. They run in the order of the list, after lowering, so that they may ask the bytecode as
-// well.
+// The checks of a Program: what a grammar may say but hardly means, and the rules of
+// docs/language.md that need the whole program. Each check is one function in a file of its own;
+// checks.cpp lists them. They run in the order of the list, after lowering, so that they may ask
+// the bytecode as well.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -36,7 +36,7 @@ using Check = void (*)(const CheckInput& input, Diagnostics& diagnostics);
 /// word or statement at a time.
 void run_checks(const CheckInput& input, Diagnostics& diagnostics);
 
-// Rules of LANGUAGE.md that need the whole program; each in a file of its own. lints.h has the
+// Rules of docs/language.md that need the whole program; each in a file of its own. lints.h has the
 // rest.
 void check_probability_sums(const CheckInput& input, Diagnostics& diagnostics);
 void check_formal_names(const CheckInput& input, Diagnostics& diagnostics);

@@ -1,5 +1,5 @@
-// The turtle profiles of LANGUAGE.md section 7 as data: which module does what. Read where symbols
-// are made and by the checks; the runtime sees operations only.
+// The turtle profiles of docs/language.md section 7 as data: which module does what. Read where
+// symbols are made and by the checks; the runtime sees operations only.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -29,7 +29,7 @@ struct TurtleCommand {
 /// `[ ]` mean the same in every profile, `{ } .` in all but those of L3D, which has no polygons;
 /// they take no parameters and no #object binds them.
 [[nodiscard]] bool is_structural(TurtleProfile profile, std::string_view name);
-/// Those of which LANGUAGE.md section 3 says that they take no parameters.
+/// Those of which docs/language.md section 3 says that they take no parameters.
 [[nodiscard]] bool takes_no_parameters(std::string_view name);
 [[nodiscard]] SymbolKind kind_of(TurtleProfile profile, std::string_view name);
 

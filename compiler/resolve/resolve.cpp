@@ -24,7 +24,7 @@ namespace lsys {
 
 namespace {
 
-/// Which names are known (LANGUAGE.md section 3), by name.
+/// Which names are known (docs/language.md section 3), by name.
 std::vector<bool> known_names(const Resolution& resolution) {
     std::vector<bool> known(resolution.names.count());
     const auto add = [&](ModuleList list) {

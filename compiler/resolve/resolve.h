@@ -1,5 +1,5 @@
-// The resolution: Ast to Program. All that LANGUAGE.md decides about names, numbers and the form of
-// productions is decided here; what a program means as a whole is for the checks (check.h).
+// The resolution: Ast to Program. All that docs/language.md decides about names, numbers and the
+// form of productions is decided here; what a program means as a whole is for the checks (check.h).
 #pragma once
 
 #include "compiler/program/compile_options.h"

@@ -2,7 +2,7 @@
 // neighbouring statements have in common stands in columns, and so do the comments behind them; an
 // author's line ends between modules stay, longer lines are broken; comments and single blank lines
 // stay. It works on tokens, so what a file means cannot change, and formatting twice is formatting
-// once. language.md gives the rules.
+// once. docs/manual.md gives the rules.
 #pragma once
 
 #include "grammar/lsys/parse.h"

@@ -1,5 +1,5 @@
 // Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011, "Parallel random numbers: as easy as 1, 2, 3"),
-// and the counters of LANGUAGE.md section 6. A draw is a pure function of seed, generation,
+// and the counters of docs/language.md section 6. A draw is a pure function of seed, generation,
 // position and its number, so results depend on no thread, chunk or order.
 #pragma once
 
@@ -94,7 +94,7 @@ private:
     PhiloxBlock words_{};
 };
 
-/// `{minimum, maximum}` at u (LANGUAGE.md section 4). Precondition: minimum <= maximum, finite
+/// `{minimum, maximum}` at u (docs/language.md section 4). Precondition: minimum <= maximum, finite
 /// width.
 [[nodiscard]] float draw_in_range(float minimum, float maximum, float u);
 

@@ -1,5 +1,5 @@
-// Derivation: from Bytecode to words, generation by generation (LANGUAGE.md sections 4 to 6). The
-// result depends on bytecode, seed and number of generations alone, not on threads or chunks.
+// Derivation: from Bytecode to words, generation by generation (docs/language.md sections 4 to 6).
+// The result depends on bytecode, seed and number of generations alone, not on threads or chunks.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

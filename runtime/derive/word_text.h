@@ -1,5 +1,5 @@
-// A word as text (LANGUAGE.md section 10): what is printed parses again as the axiom of the same
-// file.
+// A word as text (docs/language.md section 10): what is printed parses again as the axiom of the
+// same file.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

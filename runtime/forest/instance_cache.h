@@ -1,5 +1,5 @@
 // InstanceCache: the branches of a few hero plants of an instanced system, from which any number of
-// distinct plants are put together (Kenwood, Gain and Marais 2014; LANGUAGE.md section 9). An
+// distinct plants are put together (Kenwood, Gain and Marais 2014; docs/language.md section 9). An
 // instance is a part of the heroes' common skeleton with an entry, and exits where other instances
 // go on. What can stand for what is told by a slot: all instances with one key.
 #pragma once

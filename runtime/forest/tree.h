@@ -1,6 +1,6 @@
 // Tree: a plant of a forest as numbers. What it looks like is a function of these, of its species'
-// instance cache and of the forest's key (LANGUAGE.md section 9), so that a forest is an array of
-// trees and nothing more.
+// instance cache and of the forest's key (docs/language.md section 9), so that a forest is an array
+// of trees and nothing more.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,4 +1,4 @@
-// The object library as meshes of unit size along +Y from the origin (LANGUAGE.md section 7):
+// The object library as meshes of unit size along +Y from the origin (docs/language.md section 7):
 //
 //   LEAF        length 1, width 0.5; upper side +Z, the tip and the edges bent
 //   FLOWER      length 1 to the tips of its five petals, opening along +Y

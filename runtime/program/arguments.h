@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// The most generations that can be asked for (LANGUAGE.md section 2).
+/// The most generations that can be asked for (docs/language.md section 2).
 inline constexpr std::uint64_t kMaxGenerations = 0xFFFF'FFFEu;
 
 /// A whole number from `low` to `high`, in decimal digits.

@@ -1,7 +1,7 @@
-// The turtle: reads modules of a derived word in order and draws the skeleton (LANGUAGE.md section
-// 7). Characters mean nothing here: which operation a symbol has was decided by the profile when
-// the grammar was compiled. State is in double precision, so that ten million rotations leave the
-// frame orthonormal and a far-off plant as exact as a near one.
+// The turtle: reads modules of a derived word in order and draws the skeleton (docs/language.md
+// section 7). Characters mean nothing here: which operation a symbol has was decided by the profile
+// when the grammar was compiled. State is in double precision, so that ten million rotations leave
+// the frame orthonormal and a far-off plant as exact as a near one.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -72,7 +72,7 @@ struct DrawnCounts {
     friend bool operator==(const DrawnCounts&, const DrawnCounts&) = default;
 };
 
-/// The `[` of a valid branch in the word of an instanced system (LANGUAGE.md section 9).
+/// The `[` of a valid branch in the word of an instanced system (docs/language.md section 9).
 struct BranchStart {
     bool take = false; // an instance instead of the branch
     std::uint32_t age = 0;

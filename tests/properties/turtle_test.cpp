@@ -1,5 +1,5 @@
-// The turtle against a slow, direct reading of LANGUAGE.md section 7: rotation matrices in long
-// double over the text of the word, which shares no code with the runtime.
+// The turtle against a slow, direct reading of docs/language.md section 7: rotation matrices in
+// long double over the text of the word, which shares no code with the runtime.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -330,7 +330,7 @@ void compare(const std::string& grammar, const Profile& profile, const Tropism& 
 
 } // namespace
 
-TEST_CASE("random words are drawn as LANGUAGE.md section 7 says, in four profiles") {
+TEST_CASE("random words are drawn as docs/language.md section 7 says, in four profiles") {
     std::mt19937 random(7); // NOLINT: the same words every time
     for (const auto& [name, profile] : profiles()) {
         for (int i = 0; i < 60; ++i) {

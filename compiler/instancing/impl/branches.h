@@ -1,6 +1,6 @@
 // The valid branches of a system: what the instancing of Kenwood, Gain and Marais 2014 ("Efficient
 // procedural generation of forests", J. WSCG 22(1)), as Carey 2019 implemented it, records once and
-// puts in place of other branches (LANGUAGE.md section 9).
+// puts in place of other branches (docs/language.md section 9).
 #pragma once
 
 #include "compiler/program/program.h"

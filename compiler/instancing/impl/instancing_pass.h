@@ -1,5 +1,5 @@
-// The instanced system of Kenwood, Gain and Marais 2014 (LANGUAGE.md section 9): each valid branch
-// is recorded, or with probability rho taken from those that were.
+// The instanced system of Kenwood, Gain and Marais 2014 (docs/language.md section 9): each valid
+// branch is recorded, or with probability rho taken from those that were.
 #pragma once
 
 #include "compiler/instancing/impl/branches.h"

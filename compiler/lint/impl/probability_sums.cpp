@@ -1,4 +1,4 @@
-// The probabilities of a choice without conditions sum to 1 (LANGUAGE.md section 5). With
+// The probabilities of a choice without conditions sum to 1 (docs/language.md section 5). With
 // conditions the sum depends on what matches, and weights are normalised at run time.
 #include "compiler/lint/checks.h"
 #include "compiler/lint/impl/places.h"

@@ -1,6 +1,6 @@
-// Rules and groups (LANGUAGE.md section 5): productions with equal predecessors, and of these the
-// ones with equal contexts. Two hash tables of production numbers that look the productions up in
-// the Program, so that a million of them take a few megabytes.
+// Rules and groups (docs/language.md section 5): productions with equal predecessors, and of these
+// the ones with equal contexts. Two hash tables of production numbers that look the productions up
+// in the Program, so that a million of them take a few megabytes.
 #pragma once
 
 #include "compiler/program/program.h"

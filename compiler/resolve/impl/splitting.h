@@ -1,5 +1,5 @@
-// Name splitting (LANGUAGE.md section 3): a module name that nobody knows, but that is a row of
-// known names in exactly one way, is read as that row: `AS(1)` as `A S(1)`. Decided once all
+// Name splitting (docs/language.md section 3): a module name that nobody knows, but that is a row
+// of known names in exactly one way, is read as that row: `AS(1)` as `A S(1)`. Decided once all
 // statements are read; the decision depends on the name, the number of parameters and the file.
 #pragma once
 

@@ -7,8 +7,8 @@
 
 namespace lsys {
 
-/// Numbers of draws (LANGUAGE.md section 6) are raised in the passes of later stages, so that none
-/// is drawn twice: by these, and 4096 more for each pass.
+/// Numbers of draws (docs/language.md section 6) are raised in the passes of later stages, so that
+/// none is drawn twice: by these, and 4096 more for each pass.
 inline constexpr std::uint64_t kDrawsOfPass = std::uint64_t{kMaxSequentialDraws} + 1;
 inline constexpr std::uint64_t kFirstDecomposeDraw = std::uint64_t{1} << 32;
 inline constexpr std::uint64_t kFirstInterpretDraw = kFirstDecomposeDraw + (std::uint64_t{1} << 31);

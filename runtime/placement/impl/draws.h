@@ -9,7 +9,8 @@
 
 namespace lsys {
 
-/// Other than those of derivations, which count up from 0, and of LANGUAGE.md sections 6 and 9.
+/// Other than those of derivations, which count up from 0, and of docs/language.md sections 6
+/// and 9.
 inline constexpr std::uint32_t kPlacementGeneration = 0xFFFFFFFDu;
 
 /// Blocks at a tree's number.

@@ -20,7 +20,8 @@ namespace lsys {
 
 inline constexpr std::size_t kModulesBetweenLooks = std::size_t{1} << 16;
 inline constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
-/// Reduction of a segment's radius along it where the profile has one: DIALECTS.md 1.3.
+/// Reduction of a segment's radius along it where the profile has one: docs/dialects/l3d.md
+/// section 4.
 inline constexpr float kRelativeTaper = 0.95F;
 inline constexpr float kPercent = 0.01F;
 inline constexpr double kFullTurn = 360.0;
