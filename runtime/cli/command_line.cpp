@@ -20,6 +20,11 @@ namespace lsys::lsc {
 
 namespace {
 
+void add_message_options(CLI::App& app, MessageOptions& options) {
+    app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
+    add_messages(app, options);
+}
+
 /// Every command's options while they are parsed.
 struct AllCommands {
     ImportCommand imported;
@@ -37,7 +42,7 @@ void add_check(CLI::App& app, CheckCommand& command) {
     app.add_option("FILE", command.files, "Grammars; `-` is standard input")->required();
     app.add_flag("--fix", command.fix, "Apply every repair that is certain to the files");
     add_grammar(app, command.grammar, command.run);
-    add_messages(app, command.messages);
+    add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer("Exit status: 0 no errors, 1 errors in a grammar, 2 a file or the command line.\n"
                "Example: lsc check --fix tree.lsys");
@@ -50,7 +55,7 @@ void add_compile(CLI::App& app, CompileCommand& command) {
         ->type_name("FILE");
     add_grammar(app, command.grammar, command.run);
     add_seed(app, command.seed);
-    add_messages(app, command.messages);
+    add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer("-n and --seed take the place of #n and `#set seed` in what is written.\n"
                "Example: lsc compile tree.lsys -o tree.lsb");
@@ -101,7 +106,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
     app.add_option("--from", command.from, "Go on from a saved state")
         ->type_name("FILE")
         ->group("Saved states");
-    add_messages(app, command.messages);
+    add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer("Examples: lsc dump -n 3 tree.lsys\n"
                "          lsc dump --all --count tree.lsys\n"
@@ -159,7 +164,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_grammar(app, command.grammar, command.run);
     add_seed(app, command.seed);
     add_run_limits(app, command.run);
-    add_messages(app, command.messages);
+    add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer(
         "Metres, +Y up. The file is complete or absent. OBJ gets a .mtl beside it, OBJ and USDA "
@@ -211,7 +216,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     add_grammar(app, command.overrides.grammar, command.run);
     add_seed(app, command.overrides.seed);
     add_run_limits(app, command.run);
-    add_messages(app, command.messages);
+    add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer("Options take the place of what the scene says; -n, -D and the options of instances "
                "are for every\nspecies. samples/scenes shows scenes.\n"
@@ -232,7 +237,7 @@ void add_import(CLI::App& app, ImportCommand& command) {
                    "beside the originals)")
         ->type_name("FILE");
     add_grammar(app, command.grammar, command.run);
-    add_messages(app, command.messages);
+    add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer("What is written derives the same word.\n"
                "Example: lsc import tree.l -o tree.lsys");
@@ -242,7 +247,7 @@ void add_stats(CLI::App& app, StatsCommand& command) {
     app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
         ->required();
     add_grammar(app, command.grammar, command.run);
-    add_messages(app, command.messages);
+    add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer(
         "Predicts the size of every generation without deriving; where a grammar decomposes or "
@@ -258,7 +263,7 @@ void add_format(CLI::App& app, FormatCommand& command) {
     app.add_flag("--check", command.check,
                  "Change nothing; name the files that are not formatted, with exit status 1");
     add_dialect(app, command.dialect);
-    add_messages(app, command.messages);
+    add_message_options(app, command.messages);
     app.footer(
         "Statements of one kind get columns, long lines are broken; comments, line ends between "
         "modules\nand the meaning stay. Example: lsc fmt --check *.lsys");
@@ -267,7 +272,7 @@ void add_format(CLI::App& app, FormatCommand& command) {
 void add_explain(CLI::App& app, ExplainCommand& command) {
     app.add_option("CODE", command.code,
                    "What stands in brackets at the end of a message; without it, all are listed");
-    add_messages(app, command.messages);
+    add_message_options(app, command.messages);
     app.footer("Example: lsc explain look-alike");
 }
 

@@ -1,3 +1,4 @@
+#include "runtime/cli/lsc.h"
 #include "runtime/program/process.h"
 
 int main(int argc, char** argv) {

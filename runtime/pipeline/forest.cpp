@@ -5,7 +5,7 @@
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/impl/drawing_end.h"
 #include "runtime/pipeline/impl/mesh_files.h"
-#include "runtime/pipeline/impl/step.h"
+#include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/turtle/turtle_diagnostic.h"
 

@@ -2,10 +2,11 @@
 
 #include "compiler/bytecode/module_file.h"
 #include "compiler/compile.h"
-#include "runtime/pipeline/impl/step.h"
+#include "runtime/pipeline/step.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -83,7 +84,7 @@ Outcome<Grammar> load_module(std::string_view bytes,
     if (!options.system.empty()) {
         return step.fail(fmt::format("--system: `{}` is compiled and holds one system only", path));
     }
-    if (!options.definitions.empty()) {
+    if (!options.definitions.empty() || !options.optional_definitions.empty()) {
         step.messages.add_error(fmt::format("-D cannot change `{}`, which is compiled", path));
         step.messages.add_help("compile the grammar again with this -D");
         return step.end(Stop::Failed);
@@ -160,6 +161,9 @@ Result<CompiledText> compile_text(const std::string& path,
     }
     CompileOptions compile_options;
     compile_options.definitions = options.definitions;
+    compile_options.definitions.insert(compile_options.definitions.end(),
+                                       options.optional_definitions.begin(),
+                                       options.optional_definitions.end());
     compile_options.generations = options.generations;
     compile_options.max_modules = max_modules;
     CompileOutcome outcome = compile(std::move(ast), grammar.names, *grammar.sources,
@@ -172,9 +176,14 @@ Result<CompiledText> compile_text(const std::string& path,
         grammar.bytecode = std::move(*outcome.bytecode);
         compiled.has_bytecode = true;
     }
-    if (!outcome.unknown_definitions.empty()) {
-        compiled.definition_error =
-            unknown_definition(outcome.unknown_definitions.front(), grammar);
+    const auto is_optional = [&](const std::string& name) {
+        return std::any_of(options.optional_definitions.begin(), options.optional_definitions.end(),
+                           [&](const Definition& one) { return one.name == name; });
+    };
+    for (const std::string& name : outcome.unknown_definitions) {
+        if (!is_optional(name) && !compiled.definition_error) {
+            compiled.definition_error = unknown_definition(name, grammar);
+        }
     }
     return compiled;
 }

@@ -26,6 +26,8 @@ struct GrammarOptions {
     bool bug_compatible = false;
     std::string system; // of a file that holds several; empty: the only one
     std::vector<Definition> definitions;
+    /// Those of constants that the grammar does not have are ignored.
+    std::vector<Definition> optional_definitions;
     std::optional<std::uint32_t> generations; // instead of #n
 };
 

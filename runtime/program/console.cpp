@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <istream>
 #include <ostream>
+#include <sstream>
 
 namespace lsys {
 
@@ -137,6 +138,17 @@ void Console::show(const Messages& messages) const {
             break;
         }
     }
+}
+
+std::string
+messages_text(const Messages& messages, const MessageOptions& options, const char* program) {
+    std::istringstream in;
+    std::ostringstream out;
+    std::ostringstream err;
+    MessageOptions plain = options;
+    plain.colour = ColourMode::Never;
+    Console({in, out, err, false, nullptr, program}, plain).show(messages);
+    return std::move(err).str();
 }
 
 ExitStatus report_error(const Error& error, const Console& console) {

@@ -69,6 +69,10 @@ private:
     MessageOptions options_;
 };
 
+/// What a Console of `program` prints of the messages, without colour.
+[[nodiscard]] std::string
+messages_text(const Messages& messages, const MessageOptions& options, const char* program);
+
 /// Prints an error of the environment; returns Failure.
 [[nodiscard]] ExitStatus report_error(const Error& error, const Console& console);
 

@@ -27,6 +27,32 @@ Error size_error(std::uint64_t max_bytes) {
     return Error{fmt::format("it has more than {} bytes, the most that can be read", max_bytes)};
 }
 
+} // namespace
+
+std::string reason_text(int reason) {
+    std::string text = std::strerror(reason);
+    if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') {
+        text[0] = static_cast<char>(text[0] - 'A' + 'a');
+    }
+    return text;
+}
+
+std::string numbered(const std::string& path, std::uint32_t number) {
+    std::filesystem::path name(path);
+    const std::string extension = name.extension().string();
+    return name.replace_extension(fmt::format(".{:04}{}", number, extension)).string();
+}
+
+Result<std::string>
+read_file(const std::string& path, std::uint64_t max_bytes, const Console& console) {
+    Result<std::string> bytes = path == "-" ? read_standard_input(max_bytes, console)
+                                            : read_bytes(path, max_bytes, console.io().interrupted);
+    if (!bytes) {
+        return Error{fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message)};
+    }
+    return bytes;
+}
+
 Result<std::string> read_standard_input(std::uint64_t max_bytes, const Console& console) {
     std::istream& in = console.io().in;
     std::string bytes;
@@ -48,36 +74,8 @@ Result<std::string> read_standard_input(std::uint64_t max_bytes, const Console& 
     return bytes;
 }
 
-} // namespace
-
-std::string reason_text(int reason) {
-    std::string text = std::strerror(reason);
-    if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') {
-        text[0] = static_cast<char>(text[0] - 'A' + 'a');
-    }
-    return text;
-}
-
-std::string numbered(const std::string& path, std::uint32_t number) {
-    std::filesystem::path name(path);
-    const std::string extension = name.extension().string();
-    return name.replace_extension(fmt::format(".{:04}{}", number, extension)).string();
-}
-
 Result<std::string>
-read_file(const std::string& path, std::uint64_t max_bytes, const Console& console) {
-    Result<std::string> bytes = read_bytes(path, max_bytes, console);
-    if (!bytes) {
-        return Error{fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message)};
-    }
-    return bytes;
-}
-
-Result<std::string>
-read_bytes(const std::string& path, std::uint64_t max_bytes, const Console& console) {
-    if (path == "-") {
-        return read_standard_input(max_bytes, console);
-    }
+read_bytes(const std::string& path, std::uint64_t max_bytes, const std::atomic<bool>* cancelled) {
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     struct stat facts {};
     if (file.get() < 0 || ::fstat(file.get(), &facts) != 0) {
@@ -100,7 +98,7 @@ read_bytes(const std::string& path, std::uint64_t max_bytes, const Console& cons
         const ssize_t count = ::read(file.get(), bytes.data() + size, bytes.size() - size);
         const int reason = errno;
         bytes.resize(size + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-        if (console.interrupted()) {
+        if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed)) {
             return Error{"interrupted"};
         }
         if (count < 0 && reason != EINTR) {

@@ -5,6 +5,7 @@
 #include "grammar/base/result.h"
 #include "runtime/program/console.h"
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -14,9 +15,12 @@ namespace lsys {
 /// The bytes of `path`, or of standard input for `-`; at most `max_bytes`.
 [[nodiscard]] Result<std::string>
 read_file(const std::string& path, std::uint64_t max_bytes, const Console& console);
-/// The same of a file; its Error is the reason alone.
+/// The bytes of a file; its Error is the reason alone. `cancelled` may be null.
 [[nodiscard]] Result<std::string>
-read_bytes(const std::string& path, std::uint64_t max_bytes, const Console& console);
+read_bytes(const std::string& path, std::uint64_t max_bytes, const std::atomic<bool>* cancelled);
+/// The bytes of standard input; its Error is the reason alone.
+[[nodiscard]] Result<std::string> read_standard_input(std::uint64_t max_bytes,
+                                                      const Console& console);
 
 /// What `errno` means, lower case.
 [[nodiscard]] std::string reason_text(int reason);

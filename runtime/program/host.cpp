@@ -4,19 +4,29 @@
 
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 namespace lsys {
 
-Host make_host(const Console& console) {
+Host make_file_host(const std::atomic<bool>* cancelled) {
     Host host;
-    host.read_file = [&console](const std::string& path, std::uint64_t max_bytes) {
-        return read_bytes(path, max_bytes, console);
+    host.read_file = [cancelled](const std::string& path, std::uint64_t max_bytes) {
+        return read_bytes(path, max_bytes, cancelled);
     };
     host.file_exists = [](const std::string& path) {
         std::error_code ignored;
         return std::filesystem::exists(path, ignored);
     };
-    host.cancelled = console.io().interrupted;
+    host.cancelled = cancelled;
+    return host;
+}
+
+Host make_host(const Console& console) {
+    Host host = make_file_host(console.io().interrupted);
+    host.read_file = [&console, read = std::move(host.read_file)](const std::string& path,
+                                                                  std::uint64_t max_bytes) {
+        return path == "-" ? read_standard_input(max_bytes, console) : read(path, max_bytes);
+    };
     return host;
 }
 

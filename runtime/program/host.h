@@ -5,8 +5,12 @@
 #include "runtime/program/console.h"
 #include "runtime/program/run_options.h"
 
+#include <atomic>
+
 namespace lsys {
 
+/// Reads files of the disk. `cancelled` may be null.
+[[nodiscard]] Host make_file_host(const std::atomic<bool>* cancelled);
 /// Reads files of the disk, and standard input for `-`. `console` outlives it.
 [[nodiscard]] Host make_host(const Console& console);
 

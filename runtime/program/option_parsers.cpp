@@ -10,7 +10,6 @@
 namespace lsys {
 
 void add_messages(CLI::App& app, MessageOptions& options) {
-    app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
     add_choice<MessageFormat>(app, "--message-format", options.format,
                               {{"human", MessageFormat::Human},
                                {"short", MessageFormat::Short},

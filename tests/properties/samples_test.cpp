@@ -1,7 +1,7 @@
 // What must hold for every grammar, tried on the samples of the gallery.
 #include "grammar/lsys/parse.h"
-#include "runtime/program/console.h"
-#include "runtime/cli/grammar_file.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/program/host.h"
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -40,14 +40,10 @@ std::string few_generations(const Sample& sample) {
 /// The text with another axiom; nothing if the axiom is in an included file.
 std::optional<std::string>
 with_axiom(const std::filesystem::path& path, const std::string& text, const std::string& word) {
-    std::istringstream in;
-    std::ostringstream out;
-    std::ostringstream err;
-    const Console console({in, out, err}, {});
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
-    const FileLoader load = make_loader(console);
+    const FileLoader load = make_loader(Project{make_file_host(nullptr), {}, 0, false});
     const FileId root = sources.add(path.string(), text);
     const Ast ast = parse_lsys(root, {sources, names, diagnostics, load});
     for (const Statement& statement : ast.statements) {

@@ -1,9 +1,11 @@
 // The picture that a mesh of a file shows: found, shown, exported, waited for.
 #include "runtime/meshing/texture.h"
+#include "runtime/program/host.h"
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
 #include "tests/viewer/picture.h"
 #include "viewer/app/plant_document.h"
+#include "viewer/app/recorded_host.h"
 
 #include <catch2/catch.hpp>
 
@@ -102,19 +104,14 @@ TEST_CASE("files with pictures have that of a mesh") {
     CHECK(lsys::tests::read_picture(card.folder / "out.picture_1.png").texels == half_red().texels);
 }
 
-TEST_CASE("what a mesh looks for is told, so that it can be waited for") {
+TEST_CASE("files that a mesh asks for are recorded, so that they can be watched") {
     const CardFolder card;
     std::filesystem::remove(card.folder / "a card.png");
     ViewOptions options;
     options.file = card.folder / "plant.lsys";
-    options.max_bytes = std::uint64_t{1} << 30;
-    std::istringstream in;
-    std::ostringstream out;
-    std::ostringstream err;
-    const Console console({in, out, err, false, nullptr, "lsview"}, {});
-    PlantDocument document;
-    REQUIRE(make_plant_document(options, console, document) == ExitStatus::Fine);
-    const std::vector<std::string> files = files_of(options, document);
+    std::vector<std::string> files;
+    const Project project{record_files(make_file_host(nullptr), files), {}, 1, false};
+    REQUIRE(make_plant_document(options, project));
     for (const char* const name : {"card.obj", "card.mtl", "a card.png"}) {
         CHECK(std::find(files.begin(), files.end(), card.folder / name) != files.end());
     }

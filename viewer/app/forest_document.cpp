@@ -1,6 +1,6 @@
 #include "viewer/app/forest_document.h"
 
-#include "runtime/pipeline/forest.h"
+#include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/turtle/turtle_diagnostic.h"
 
@@ -12,18 +12,14 @@ namespace lsys::view {
 
 namespace {
 
-struct Wish {
-    const ForestEdits* edits = nullptr; // of a window
-    const ForestDocument* known = nullptr;
-};
-
-ExitStatus make_model(const ViewOptions& options,
-                       const ForestDocument* before,
-                       const Console& console,
-                       ForestDocument& document) {
+Outcome<Done> make_model(const ViewOptions& options,
+                         const ForestDocument* before,
+                         const Project& project,
+                         ForestDocument& document) {
+    Step step(project);
     MeshOptions mesh = options.mesh;
-    mesh.threads = options.threads;
-    mesh.max_bytes = options.max_bytes;
+    mesh.threads = project.threads;
+    mesh.max_bytes = project.limits.max_bytes;
     const GrownForest& grown = document.grown;
     KnownModel known;
     if (before != nullptr) {
@@ -35,91 +31,74 @@ ExitStatus make_model(const ViewOptions& options,
     case InstanceMeshStatus::Ok:
         break;
     case InstanceMeshStatus::Joined:
-        return report_error(Error{"--method boxes: a branch and its parent are one surface there, so "
-                               "a forest cannot be put together from them"},
-                         console);
+        return step.fail("--method boxes: a branch and its parent are one surface there, so a "
+                         "forest cannot be put together from them");
     case InstanceMeshStatus::TooManyVertices:
     case InstanceMeshStatus::Limit:
-    case InstanceMeshStatus::OutOfMemory: {
-        Diagnostics diagnostics;
-        diagnostics.add(plant_limit_diagnostic("the mesh of the heroes", options.max_bytes));
-        static_cast<void>(console.show(diagnostics, {}));
-        return ExitStatus::Limit;
+    case InstanceMeshStatus::OutOfMemory:
+        step.diagnose(plant_limit_diagnostic("the mesh of the heroes", mesh.max_bytes), nullptr);
+        return step.end(Stop::Limit);
     }
-    }
-    return ExitStatus::Ok;
+    return step.done(Done{});
 }
 
-ExitStatus make(const ViewOptions& options,
-                 const Wish& wish,
-                 const Console& console,
-                 ForestDocument& document) {
-    SteadyClock::time_point start = SteadyClock::now();
-    lsc::ForestCommand command = options.forest;
-    command.grammar = options.grammar;
-    command.seed = options.seed;
-    lsc::CommandScene loaded;
-    ExitStatus status = lsc::load_command_scene(command, console, loaded);
-    if (status != ExitStatus::Ok) {
-        return status;
+/// `edits` and `known` may be null.
+Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
+                                              const ForestEdits* edits,
+                                              const ForestDocument* known,
+                                              const Project& project) {
+    Step step(project);
+    const Stopwatch parsing;
+    SceneOverrides overrides = options.overrides;
+    overrides.grammar = options.grammar;
+    overrides.seed = options.seed;
+    LoadedScene loaded;
+    if (!step.take(load_scene(options.files, overrides, project), loaded)) {
+        return step.end();
     }
-    if (wish.edits != nullptr) {
-        apply(*wish.edits, loaded.scene);
+    if (edits != nullptr) {
+        apply(*edits, loaded.scene);
     }
-    document.scene = loaded.scene;
-    document.parse_seconds = seconds_since(start);
-    const lsc::ForestLimits limits{options.threads, options.grammar.max_modules, options.max_bytes};
-    KnownForest known;
-    if (wish.known != nullptr) {
-        known = {&wish.known->scene, &wish.known->grown};
+    const auto document = std::make_shared<ForestDocument>();
+    document->scene = loaded.scene;
+    document->parse_seconds = parsing.seconds();
+    KnownForest before;
+    if (known != nullptr) {
+        before = {&known->scene, &known->grown};
     }
-    status = grow_species(loaded.scene, loaded.sources, loaded.folder, limits, console,
-                               document.grown, known);
-    if (wish.edits != nullptr) {
+    if (!step.take(grow_species(loaded, project, before), document->grown)) {
+        return step.end();
+    }
+    if (edits != nullptr) {
         loaded.scene.painting = {};
     }
-    if (status == ExitStatus::Ok) {
-        status = place_forest(loaded.scene, limits, console, document.grown);
+    Done done;
+    if (!step.take(place_forest(loaded.scene, project, document->grown), done)) {
+        return step.end();
     }
-    if (status != ExitStatus::Ok) {
-        return status;
+    if (project.is_cancelled()) {
+        return step.end(Stop::Cancelled);
     }
-    if (console.interrupted()) {
-        return ExitStatus::Interrupted;
+    const Stopwatch meshing;
+    if (!step.take(make_model(options, known, project, *document), done)) {
+        return step.end();
     }
-    start = SteadyClock::now();
-    status = make_model(options, wish.known, console, document);
-    document.mesh_seconds = seconds_since(start);
-    return status;
+    document->mesh_seconds = meshing.seconds();
+    return step.done(document);
 }
 
 } // namespace
 
-ExitStatus make_forest_document(const ViewOptions& options,
-                                 const Console& console,
-                                 ForestDocument& document) {
-    return make(options, {}, console, document);
+Outcome<std::shared_ptr<ForestDocument>> make_forest_document(const ViewOptions& options,
+                                                              const Project& project) {
+    return make(options, nullptr, nullptr, project);
 }
 
-ExitStatus make_live_forest(const ViewOptions& options,
-                             const ForestEdits& edits,
-                             const ForestDocument* known,
-                             const Console& console,
-                             ForestDocument& document) {
-    return make(options, {&edits, known}, console, document);
-}
-
-std::vector<std::string> files_of(const ViewOptions& options, const ForestDocument& document) {
-    std::vector<std::string> files = options.forest.files;
-    if (!options.forest.density_map.empty()) {
-        files.push_back(options.forest.density_map);
-    }
-    for (const std::string& file : document.grown.files) {
-        if (std::find(files.begin(), files.end(), file) == files.end()) {
-            files.push_back(file);
-        }
-    }
-    return files;
+Outcome<std::shared_ptr<ForestDocument>> make_live_forest(const ViewOptions& options,
+                                                          const ForestEdits& edits,
+                                                          const ForestDocument* known,
+                                                          const Project& project) {
+    return make(options, &edits, known, project);
 }
 
 Camera overview(const ForestDocument& document, float aspect) {

@@ -1,12 +1,15 @@
-// ForestDocument: a scene and the forest it makes, from the file to meshes of branches. What there
-// is to say on the way is said on the console that is handed in.
+// ForestDocument: a scene and the forest it makes, from the file to meshes of branches.
 #pragma once
 
-#include "runtime/program/console.h"
+#include "grammar/base/outcome.h"
 #include "runtime/pipeline/forest.h"
 #include "viewer/app/forest_edits.h"
 #include "viewer/app/options.h"
 #include "viewer/scene/forest_model.h"
+
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace lsys::view {
 
@@ -15,27 +18,22 @@ struct ForestDocument {
     GrownForest grown;
     ForestModel model; // of `grown`, which must not move
     MeshOptions mesh_options;
+    std::vector<std::string> files; // that it is made of, where they were recorded
     double parse_seconds = 0.0;
     double mesh_seconds = 0.0;
 };
 
-/// Reads, derives, places and meshes. Fine: all of it is there.
-[[nodiscard]] ExitStatus make_forest_document(const ViewOptions& options,
-                                               const Console& console,
-                                               ForestDocument& document);
+/// Reads, derives, places and meshes.
+[[nodiscard]] Outcome<std::shared_ptr<ForestDocument>>
+make_forest_document(const ViewOptions& options, const Project& project);
 
 /// The same for a window: with what was set there, and with all trees that were placed. Those that
-/// `scene.painting` says were erased or painted come and go later. What `known`, which may be none,
-/// has of the heroes is taken from there.
-[[nodiscard]] ExitStatus make_live_forest(const ViewOptions& options,
-                                           const ForestEdits& edits,
-                                           const ForestDocument* known,
-                                           const Console& console,
-                                           ForestDocument& document);
-
-/// Files that the document is made of, or would have been.
-[[nodiscard]] std::vector<std::string> files_of(const ViewOptions& options,
-                                                const ForestDocument& document);
+/// `scene.painting` says were erased or painted come and go later. Heroes that `known`, which may
+/// be null, has are taken from there.
+[[nodiscard]] Outcome<std::shared_ptr<ForestDocument>> make_live_forest(const ViewOptions& options,
+                                                                        const ForestEdits& edits,
+                                                                        const ForestDocument* known,
+                                                                        const Project& project);
 
 /// Where a forest is seen from if nobody says: from beside and above, all of it in view.
 [[nodiscard]] Camera overview(const ForestDocument& document, float aspect);

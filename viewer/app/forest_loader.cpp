@@ -1,45 +1,43 @@
 #include "viewer/app/forest_loader.h"
 
-#include "runtime/program/console.h"
 #include "runtime/pipeline/stopwatch.h"
+#include "runtime/program/host.h"
+#include "viewer/app/recorded_host.h"
 
 #include <new>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 namespace lsys::view {
 
-ForestOutcome make_forest(const ForestRequest& request, const std::atomic<bool>& given_up) {
+ForestOutcome make_forest(const ForestRequest& request, const std::atomic<bool>& cancelled) {
     ForestOutcome outcome;
     outcome.request = request;
-    std::istringstream in;
-    std::ostringstream out;
-    std::ostringstream messages;
-    MessageOptions shown = request.options.messages;
-    shown.colour = ColourMode::Never;
-    const Console console({in, out, messages, false, &given_up, "lsview"}, shown);
-    const SteadyClock::time_point start = SteadyClock::now();
-    bool made = false;
-    outcome.document = std::make_shared<ForestDocument>();
-    try {
-        outcome.status = make_live_forest(request.options, request.edits,
-                                          request.again ? nullptr : request.known.get(), console,
-                                          *outcome.document);
-        outcome.files = files_of(request.options, *outcome.document);
-        made = true;
-    } catch (const std::bad_alloc&) {
-        outcome.status = ExitStatus::Limit;
-    } catch (const std::length_error&) { // what a string or vector throws when it cannot be so long
-        outcome.status = ExitStatus::Limit;
+    outcome.files = request.options.files;
+    const ForestDocument* const known = request.again ? nullptr : request.known.get();
+    if (known != nullptr) { // whose heroes may be taken, without reading their files
+        outcome.files = known->files;
     }
-    if (!made) {
-        console.error("out of memory");
-        outcome.files = request.options.forest.files;
+    const Project project{record_files(make_file_host(&cancelled), outcome.files),
+                          request.options.run.limits, request.options.run.threads, false};
+    const Stopwatch making;
+    bool has_memory = false;
+    try {
+        auto made = make_live_forest(request.options, request.edits, known, project);
+        outcome.messages = std::move(made.messages());
+        if (made) {
+            outcome.document = std::move(made.value());
+            outcome.document->files = outcome.files;
+        }
+        has_memory = true;
+    } catch (const std::bad_alloc&) {
+    } catch (const std::length_error&) { // what a string or vector throws when it cannot be so long
+    }
+    if (!has_memory) {
+        outcome.messages.add_error("out of memory");
     }
     outcome.request.known.reset();
-    outcome.seconds = seconds_since(start);
-    outcome.messages = std::move(messages).str();
+    outcome.seconds = making.seconds();
     return outcome;
 }
 

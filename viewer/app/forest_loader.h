@@ -21,10 +21,9 @@ struct ForestRequest {
 };
 
 struct ForestOutcome {
-    ExitStatus status = ExitStatus::Failure;
-    std::shared_ptr<ForestDocument> document; // what there is of it; all, if Fine
-    std::string messages;                     // as `lsc` prints them, without colour
-    std::vector<std::string> files;
+    std::shared_ptr<ForestDocument> document; // none: it could not be made
+    Messages messages;
+    std::vector<std::string> files; // that it is made of, as far as they are known
     ForestRequest request;
     double seconds = 0.0; // of the making
 };

@@ -92,10 +92,10 @@ std::string stats_text(const ViewOptions& options,
 } // namespace
 
 ExitStatus take_forest_pictures(const ViewOptions& options,
-                                 const Camera& camera,
-                                 const ForestDocument& document,
-                                 Renderer& renderer,
-                                 const Console& console) {
+                                const Camera& camera,
+                                const ForestDocument& document,
+                                Renderer& renderer,
+                                const Console& console) {
     PictureSeries series;
     std::vector<double> cull;
     FrameStats shadow;

@@ -10,9 +10,9 @@ namespace lsys::view {
 
 /// `renderer` shows the forest.
 [[nodiscard]] ExitStatus take_forest_pictures(const ViewOptions& options,
-                                               const Camera& camera,
-                                               const ForestDocument& document,
-                                               Renderer& renderer,
-                                               const Console& console);
+                                              const Camera& camera,
+                                              const ForestDocument& document,
+                                              Renderer& renderer,
+                                              const Console& console);
 
 } // namespace lsys::view

@@ -1,8 +1,8 @@
 #include "viewer/app/live_forest.h"
 
-#include "runtime/program/files.h"
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/stopwatch.h"
+#include "runtime/program/files.h"
 
 #include <fmt/format.h>
 
@@ -69,7 +69,7 @@ LiveForest::LiveForest(const ViewOptions& options,
              [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
                  files_changed(files, since);
              }) {
-    files_ = options_.forest.files;
+    files_ = options_.files;
     watch_files();
 }
 
@@ -151,10 +151,10 @@ void LiveForest::ask() {
 }
 
 void LiveForest::take_outcome(ForestOutcome outcome) {
-    if (outcome.request.options.forest.files != options_.forest.files) {
+    if (outcome.request.options.files != options_.files) {
         return; // another one is on its way
     }
-    const bool fine = outcome.status == ExitStatus::Ok;
+    const bool fine = outcome.document != nullptr;
     take_messages(outcome.messages, fine);
     if (fine) {
         files_ = outcome.files;
@@ -301,8 +301,8 @@ void LiveForest::play_or_pause() {
 
 void LiveForest::open(const std::string& file) {
     options_.file = file;
-    options_.forest = {};
-    options_.forest.files = {file};
+    options_.overrides = {};
+    options_.files = {file};
     settings.edits = {};
     settings.grows = false;
     frames_next_ = true;
@@ -412,7 +412,7 @@ void LiveForest::save() {
         return;
     }
     saved_text_ = painting_.saved_text();
-    const lsc::ForestCommand& given = options_.forest;
+    const SceneOverrides& given = options_.overrides;
     const bool is_other_placement = settings.edits.changes_placement() || given.key ||
                                     given.method || given.count || given.size || given.spacing ||
                                     given.density || given.years || given.tile ||

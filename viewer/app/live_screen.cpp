@@ -1,7 +1,7 @@
 #include "viewer/app/live_screen.h"
 
-#include "runtime/program/files.h"
 #include "runtime/meshing/texture.h"
+#include "runtime/program/files.h"
 #include "viewer/app/shader_folder.h"
 
 #include <fmt/format.h>
@@ -16,10 +16,44 @@ namespace lsys::view {
 LiveScreen::LiveScreen(const ViewOptions& options, const Console& console, Renderer& renderer)
     : options_(options), console_(console), renderer_(&renderer) {}
 
-void LiveScreen::take_messages(const std::string& messages, bool fine) {
-    if (messages != messages_) {
-        messages_ = messages;
-        console_.io().err << messages_ << std::flush;
+namespace {
+
+/// One entry a diagnostic; other messages are a line each.
+std::vector<ShownMessage> entries_of(const Messages& messages) {
+    std::vector<ShownMessage> entries;
+    for (const Message& message : messages.all()) {
+        if (message.kind == Message::Kind::Error) {
+            entries.push_back({Severity::Error, "error: " + message.text, {}});
+        } else if (message.kind == Message::Kind::Info || message.kind == Message::Kind::Help) {
+            entries.push_back({Severity::Note, message.text, {}});
+        }
+        const SourceMap none;
+        const SourceMap& sources = message.sources ? *message.sources : none;
+        for (const Diagnostic& diagnostic : message.diagnostics.all()) {
+            ShownMessage& entry = entries.emplace_back();
+            entry.severity = diagnostic.severity;
+            render(diagnostic, sources, {MessageFormat::Short}, entry.head);
+            render(diagnostic, sources, {MessageFormat::Human}, entry.text);
+            entry.head.erase(entry.head.find_last_not_of('\n') + 1);
+            // The frame below the head repeats its first line.
+            entry.text.erase(0, entry.text.find('\n') + 1);
+            constexpr std::size_t kMostEntries = 50; // as a terminal shows
+            if (entries.size() >= kMostEntries) {
+                return entries;
+            }
+        }
+    }
+    return entries;
+}
+
+} // namespace
+
+void LiveScreen::take_messages(const Messages& messages, bool fine) {
+    std::string text = messages_text(messages, options_.messages, "lsview");
+    if (text != text_) {
+        text_ = std::move(text);
+        entries_ = entries_of(messages);
+        console_.io().err << text_ << std::flush;
     }
     failed_ = !fine;
 }

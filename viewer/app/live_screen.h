@@ -2,6 +2,7 @@
 // shaders. A context has to be current whenever it is called.
 #pragma once
 
+#include "grammar/base/outcome.h"
 #include "runtime/program/console.h"
 #include "viewer/app/options.h"
 #include "viewer/gl/renderer.h"
@@ -10,8 +11,16 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lsys::view {
+
+/// A message of the overlay.
+struct ShownMessage {
+    Severity severity = Severity::Note;
+    std::string head; // `file:line:column: severity: message [code]`
+    std::string text; // the whole, with the lines of the source that it speaks of
+};
 
 class LiveScreen {
 public:
@@ -44,8 +53,10 @@ public:
     void write_screenshot();
     void say(const std::string& note);
 
-    /// What `lsc` says of what was asked for last.
-    [[nodiscard]] const std::string& messages() const { return messages_; }
+    /// The messages of the last request, as `lsc` prints them.
+    [[nodiscard]] const std::string& messages() const { return text_; }
+    /// The same one by one.
+    [[nodiscard]] const std::vector<ShownMessage>& entries() const { return entries_; }
     /// It could not be shown.
     [[nodiscard]] bool failed() const { return failed_; }
     [[nodiscard]] const std::string& shader_message() const { return shader_message_; }
@@ -56,8 +67,8 @@ public:
 protected:
     /// As draw().
     bool draw_frame(const Frame& frame);
-    /// Says what is new of it.
-    void take_messages(const std::string& messages, bool fine);
+    /// Keeps the messages of a request; prints them unless they are those of the last one.
+    void take_messages(const Messages& messages, bool fine);
     void ask_for_shaders() { shaders_changed_ = true; }
     /// If they have changed. Returns whether there is something to say.
     bool reload_shaders();
@@ -76,7 +87,8 @@ protected:
     bool changed_ = true;
 
 private:
-    std::string messages_;
+    std::string text_;
+    std::vector<ShownMessage> entries_;
     std::string note_;
     bool failed_ = false;
     std::atomic<bool> shaders_changed_{false};

@@ -48,7 +48,7 @@ LiveSettings first_settings(const ViewOptions& options) {
         settings.bending.forces.gravity = options.gravity.value_or(0.0F);
     }
     settings.bending.forces.wind = options.wind.value_or(Wind{});
-    settings.bending.forces.threads = options.threads;
+    settings.bending.forces.threads = options.run.threads;
     return settings;
 }
 
@@ -80,7 +80,8 @@ LiveView::LiveView(const ViewOptions& options,
 ViewOptions LiveView::wanted() const {
     ViewOptions wanted = options_;
     wanted.file = settings.file;
-    wanted.grammar.definitions = settings.definitions;
+    wanted.grammar.definitions = {};
+    wanted.grammar.optional_definitions = settings.definitions;
     wanted.grammar.generations = settings.generations;
     wanted.seed = settings.seed;
     wanted.mesh = settings.mesh;
@@ -88,8 +89,8 @@ ViewOptions LiveView::wanted() const {
 }
 
 std::uint32_t LiveView::usual_generations() const {
-    const auto& bytecode = document_ == nullptr ? std::nullopt : document_->grammar.bytecode;
-    const std::uint32_t own = bytecode ? bytecode->generations.value_or(0) : 0;
+    const std::uint32_t own =
+        document_ == nullptr ? 0 : document_->grammar.bytecode.generations.value_or(0);
     return options_.file == settings.file ? options_.grammar.generations.value_or(own) : own;
 }
 
@@ -123,10 +124,7 @@ void LiveView::take_outcome(LoadOutcome outcome) {
     if (outcome.options.file != settings.file) {
         return; // another one is on its way
     }
-    const bool fine = outcome.status == ExitStatus::Ok;
-    if (!fine && drop_unknown_definitions(*outcome.document)) {
-        return;
-    }
+    const bool fine = outcome.document != nullptr;
     take_messages(outcome.messages, fine);
     if (fine) {
         files_ = outcome.files;
@@ -142,28 +140,26 @@ void LiveView::take_outcome(LoadOutcome outcome) {
     watch_files();
 }
 
-/// A constant that was set here and is no longer in the file.
-bool LiveView::drop_unknown_definitions(const PlantDocument& document) {
-    if (!document.grammar.program) {
-        return false;
+/// Forgets values of constants that the file no longer has.
+void LiveView::drop_unknown_definitions() {
+    if (!document_->grammar.program) {
+        return;
     }
     const auto is_unknown = [&](const Definition& definition) {
-        const std::vector<Constant>& constants = document.grammar.program->constants;
-        const std::vector<Definition>& given = options_.grammar.definitions;
-        return std::none_of(constants.begin(), constants.end(),
-                            [&](const Constant& constant) {
-                                return document.grammar.names.text(constant.name) ==
-                                       definition.name;
-                            }) &&
-               std::none_of(given.begin(), given.end(),
-                            [&](const Definition& one) { return one.name == definition.name; });
+        const std::vector<Constant>& constants = document_->grammar.program->constants;
+        return std::none_of(constants.begin(), constants.end(), [&](const Constant& constant) {
+            return document_->grammar.names.text(constant.name) == definition.name;
+        });
     };
-    return std::erase_if(settings.definitions, is_unknown) != 0;
+    if (std::erase_if(settings.definitions, is_unknown) != 0 && asked_) {
+        asked_->definitions = settings.definitions; // the plant is the same
+    }
 }
 
 void LiveView::swap(LoadOutcome outcome) {
     const SteadyClock::time_point start = SteadyClock::now();
     document_ = outcome.document;
+    drop_unknown_definitions();
     motion_.reset();
     bending_.reset();
     renderer_->show_plant(document_->mesh);
@@ -172,7 +168,7 @@ void LiveView::swap(LoadOutcome outcome) {
         settings.camera = first_view(settings.camera, renderer_->bounds(), aspect_);
     }
     if (std::exchange(is_new_file_, false)) {
-        settings.bending.forces.damping = document_->grammar.bytecode->settings.damping;
+        settings.bending.forces.damping = document_->grammar.bytecode.settings.damping;
     }
     stats_.upload_seconds = seconds_since(start);
     stats_.make_seconds = outcome.seconds;
@@ -239,8 +235,8 @@ void LiveView::bend() {
     if (motion_ == nullptr) {
         bent_ = {};
         MeshOptions mesh = settings.mesh;
-        mesh.threads = options_.threads;
-        mesh.max_bytes = options_.max_bytes;
+        mesh.threads = options_.run.threads;
+        mesh.max_bytes = options_.run.limits.max_bytes;
         motion_ = std::make_unique<PlantMotion>(document_, settings.bending, mesh, wake_);
         bending_ = settings.bending;
     } else if (!is_same(*bending_, settings.bending)) {

@@ -93,7 +93,7 @@ private:
     void watch_files();
     void grow();
     void bend();
-    bool drop_unknown_definitions(const PlantDocument& document);
+    void drop_unknown_definitions();
     [[nodiscard]] ViewOptions wanted() const;
 
     std::function<void()> wake_;

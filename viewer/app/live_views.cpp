@@ -52,8 +52,8 @@ void LiveViews::open(const std::string& file) {
     ViewOptions options = options_;
     options.file = file;
     options.is_forest = is_forest;
-    options.forest = {};
-    options.forest.files = {file};
+    options.overrides = {};
+    options.files = {file};
     options.grammar.definitions.clear();
     options.grammar.generations.reset();
     options.grammar.dialect.clear();

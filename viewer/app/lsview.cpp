@@ -1,6 +1,7 @@
 #include "viewer/app/lsview.h"
 
 #include "runtime/program/console.h"
+#include "runtime/program/host.h"
 #include "viewer/app/forest_document.h"
 #include "viewer/app/forest_pictures.h"
 #include "viewer/app/options.h"
@@ -24,9 +25,6 @@
 namespace lsys::view {
 
 namespace {
-
-using Console;
-using ExitStatus;
 
 /// A renderer without a window, and the context that it draws in.
 struct HiddenRenderer {
@@ -53,11 +51,13 @@ ExitStatus make_renderer(const ViewOptions& options, const Console& console, Hid
 
 ExitStatus
 run_forest_pictures(const ViewOptions& options, const Camera& camera, const Console& console) {
-    ForestDocument document;
-    ExitStatus status = make_forest_document(options, console, document);
+    std::shared_ptr<ForestDocument> made_document;
+    ExitStatus status = console.take(
+        make_forest_document(options, make_project(console, options.run)), made_document);
     if (status != ExitStatus::Ok) {
         return status;
     }
+    ForestDocument& document = *made_document;
     const Camera from = above_ground(
         options.camera.empty() ? overview(document, static_cast<float>(options.width) /
                                                         static_cast<float>(options.height))
@@ -77,11 +77,13 @@ run_forest_pictures(const ViewOptions& options, const Camera& camera, const Cons
 
 ExitStatus
 run_plant_pictures(const ViewOptions& options, const Camera& camera, const Console& console) {
-    PlantDocument document;
-    ExitStatus status = make_plant_document(options, console, document);
+    std::shared_ptr<const PlantDocument> made_document;
+    ExitStatus status = console.take(
+        make_plant_document(options, make_project(console, options.run)), made_document);
     if (status != ExitStatus::Ok) {
         return status;
     }
+    const PlantDocument& document = *made_document;
     HiddenRenderer made;
     status = make_renderer(options, console, made);
     if (status != ExitStatus::Ok) {

@@ -2,7 +2,7 @@
 // exit status as the executable.
 #pragma once
 
-#include "runtime/cli/lsc.h"
+#include "runtime/program/io.h"
 
 #include <span>
 #include <string>

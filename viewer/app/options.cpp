@@ -1,8 +1,7 @@
 #include "viewer/app/options.h"
 
-#include "runtime/program/arguments.h"
 #include "runtime/pipeline/forest.h"
-#include "runtime/program/option_parsers.h"
+#include "runtime/program/arguments.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,10 +13,6 @@
 namespace lsys::view {
 
 namespace {
-
-using add_parsed;
-using parse_number;
-using whole;
 
 constexpr std::uint64_t kMostPixels = 16'384; // along a side of a picture
 constexpr std::uint64_t kMostFrames = 1'000'000;
@@ -95,10 +90,10 @@ void add_picture(CLI::App& app, ViewOptions& options) {
     app.add_flag("!--no-ground", options.ground, "Without the ground under a plant")
         ->group("Picture");
     add_choice<PlantStyle>(app, "--style", options.style,
-                                {{"surface", PlantStyle::Surface},
-                                 {"wireframe", PlantStyle::Wireframe},
-                                 {"none", PlantStyle::None}},
-                                "Surfaces (default), edges of their triangles, or neither")
+                           {{"surface", PlantStyle::Surface},
+                            {"wireframe", PlantStyle::Wireframe},
+                            {"none", PlantStyle::None}},
+                           "Surfaces (default), edges of their triangles, or neither")
         ->group("Picture");
     app.add_flag_callback(
            "--wireframe", [&options] { options.style = PlantStyle::Wireframe; },
@@ -151,7 +146,7 @@ void add_bending(CLI::App& app, ViewOptions& options) {
 }
 
 /// Whether any option is of forests alone.
-bool asks_for_forest(const lsc::ForestCommand& forest) {
+bool asks_for_forest(const SceneOverrides& forest) {
     return forest.key || forest.heroes || forest.rho || forest.cache_cap || forest.tolerance ||
            forest.method || forest.count || forest.size || forest.spacing || forest.density ||
            forest.years || forest.tile || !forest.density_map.empty();
@@ -163,16 +158,16 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     ViewOptions options;
     CLI::App app("Shows plants and forests of L-systems, live in a window or as pictures.",
                  "lsview");
-    app.add_option("FILE", options.forest.files,
+    app.add_option("FILE", options.files,
                    "A grammar or a .lsb file; a scene (.toml), or the grammars of a forest")
         ->required();
     add_picture(app, options);
-    add_grammar(app, options.grammar);
+    add_grammar(app, options.grammar, options.run);
     add_seed(app, options.seed);
     add_bending(app, options);
-    lsc::add_forest_scene(app, options.forest, "--forest-size");
+    add_scene_overrides(app, options.overrides, "--forest-size");
     add_mesh(app, options.mesh);
-    add_run_limits(app, options.max_bytes, options.threads);
+    add_run_limits(app, options.run);
     add_messages(app, options.messages);
     app.set_version_flag("--version", "lsview " LSC_VERSION, "Print the version and exit");
     app.footer(
@@ -194,27 +189,26 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     } catch (const CLI::ParseError& error) {
         return describe(error, app, "lsview");
     }
-    options.file = options.forest.files.front();
-    options.is_forest = options.forest.files.size() > 1 || is_scene(options.file) ||
-                        asks_for_forest(options.forest);
+    options.file = options.files.front();
+    options.is_forest =
+        options.files.size() > 1 || is_scene(options.file) || asks_for_forest(options.overrides);
     if (options.is_forest && options.gravity) {
         return UsageError{"--gravity bends a plant, not a forest", "leave it out"};
     }
     if ((options.frames != 0 || !options.stats.empty()) && options.screenshot.empty()) {
-        return UsageError{"--frames and --stats belong to pictures",
-                               "add `--screenshot FILE`"};
+        return UsageError{"--frames and --stats belong to pictures", "add `--screenshot FILE`"};
     }
     if (options.turntable && options.frames == 0) {
         return UsageError{"--turntable is a series of pictures", "add `--frames N`"};
     }
     if (options.frames != 0 && options.screenshot == "-") {
         return UsageError{"a series of pictures does not go to standard output",
-                               "write `--screenshot FILE`"};
+                          "write `--screenshot FILE`"};
     }
     if (options.file == "-" && options.screenshot.empty()) {
         return UsageError{"a window reads its file again and again, so it cannot show "
-                               "standard input",
-                               "add `--screenshot FILE`, or write the grammar to a file"};
+                          "standard input",
+                          "add `--screenshot FILE`, or write the grammar to a file"};
     }
     return options;
 }

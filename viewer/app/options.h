@@ -1,10 +1,13 @@
-// What the command line of lsview asks for.
+// The command line of lsview.
 #pragma once
 
-#include "runtime/cli/command_line.h"
-#include "runtime/cli/options.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/physics/physics.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/scene_overrides.h"
+#include "runtime/program/message_options.h"
+#include "runtime/program/option_parsers.h"
+#include "runtime/program/run_options.h"
 #include "viewer/gl/renderer.h"
 #include "viewer/scene/camera.h"
 
@@ -13,6 +16,7 @@
 #include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace lsys::view {
 
@@ -20,12 +24,12 @@ struct ViewOptions {
     MessageOptions messages;
     GrammarOptions grammar;
     std::optional<std::uint64_t> seed;
-    std::string file;          // the first one
-    bool is_forest = false;    // a scene, or grammars with options of forests
-    lsc::ForestCommand forest; // its files and what takes the place of what a scene says
+    std::vector<std::string> files; // a grammar, a scene, or the grammars of a forest
+    std::string file;               // the first of them
+    bool is_forest = false;         // a scene, or grammars with options of forests
+    SceneOverrides overrides;       // of a forest; without grammar and seed, which are above
     MeshOptions mesh;
-    std::uint32_t threads = 0;
-    std::uint64_t max_bytes = 0;
+    RunOptions run;
 
     std::string camera; // to_text() of a Camera or parts of one; empty: all is in view
     std::uint32_t width = 1280;

@@ -10,6 +10,7 @@
 #include <imgui.h>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace lsys::view {
 
@@ -94,35 +95,59 @@ void draw_statistics(LiveViews& views, const Area& area) {
     ImGui::End();
 }
 
-/// What `lsc` says, as it is printed.
+const ImVec4 kErrorColour{1.0F, 0.72F, 0.66F, 1.0F};
+const ImVec4 kWarningColour{1.0F, 0.93F, 0.7F, 1.0F};
+
+/// A message that opens on a click and shows the lines of the source that it speaks of.
+void draw_message(const ShownMessage& message, int number, bool is_first) {
+    ImGui::PushID(number);
+    ImGui::PushStyleColor(ImGuiCol_Text,
+                          message.severity == Severity::Error ? kErrorColour : kWarningColour);
+    if (message.text.empty()) {
+        line(message.head);
+    } else {
+        ImGui::SetNextItemOpen(is_first, ImGuiCond_Appearing);
+        if (ImGui::TreeNodeEx("message", ImGuiTreeNodeFlags_SpanFullWidth, "%s",
+                              message.head.c_str())) {
+            line(message.text);
+            ImGui::TreePop();
+        }
+    }
+    ImGui::PopStyleColor();
+    ImGui::PopID();
+}
+
+/// The messages of `lsc`, of the shaders and of OpenGL.
 void draw_messages(const LiveScreen& view, const Area& area) {
-    std::string text = view.messages();
+    std::vector<ShownMessage> errors;
     if (!view.shader_message().empty()) {
-        text += "lsview: error: " + view.shader_message() + '\n';
+        errors.push_back({Severity::Error, "error: " + view.shader_message(), {}});
     }
     for (const std::string& error : view.renderer().errors()) {
-        text += "lsview: error: OpenGL: " + error + '\n';
+        errors.push_back({Severity::Error, "error: OpenGL: " + error, {}});
     }
-    if (text.empty()) {
+    if (view.entries().empty() && errors.empty()) {
         return;
     }
     const float width = std::max(area.high.x - area.low.x - 16.0F, 100.0F);
-    const ImVec2 wanted = ImGui::CalcTextSize(text.data(), text.data() + text.size());
-    const float bar = ImGui::GetStyle().ScrollbarSize + 2.0F * ImGui::GetStyle().WindowPadding.y;
     ImGui::SetNextWindowPos({area.low.x + 8.0F, area.high.y - 8.0F}, ImGuiCond_Always,
                             {0.0F, 1.0F});
-    ImGui::SetNextWindowSize({width, std::min(wanted.y + bar, 0.5F * area.high.y)});
+    ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, 0.5F * area.high.y});
     ImGui::SetNextWindowBgAlpha(0.85F);
-    constexpr ImGuiWindowFlags kFlags =
-        (kOverlay & ~ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_HorizontalScrollbar;
-    const bool failed = view.failed() || !view.shader_message().empty();
-    ImGui::PushStyleColor(ImGuiCol_Text, failed ? ImVec4(1.0F, 0.72F, 0.66F, 1.0F)
-                                                : ImVec4(1.0F, 0.93F, 0.7F, 1.0F));
+    constexpr ImGuiWindowFlags kFlags = (kOverlay & ~ImGuiWindowFlags_NoScrollbar) |
+                                        ImGuiWindowFlags_HorizontalScrollbar |
+                                        ImGuiWindowFlags_AlwaysAutoResize;
     if (ImGui::Begin("Messages", nullptr, kFlags)) {
-        line(text);
+        int number = 0;
+        for (const ShownMessage& message : view.entries()) {
+            draw_message(message, number, number == 0);
+            ++number;
+        }
+        for (const ShownMessage& message : errors) {
+            draw_message(message, number++, false);
+        }
     }
     ImGui::End();
-    ImGui::PopStyleColor();
 }
 
 void draw_help(std::span<const KeyHelp> keys, PanelState& panels, const Area& area) {

@@ -1,7 +1,7 @@
 #include "viewer/app/picture_series.h"
 
-#include "runtime/program/files.h"
 #include "runtime/meshing/texture.h"
+#include "runtime/program/files.h"
 
 #include <fmt/format.h>
 
@@ -86,12 +86,12 @@ Frame frame_of(const ViewOptions& options, const Camera& camera) {
 }
 
 ExitStatus take_series(const ViewOptions& options,
-                        Frame frame,
-                        Renderer& renderer,
-                        const Console& console,
-                        const std::function<ExitStatus(const Frame& frame)>& prepare,
-                        const std::function<void(const Frame& frame)>& after,
-                        PictureSeries& series) {
+                       Frame frame,
+                       Renderer& renderer,
+                       const Console& console,
+                       const std::function<ExitStatus(const Frame& frame)>& prepare,
+                       const std::function<void(const Frame& frame)>& after,
+                       PictureSeries& series) {
     const Camera camera = frame.camera;
     const std::uint32_t count = std::max(options.frames, 1U);
     for (std::uint32_t i = 0; i < count; ++i) {

@@ -32,12 +32,12 @@ struct PictureSeries {
 /// empty, is called before each with its frame; other than Fine ends the series. So is `after`,
 /// after each was drawn. Fails if OpenGL reports an error.
 [[nodiscard]] ExitStatus take_series(const ViewOptions& options,
-                                      Frame frame,
-                                      Renderer& renderer,
-                                      const Console& console,
-                                      const std::function<ExitStatus(const Frame& frame)>& prepare,
-                                      const std::function<void(const Frame& frame)>& after,
-                                      PictureSeries& series);
+                                     Frame frame,
+                                     Renderer& renderer,
+                                     const Console& console,
+                                     const std::function<ExitStatus(const Frame& frame)>& prepare,
+                                     const std::function<void(const Frame& frame)>& after,
+                                     PictureSeries& series);
 
 /// Writes the text where --stats says.
 [[nodiscard]] ExitStatus

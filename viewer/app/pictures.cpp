@@ -1,6 +1,7 @@
 #include "viewer/app/pictures.h"
 
 #include "runtime/physics/physics.h"
+#include "runtime/program/host.h"
 #include "viewer/app/picture_series.h"
 
 #include <fmt/format.h>
@@ -28,8 +29,8 @@ public:
         PhysicsOptions forces;
         forces.gravity = options.gravity.value_or(0.0F);
         forces.wind = options.wind.value_or(Wind{});
-        forces.damping = document.grammar.bytecode->settings.damping;
-        forces.threads = options.threads;
+        forces.damping = document.grammar.bytecode.settings.damping;
+        forces.threads = options.run.threads;
         // Whole steps from one frame to the next.
         const double steps = std::max(1.0, std::ceil(kStepsPerSecond * seconds_of_frame_));
         forces.time_step = static_cast<float>(seconds_of_frame_ / steps);
@@ -92,24 +93,23 @@ std::string stats_text(const ViewOptions& options,
 } // namespace
 
 ExitStatus take_pictures(const ViewOptions& options,
-                          const Camera& camera,
-                          PlantDocument& document,
-                          Renderer& renderer,
-                          const Console& console) {
+                         const Camera& camera,
+                         const PlantDocument& document,
+                         Renderer& renderer,
+                         const Console& console) {
     Motion motion(options, document);
     Skeleton pose;
-    MeshOptions mesh_options = options.mesh;
-    mesh_options.threads = options.threads;
-    mesh_options.max_bytes = options.max_bytes;
+    Mesh mesh;
+    const Project project = make_project(console, options.run);
     std::function<ExitStatus(const Frame&)> prepare;
     if (motion.moves()) {
         prepare = [&](const Frame& frame) {
             motion.go_to(frame.time);
             motion.pose(pose);
-            const ExitStatus status = mesh_plant(document.plant, pose, mesh_options,
-                                                       document.grammar, console, document.mesh);
+            const ExitStatus status =
+                console.take(mesh_plant(document.plant, pose, options.mesh, project), mesh);
             if (status == ExitStatus::Ok) {
-                renderer.show_plant(document.mesh);
+                renderer.show_plant(mesh);
                 renderer.show_lines(make_lines(pose, options.lines));
             }
             return status;

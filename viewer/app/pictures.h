@@ -9,9 +9,9 @@
 namespace lsys::view {
 
 [[nodiscard]] ExitStatus take_pictures(const ViewOptions& options,
-                                        const Camera& camera,
-                                        PlantDocument& document,
-                                        Renderer& renderer,
-                                        const Console& console);
+                                       const Camera& camera,
+                                       const PlantDocument& document,
+                                       Renderer& renderer,
+                                       const Console& console);
 
 } // namespace lsys::view

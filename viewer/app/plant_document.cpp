@@ -1,65 +1,41 @@
 #include "viewer/app/plant_document.h"
 
+#include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
 
-#include <chrono>
-#include <filesystem>
+#include <utility>
 
 namespace lsys::view {
 
-ExitStatus make_plant_document(const ViewOptions& options,
-                                const Console& console,
-                                PlantDocument& document) {
-    SteadyClock::time_point start = SteadyClock::now();
-    ExitStatus status =
-        load_grammar(options.file, options.grammar, console, document.grammar);
-    if (status != ExitStatus::Ok) {
-        return status;
+Outcome<std::shared_ptr<const PlantDocument>> make_plant_document(const ViewOptions& options,
+                                                                  const Project& project) {
+    Step step(project);
+    const auto document = std::make_shared<PlantDocument>();
+    const Stopwatch loading;
+    if (!step.take(load_grammar(options.file, options.grammar, project), document->grammar)) {
+        return step.end();
     }
-    document.load_seconds = seconds_since(start);
-    if (console.interrupted()) {
-        return ExitStatus::Interrupted;
+    document->load_seconds = loading.seconds();
+    if (project.is_cancelled()) {
+        return step.end(Stop::Cancelled);
     }
-    lsc::PlantRequest request;
-    request.file = options.file;
-    request.generations = options.grammar.generations;
-    request.seed = options.seed;
-    request.threads = options.threads;
-    request.max_modules = options.grammar.max_modules;
-    request.max_bytes = options.max_bytes;
-    status = grow_plant(request, document.grammar, console, document.plant);
-    if (status != ExitStatus::Ok) {
-        return status;
+    PlantOptions plant;
+    plant.file = options.file;
+    plant.generations = options.grammar.generations;
+    plant.seed = options.seed;
+    if (!step.take(grow_plant(plant, document->grammar, project), document->plant)) {
+        return step.end();
     }
-    if (console.interrupted()) {
-        return ExitStatus::Interrupted;
+    if (project.is_cancelled()) {
+        return step.end(Stop::Cancelled);
     }
-    start = SteadyClock::now();
-    MeshOptions mesh = options.mesh;
-    mesh.threads = options.threads;
-    mesh.max_bytes = options.max_bytes;
-    status = mesh_plant(document.plant, document.plant.skeleton, mesh, document.grammar,
-                             console, document.mesh);
-    document.mesh_seconds = seconds_since(start);
-    return status;
-}
-
-std::vector<std::string> files_of(const ViewOptions& options, const PlantDocument& document) {
-    std::vector<std::string> files = {options.file};
-    const std::vector<std::string>& included = document.grammar.included;
-    files.insert(files.end(), included.begin(), included.end());
-    if (document.grammar.bytecode) {
-        const std::filesystem::path folder = std::filesystem::path(options.file).parent_path();
-        for (const BytecodeSymbol& symbol : document.grammar.bytecode->symbols) {
-            if (symbol.turtle == TurtleOperation::MeshFile) {
-                files.push_back((folder / symbol.mesh_file).string());
-            }
-        }
+    const Stopwatch meshing;
+    if (!step.take(mesh_plant(document->plant, document->plant.skeleton, options.mesh, project),
+                   document->mesh)) {
+        return step.end();
     }
-    for (const UserMesh& mesh : document.plant.user_meshes) {
-        files.insert(files.end(), mesh.files.begin(), mesh.files.end());
-    }
-    return files;
+    document->mesh_seconds = meshing.seconds();
+    return step.done<std::shared_ptr<const PlantDocument>>(document);
 }
 
 } // namespace lsys::view

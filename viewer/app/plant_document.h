@@ -1,15 +1,13 @@
-// PlantDocument: a grammar and the plant it makes, from the file to triangles. What there is to say
-// on the way is said on the console that is handed in, so that a window can show it.
+// PlantDocument: a grammar and the plant it makes, from the file to triangles.
 #pragma once
 
-#include "runtime/program/console.h"
+#include "grammar/base/outcome.h"
+#include "runtime/meshing/mesh.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/plant.h"
-#include "runtime/meshing/mesh.h"
 #include "viewer/app/options.h"
 
-#include <string>
-#include <vector>
+#include <memory>
 
 namespace lsys::view {
 
@@ -21,15 +19,8 @@ struct PlantDocument {
     double mesh_seconds = 0.0;
 };
 
-/// Reads, compiles, derives, draws and meshes. Fine: all of it is there. Else what was made until
-/// then is.
-[[nodiscard]] ExitStatus make_plant_document(const ViewOptions& options,
-                                              const Console& console,
-                                              PlantDocument& document);
-
-/// The files that the document was made of, as far as they are known: the grammar, what it
-/// includes, the meshes of its `#object`.
-[[nodiscard]] std::vector<std::string> files_of(const ViewOptions& options,
-                                                const PlantDocument& document);
+/// Reads, compiles, derives, draws and meshes.
+[[nodiscard]] Outcome<std::shared_ptr<const PlantDocument>>
+make_plant_document(const ViewOptions& options, const Project& project);
 
 } // namespace lsys::view

@@ -1,10 +1,11 @@
 #include "viewer/app/plant_loader.h"
 
-#include "runtime/program/console.h"
+#include "runtime/pipeline/stopwatch.h"
+#include "runtime/program/host.h"
+#include "viewer/app/recorded_host.h"
 
 #include <atomic>
 #include <new>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -12,34 +13,29 @@ namespace lsys::view {
 
 namespace {
 
-LoadOutcome make(const LoadRequest& request, const std::atomic<bool>& given_up) {
+LoadOutcome make(const LoadRequest& request, const std::atomic<bool>& cancelled) {
     LoadOutcome outcome;
     outcome.options = request.options;
     outcome.since = request.since;
-    std::istringstream in;
-    std::ostringstream out;
-    std::ostringstream messages;
-    MessageOptions shown = request.options.messages;
-    shown.colour = ColourMode::Never;
-    const Console console({in, out, messages, false, &given_up, "lsview"}, shown);
-    const SteadyClock::time_point start = SteadyClock::now();
+    outcome.files = {request.options.file};
+    const Project project{record_files(make_file_host(&cancelled), outcome.files),
+                          request.options.run.limits, request.options.run.threads, false};
+    const Stopwatch making;
+    bool has_memory = false;
     try {
-        auto document = std::make_shared<PlantDocument>();
-        outcome.status = make_plant_document(request.options, console, *document);
-        outcome.files = files_of(request.options, *document);
-        outcome.document = std::move(document);
+        auto made = make_plant_document(request.options, project);
+        outcome.messages = std::move(made.messages());
+        if (made) {
+            outcome.document = std::move(made.value());
+        }
+        has_memory = true;
     } catch (const std::bad_alloc&) {
-        outcome.status = ExitStatus::Limit;
     } catch (const std::length_error&) { // what a string or vector throws when it cannot be so long
-        outcome.status = ExitStatus::Limit;
     }
-    if (outcome.document == nullptr) {
-        console.error("out of memory");
-        outcome.files = {request.options.file};
-        outcome.document = std::make_shared<PlantDocument>();
+    if (!has_memory) {
+        outcome.messages.add_error("out of memory");
     }
-    outcome.seconds = std::chrono::duration<double>(SteadyClock::now() - start).count();
-    outcome.messages = std::move(messages).str();
+    outcome.seconds = making.seconds();
     return outcome;
 }
 

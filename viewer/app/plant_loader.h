@@ -15,14 +15,12 @@
 namespace lsys::view {
 
 struct LoadOutcome {
-    ExitStatus status = ExitStatus::Failure;
-    /// What there is of it; all, if Fine.
-    std::shared_ptr<const PlantDocument> document;
-    std::string messages; // as `lsc` prints them, without colour
-    std::vector<std::string> files;
-    ViewOptions options;           // what was asked for
-    SteadyClock::time_point since; // what the request began with
-    double seconds = 0.0;          // of the making
+    std::shared_ptr<const PlantDocument> document; // none: it could not be made
+    Messages messages;
+    std::vector<std::string> files; // that it is made of, as far as they are known
+    ViewOptions options;            // of the request
+    SteadyClock::time_point since;  // when the request began
+    double seconds = 0.0;           // of the making
 };
 
 struct LoadRequest {

@@ -26,7 +26,7 @@ void draw_numbers(const LiveView& view) {
     line(fmt::format("{} modules, {} segments", grouped(plant.modules),
                      grouped(plant.skeleton.segments.size())));
     line(fmt::format("{} triangles; profile {}", grouped(document->mesh.indices.size() / 3),
-                     name_of(document->grammar.bytecode->settings.turtle)));
+                     name_of(document->grammar.bytecode.settings.turtle)));
 }
 
 void draw_growth(LiveView& view) {

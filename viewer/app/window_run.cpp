@@ -148,7 +148,7 @@ ExitStatus run_window(const ViewOptions& options, const Console& console) {
     console.detail(fmt::format("--camera \"{}\"", to_text(views.shown().camera())));
     if (!renderer.value()->errors().empty()) {
         return report_error(Error{fmt::format("OpenGL: {}", renderer.value()->errors().front())},
-                         console);
+                            console);
     }
     return ExitStatus::Ok;
 }

@@ -4,7 +4,7 @@
 
 #include "runtime/derive/derive.h"
 #include "runtime/pipeline/grammar.h"
-#include "runtime/pipeline/impl/step.h"
+#include "runtime/pipeline/step.h"
 #include "runtime/turtle/turtle.h"
 
 #include <array>

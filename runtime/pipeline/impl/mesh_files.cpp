@@ -4,7 +4,7 @@
 #include "runtime/meshing/texture.h"
 #include "runtime/meshing/user_mesh.h"
 #include "runtime/pipeline/grammar.h"
-#include "runtime/pipeline/impl/step.h"
+#include "runtime/pipeline/step.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 using namespace lsys;
-using namespace lsys::lsc;
+using namespace lsys;
 
 TEST_CASE("whole numbers are taken within their bounds only") {
     CHECK(parse_whole("0", 0, 9).value() == 0);

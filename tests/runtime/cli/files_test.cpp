@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 using namespace lsys;
-using namespace lsys::lsc;
+using namespace lsys;
 using lsys::tests::read_text;
 using lsys::tests::ScratchFolder;
 using lsys::tests::write_text;

@@ -35,9 +35,9 @@ ViewOptions options_of(const std::string& file) {
     ViewOptions options;
     options.file = file;
     options.is_forest = true;
-    options.forest.files = {file};
-    options.grammar.max_modules = std::uint64_t{1} << 24;
-    options.max_bytes = std::uint64_t{1} << 30;
+    options.files = {file};
+    options.run.limits.max_modules = std::uint64_t{1} << 24;
+    options.run.limits.max_bytes = std::uint64_t{1} << 30;
     options.messages.verbose = true;
     return options;
 }

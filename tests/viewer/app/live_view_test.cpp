@@ -22,7 +22,7 @@ namespace {
 ViewOptions options_of(const std::string& file) {
     ViewOptions options;
     options.file = file;
-    options.max_bytes = std::uint64_t{1} << 30;
+    options.run.limits.max_bytes = std::uint64_t{1} << 30;
     options.messages.verbose = true;
     return options;
 }

@@ -1,3 +1,4 @@
+#include "runtime/program/console.h"
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
 #include "viewer/app/plant_loader.h"
@@ -16,7 +17,7 @@ namespace {
 ViewOptions options_of(const std::string& file) {
     ViewOptions options;
     options.file = file;
-    options.max_bytes = std::uint64_t{1} << 30;
+    options.run.limits.max_bytes = std::uint64_t{1} << 30;
     return options;
 }
 
@@ -42,8 +43,8 @@ TEST_CASE("a loader makes the plant and says which files are behind it") {
     PlantLoader loader([] {});
     loader.request(options_of(sample("teach-include")), SteadyClock::now());
     const LoadOutcome outcome = wait_for(loader);
-    CHECK(outcome.status == ExitStatus::Fine);
-    CHECK(outcome.messages.empty());
+    REQUIRE(outcome.document != nullptr);
+    CHECK(outcome.messages.all().empty());
     CHECK(outcome.document->plant.modules > 0);
     CHECK_FALSE(outcome.document->mesh.indices.empty());
     REQUIRE(outcome.files.size() == 2);
@@ -58,8 +59,10 @@ TEST_CASE("what is wrong is said as lsc says it, and missing files are known") {
     PlantLoader loader([] {});
     loader.request(options_of(folder / "bad.lsys"), SteadyClock::now());
     const LoadOutcome outcome = wait_for(loader);
-    CHECK(outcome.status == ExitStatus::AuthorErrors);
-    CHECK(outcome.messages == run_lsc({"check", folder / "bad.lsys"}, "").err);
+    CHECK(outcome.document == nullptr);
+    CHECK(outcome.messages.has_errors());
+    CHECK(messages_text(outcome.messages, {}, "lsc") ==
+          run_lsc({"check", folder / "bad.lsys"}, "").err);
     CHECK(outcome.files == std::vector<std::string>{folder / "bad.lsys", folder / "none.lsys"});
 }
 
@@ -67,8 +70,8 @@ TEST_CASE("the newest request wins, and what takes long is given up") {
     const ScratchFolder folder;
     write_text(folder / "endless.lsys", kEndless);
     ViewOptions endless = options_of(folder / "endless.lsys");
-    endless.max_bytes = std::uint64_t{1} << 40;
-    endless.grammar.max_modules = std::uint64_t{1} << 42;
+    endless.run.limits.max_bytes = std::uint64_t{1} << 40;
+    endless.run.limits.max_modules = std::uint64_t{1} << 42;
     PlantLoader loader([] {});
     loader.request(endless, SteadyClock::now());
     std::this_thread::sleep_for(50ms); // it is being made
@@ -78,7 +81,7 @@ TEST_CASE("the newest request wins, and what takes long is given up") {
         loader.request(newer, SteadyClock::now());
     }
     const LoadOutcome outcome = wait_for(loader);
-    CHECK(outcome.status == ExitStatus::Fine);
+    REQUIRE(outcome.document != nullptr);
     CHECK(outcome.document->plant.generations == 4);
     CHECK_FALSE(loader.take());
 }
@@ -87,8 +90,8 @@ TEST_CASE("a loader that goes gives up what it makes") {
     const ScratchFolder folder;
     write_text(folder / "endless.lsys", kEndless);
     ViewOptions endless = options_of(folder / "endless.lsys");
-    endless.max_bytes = std::uint64_t{1} << 40;
-    endless.grammar.max_modules = std::uint64_t{1} << 42;
+    endless.run.limits.max_bytes = std::uint64_t{1} << 40;
+    endless.run.limits.max_modules = std::uint64_t{1} << 42;
     const auto start = SteadyClock::now();
     {
         PlantLoader loader([] {});

@@ -1,4 +1,4 @@
-#include "runtime/pipeline/impl/step.h"
+#include "runtime/pipeline/step.h"
 
 #include "runtime/pipeline/grammar.h"
 
