@@ -23,7 +23,7 @@ void parse_text(const PlainText& plain,
 
 /// Parses one file to its end; its includes are parsed within.
 void parse_file(FileId file, const ParseContext& context, Ast& ast, IncludeChain& includes) {
-    parse_text(make_plain(file, context, false), context, ast, includes);
+    parse_text(make_plain(file, context), context, ast, includes);
 }
 
 } // namespace
