@@ -71,7 +71,7 @@ public:
     /// a back quote between them.
     [[nodiscard]] ModuleList quoted_text(ModuleList list, TextRange quoted);
     /// Gives the last module of `list`, which ends with its name, the last `count` arguments;
-    /// `parentheses` goes from `(` to `)`.
+    /// `parentheses` goes from `(` to `)`. Reports a second pair, and one behind no module.
     [[nodiscard]] ModuleList
     module_arguments(ModuleList list, std::uint32_t count, SourceSpan parentheses);
 
@@ -118,6 +118,13 @@ public:
     void take_marks();
 
 private:
+    /// The last name of the module list at hand: whose parameters a parenthesis behind it holds.
+    enum class LastName : std::uint8_t {
+        Lost,  // reported, and no module
+        Empty, // a text without characters
+        Bare,
+        Called, // has its parameters
+    };
     /// How much of the Ast belongs to finished statements.
     struct Mark {
         std::size_t expressions = 0;
@@ -134,6 +141,7 @@ private:
     void take_back_node();
     void begin_node(StatementKind kind, std::size_t index);
     void push_module(NameId name, std::uint32_t begin);
+    [[nodiscard]] bool begin_call(SourceSpan parentheses, CallNode& call);
     std::uint32_t read_plain_arguments(std::uint32_t open, std::uint32_t name_end);
     ExpressionId plain_number(std::uint32_t begin, std::uint32_t end);
     void push_letters(TextRange word);
@@ -159,6 +167,7 @@ private:
 
     std::vector<ExpressionId> arguments_;
     std::uint32_t open_brackets_ = 0; // `[` of the module list at hand
+    LastName last_name_ = LastName::Lost;
     bool spoilt_ = false;             // the statement at hand is not to be kept
     bool has_node_ = false;
     Statement statement_;

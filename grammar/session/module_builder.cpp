@@ -42,11 +42,13 @@ bool is_word(char c) {
 
 ModuleList AstBuilder::empty_modules(SourceSpan where) {
     open_brackets_ = 0;
+    last_name_ = LastName::Lost;
     return {static_cast<std::uint32_t>(ast_.modules.size()), 0, where};
 }
 
 void AstBuilder::push_module(NameId name, std::uint32_t begin) {
     ast_.modules.push_back({static_cast<std::uint32_t>(name), scanned_.source_begin(begin)});
+    last_name_ = LastName::Bare;
 }
 
 ModuleList AstBuilder::modules(ModuleList list, TextRange run) {
@@ -127,6 +129,7 @@ void AstBuilder::push_letters(TextRange word) {
                 report_not_a_letter(diagnostics_, scanned_.span(at, at + 1), c);
                 reported = true;
             }
+            last_name_ = LastName::Lost;
             continue;
         }
         push_module(intern_word(scanned_.text.substr(at, 1)), at);
@@ -139,6 +142,7 @@ ModuleList AstBuilder::quoted_module(ModuleList list, NameId name, SourceSpan sp
         count_bracket(text[0], span);
     }
     ast_.modules.push_back({static_cast<std::uint32_t>(name), span.begin});
+    last_name_ = LastName::Bare;
     list.span = list.count == 0 ? span : join(list.span, span);
     list.count = static_cast<std::uint32_t>(ast_.modules.size()) - list.first;
     return list;
@@ -164,6 +168,9 @@ ModuleList AstBuilder::quoted_text(ModuleList list, TextRange quoted) {
     if (list.count != 0 && quoted.begin == text_end_) {
         push_character("`", quoted.begin);
     }
+    if (quoted.begin + 2 == quoted.end && (list.count == 0 || quoted.begin != text_end_)) {
+        last_name_ = LastName::Empty;
+    }
     for (std::uint32_t at = quoted.begin + 1; at + 1 < quoted.end;) {
         const std::uint32_t length = decode_utf8(scanned_.text.substr(at)).length;
         push_character(scanned_.text.substr(at, length), at);
@@ -178,11 +185,11 @@ ModuleList AstBuilder::quoted_text(ModuleList list, TextRange quoted) {
 
 ModuleList
 AstBuilder::module_arguments(ModuleList list, std::uint32_t count, SourceSpan parentheses) {
-    LSYS_CHECK(list.count != 0);
-    ModuleNode& module = ast_.modules.back();
-    module.name_and_call |= 0x80000000u;
     CallNode call;
-    call.module = static_cast<std::uint32_t>(ast_.modules.size() - 1);
+    if (!begin_call(parentheses, call)) {
+        drop_arguments(count);
+        return list;
+    }
     call.name_end = list.span.end;
     call.open = parentheses.begin;
     call.end = parentheses.end;
@@ -192,13 +199,42 @@ AstBuilder::module_arguments(ModuleList list, std::uint32_t count, SourceSpan pa
     return list;
 }
 
+/// Whether the last module of the list takes `parentheses`. Sets CallNode::module.
+bool AstBuilder::begin_call(SourceSpan parentheses, CallNode& call) {
+    switch (last_name_) {
+    case LastName::Lost:
+        return false;
+    case LastName::Empty:
+        if (diagnostics_.admits(DiagnosticCode::BadQuotedName)) {
+            diagnostics_.add(DiagnosticCode::BadQuotedName, parentheses,
+                             "parameters of a text in back quotes without characters");
+        }
+        return false;
+    case LastName::Called:
+        if (diagnostics_.admits(DiagnosticCode::SyntaxError)) {
+            diagnostics_
+                .add(DiagnosticCode::SyntaxError, parentheses,
+                     "a module has one pair of parentheses, and this is a second one")
+                .help.emplace_back("several parameters are separated by commas: `F(1, 2)`");
+        }
+        return false;
+    case LastName::Bare:
+        break;
+    }
+    ast_.modules.back().name_and_call |= 0x80000000u;
+    call.module = static_cast<std::uint32_t>(ast_.modules.size() - 1);
+    last_name_ = LastName::Called;
+    return true;
+}
+
 /// Reads `(1, 2.5, -3)` from `open` on for the last module; returns where it ends. The scanner has
 /// matched it.
 std::uint32_t AstBuilder::read_plain_arguments(std::uint32_t open, std::uint32_t name_end) {
     const std::string_view text = scanned_.text;
-    ast_.modules.back().name_and_call |= 0x80000000u;
     CallNode call;
-    call.module = static_cast<std::uint32_t>(ast_.modules.size() - 1);
+    if (!begin_call({}, call)) { // of a name that was no module
+        return static_cast<std::uint32_t>(text.find(')', open)) + 1;
+    }
     call.name_end = scanned_.source_end(name_end);
     call.open = scanned_.source_begin(open);
     call.arguments.first = static_cast<std::uint32_t>(ast_.expression_lists.size());
