@@ -42,6 +42,17 @@ void Translation::put(std::string_view text) {
     put(text, here);
 }
 
+std::vector<FileId> Translation::files() const {
+    std::vector<FileId> files{file_};
+    for (const Part& part : parts_) {
+        if (part.span.file != files.back() &&
+            std::find(files.begin(), files.end(), part.span.file) == files.end()) {
+            files.push_back(part.span.file);
+        }
+    }
+    return files;
+}
+
 /// The part that the byte at `offset` is of; the last one for what lies behind it.
 const Translation::Part& Translation::part_at(std::uint32_t offset) const {
     LSYS_CHECK(!parts_.empty());

@@ -7,6 +7,7 @@
 #include "grammar/source.h"
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,8 +28,19 @@ public:
     /// Appends what nothing in the original says: it stands where the last part ended.
     void put(std::string_view text);
 
+    /// Says that modules `name` of the text stand for `original`: messages write that.
+    void replace_name(std::string_view name, std::string_view original) {
+        replaced_names_.insert_or_assign(std::string(name), std::string(original));
+    }
+
     [[nodiscard]] const std::string& text() const { return text_; }
+    /// Originals by names of the text, where they are not the same.
+    [[nodiscard]] const std::map<std::string, std::string>& replaced_names() const {
+        return replaced_names_;
+    }
     [[nodiscard]] FileId file() const { return file_; }
+    /// All files that parts stand in, file() first.
+    [[nodiscard]] std::vector<FileId> files() const;
     /// Where the bytes [begin, end) of the text come from; of one file.
     [[nodiscard]] SourceSpan origin(std::uint32_t begin, std::uint32_t end) const;
 
@@ -43,6 +55,7 @@ private:
     FileId file_;
     std::string text_;
     std::vector<Part> parts_;
+    std::map<std::string, std::string> replaced_names_;
     mutable std::size_t near_ = 0; // the last answer; questions come in ascending order, nearly
 };
 

@@ -3,6 +3,7 @@
 #include "grammar/lsys/scanning.h"
 #include "grammar/parse.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace lsys {
@@ -68,9 +69,15 @@ Ast parse_lsys(FileId root, const ParseContext& context) {
 
 Ast parse_translation(const Translation& translation, const ParseContext& context) {
     Ast ast;
-    ast.files.push_back({translation.file(), {}});
+    for (const FileId file : translation.files()) {
+        ast.files.push_back({file, {}});
+    }
     IncludeChain includes(context, translation.file());
     parse_text(make_plain(translation, context), context, ast, includes);
+    std::sort(ast.foreign_names.begin(), ast.foreign_names.end());
+    for (const auto& [name, original] : translation.replaced_names()) {
+        context.names.set_written(context.names.intern(name), original);
+    }
     return ast;
 }
 

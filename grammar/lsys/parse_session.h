@@ -23,8 +23,7 @@ public:
                  const ScannedText& scanned_text,
                  Ast& ast,
                  IncludeChain* include_chain)
-        : context(parse_context), scanned(scanned_text),
-          builder(scanned, ast, parse_context.names, parse_context.diagnostics),
+        : context(parse_context), scanned(scanned_text), builder(scanned, ast, parse_context),
           includes(include_chain), ast_(ast) {}
     ParseSession(const ParseSession&) = delete;
     ParseSession& operator=(const ParseSession&) = delete;

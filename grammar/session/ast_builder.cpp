@@ -30,8 +30,9 @@ int comparison_level(BinaryOperation operation) {
 
 } // namespace
 
-AstBuilder::AstBuilder(const ScannedText& scanned, Ast& ast, Names& names, Diagnostics& diagnostics)
-    : scanned_(scanned), ast_(ast), names_(names), diagnostics_(diagnostics), words_(256) {
+AstBuilder::AstBuilder(const ScannedText& scanned, Ast& ast, const ParseContext& context)
+    : scanned_(scanned), ast_(ast), sources_(context.sources), names_(context.names),
+      diagnostics_(context.diagnostics), words_(256) {
     single_.fill(kUnset);
     finish_statement({}, true); // takes the marks
 }
@@ -314,6 +315,7 @@ bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
     spoilt_ = false;
     arguments_.clear();
     production_ = ProductionNode{};
+    list_place_ = {};
     return kept;
 }
 
@@ -366,12 +368,11 @@ void AstBuilder::take_back_node() {
     ast_.set_values.truncate(mark_.set_values);
 }
 
-std::string_view AstBuilder::source_text(SourceSpan span) const {
-    return scanned_.source.substr(span.begin, span.end - span.begin);
-}
-
 SourceSpan AstBuilder::name_without_hash(SourceSpan label) const {
-    const std::string_view text = source_text(label);
+    if (scanned_.translation != nullptr) {
+        return label; // of the original, where no `#` stands before it
+    }
+    const std::string_view text = sources_.text(label);
     if (text.starts_with('#')) {
         const std::size_t name = text.find_first_not_of(" \t\r\n", 1);
         label.begin += static_cast<std::uint32_t>(name == std::string_view::npos ? 1 : name);

@@ -8,6 +8,7 @@
 #include "grammar/ast.h"
 #include "grammar/diagnostic.h"
 #include "grammar/names.h"
+#include "grammar/parse.h"
 #include "grammar/session/text_map.h"
 
 #include <array>
@@ -35,7 +36,7 @@ enum class ModuleNames : std::uint8_t {
 
 class AstBuilder {
 public:
-    AstBuilder(const ScannedText& scanned, Ast& ast, Names& names, Diagnostics& diagnostics);
+    AstBuilder(const ScannedText& scanned, Ast& ast, const ParseContext& context);
 
     void set_names(ModuleNames names) { module_names_ = names; }
     [[nodiscard]] ModuleNames module_names() const { return module_names_; }
@@ -135,17 +136,19 @@ private:
         std::size_t set_values = 0;
     };
 
-    [[nodiscard]] std::string_view source_text(SourceSpan span) const;
     ExpressionId add(const Expression& expression);
     ListRange take_arguments(std::uint32_t count);
     void take_back_node();
     void begin_node(StatementKind kind, std::size_t index);
-    void push_module(NameId name, std::uint32_t begin);
+    void push_module(NameId name, TextRange text);
+    void push_translated(NameId name, SourceSpan span);
+    [[nodiscard]] SourceSpan of_list(SourceSpan span);
+    void extend_list(ModuleList& list, SourceSpan span);
     [[nodiscard]] bool begin_call(SourceSpan parentheses, CallNode& call);
     std::uint32_t read_plain_arguments(std::uint32_t open, std::uint32_t name_end);
     ExpressionId plain_number(std::uint32_t begin, std::uint32_t end);
     void push_letters(TextRange word);
-    void push_character(std::string_view character, std::uint32_t begin);
+    void push_character(std::string_view character, TextRange text);
     NameId intern_word(std::string_view word);
     void count_bracket(char bracket, SourceSpan span);
     void check_stray_comment(std::uint32_t slashes);
@@ -153,6 +156,7 @@ private:
 
     const ScannedText& scanned_;
     Ast& ast_;
+    const SourceMap& sources_;
     Names& names_;
     Diagnostics& diagnostics_;
     ModuleNames module_names_ = ModuleNames::Words;
@@ -168,7 +172,8 @@ private:
     std::vector<ExpressionId> arguments_;
     std::uint32_t open_brackets_ = 0; // `[` of the module list at hand
     LastName last_name_ = LastName::Lost;
-    bool spoilt_ = false;             // the statement at hand is not to be kept
+    SourceSpan list_place_; // of a translation: the last in the file of the statement's modules
+    bool spoilt_ = false;   // the statement at hand is not to be kept
     bool has_node_ = false;
     Statement statement_;
     ProductionNode production_; // parts as they come
