@@ -28,6 +28,8 @@ std::string plain_text_of(char32_t point) {
 }
 
 void PlainReader::replace_all(std::span<const StrayCharacter> strays) {
+    // The text of a letter is less than twice as long, and offsets have 32 bits.
+    const bool may_grow = text_.size() <= kMaxSourceBytes / 2;
     for (const StrayCharacter& stray : strays) {
         const CodePoint point = decode_utf8(text_.substr(stray.begin));
         const LookAlike* const look_alike = find_look_alike(point.value);
@@ -35,7 +37,9 @@ void PlainReader::replace_all(std::span<const StrayCharacter> strays) {
             replace_look_alike(stray.begin, point, look_alike->plain, look_alike->name);
         } else if (!stray.in_quotes) {
             report_unknown(stray.begin, point);
-            map_.replace(stray.begin, stray.begin + point.length, plain_text_of(point.value));
+            const std::string plain = plain_text_of(point.value);
+            map_.replace(stray.begin, stray.begin + point.length,
+                         may_grow ? plain : plain.substr(0, 1));
         }
     }
     report_group();

@@ -4,6 +4,7 @@
 #include "grammar/session/reports.h"
 #include "grammar/utf8.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace lsys {
@@ -301,8 +302,22 @@ void AstBuilder::recover() {
     arguments_.clear();
 }
 
+/// Whether ids of 32 bits can count the nodes of one more statement; else reports it. A file has
+/// less than 2^31 bytes, and so has a statement less than 2^31 nodes of each kind.
+bool AstBuilder::has_room(SourceSpan span) {
+    constexpr std::size_t kMostNodes = std::size_t{1} << 31;
+    const std::size_t most =
+        std::max({ast_.expressions.size(), ast_.expression_lists.size(), ast_.modules.size(),
+                  ast_.calls.size(), ast_.set_values.size(), ast_.statements.size()});
+    if (most > kMostNodes && diagnostics_.admits(DiagnosticCode::ProgramTooLarge)) {
+        diagnostics_.add(DiagnosticCode::ProgramTooLarge, span,
+                         "with this the grammar has more than 2,147,483,648 modules or values");
+    }
+    return most <= kMostNodes;
+}
+
 bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
-    const bool kept = keep && !spoilt_;
+    const bool kept = keep && !spoilt_ && has_room(span);
     if (!kept) {
         take_back_node();
         ast_.incomplete = true;

@@ -138,6 +138,7 @@ private:
 
     ExpressionId add(const Expression& expression);
     ListRange take_arguments(std::uint32_t count);
+    [[nodiscard]] bool has_room(SourceSpan span);
     void take_back_node();
     void begin_node(StatementKind kind, std::size_t index);
     void push_module(NameId name, TextRange text);

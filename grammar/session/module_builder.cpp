@@ -43,7 +43,7 @@ bool is_word(char c) {
 ModuleList AstBuilder::empty_modules(SourceSpan where) {
     open_brackets_ = 0;
     last_name_ = LastName::Lost;
-    return {static_cast<std::uint32_t>(ast_.modules.size()), 0, of_list(where)};
+    return {static_cast<std::uint32_t>(ast_.modules.size()), 0, where};
 }
 
 /// The span, or that of what came before where it is of another file: the modules of a statement
@@ -52,10 +52,11 @@ SourceSpan AstBuilder::of_list(SourceSpan span) {
     if (scanned_.translation == nullptr) {
         return span;
     }
-    if (list_place_.file == kNoFile || span.file == list_place_.file) {
-        list_place_ = span;
+    if (list_place_.file != kNoFile && span.file != list_place_.file) {
+        return list_place_;
     }
-    return list_place_;
+    list_place_ = span.begin == span.end ? list_place_ : span;
+    return span;
 }
 
 void AstBuilder::extend_list(ModuleList& list, SourceSpan span) {
