@@ -238,6 +238,31 @@ void report_stray_character(ParseSession& session) {
     }
 }
 
+/// A module of another dialect that the text of .lsys cannot name, since it is read as another one.
+void report_foreign_look_alike(ParseSession& session,
+                               SourceSpan place,
+                               char32_t character,
+                               const LookAlike& look_alike) {
+    if (!session.wants(DiagnosticCode::ForeignFeature)) {
+        return;
+    }
+    const std::string what =
+        code_point_name(character) +
+        (look_alike.name.empty() ? std::string() : " (" + std::string(look_alike.name) + ")");
+    const std::string plain(look_alike.plain);
+    Diagnostic& diagnostic = session.context.diagnostics.add(
+        DiagnosticCode::ForeignFeature, place,
+        plain.empty() ? "an invisible character, " + what + ", cannot be a module"
+        : plain == " "
+            ? "a blank that is no plain one but " + what + " cannot be a module"
+            : "this looks like `" + plain + "` but is " + what + ", which cannot be a module");
+    diagnostic.fixes.push_back({plain.empty()  ? std::string("remove it")
+                                : plain == " " ? std::string("write a plain blank")
+                                               : "write `" + plain + "`",
+                                {{place, plain}},
+                                false});
+}
+
 } // namespace
 
 int read_as_plain(ParseSession& session, char* character, int length) {
@@ -260,13 +285,19 @@ int read_as_plain(ParseSession& session, char* character, int length) {
 }
 
 void read_in_quotes(ParseSession& session, std::string_view text) {
-    if (session.strays == nullptr) {
+    const bool is_translation = session.scanned.translation != nullptr;
+    if (session.strays == nullptr && !is_translation) {
         return;
     }
     for (std::size_t at = 0; at < text.size();) {
         const CodePoint point = decode_utf8(text.substr(at));
-        if (find_look_alike(point.value) != nullptr) {
-            note_stray(session, session.scan.begin + static_cast<std::uint32_t>(at), true);
+        const LookAlike* const look_alike = find_look_alike(point.value);
+        const auto begin = session.scan.begin + static_cast<std::uint32_t>(at);
+        if (look_alike != nullptr && !is_translation) {
+            note_stray(session, begin, true);
+        } else if (look_alike != nullptr && point.value > 0xA0) { // blanks are no names anyway
+            report_foreign_look_alike(session, session.scanned.span(begin, begin + point.length),
+                                      point.value, *look_alike);
         }
         at += point.length;
     }

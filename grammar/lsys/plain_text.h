@@ -32,7 +32,8 @@ namespace lsys_grammar {
 /// The scanner has met a character beyond ASCII. Before the parse it is noted, and what is meant is
 /// written over the end of it; returns where the scan goes on.
 int read_as_plain(ParseSession& session, char* character, int length);
-/// Notes the look-alikes of the name in back quotes at hand, which the scan then passes over.
+/// Notes the look-alikes of the name in back quotes at hand, which the scan then passes over. In a
+/// translation they are errors: its text would be read as another one.
 void read_in_quotes(ParseSession& session, std::string_view text);
 
 } // namespace lsys_grammar
