@@ -46,7 +46,6 @@ struct OpcodeInfo {
 };
 inline constexpr std::uint32_t kOpcodeCount = 0
 #define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, meaning) +1
-#include "compiler/bytecode/opcodes.def"
 #undef LSYS_OPCODE
     ;
 /// Precondition: opcode < kOpcodeCount.
@@ -66,7 +65,6 @@ enum class TurtleOperation : std::uint8_t {
 };
 inline constexpr std::uint32_t kTurtleOperationCount = 0
 #define LSYS_TURTLE(identifier, name, draws) +1
-#include "compiler/bytecode/turtle_operations.def"
 #undef LSYS_TURTLE
     ;
 [[nodiscard]] std::string_view name_of(TurtleOperation operation);

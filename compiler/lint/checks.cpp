@@ -44,11 +44,9 @@ void run_checks(const CheckInput& input, Diagnostics& diagnostics) {
 
 SourceSpan module_name_span(const CheckInput& input, const ProgramWord& word, std::size_t index) {
     const ProgramModule module = input.program.modules[index];
-    const std::string_view text = input.sources.file(word.file).text();
-    const std::string_view name = input.name(module.symbol);
-    const bool quoted = module.begin < text.size() && text[module.begin] == '`' && name != "`";
-    const auto length = static_cast<std::uint32_t>(name.size() + (quoted ? 2 : 0));
-    return {word.file, module.begin, module.begin + length};
+    return module_name_span(input.sources, word.file, module.begin,
+                            input.names.text(input.program.symbol(module.symbol).name),
+                            input.program.foreign_names);
 }
 
 } // namespace lsys

@@ -25,8 +25,9 @@ struct CheckInput {
     const CompileOptions& options;
 
     [[nodiscard]] std::string_view name(NameId id) const { return names.text(id); }
+    /// As the author wrote it.
     [[nodiscard]] std::string_view name(SymbolId id) const {
-        return names.text(program.symbol(id).name);
+        return names.written(program.symbol(id).name);
     }
 };
 

@@ -29,7 +29,7 @@ std::vector<bool> known_names(const Resolution& resolution) {
     std::vector<bool> known(resolution.names.count());
     const auto add = [&](ModuleList list) {
         for (std::uint32_t i = list.first; i < list.first + list.count; ++i) {
-            known[resolution.ast.modules[i].name_and_call & 0x7FFFFFFF] = true;
+            known[index_of(resolution.ast.modules[i].name())] = true;
         }
     };
     for (const ProductionNode& production : resolution.ast.productions) {
@@ -192,6 +192,7 @@ ResolveOutcome resolve(Ast ast,
     ResolveOutcome outcome;
     Resolution resolution{ast, names, sources, options, diagnostics, outcome.program, {}};
     outcome.program.files = paths_of(resolution);
+    outcome.program.foreign_names = ast.foreign_names;
     outcome.program.has_all_statements = !ast.incomplete;
     SetResolver settings(resolution);
     settings.read_modes();

@@ -3,6 +3,7 @@
 #include "grammar/base/contract.h"
 #include "grammar/base/utf8.h"
 
+#include <algorithm>
 #include <array>
 
 namespace lsys {
@@ -20,8 +21,6 @@ const char* spelling(BinaryOperation operation) {
 }
 
 namespace {
-
-constexpr std::uint32_t kCallBit = 0x80000000u;
 
 /// One past the name `name` that begins at `begin` of the source. It may have been written with
 /// typographic characters, and then is longer there.
@@ -43,6 +42,19 @@ std::uint32_t name_end(std::string_view source, std::uint32_t begin, std::string
 }
 
 } // namespace
+
+SourceSpan module_name_span(const SourceMap& sources,
+                            FileId file,
+                            std::uint32_t begin,
+                            std::string_view name,
+                            std::span<const ForeignName> foreign_names) {
+    const auto found =
+        std::lower_bound(foreign_names.begin(), foreign_names.end(), ForeignName{file, begin, 0});
+    if (found != foreign_names.end() && found->file == file && found->begin == begin) {
+        return {file, begin, found->end};
+    }
+    return {file, begin, name_end(sources.file(file).text(), begin, name)};
+}
 
 ModuleCursor::ModuleCursor(const Ast& ast,
                            const Names& names,
@@ -67,12 +79,12 @@ ModuleCursor::ModuleCursor(const Ast& ast,
 ModuleView ModuleCursor::view() const {
     LSYS_DCHECK(!done());
     const ModuleNode& node = ast_->modules[index_];
-    const std::string_view source = sources_->file(file_).text();
     ModuleView view;
     view.name = name();
-    view.quoted = source[node.begin] == '`' && names_->text(view.name) != "`";
-    view.has_parentheses = (node.name_and_call & kCallBit) != 0;
-    view.name_span = {file_, node.begin, name_end(source, node.begin, names_->text(view.name))};
+    const std::string_view text = names_->text(view.name);
+    view.has_parentheses = node.has_call();
+    view.name_span = module_name_span(*sources_, file_, node.begin, text, ast_->foreign_names);
+    view.quoted = sources_->text(view.name_span).starts_with('`') && text != "`";
     view.span = view.name_span;
     if (view.has_parentheses) {
         const CallNode& call = ast_->calls[call_];
@@ -84,11 +96,11 @@ ModuleView ModuleCursor::view() const {
 
 NameId ModuleCursor::name() const {
     LSYS_DCHECK(!done());
-    return static_cast<NameId>(ast_->modules[index_].name_and_call & ~kCallBit);
+    return ast_->modules[index_].name();
 }
 
 void ModuleCursor::next() {
-    call_ += (ast_->modules[index_].name_and_call & kCallBit) != 0 ? 1u : 0u;
+    call_ += ast_->modules[index_].has_call() ? 1u : 0u;
     ++index_;
 }
 

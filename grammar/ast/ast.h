@@ -10,8 +10,11 @@
 #include "grammar/base/source.h"
 #include "grammar/base/stage.h"
 
+#include <compare>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lsys {
@@ -88,10 +91,27 @@ struct Expression {
 
 /// A module as it stands in a list. It takes eight bytes, since an axiom may have a hundred
 /// million.
-struct ModuleNode {
-    std::uint32_t name_and_call = 0; // NameId; the top bit: a `(` follows
-    std::uint32_t begin = 0;         // first byte of the name, or of its back quote
+class ModuleNode {
+public:
+    ModuleNode() = default;
+    ModuleNode(NameId name, std::uint32_t begin_offset)
+        : begin(begin_offset), name_and_call_(static_cast<std::uint32_t>(name)) {}
+
+    [[nodiscard]] NameId name() const { return static_cast<NameId>(name_and_call_ & ~kCallBit); }
+    /// Whether a `(` follows.
+    [[nodiscard]] bool has_call() const { return (name_and_call_ & kCallBit) != 0; }
+    void set_call() { name_and_call_ |= kCallBit; }
+    /// The name's number, or a number beyond those of all names for a module with a call: one
+    /// comparison tells long words' bare modules from the others.
+    [[nodiscard]] std::uint32_t bare_name() const { return name_and_call_; }
+
+    std::uint32_t begin = 0; // first byte of the name, or of its back quote
+
+private:
+    static constexpr std::uint32_t kCallBit = 0x80000000u; // names are below
+    std::uint32_t name_and_call_ = 0;
 };
+static_assert(sizeof(ModuleNode) == 8);
 
 /// The parenthesis after a module: `(expr, ...)`.
 struct CallNode {
@@ -234,6 +254,23 @@ struct AstFile {
     SourceSpan included_at; // the path in the #include; of kNoFile for the root
 };
 
+/// The bytes of a module's name in a file of another dialect.
+struct ForeignName {
+    FileId file = kNoFile;
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+
+    friend auto operator<=>(const ForeignName&, const ForeignName&) = default;
+};
+
+/// The bytes of the name of a module that begins at `begin` of a file, with its back quotes. Among
+/// `foreign_names` (ascending), or as the file's text reads.
+[[nodiscard]] SourceSpan module_name_span(const SourceMap& sources,
+                                          FileId file,
+                                          std::uint32_t begin,
+                                          std::string_view name,
+                                          std::span<const ForeignName> foreign_names);
+
 struct Ast {
     std::vector<AstFile> files;
     ChunkedVector<Statement> statements;
@@ -255,6 +292,10 @@ struct Ast {
     ChunkedVector<ListRange> argument_lists;      // of function calls
     ChunkedVector<ModuleNode> modules;
     ChunkedVector<CallNode> calls;
+
+    /// Of a file of another dialect: names of modules that do not read there as they are named
+    /// here. Ascending.
+    std::vector<ForeignName> foreign_names;
 
     /// Statements that failed to parse were left out; later checks keep quiet about what may be
     /// missing.

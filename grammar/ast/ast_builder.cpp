@@ -4,6 +4,7 @@
 #include "grammar/base/contract.h"
 #include "grammar/base/utf8.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace lsys {
@@ -30,8 +31,9 @@ int comparison_level(BinaryOperation operation) {
 
 } // namespace
 
-AstBuilder::AstBuilder(const ScannedText& scanned, Ast& ast, Names& names, Diagnostics& diagnostics)
-    : scanned_(scanned), ast_(ast), names_(names), diagnostics_(diagnostics), words_(256) {
+AstBuilder::AstBuilder(const ScannedText& scanned, Ast& ast, const ParseContext& context)
+    : scanned_(scanned), ast_(ast), sources_(context.sources), names_(context.names),
+      diagnostics_(context.diagnostics), words_(256) {
     single_.fill(kUnset);
     finish_statement({}, true); // takes the marks
 }
@@ -300,8 +302,22 @@ void AstBuilder::recover() {
     arguments_.clear();
 }
 
+/// Whether ids of 32 bits can count the nodes of one more statement; else reports it. A file has
+/// less than 2^31 bytes, and so has a statement less than 2^31 nodes of each kind.
+bool AstBuilder::has_room(SourceSpan span) {
+    constexpr std::size_t kMostNodes = std::size_t{1} << 31;
+    const std::size_t most =
+        std::max({ast_.expressions.size(), ast_.expression_lists.size(), ast_.modules.size(),
+                  ast_.calls.size(), ast_.set_values.size(), ast_.statements.size()});
+    if (most > kMostNodes && diagnostics_.admits(DiagnosticCode::ProgramTooLarge)) {
+        diagnostics_.add(DiagnosticCode::ProgramTooLarge, span,
+                         "with this the grammar has more than 2,147,483,648 modules or values");
+    }
+    return most <= kMostNodes;
+}
+
 bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
-    const bool kept = keep && !spoilt_;
+    const bool kept = keep && !spoilt_ && has_room(span);
     if (!kept) {
         take_back_node();
         ast_.incomplete = true;
@@ -314,6 +330,7 @@ bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
     spoilt_ = false;
     arguments_.clear();
     production_ = ProductionNode{};
+    list_place_ = {};
     return kept;
 }
 
@@ -366,12 +383,11 @@ void AstBuilder::take_back_node() {
     ast_.set_values.truncate(mark_.set_values);
 }
 
-std::string_view AstBuilder::source_text(SourceSpan span) const {
-    return scanned_.source.substr(span.begin, span.end - span.begin);
-}
-
 SourceSpan AstBuilder::name_without_hash(SourceSpan label) const {
-    const std::string_view text = source_text(label);
+    if (scanned_.translation != nullptr) {
+        return label; // of the original, where no `#` stands before it
+    }
+    const std::string_view text = sources_.text(label);
     if (text.starts_with('#')) {
         const std::size_t name = text.find_first_not_of(" \t\r\n", 1);
         label.begin += static_cast<std::uint32_t>(name == std::string_view::npos ? 1 : name);

@@ -9,6 +9,7 @@
 #include "grammar/ast/text_map.h"
 #include "grammar/base/diagnostic.h"
 #include "grammar/base/names.h"
+#include "grammar/ast/parse_context.h"
 
 #include <array>
 #include <cstdint>
@@ -35,7 +36,7 @@ enum class ModuleNames : std::uint8_t {
 
 class AstBuilder {
 public:
-    AstBuilder(const ScannedText& scanned, Ast& ast, Names& names, Diagnostics& diagnostics);
+    AstBuilder(const ScannedText& scanned, Ast& ast, const ParseContext& context);
 
     void set_names(ModuleNames names) { module_names_ = names; }
     [[nodiscard]] ModuleNames module_names() const { return module_names_; }
@@ -71,7 +72,7 @@ public:
     /// a back quote between them.
     [[nodiscard]] ModuleList quoted_text(ModuleList list, TextRange quoted);
     /// Gives the last module of `list`, which ends with its name, the last `count` arguments;
-    /// `parentheses` goes from `(` to `)`.
+    /// `parentheses` goes from `(` to `)`. Reports a second pair, and one behind no module.
     [[nodiscard]] ModuleList
     module_arguments(ModuleList list, std::uint32_t count, SourceSpan parentheses);
 
@@ -118,6 +119,13 @@ public:
     void take_marks();
 
 private:
+    /// The last name of the module list at hand: whose parameters a parenthesis behind it holds.
+    enum class LastName : std::uint8_t {
+        Lost,  // reported, and no module
+        Empty, // a text without characters
+        Bare,
+        Called, // has its parameters
+    };
     /// How much of the Ast belongs to finished statements.
     struct Mark {
         std::size_t expressions = 0;
@@ -128,16 +136,20 @@ private:
         std::size_t set_values = 0;
     };
 
-    [[nodiscard]] std::string_view source_text(SourceSpan span) const;
     ExpressionId add(const Expression& expression);
     ListRange take_arguments(std::uint32_t count);
+    [[nodiscard]] bool has_room(SourceSpan span);
     void take_back_node();
     void begin_node(StatementKind kind, std::size_t index);
-    void push_module(NameId name, std::uint32_t begin);
+    void push_module(NameId name, TextRange text);
+    void push_translated(NameId name, SourceSpan span);
+    [[nodiscard]] SourceSpan of_list(SourceSpan span);
+    void extend_list(ModuleList& list, SourceSpan span);
+    [[nodiscard]] bool begin_call(SourceSpan parentheses, CallNode& call);
     std::uint32_t read_plain_arguments(std::uint32_t open, std::uint32_t name_end);
     ExpressionId plain_number(std::uint32_t begin, std::uint32_t end);
     void push_letters(TextRange word);
-    void push_character(std::string_view character, std::uint32_t begin);
+    void push_character(std::string_view character, TextRange text);
     NameId intern_word(std::string_view word);
     void count_bracket(char bracket, SourceSpan span);
     void check_stray_comment(std::uint32_t slashes);
@@ -145,6 +157,7 @@ private:
 
     const ScannedText& scanned_;
     Ast& ast_;
+    const SourceMap& sources_;
     Names& names_;
     Diagnostics& diagnostics_;
     ModuleNames module_names_ = ModuleNames::Words;
@@ -159,7 +172,9 @@ private:
 
     std::vector<ExpressionId> arguments_;
     std::uint32_t open_brackets_ = 0; // `[` of the module list at hand
-    bool spoilt_ = false;             // the statement at hand is not to be kept
+    LastName last_name_ = LastName::Lost;
+    SourceSpan list_place_; // of a translation: the last in the file of the statement's modules
+    bool spoilt_ = false;   // the statement at hand is not to be kept
     bool has_node_ = false;
     Statement statement_;
     ProductionNode production_; // parts as they come

@@ -42,11 +42,43 @@ bool is_word(char c) {
 
 ModuleList AstBuilder::empty_modules(SourceSpan where) {
     open_brackets_ = 0;
+    last_name_ = LastName::Lost;
     return {static_cast<std::uint32_t>(ast_.modules.size()), 0, where};
 }
 
-void AstBuilder::push_module(NameId name, std::uint32_t begin) {
-    ast_.modules.push_back({static_cast<std::uint32_t>(name), scanned_.source_begin(begin)});
+/// The span, or that of what came before where it is of another file: the modules of a statement
+/// are kept with offsets alone. Only parts of a translation can be of several files.
+SourceSpan AstBuilder::of_list(SourceSpan span) {
+    if (scanned_.translation == nullptr) {
+        return span;
+    }
+    if (list_place_.file != kNoFile && span.file != list_place_.file) {
+        return list_place_;
+    }
+    list_place_ = span.begin == span.end ? list_place_ : span;
+    return span;
+}
+
+void AstBuilder::extend_list(ModuleList& list, SourceSpan span) {
+    list.span = list.count == 0 ? span : join(list.span, span);
+    list.count = static_cast<std::uint32_t>(ast_.modules.size()) - list.first;
+}
+
+/// `text`: the name in the scanned text, with its back quotes.
+void AstBuilder::push_module(NameId name, TextRange text) {
+    if (scanned_.translation != nullptr) {
+        push_translated(name, of_list(scanned_.span(text.begin, text.end)));
+    } else {
+        ast_.modules.push_back({name, scanned_.source_begin(text.begin)});
+    }
+    last_name_ = LastName::Bare;
+}
+
+void AstBuilder::push_translated(NameId name, SourceSpan span) {
+    ast_.modules.push_back({name, span.begin});
+    if (sources_.text(span) != names_.text(name)) {
+        ast_.foreign_names.push_back({span.file, span.begin, span.end});
+    }
 }
 
 ModuleList AstBuilder::modules(ModuleList list, TextRange run) {
@@ -72,7 +104,7 @@ ModuleList AstBuilder::modules(ModuleList list, TextRange run) {
                 if (module_names_ != ModuleNames::Words) {
                     push_letters({at, end});
                 } else {
-                    push_module(intern_word(text.substr(at, end - at)), at);
+                    push_module(intern_word(text.substr(at, end - at)), {at, end});
                 }
                 at = name_end = end;
                 continue;
@@ -94,12 +126,10 @@ ModuleList AstBuilder::modules(ModuleList list, TextRange run) {
         if (name > kNoName) {
             name = names_.intern(text.substr(at, 1));
         }
-        push_module(name, at);
+        push_module(name, {at, at + 1});
         name_end = ++at;
     }
-    const SourceSpan span = scanned_.span(run.begin, run.end);
-    list.span = list.count == 0 ? span : join(list.span, span);
-    list.count = static_cast<std::uint32_t>(ast_.modules.size()) - list.first;
+    extend_list(list, of_list(scanned_.span(run.begin, run.end)));
     return list;
 }
 
@@ -127,9 +157,10 @@ void AstBuilder::push_letters(TextRange word) {
                 report_not_a_letter(diagnostics_, scanned_.span(at, at + 1), c);
                 reported = true;
             }
+            last_name_ = LastName::Lost;
             continue;
         }
-        push_module(intern_word(scanned_.text.substr(at, 1)), at);
+        push_module(intern_word(scanned_.text.substr(at, 1)), {at, at + 1});
     }
 }
 
@@ -138,51 +169,58 @@ ModuleList AstBuilder::quoted_module(ModuleList list, NameId name, SourceSpan sp
     if (text == "[" || text == "]") {
         count_bracket(text[0], span);
     }
-    ast_.modules.push_back({static_cast<std::uint32_t>(name), span.begin});
-    list.span = list.count == 0 ? span : join(list.span, span);
-    list.count = static_cast<std::uint32_t>(ast_.modules.size()) - list.first;
+    span = of_list(span);
+    if (scanned_.translation != nullptr) {
+        push_translated(name, span);
+    } else {
+        ast_.modules.push_back({name, span.begin});
+    }
+    last_name_ = LastName::Bare;
+    extend_list(list, span);
     return list;
 }
 
-/// `character`: one, which stands for what is at `begin`.
-void AstBuilder::push_character(std::string_view character, std::uint32_t begin) {
+/// `character`: one, which stands for what is at `text`.
+void AstBuilder::push_character(std::string_view character, TextRange text) {
     if (character.size() > 1) {
-        push_module(names_.intern(character), begin);
+        push_module(names_.intern(character), text);
         return;
     }
     if (character == "[" || character == "]") {
-        count_bracket(character[0], scanned_.span(begin, begin + 1));
+        count_bracket(character[0], scanned_.span(text.begin, text.end));
     }
     NameId& name = single_[static_cast<unsigned char>(character[0]) & 0x7Fu];
     if (name > kNoName) {
         name = names_.intern(character);
     }
-    push_module(name, begin);
+    push_module(name, text);
 }
 
 ModuleList AstBuilder::quoted_text(ModuleList list, TextRange quoted) {
-    if (list.count != 0 && quoted.begin == text_end_) {
-        push_character("`", quoted.begin);
+    const bool adjoins = list.count != 0 && quoted.begin == text_end_;
+    if (adjoins) {
+        push_character("`", {quoted.begin, quoted.begin + 1});
+    } else if (quoted.begin + 2 == quoted.end) {
+        last_name_ = LastName::Empty;
     }
     for (std::uint32_t at = quoted.begin + 1; at + 1 < quoted.end;) {
         const std::uint32_t length = decode_utf8(scanned_.text.substr(at)).length;
-        push_character(scanned_.text.substr(at, length), at);
+        push_character(scanned_.text.substr(at, length), {at, at + length});
         at += length;
     }
     text_end_ = quoted.end;
-    const SourceSpan span = scanned_.span(quoted.begin, quoted.end);
-    list.span = list.count == 0 ? span : join(list.span, span);
-    list.count = static_cast<std::uint32_t>(ast_.modules.size()) - list.first;
+    extend_list(list, of_list(scanned_.span(quoted.begin, quoted.end)));
     return list;
 }
 
 ModuleList
 AstBuilder::module_arguments(ModuleList list, std::uint32_t count, SourceSpan parentheses) {
-    LSYS_CHECK(list.count != 0);
-    ModuleNode& module = ast_.modules.back();
-    module.name_and_call |= 0x80000000u;
     CallNode call;
-    call.module = static_cast<std::uint32_t>(ast_.modules.size() - 1);
+    parentheses = of_list(parentheses);
+    if (!begin_call(parentheses, call)) {
+        drop_arguments(count);
+        return list;
+    }
     call.name_end = list.span.end;
     call.open = parentheses.begin;
     call.end = parentheses.end;
@@ -192,15 +230,44 @@ AstBuilder::module_arguments(ModuleList list, std::uint32_t count, SourceSpan pa
     return list;
 }
 
+/// Whether the last module of the list takes `parentheses`. Sets CallNode::module.
+bool AstBuilder::begin_call(SourceSpan parentheses, CallNode& call) {
+    switch (last_name_) {
+    case LastName::Lost:
+        return false;
+    case LastName::Empty:
+        if (diagnostics_.admits(DiagnosticCode::BadQuotedName)) {
+            diagnostics_.add(DiagnosticCode::BadQuotedName, parentheses,
+                             "parameters of a text in back quotes without characters");
+        }
+        return false;
+    case LastName::Called:
+        if (diagnostics_.admits(DiagnosticCode::SyntaxError)) {
+            diagnostics_
+                .add(DiagnosticCode::SyntaxError, parentheses,
+                     "a module has one pair of parentheses, and this is a second one")
+                .help.emplace_back("several parameters are separated by commas: `F(1, 2)`");
+        }
+        return false;
+    case LastName::Bare:
+        break;
+    }
+    ast_.modules.back().set_call();
+    call.module = static_cast<std::uint32_t>(ast_.modules.size() - 1);
+    last_name_ = LastName::Called;
+    return true;
+}
+
 /// Reads `(1, 2.5, -3)` from `open` on for the last module; returns where it ends. The scanner has
 /// matched it.
 std::uint32_t AstBuilder::read_plain_arguments(std::uint32_t open, std::uint32_t name_end) {
     const std::string_view text = scanned_.text;
-    ast_.modules.back().name_and_call |= 0x80000000u;
     CallNode call;
-    call.module = static_cast<std::uint32_t>(ast_.modules.size() - 1);
-    call.name_end = scanned_.source_end(name_end);
-    call.open = scanned_.source_begin(open);
+    if (!begin_call({}, call)) { // of a name that was no module
+        return static_cast<std::uint32_t>(text.find(')', open)) + 1;
+    }
+    call.name_end = of_list(scanned_.span(name_end, name_end)).end;
+    call.open = of_list(scanned_.span(open, open + 1)).begin;
     call.arguments.first = static_cast<std::uint32_t>(ast_.expression_lists.size());
     std::uint32_t at = open + 1;
     while (text[at] != ')') {
@@ -227,7 +294,7 @@ std::uint32_t AstBuilder::read_plain_arguments(std::uint32_t open, std::uint32_t
         ++call.arguments.count;
     }
     ++at;
-    call.end = scanned_.source_end(at);
+    call.end = of_list(scanned_.span(at - 1, at)).end;
     ast_.calls.push_back(call);
     return at;
 }

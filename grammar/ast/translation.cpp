@@ -6,13 +6,28 @@
 
 namespace lsys {
 
+bool Translation::has_room(std::string_view text, SourceSpan span) {
+    if (!overflow_ && text.size() > most_bytes_ - text_.size()) {
+        overflow_ = span;
+    }
+    return !overflow_;
+}
+
+bool Translation::report_overflow(Diagnostics& diagnostics) const {
+    if (overflow_) {
+        diagnostics.add(DiagnosticCode::ProgramTooLarge, *overflow_,
+                        "here the grammar outgrows 2 GiB of .lsys text");
+    }
+    return overflow_.has_value();
+}
+
 void Translation::copy(SourceSpan span, const SourceMap& sources) {
     copy_as(sources.text(span), span);
 }
 
 void Translation::copy_as(std::string_view text, SourceSpan span) {
     LSYS_CHECK(text.size() == span.end - span.begin);
-    if (text.empty()) {
+    if (text.empty() || !has_room(text, span)) {
         return;
     }
     text_ += text;
@@ -27,10 +42,17 @@ void Translation::copy_as(std::string_view text, SourceSpan span) {
 }
 
 void Translation::put(std::string_view text, SourceSpan span) {
-    if (!text.empty()) {
-        text_ += text;
-        parts_.push_back({static_cast<std::uint32_t>(text_.size()), false, span});
+    if (text.empty()) {
+        return;
     }
+    if (span.file == kNoFile) {
+        span = {file_, 0, 0};
+    }
+    if (!has_room(text, span)) {
+        return;
+    }
+    text_ += text;
+    parts_.push_back({static_cast<std::uint32_t>(text_.size()), false, span});
 }
 
 void Translation::put(std::string_view text) {
@@ -40,6 +62,17 @@ void Translation::put(std::string_view text) {
         here.begin = here.end;
     }
     put(text, here);
+}
+
+std::vector<FileId> Translation::files() const {
+    std::vector<FileId> files{file_};
+    for (const Part& part : parts_) {
+        if (part.span.file != files.back() &&
+            std::find(files.begin(), files.end(), part.span.file) == files.end()) {
+            files.push_back(part.span.file);
+        }
+    }
+    return files;
 }
 
 /// The part that the byte at `offset` is of; the last one for what lies behind it.

@@ -25,6 +25,15 @@ std::string_view Names::text(NameId id) const {
     return texts_[index];
 }
 
+void Names::set_written(NameId id, std::string_view original) {
+    written_.insert_or_assign(id, std::string(original));
+}
+
+std::string_view Names::written(NameId id) const {
+    const auto found = written_.find(id);
+    return found == written_.end() ? text(id) : std::string_view(found->second);
+}
+
 bool is_identifier(std::string_view text) {
     const auto letter = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';

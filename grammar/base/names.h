@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -22,9 +23,15 @@ public:
     [[nodiscard]] std::string_view text(NameId id) const;
     [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(texts_.size()); }
 
+    /// Makes messages write `original` for a name that the front end of another dialect replaced.
+    void set_written(NameId id, std::string_view original);
+    /// The name as its author wrote it, for messages.
+    [[nodiscard]] std::string_view written(NameId id) const;
+
 private:
     std::deque<std::string> texts_;
     std::unordered_map<std::string_view, NameId> ids_;
+    std::map<NameId, std::string> written_; // where it is not the text
 };
 
 /// The form of an identifier: [A-Za-z_][A-Za-z0-9_]*.

@@ -16,6 +16,9 @@ SourceSpan join(SourceSpan first, SourceSpan last) {
     if (last.file == kNoFile) {
         return first;
     }
+    if (first.file != last.file) { // of a text that includes another
+        return first;
+    }
     return {first.file, std::min(first.begin, last.begin), std::max(first.end, last.end)};
 }
 

@@ -23,7 +23,7 @@ struct SourceSpan {
     friend bool operator==(const SourceSpan&, const SourceSpan&) = default;
 };
 
-/// From the start of `first` to the end of `last`; both in one file.
+/// From the start of `first` to the end of `last`; `first` alone where they are of two files.
 [[nodiscard]] SourceSpan join(SourceSpan first, SourceSpan last);
 
 /// A line and a column as a reader counts them: from 1, a column being one Unicode code point

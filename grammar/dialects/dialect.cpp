@@ -122,7 +122,9 @@ std::vector<std::string> systems_in(Dialect dialect, std::string_view text) {
 Translation translate(FileId root, Dialect dialect, const ParseContext& context) {
     const Entry& entry = kEntries[static_cast<std::size_t>(dialect)];
     LSYS_CHECK(entry.translate != nullptr);
-    return entry.translate(root, context);
+    Translation translation = entry.translate(root, context);
+    static_cast<void>(translation.report_overflow(context.diagnostics));
+    return translation;
 }
 
 Ast parse_dialect(FileId root, Dialect dialect, const ParseContext& context, std::string* text) {

@@ -4,6 +4,7 @@
 #include "grammar/lsys/impl/plain_text.h"
 #include "grammar/lsys/impl/scanning.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace lsys {
@@ -24,7 +25,7 @@ void parse_text(const PlainText& plain,
 
 /// Parses one file to its end; its includes are parsed within.
 void parse_file(FileId file, const ParseContext& context, Ast& ast, IncludeChain& includes) {
-    parse_text(make_plain(file, context, false), context, ast, includes);
+    parse_text(make_plain(file, context), context, ast, includes);
 }
 
 } // namespace
@@ -69,9 +70,15 @@ Ast parse_lsys(FileId root, const ParseContext& context) {
 
 Ast parse_translation(const Translation& translation, const ParseContext& context) {
     Ast ast;
-    ast.files.push_back({translation.file(), {}});
+    for (const FileId file : translation.files()) {
+        ast.files.push_back({file, {}});
+    }
     IncludeChain includes(context, translation.file());
     parse_text(make_plain(translation, context), context, ast, includes);
+    std::sort(ast.foreign_names.begin(), ast.foreign_names.end());
+    for (const auto& [name, original] : translation.replaced_names()) {
+        context.names.set_written(context.names.intern(name), original);
+    }
     return ast;
 }
 

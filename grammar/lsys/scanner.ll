@@ -357,7 +357,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
 
 <MODULES,OBJECT_NAME>{
   "`"[^`\n\0]*"`"       {
-                          replace_in_quotes(session, TEXT);
+                          read_in_quotes(session, TEXT);
                           const SourceSpan span = session.token();
                           if (session.builder.module_names() == ModuleNames::Characters &&
                               scan.part != Part::ObjectName) {

@@ -10,7 +10,7 @@ PlaceWriter::PlaceWriter(const Program& program,
                          const Names& names,
                          const SourceMap& sources,
                          Bytecode& bytecode)
-    : program_(program), sources_(sources), runs_(bytecode.template_places) {
+    : program_(program), names_(names), sources_(sources), runs_(bytecode.template_places) {
     spellings_.reserve(program.symbols.size());
     for (const Symbol& symbol : program.symbols) {
         const std::string_view name = names.text(symbol.name);
@@ -48,11 +48,18 @@ bool PlaceWriter::move_to(std::uint32_t offset) {
     return plain && ascii;
 }
 
-std::uint32_t PlaceWriter::length_of(const ProgramModule& module) const {
+std::uint32_t PlaceWriter::length_of(const ProgramWord& word, const ProgramModule& module) const {
     constexpr std::uint32_t kQuotes = 2;
     const Spelling& spelling = spellings_[static_cast<std::size_t>(module.symbol)];
-    const std::uint32_t name =
-        spelling.length + (spelling.may_be_quoted && text_[module.begin] == '`' ? kQuotes : 0);
+    std::uint32_t name = spelling.length;
+    if (!program_.foreign_names.empty()) {
+        const SourceSpan span = module_name_span(sources_, word.file, module.begin,
+                                                 names_.text(program_.symbol(module.symbol).name),
+                                                 program_.foreign_names);
+        name = span.end - span.begin;
+    } else if (spelling.may_be_quoted && text_[module.begin] == '`') {
+        name += kQuotes;
+    }
     if (!spelling.has_arguments) {
         return name;
     }
@@ -70,10 +77,17 @@ void PlaceWriter::word(const ProgramWord& word, std::uint32_t first) {
             if (code == first) {
                 start(sources_.file(word.file), module.begin);
             }
+            // Modules of a translation may stand at one place, and in another order than their
+            // text.
+            const bool ascends = module.begin >= offset_;
+            if (!ascends) {
+                start(sources_.file(word.file), module.begin);
+            }
             const std::uint32_t stride = module.begin - offset_;
             const bool plain = move_to(module.begin);
-            const std::uint32_t length = length_of(module);
-            if (plain && length == run.length && (run.stride == stride || run.first + 1 == code)) {
+            const std::uint32_t length = length_of(word, module);
+            if (plain && ascends && length == run.length && stride >= length &&
+                (run.stride == stride || run.first + 1 == code)) {
                 run.stride = stride;
             } else {
                 if (code != first) {

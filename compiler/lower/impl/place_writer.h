@@ -26,7 +26,8 @@ public:
 private:
     void start(const SourceFile& file, std::uint32_t offset);
     [[nodiscard]] bool move_to(std::uint32_t offset);
-    [[nodiscard]] std::uint32_t length_of(const ProgramModule& module) const;
+    [[nodiscard]] std::uint32_t length_of(const ProgramWord& word,
+                                          const ProgramModule& module) const;
 
     struct Spelling {
         std::uint32_t length = 0; // of the name
@@ -35,6 +36,7 @@ private:
     };
 
     const Program& program_;
+    const Names& names_;
     const SourceMap& sources_;
     std::vector<PlaceRun>& runs_;
     std::vector<Spelling> spellings_; // by symbol

@@ -14,7 +14,7 @@ std::vector<std::uint8_t> names_of_modules(const Resolution& resolution) {
     for (std::size_t first = 0; first < modules.size();) {
         const std::span<const ModuleNode> row = modules.row(first, modules.size() - first);
         for (const ModuleNode& module : row) {
-            used[module.name_and_call & 0x7FFFFFFF] = 1;
+            used[index_of(module.name())] = 1;
         }
         first += row.size();
     }

@@ -13,9 +13,9 @@ bool check_module(ModuleReading& reading, const ModuleView& module) {
     const std::string_view name = resolution.text(module.name);
     if (module.arguments.count != 0 && takes_no_parameters(name)) {
         const SourceSpan parentheses{module.span.file, module.name_span.end, module.span.end};
-        Diagnostic& error =
-            reading.resolution.diagnostics.add(DiagnosticCode::UnexpectedParameters, parentheses,
-                                               fmt::format("`{}` takes no parameters", name));
+        Diagnostic& error = reading.resolution.diagnostics.add(
+            DiagnosticCode::UnexpectedParameters, parentheses,
+            fmt::format("`{}` takes no parameters", resolution.names.written(module.name)));
         error.fixes.push_back({"remove them", {{parentheses, ""}}, false});
         return false;
     }
@@ -60,11 +60,10 @@ std::uint32_t append_bare(ModuleReading& reading, std::uint32_t index, std::uint
         std::size_t taken = 0;
         for (; taken < row.size(); ++taken) {
             const ModuleNode node = nodes[taken];
-            // The bit of a parenthesis makes it too great a number for a name.
-            if (node.name_and_call >= bare.size() || bare[node.name_and_call] == kNoSymbol) {
+            if (node.bare_name() >= bare.size() || bare[node.bare_name()] == kNoSymbol) {
                 break;
             }
-            row[taken] = {bare[node.name_and_call], node.begin};
+            row[taken] = {bare[node.bare_name()], node.begin};
         }
         index += static_cast<std::uint32_t>(taken);
         if (taken != row.size()) {

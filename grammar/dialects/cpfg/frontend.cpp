@@ -87,6 +87,7 @@ std::string_view recognise_cpfg(std::string_view text) {
 
 Translation translate_cpfg(FileId root, const ParseContext& context) {
     const Translation text = preprocess_cpfg(root, context);
+    static_cast<void>(text.report_overflow(context.diagnostics));
     CpfgSession session(text, context);
     Translation translation(root);
     if (!context.diagnostics.has_errors()) {

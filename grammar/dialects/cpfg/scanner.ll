@@ -11,7 +11,7 @@
 #include "grammar/dialects/cpfg/session.h"
 
 #define YY_DECL                                                                                    \
-    int cpfg_yylex(lsys::CpfgValue* value, lsys::SourceSpan* location,                             \
+    int cpfg_yylex(lsys::cpfg_grammar::Parser::value_type* value, lsys::SourceSpan* location,      \
                    lsys::CpfgSession& session, void* yyscanner)
 #define YY_USER_ACTION                                                                             \
     *location = session.take(static_cast<std::uint32_t>(yyleng));
@@ -28,7 +28,7 @@ using Mode = lsys::CpfgSession::Mode;
     } while (false)
 #define OPERATOR(kind)                                                                             \
     do {                                                                                           \
-        value->text = TEXT;                                                                        \
+        value->emplace<std::string>(TEXT);                                                                        \
         return Token::TOK_##kind;                                                                  \
     } while (false)
 %}
@@ -110,7 +110,7 @@ NUMBER  ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][+-]?[0-9]+)?
   "@"[GTCDPBS][a-z]     { OPERATOR(SYMBOL); }
   "@"[^ \t\r\n]         { OPERATOR(SYMBOL); }
   [\x21-\x7E]           { OPERATOR(SYMBOL); }
-  .                     { value->text = TEXT; return Token::TOK_OTHER; }
+  .                     { return Token::TOK_OTHER; }
 }
 
 <EXPRESSION>{
@@ -168,7 +168,7 @@ NUMBER  ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][+-]?[0-9]+)?
   {NAME}                { OPERATOR(NAME); }
   {NUMBER}              { OPERATOR(NUMBER); }
   "\""[^"\n]*"\""       { OPERATOR(STRING); }
-  [\x80-\xFF][\x80-\xBF]*|. { value->text = TEXT; return Token::TOK_OTHER; }
+  [\x80-\xFF][\x80-\xBF]*|. { return Token::TOK_OTHER; }
 }
 
 <<EOF>>                 {

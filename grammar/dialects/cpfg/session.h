@@ -8,7 +8,6 @@
 #include "grammar/lsys/parse.h"
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -142,36 +141,4 @@ private:
     void* scanner_ = nullptr;
 };
 
-/// A list that grows while it is parsed. The parser copies values; these copies share their items.
-template <typename T>
-class CpfgList {
-public:
-    void push_back(T item) {
-        if (!items_) {
-            items_ = std::make_shared<std::vector<T>>();
-        }
-        items_->push_back(std::move(item));
-    }
-    [[nodiscard]] std::vector<T> take() const {
-        return items_ ? std::move(*items_) : std::vector<T>();
-    }
-
-private:
-    std::shared_ptr<std::vector<T>> items_;
-};
-
-/// What tokens and symbols of the parser carry.
-struct CpfgValue {
-    std::string text;
-    int index = -1; // of an expression or statement
-    CpfgList<int> list;
-    CpfgList<CpfgModule> modules;
-    CpfgProduction production;
-};
-
 } // namespace lsys
-
-int cpfg_yylex(lsys::CpfgValue* value,
-               lsys::SourceSpan* location,
-               lsys::CpfgSession& session,
-               void* yyscanner);

@@ -125,10 +125,18 @@ std::vector<std::string> CpfgWriter::formals_of(const CpfgProduction& each) cons
     return names;
 }
 
+void CpfgWriter::put_name(const CpfgModule& module) {
+    const std::string name = spelled(module.name, module.has_arguments);
+    out_.put(name, module.span);
+    if (name[0] != '`' && name != module.name && used_.count(name) == 0) {
+        out_.replace_name(name, module.name);
+    }
+}
+
 void CpfgWriter::modules(const std::vector<CpfgModule>& list) {
     for (const CpfgModule& module : list) {
         const bool polygon = module.name == "{" || module.name == "}";
-        out_.put(spelled(module.name, module.has_arguments), module.span);
+        put_name(module);
         if (!module.has_arguments || polygon) {
             continue;
         }
@@ -148,7 +156,7 @@ void CpfgWriter::pattern(const std::vector<CpfgModule>& list) {
         if (module.name == "=" && next != nullptr && next->name == "]") {
             continue; // what follows in the branch does not matter, and so it is in .lsys
         }
-        out_.put(spelled(module.name, module.has_arguments), module.span);
+        put_name(module);
         for (std::size_t i = 0; i < module.arguments.size(); ++i) {
             const CpfgExpression& formal = expression(module.arguments[i]);
             if (formal.kind != CpfgKind::Name) {

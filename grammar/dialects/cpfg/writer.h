@@ -63,6 +63,7 @@ private:
     void condition(const CpfgProduction& each);
     void weight(const CpfgProduction& each);
     void weighted(const CpfgProduction& each, std::size_t index);
+    void put_name(const CpfgModule& module);
     void modules(const std::vector<CpfgModule>& list);
     void pattern(const std::vector<CpfgModule>& list);
     [[nodiscard]] std::string drawing_module(std::size_t index) const;

@@ -36,20 +36,26 @@ std::string text_of(float value) {
     return {digits.data(), end};
 }
 
-/// A module of .lsys for the symbol. Some have a meaning there that Fractint does not give them.
+/// Symbols whose meaning in .lsys is not Fractint's, and modules without one.
+struct Renamed {
+    std::string_view symbol;
+    std::string_view name;
+};
+constexpr std::array<Renamed, 4> kRenamed{{
+    {".", "dot"},
+    {"%", "percent"},
+    {"`", "backquote"},
+    {"{", "brace"},
+}};
+
+/// A module of .lsys for the symbol.
 std::string spelled(char symbol) {
-    switch (symbol) {
-    case '.':
-        return "`dot`";
-    case '%':
-        return "`percent`";
-    case '`':
-        return "`backquote`";
-    case '{':
-        return "`brace`";
-    default:
-        return spelled_letter(static_cast<unsigned char>(symbol));
+    for (const Renamed& renamed : kRenamed) {
+        if (renamed.symbol[0] == symbol) {
+            return "`" + std::string(renamed.name) + "`";
+        }
     }
+    return spelled_letter(static_cast<unsigned char>(symbol));
 }
 
 } // namespace
@@ -87,6 +93,9 @@ void FractintWriter::write() {
         mistake(angle == nullptr ? name_ : angle->key,
                 "the system has no angle: `Angle 8` is an eighth of a full turn");
         return;
+    }
+    for (const Renamed& renamed : kRenamed) {
+        translation_.replace_name(renamed.name, renamed.symbol);
     }
     translation_.put("#set turtle fractint;\n#set names letters;\n");
     write_angle(*angle);

@@ -239,6 +239,7 @@ bool HoudiniWriter::write_special(const HoudiniModule& it, char symbol, const Ho
             mistake(it.parentheses, "`$` takes a point: three numbers");
         }
         translation_.put("`aim`", it.symbol);
+        translation_.replace_name("aim", "$");
         write_arguments(it, 0, scope);
         return true;
     case 'a': {

@@ -87,7 +87,7 @@ Stray stray_number(ParseSession& session, std::string_view text) {
 Stray stray_in_modules(ParseSession& session, std::string_view text) {
     const char first = text[0];
     const ScanState& scan = session.scan;
-    if (scan.part == Part::Head && !scan.failed) {
+    if (scan.part == Part::Head) {
         const bool begins_condition = (first == '*' || first == '~') && !scan.part_empty;
         if (lacks_colon(session, begins_condition ? ": " : "")) {
             return begins_condition ? Stray::Colon : Stray::Lost;
@@ -251,7 +251,7 @@ void report_unclosed_comment(ParseSession& session) {
             "this comment is never closed");
         diagnostic.help.emplace_back("a comment ends with `*/`; everything after this one is lost");
     }
-    scan.failed = true;
+    session.failed = true;
 }
 
 void keep_comment(ParseSession& session) {

@@ -15,7 +15,7 @@
 
 namespace lsys {
 
-class PlainReader;
+struct StrayCharacter;
 
 class ParseSession {
 public:
@@ -23,8 +23,7 @@ public:
                  const ScannedText& scanned_text,
                  Ast& ast,
                  IncludeChain* include_chain)
-        : context(parse_context), scanned(scanned_text),
-          builder(scanned, ast, parse_context.names, parse_context.diagnostics),
+        : context(parse_context), scanned(scanned_text), builder(scanned, ast, parse_context),
           includes(include_chain), ast_(ast) {}
     ParseSession(const ParseSession&) = delete;
     ParseSession& operator=(const ParseSession&) = delete;
@@ -36,8 +35,12 @@ public:
     IncludeChain* includes; // null where files are not to be read
 
     bool silent = false; // the scan is for its tokens only: nothing is reported
-    std::vector<TextRange>* comments = nullptr; // collects them, if it is set
-    PlainReader* plain_reader = nullptr;        // of the first pass
+    std::vector<TextRange>* comments = nullptr;    // collects them, if it is set
+    std::vector<StrayCharacter>* strays = nullptr; // the same; set in scans before the parse
+    // Of the statement and the last token, for reports. The parser sets them too, so no token may
+    // depend on them: a scan without the parser reads the same tokens.
+    bool failed = false;         // a syntax error was reported: no more reports in this statement
+    bool token_supplied = false; // nobody wrote the token
 
     /// The match at hand becomes a token.
     SourceSpan token() {
@@ -49,7 +52,7 @@ public:
     [[nodiscard]] SourceSpan supplied() const { return scanned.after(scan.last_end); }
 
     /// Whether a report of a syntax error would be read: none in a statement that has failed.
-    [[nodiscard]] bool wants_reports() const { return !silent && !scan.failed; }
+    [[nodiscard]] bool wants_reports() const { return !silent && !failed; }
     /// The same for one of `code`; counts it if it is one too many to be stored.
     [[nodiscard]] bool wants(DiagnosticCode code) {
         return wants_reports() && context.diagnostics.admits(code);
@@ -62,7 +65,7 @@ public:
     /// The parser has recovered within the statement.
     void recover() {
         builder.recover();
-        scan.failed = false;
+        failed = false;
     }
 
 private:

@@ -3,12 +3,16 @@
 #include "grammar/lsys/impl/look_alikes.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 namespace lsys {
 
 namespace {
+
+/// Whether `c` goes on with a character of several bytes.
+bool is_continuation(char c) {
+    return (static_cast<unsigned char>(c) & 0xC0u) == 0x80;
+}
 
 bool is_word_byte(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');
@@ -16,45 +20,37 @@ bool is_word_byte(char c) {
 
 } // namespace
 
-int PlainReader::read(std::uint32_t begin, char* buffer, int length, bool in_object) {
-    const CodePoint point = decode_utf8(text_.substr(begin));
-    const LookAlike* const look_alike = find_look_alike(point.value);
-    std::string shown_to_scanner; // never longer than the character
-    if (look_alike != nullptr) {
-        replace(begin, point.length, point.value, look_alike->plain, look_alike->name);
-        shown_to_scanner = look_alike->plain;
-        if (in_object && look_alike->plain == "\"") {
-            close_quotes(begin + point.length, buffer + point.length);
+std::string plain_text_of(char32_t point) {
+    if (const LookAlike* const look_alike = find_look_alike(point); look_alike != nullptr) {
+        return std::string(look_alike->plain);
+    }
+    return is_foreign_letter(point) ? "_" + code_point_name(point).substr(2) : " ";
+}
+
+void PlainReader::replace_all(std::span<const StrayCharacter> strays) {
+    // The text of a letter is less than twice as long, and offsets have 32 bits.
+    const bool may_grow = text_.size() <= kMaxSourceBytes / 2;
+    for (const StrayCharacter& stray : strays) {
+        const CodePoint point = decode_utf8(text_.substr(stray.begin));
+        const LookAlike* const look_alike = find_look_alike(point.value);
+        if (look_alike != nullptr) {
+            replace_look_alike(stray.begin, point, look_alike->plain, look_alike->name);
+        } else if (!stray.in_quotes) {
+            report_unknown(stray.begin, point);
+            const std::string plain = plain_text_of(point.value);
+            map_.replace(stray.begin, stray.begin + point.length,
+                         may_grow ? plain : plain.substr(0, 1));
         }
-    } else {
-        const std::string plain = read_unknown(begin, point);
-        map_.replace(begin, begin + point.length, plain);
-        shown_to_scanner = plain.substr(0, 1);
     }
-    const auto size = static_cast<int>(shown_to_scanner.size());
-    LSYS_CHECK(size <= length && point.length == static_cast<std::uint32_t>(length), size, length);
-    std::memcpy(buffer + length - size, shown_to_scanner.data(), shown_to_scanner.size());
-    return length - size;
-}
-
-void PlainReader::read_quoted(std::uint32_t begin, std::uint32_t length) {
-    const CodePoint point = decode_utf8(text_.substr(begin));
-    if (const LookAlike* const look_alike = find_look_alike(point.value); look_alike != nullptr) {
-        replace(begin, length, point.value, look_alike->plain, look_alike->name);
-    }
-}
-
-void PlainReader::finish() {
     report_group();
     map_.finish();
 }
 
-void PlainReader::replace(std::uint32_t begin,
-                          std::uint32_t length,
-                          char32_t character,
-                          std::string_view plain,
-                          std::string_view name) {
-    map_.replace(begin, begin + length, plain);
+void PlainReader::replace_look_alike(std::uint32_t begin,
+                                     const CodePoint& point,
+                                     std::string_view plain,
+                                     std::string_view name) {
+    map_.replace(begin, begin + point.length, plain);
     if (group_.count == 0 || group_.end != begin || group_.plain.empty() != plain.empty()) {
         report_group();
         group_ = {begin, begin, {}, {}, name, 0};
@@ -62,12 +58,12 @@ void PlainReader::replace(std::uint32_t begin,
     constexpr std::uint32_t kMostNamed = 4;
     constexpr std::size_t kLongestGroup = 64;
     if (group_.count < kMostNamed) {
-        group_.code_points += (group_.count == 0 ? "" : " ") + code_point_name(character);
+        group_.code_points += (group_.count == 0 ? "" : " ") + code_point_name(point.value);
     } else if (group_.count == kMostNamed) {
         group_.code_points += " ...";
     }
     group_.plain += plain;
-    group_.end = begin + length;
+    group_.end = begin + point.length;
     group_.name = group_.name == name ? name : std::string_view{};
     ++group_.count;
     if (group_.plain.size() >= kLongestGroup) {
@@ -102,35 +98,18 @@ void PlainReader::report_group() {
     group_ = {};
 }
 
-/// The quote that closes a name which began with a curly one may be curly too.
-void PlainReader::close_quotes(std::uint32_t after, char* buffer) {
-    for (std::uint32_t at = after;
-         at < text_.size() && text_[at] != '\n' && text_[at] != '"' && text_[at] != '\0';) {
-        const CodePoint point = decode_utf8(text_.substr(at));
-        const LookAlike* const look_alike =
-            point.value < 0x80 ? nullptr : find_look_alike(point.value);
-        if (look_alike != nullptr && look_alike->plain == "\"") {
-            replace(at, point.length, point.value, "\"", look_alike->name);
-            buffer[at - after + point.length - 1] = '"';
-            return;
-        }
-        at += point.length;
-    }
-}
-
 bool PlainReader::is_word_at(std::uint32_t at) const {
     if (is_word_byte(text_[at])) {
         return true;
     }
-    while (at > 0 && (static_cast<unsigned char>(text_[at]) & 0xC0u) == 0x80) {
+    while (at > 0 && is_continuation(text_[at])) {
         --at;
     }
     const CodePoint point = decode_utf8(text_.substr(at));
     return point.value >= 0x80 && is_foreign_letter(point.value);
 }
 
-/// Returns what the character is read as: a part of a name, or a blank.
-std::string PlainReader::read_unknown(std::uint32_t begin, const CodePoint& point) {
+void PlainReader::report_unknown(std::uint32_t begin, const CodePoint& point) {
     const bool is_letter = is_foreign_letter(point.value);
     std::uint32_t first = begin;
     std::uint32_t end = begin + point.length;
@@ -140,6 +119,12 @@ std::string PlainReader::read_unknown(std::uint32_t begin, const CodePoint& poin
             --first;
         }
         while (end < text_.size() && end - begin < kLongestWord && is_word_at(end)) {
+            ++end;
+        }
+        while (is_continuation(text_[first])) { // the limit cut a character
+            ++first;
+        }
+        while (end < text_.size() && is_continuation(text_[end])) {
             ++end;
         }
     }
@@ -162,10 +147,6 @@ std::string PlainReader::read_unknown(std::uint32_t begin, const CodePoint& poin
                 "` ``");
         }
     }
-    if (!is_letter) {
-        return " ";
-    }
-    return "_" + code_point_name(point.value).substr(2);
 }
 
 } // namespace lsys

@@ -6,24 +6,32 @@
 #include "grammar/base/utf8.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace lsys {
 
-/// The scanner of the first pass calls read() in the order of the file; finish() ends it.
+/// A character beyond ASCII that stands where only ASCII has a meaning.
+struct StrayCharacter {
+    std::uint32_t begin = 0; // of the source
+    bool in_quotes = false;  // back quotes: only look-alikes are replaced
+
+    friend auto operator<=>(const StrayCharacter&, const StrayCharacter&) = default;
+};
+
+/// The text that stands for `point`: a look-alike's plain text, a part of a name for a letter, else
+/// a blank. Begins with the only character that the scanner reads of it at once.
+[[nodiscard]] std::string plain_text_of(char32_t point);
+
 class PlainReader {
 public:
     /// Without diagnostics nothing is reported.
     PlainReader(FileId file, std::string_view text, TextMap& map, Diagnostics* diagnostics)
         : file_(file), text_(text), map_(map), diagnostics_(diagnostics) {}
 
-    /// The valid character that lies at `begin` of the text and at `buffer` in the scanner's copy.
-    /// Its last bytes there are overwritten by the plain text; returns the offset of that.
-    int read(std::uint32_t begin, char* buffer, int length, bool in_object);
-    /// A character between back quotes: only look-alikes are replaced.
-    void read_quoted(std::uint32_t begin, std::uint32_t length);
-    void finish();
+    /// Replaces valid characters, in the order of the file and none twice, and ends the map.
+    void replace_all(std::span<const StrayCharacter> strays);
 
 private:
     /// Look-alikes that stand side by side are one mistake.
@@ -36,13 +44,11 @@ private:
         std::uint32_t count = 0;
     };
 
-    void replace(std::uint32_t begin,
-                 std::uint32_t length,
-                 char32_t character,
-                 std::string_view plain,
-                 std::string_view name);
-    void close_quotes(std::uint32_t after, char* buffer);
-    std::string read_unknown(std::uint32_t begin, const CodePoint& point);
+    void replace_look_alike(std::uint32_t begin,
+                            const CodePoint& point,
+                            std::string_view plain,
+                            std::string_view name);
+    void report_unknown(std::uint32_t begin, const CodePoint& point);
     void report_group();
     [[nodiscard]] bool is_word_at(std::uint32_t at) const;
 

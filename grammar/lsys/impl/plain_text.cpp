@@ -3,8 +3,10 @@
 #include "grammar/base/utf8.h"
 #include "grammar/lsys/impl/plain_reader.h"
 #include "grammar/lsys/impl/scanning.h"
+#include "grammar/lsys/impl/look_alikes.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace lsys {
 
@@ -22,7 +24,7 @@ struct Validity {
 
 /// Reports each run of bytes that are not UTF-8, and puts blanks in their place into `repaired`.
 Validity
-check_utf8(FileId file, std::string_view text, Diagnostics* diagnostics, std::string& repaired) {
+check_utf8(FileId file, std::string_view text, Diagnostics& diagnostics, std::string& repaired) {
     Validity validity;
     for (std::size_t at = 0; at < text.size();) {
         if ((static_cast<unsigned char>(text[at]) & 0x80u) == 0) {
@@ -45,8 +47,8 @@ check_utf8(FileId file, std::string_view text, Diagnostics* diagnostics, std::st
             repaired[at] = ' ';
             ++at;
         }
-        if (diagnostics != nullptr && diagnostics->admits(DiagnosticCode::InvalidUtf8)) {
-            Diagnostic& diagnostic = diagnostics->add(
+        if (diagnostics.admits(DiagnosticCode::InvalidUtf8)) {
+            Diagnostic& diagnostic = diagnostics.add(
                 DiagnosticCode::InvalidUtf8,
                 {file, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(at)},
                 at - begin == 1 ? "this byte is not UTF-8" : "these bytes are not UTF-8");
@@ -67,11 +69,72 @@ struct Scratch {
     Ast ast;
 };
 
-void scan_all(ParseSession& session) {
+/// Scans the text to its end, as the parse will, and appends the characters that the scanner meets.
+void find_strays(const ScannedText& scanned,
+                 const ParseContext& context,
+                 std::vector<StrayCharacter>& strays) {
+    Scratch scratch(context);
+    ParseSession session(scratch.context, scanned, scratch.ast, nullptr);
     session.silent = true;
+    session.strays = &strays;
     lsys_grammar::Scanning scanning(session);
     while (lsys_grammar::next_token(session, scanning.scanner()).kind() !=
            lsys_grammar::Parser::symbol_kind::S_YYEOF) {
+    }
+}
+
+/// Every character beyond ASCII, wherever it stands.
+std::vector<StrayCharacter> all_beyond_ascii(std::string_view text) {
+    std::vector<StrayCharacter> strays;
+    for (std::size_t at = 0; at < text.size();) {
+        const CodePoint point = decode_utf8(text.substr(at));
+        if (point.value >= 0x80) {
+            strays.push_back({static_cast<std::uint32_t>(at), false});
+        }
+        at += point.length;
+    }
+    return strays;
+}
+
+/// Makes the text and the map of `plain` from its valid text, in which `strays` are replaced.
+void replace_strays(std::string_view valid,
+                    const std::vector<StrayCharacter>& strays,
+                    Diagnostics* diagnostics,
+                    PlainText& plain) {
+    plain.map = std::make_unique<TextMap>(valid);
+    PlainReader(plain.scanned.file, valid, *plain.map, diagnostics).replace_all(strays);
+    plain.scanned.text = plain.map->text();
+    plain.scanned.map = plain.map.get();
+}
+
+/// Replaces what the scanner cannot read, until a scan of the very text that the parse will scan
+/// meets nothing beyond ASCII. A replacement may change how what follows is scanned, so one scan is
+/// not enough. The parser's scan of that text takes the same steps, since nothing but the text
+/// decides them, and so meets nothing either.
+void make_plain(const ParseContext& context, Diagnostics& diagnostics, PlainText& plain) {
+    constexpr int kMostScans = 8; // more are needed by no text but one made for it
+    const std::string_view valid = plain.scanned.text;
+    std::vector<StrayCharacter> strays;
+    for (int scan = 1;; ++scan) {
+        const std::size_t known = strays.size();
+        find_strays(plain.scanned, context, strays);
+        if (strays.size() == known) {
+            break;
+        }
+        if (scan == kMostScans) {
+            strays = all_beyond_ascii(valid);
+            break;
+        }
+        std::sort(strays.begin(), strays.end());
+        strays.erase(std::unique(strays.begin(), strays.end(),
+                                 [](const StrayCharacter& a, const StrayCharacter& b) {
+                                     return a.begin == b.begin;
+                                 }),
+                     strays.end());
+        replace_strays(valid, strays, nullptr, plain);
+    }
+    if (!strays.empty()) {
+        replace_strays(valid, strays, &diagnostics, plain);
     }
 }
 
@@ -113,26 +176,18 @@ ModuleNames names_of(const ScannedText& scanned, const ParseContext& context) {
 
 } // namespace
 
-PlainText make_plain(FileId file, const ParseContext& context, bool silent) {
+PlainText make_plain(FileId file, const ParseContext& context) {
     PlainText plain;
     const std::string_view source = context.sources.file(file).text();
     plain.scanned = {file, source, source, nullptr, nullptr};
     if (!is_ascii(source)) {
-        Diagnostics* const diagnostics = silent ? nullptr : &context.diagnostics;
-        const Validity validity = check_utf8(file, source, diagnostics, plain.own);
+        plain.own = std::make_unique<std::string>();
+        const Validity validity = check_utf8(file, source, context.diagnostics, *plain.own);
         if (validity.has_invalid) {
-            plain.scanned.text = plain.own;
+            plain.scanned.text = *plain.own;
         }
         if (validity.has_beyond_ascii) {
-            plain.map = std::make_unique<TextMap>(plain.scanned.text);
-            PlainReader reader(file, plain.scanned.text, *plain.map, diagnostics);
-            Scratch scratch(context);
-            ParseSession session(scratch.context, plain.scanned, scratch.ast, nullptr);
-            session.plain_reader = &reader;
-            scan_all(session);
-            reader.finish();
-            plain.scanned.text = plain.map->text();
-            plain.scanned.map = plain.map.get();
+            make_plain(context, context.diagnostics, plain);
         }
     }
     plain.names = names_of(plain.scanned, context);
@@ -149,22 +204,100 @@ PlainText make_plain(const Translation& translation, const ParseContext& context
 
 namespace lsys_grammar {
 
-int read_as_plain(ParseSession& session, char* character, int length) {
-    LSYS_CHECK(session.plain_reader != nullptr, session.scan.begin);
-    const Part part = session.scan.part;
-    const bool in_object = part == Part::ObjectName || part == Part::ObjectValue;
-    return session.plain_reader->read(session.scan.begin, character, length, in_object);
+namespace {
+
+void note_stray(ParseSession& session, std::uint32_t begin, bool in_quotes) {
+    session.strays->push_back({session.scanned.source_begin(begin), in_quotes});
 }
 
-void replace_in_quotes(ParseSession& session, std::string_view text) {
-    if (session.plain_reader == nullptr) {
+/// The quote that closes a name which began with a curly one may be curly too. `after`: where the
+/// name begins in the text, and at `buffer` in the scanner's copy.
+void close_quotes(ParseSession& session, std::uint32_t after, char* buffer) {
+    const std::string_view text = session.scanned.text;
+    for (std::uint32_t at = after;
+         at < text.size() && text[at] != '\n' && text[at] != '"' && text[at] != '\0';) {
+        const CodePoint point = decode_utf8(text.substr(at));
+        if (point.value >= 0x80 && plain_text_of(point.value) == "\"") {
+            note_stray(session, at, false);
+            buffer[at - after + point.length - 1] = '"';
+            return;
+        }
+        at += point.length;
+    }
+}
+
+/// A translation is plain text but in back quotes.
+void report_stray_character(ParseSession& session) {
+    const ScanState& scan = session.scan;
+    if (session.wants(DiagnosticCode::UnknownCharacter)) {
+        const std::string_view text =
+            session.scanned.text.substr(scan.begin, scan.end - scan.begin);
+        session.context.diagnostics.add(DiagnosticCode::UnknownCharacter,
+                                        session.scanned.span(scan.begin, scan.end),
+                                        "`" + std::string(text) + "` has no meaning in a grammar");
+    }
+}
+
+/// A module of another dialect that the text of .lsys cannot name, since it is read as another one.
+void report_foreign_look_alike(ParseSession& session,
+                               SourceSpan place,
+                               char32_t character,
+                               const LookAlike& look_alike) {
+    if (!session.wants(DiagnosticCode::ForeignFeature)) {
+        return;
+    }
+    const std::string what =
+        code_point_name(character) +
+        (look_alike.name.empty() ? std::string() : " (" + std::string(look_alike.name) + ")");
+    const std::string plain(look_alike.plain);
+    Diagnostic& diagnostic = session.context.diagnostics.add(
+        DiagnosticCode::ForeignFeature, place,
+        plain.empty() ? "an invisible character, " + what + ", cannot be a module"
+        : plain == " "
+            ? "a blank that is no plain one but " + what + " cannot be a module"
+            : "this looks like `" + plain + "` but is " + what + ", which cannot be a module");
+    diagnostic.fixes.push_back({plain.empty()  ? std::string("remove it")
+                                : plain == " " ? std::string("write a plain blank")
+                                               : "write `" + plain + "`",
+                                {{place, plain}},
+                                false});
+}
+
+} // namespace
+
+int read_as_plain(ParseSession& session, char* character, int length) {
+    if (session.strays == nullptr) {
+        report_stray_character(session);
+        return length;
+    }
+    const std::uint32_t begin = session.scan.begin;
+    const std::string_view text = session.scanned.text;
+    note_stray(session, begin, false);
+    const std::string plain = plain_text_of(decode_utf8(text.substr(begin)).value)
+                                  .substr(0, static_cast<std::size_t>(length));
+    const Part part = session.scan.part;
+    if (plain == "\"" && (part == Part::ObjectName || part == Part::ObjectValue)) {
+        close_quotes(session, begin + static_cast<std::uint32_t>(length), character + length);
+    }
+    const auto size = static_cast<int>(plain.size());
+    std::memcpy(character + length - size, plain.data(), plain.size());
+    return length - size;
+}
+
+void read_in_quotes(ParseSession& session, std::string_view text) {
+    const bool is_translation = session.scanned.translation != nullptr;
+    if (session.strays == nullptr && !is_translation) {
         return;
     }
     for (std::size_t at = 0; at < text.size();) {
         const CodePoint point = decode_utf8(text.substr(at));
-        if (point.value >= 0x80) {
-            session.plain_reader->read_quoted(session.scan.begin + static_cast<std::uint32_t>(at),
-                                              point.length);
+        const LookAlike* const look_alike = find_look_alike(point.value);
+        const auto begin = session.scan.begin + static_cast<std::uint32_t>(at);
+        if (look_alike != nullptr && !is_translation) {
+            note_stray(session, begin, true);
+        } else if (look_alike != nullptr && point.value > 0xA0) { // blanks are no names anyway
+            report_foreign_look_alike(session, session.scanned.span(begin, begin + point.length),
+                                      point.value, *look_alike);
         }
         at += point.length;
     }

@@ -63,12 +63,13 @@ Part part_after(Keyword keyword, char next) {
     return Part::Opening;
 }
 
-void open_statement(ScanState& scan, Keyword keyword) {
+void open_statement(ParseSession& session, Keyword keyword) {
+    ScanState& scan = session.scan;
     scan.keyword = keyword;
     scan.statement_open = true;
     scan.statement_begin = scan.begin;
     scan.skipping = false;
-    scan.failed = false;
+    session.failed = false;
     scan.semicolon_supplied = false;
     scan.open.clear();
     scan.open_braces = 0;
@@ -120,7 +121,7 @@ bool is_axiom_by_another_name(const ParseSession& session, std::string_view word
 
 Token start(ParseSession& session, std::string_view word) {
     ScanState& scan = session.scan;
-    open_statement(scan, find_keyword(word));
+    open_statement(session, find_keyword(word));
     const char next = next_character(session.scanned.text, scan.end);
     if (scan.keyword == Keyword::Label && next != ':') {
         return unknown_statement(session, word, next);
@@ -194,7 +195,7 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
     if (is_statement) {
         return start(session, word);
     }
-    open_statement(scan, Keyword::Label);
+    open_statement(session, Keyword::Label);
     return lose_statement(session);
 }
 
@@ -409,7 +410,7 @@ Token start_drain(ParseSession& session, Drain kind, SourceSpan own) {
         if (!scan.skipping) {
             report_missing_parts(session);
         }
-        scan.failed = true;
+        session.failed = true;
         session.builder.spoil();
     }
     return drain(session);
@@ -467,7 +468,7 @@ Token lose_statement(ParseSession& session) {
     ScanState& scan = session.scan;
     const SourceSpan span = session.token();
     scan.skipping = true;
-    scan.failed = true;
+    session.failed = true;
     session.builder.spoil();
     return Token(Parser::token::TOK_YYerror, span);
 }

@@ -201,7 +201,7 @@ void report_unexpected_token(ParseSession& session,
                              SourceSpan place,
                              std::span<const Parser::symbol_kind_type> expected) {
     ScanState& scan = session.scan;
-    const bool is_supplied = scan.supplied;
+    const bool is_supplied = session.token_supplied;
     // What was supplied has been reported already, but for a `;`, of which nobody knows yet.
     if (session.wants_reports() && (!is_supplied || token == Kind::S_SEMICOLON)) {
         const Part part = scan.statement_open ? scan.part : scan.ended_part;
@@ -219,7 +219,7 @@ void report_unexpected_token(ParseSession& session,
             report_expected(session, error);
         }
     }
-    scan.failed = true;
+    session.failed = true;
 }
 
 } // namespace lsys::lsys_grammar

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <string>
+#include <string_view>
 #include <utility>
 
 // Header-only, and compiled here alone. toml++ 3.3 takes two things for granted that do not hold:
@@ -180,6 +183,70 @@ void report_syntax(const toml::parse_error& error, Places& places, Diagnostics& 
     }
 }
 
+/// toml++ goes through the parts of a key by recursion, as does what reads its tables. It bounds
+/// how deep values nest, but not keys.
+constexpr std::uint32_t kMostKeyParts = 16;
+
+bool is_bare(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+}
+
+/// One past the string that begins at `at`. Where toml++ takes none, it reads no further.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+    const char quote = text[at];
+    const bool has_lines = at + 2 < text.size() && text[at + 1] == quote && text[at + 2] == quote;
+    const std::string closing(has_lines ? 3 : 1, quote);
+    std::size_t end = at + closing.size();
+    while (end < text.size() && !text.substr(end).starts_with(closing)) {
+        if (text[end] == '\n' && !has_lines) {
+            return end;
+        }
+        end += text[end] == '\\' && quote == '"' ? 2U : 1U;
+    }
+    end = std::min(end + closing.size(), text.size());
+    // Up to two quotes before the three that close it belong to the string.
+    for (int more = 0; has_lines && more < 2 && end < text.size() && text[end] == quote; ++more) {
+        ++end;
+    }
+    return end;
+}
+
+/// The first key of too many parts, up to the first part that is one too many. Only keys have
+/// more than one dot.
+std::optional<SourceSpan> find_long_key(FileId file, std::string_view text) {
+    std::uint32_t parts = 0;
+    std::size_t begin = 0;
+    bool after_dot = false;
+    for (std::size_t at = 0; at < text.size();) {
+        const char c = text[at];
+        const bool is_part = is_bare(c) || c == '"' || c == '\'';
+        std::size_t end = at + 1;
+        if (is_part && !is_bare(c)) {
+            end = end_of_string(text, at);
+        } else if (is_part) {
+            while (end < text.size() && is_bare(text[end])) {
+                ++end;
+            }
+        } else if (c == '#') {
+            end = std::min(text.find('\n', at), text.size());
+        }
+        if (is_part) {
+            begin = after_dot ? begin : at;
+            parts = after_dot ? parts + 1 : 1;
+            if (parts > kMostKeyParts) {
+                return SourceSpan{file, static_cast<std::uint32_t>(begin),
+                                  static_cast<std::uint32_t>(end)};
+            }
+        } else if (c != '.' && c != ' ' && c != '\t') {
+            parts = 0;
+        }
+        after_dot = (c == '.' && parts != 0) || (after_dot && (c == ' ' || c == '\t'));
+        at = end;
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 std::string_view kind_text(SceneValueKind kind) {
@@ -212,6 +279,11 @@ std::optional<SceneValue>
 read_toml(FileId file, const SourceMap& sources, Diagnostics& diagnostics) {
     const SourceFile& source = sources.file(file);
     Places places(file, source);
+    if (const std::optional<SourceSpan> key = find_long_key(file, source.text())) {
+        diagnostics.add(DiagnosticCode::SceneSyntax, *key,
+                        fmt::format("a key of more than {} parts", kMostKeyParts));
+        return std::nullopt;
+    }
     const toml::parse_result result = toml::parse(source.text());
     if (!result) {
         report_syntax(result.error(), places, diagnostics);

@@ -58,3 +58,63 @@ TEST_CASE("a translation that is no grammar is an error wherever its parts stand
         }
     }
 }
+
+TEST_CASE("a translation that outgrows its room is an error where it does") {
+    SourceMap sources;
+    const FileId file = sources.add("tree.foreign", "axiom F\n");
+    Translation translation(file, 10);
+    translation.put("#w : ", {file, 0, 5});
+    translation.copy_as("FFFF", {file, 0, 4});
+    translation.put("GG", {file, 6, 7});
+    translation.put(";");
+    translation.copy_as("FF", {file, 0, 2});
+    CHECK(translation.text() == "#w : FFFF"); // what follows is left out as well
+    CHECK(translation.origin(8, 20) == SourceSpan{file, 3, 4});
+    Diagnostics diagnostics;
+    REQUIRE(translation.report_overflow(diagnostics));
+    REQUIRE(diagnostics.all().size() == 1);
+    CHECK(diagnostics.all()[0].code == DiagnosticCode::ProgramTooLarge);
+    CHECK(diagnostics.all()[0].span == SourceSpan{file, 6, 7});
+
+    Translation fitting(file, 9);
+    fitting.put("#w : ", {file, 0, 5});
+    fitting.put("FFF;", {file, 0, 4});
+    CHECK(!fitting.report_overflow(diagnostics));
+}
+
+TEST_CASE("modules of a translation keep within the file of their statement") {
+    SourceMap sources;
+    Names names;
+    Diagnostics diagnostics;
+    const FileId root = sources.add("root.foreign", "A B\n");
+    const FileId other = sources.add("other.foreign", std::string(100, ' ') + "CD(1)");
+    const FileLoader load = [](const std::string&) -> Result<std::string> {
+        return Error{"no such file"};
+    };
+    Translation translation(root);
+    translation.put("#set names letters;\n#w : ");
+    translation.put("A", {root, 0, 1});
+    translation.put("C", {other, 100, 101});
+    translation.put("D(1)", {other, 101, 105});
+    translation.put(";\n");
+    translation.put("#p : ", {other, 100, 101});
+    translation.put("A", {other, 100, 101});
+    translation.put(" : * : B", {root, 2, 3});
+    translation.put(";\n");
+    const ParseContext context{sources, names, diagnostics, load};
+    const Ast ast = parse_translation(translation, context);
+    CHECK(!diagnostics.has_errors());
+    REQUIRE(ast.files.size() == 2);
+    CHECK(ast.files[1].file == other);
+    const auto spans = [&](ModuleList list) {
+        std::vector<SourceSpan> found;
+        for (ModuleCursor at(ast, names, sources, list); !at.done(); at.next()) {
+            found.push_back(at.view().name_span);
+        }
+        return found;
+    };
+    const SourceSpan a{root, 0, 1};
+    CHECK(spans(ast.axioms[0].modules) == std::vector{a, a, a});
+    const SourceSpan c{other, 100, 101};
+    CHECK(spans(ast.productions[0].successor) == std::vector{c});
+}

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -298,6 +299,37 @@ TEST_CASE("a file that is no TOML has one message") {
     CHECK(parsed(std::string(100'000, '[')).messages.find("[scene-syntax]") != std::string::npos);
     CHECK(parsed("key = " + std::string(100'000, '[')).messages.find("[scene-syntax]") !=
           std::string::npos);
+}
+
+TEST_CASE("a key of many parts is a mistake, and no recursion without end") {
+    const std::string message = "a key of more than 16 parts [scene-syntax]\n";
+    const auto repeated = [](std::string_view part, int count) {
+        std::string text;
+        for (int i = 0; i < count; ++i) {
+            text += part;
+        }
+        return text;
+    };
+    for (const int parts : {16, 1'000, 1'000'000}) {
+        CHECK(parsed(repeated("a.", parts) + "a = 1").messages == "1:1-34: " + message);
+        CHECK(parsed("x = 1\n[" + repeated("a.", parts) + "a]").messages == "2:2-35: " + message);
+        CHECK(parsed(" \t[[ " + repeated("a.", parts) + "a]]").messages == "1:6-39: " + message);
+        CHECK(parsed("x = { y.z = 1.5, " + repeated("a.", parts) + "a = 1 }").messages ==
+              "1:18-51: " + message);
+        CHECK(parsed(repeated("'a\\' . ", parts) + "a = 1").messages.ends_with(message));
+        CHECK(parsed(repeated("\"\\\"\".", parts) + "a = 1").messages.ends_with(message));
+    }
+    const std::string dots = repeated("a.", 40) + "a";
+    const std::string fine = "# " + dots + "\n[[species]]\ngrammar = \"" + dots + "\\\"" + dots +
+                             "\"\nsystem = '" + dots + "'\nshare = 1 # " + dots + "\n";
+    CHECK(parsed(fine).scene.has_value());
+    const std::string in_lines = "[[species]]\ngrammar = \"\"\"\n" + dots + "\"\n\\\"\"\"" + dots +
+                                 "\"\"\"\"\"\nsystem = '''\n''" + dots + "\\''''\nshare = 1\n";
+    CHECK(parsed(in_lines).messages.find("more than") == std::string::npos);
+    const std::string longest = repeated("a.", 15) + "a = ";
+    CHECK(parsed(repeated(longest + "{ ", 250) + "a = 1" + repeated(" }", 250))
+              .messages.find("[unknown-scene-key]") != std::string::npos);
+    CHECK(parsed(repeated("a.", 15) + "a = 1").messages.find("more than") == std::string::npos);
 }
 
 TEST_CASE("what a scene needs is missed") {
