@@ -3,7 +3,7 @@
 
 # What each folder may include, as regular expressions on the path after `#include "`.
 set(base "grammar/(source|diagnostic|diagnostics|result|contract|names|chunked_vector)\\.(h|def)")
-set(contract "compiler/(bytecode|settings|growth|verify|module_file|disassemble|arithmetic|opcodes|turtle_operations)\\.(h|def)")
+set(contract "compiler/(bytecode|settings|verify|module_file|disassemble|arithmetic|opcodes|turtle_operations)\\.(h|def)")
 set(allowed_grammar "grammar/.*")
 set(allowed_compiler "compiler/.*" "grammar/[^/]+")
 set(allowed_runtime "runtime/([^/]+|(derive|expressions|turtle|meshing|physics|export|terrain|placement|scene)/[^/]+)" "${contract}" "${base}")
