@@ -1,6 +1,7 @@
 // The part of AstBuilder that makes module lists. An axiom may have a hundred million modules, so
 // this is the one hot loop of the front end: a run of names comes as one token and is split here.
 #include "grammar/contract.h"
+#include "grammar/hash.h"
 #include "grammar/session/ast_builder.h"
 #include "grammar/session/number.h"
 #include "grammar/session/reports.h"
@@ -111,7 +112,7 @@ NameId AstBuilder::intern_word(std::string_view word) {
     for (const char c : word) {
         key = key << 8 | static_cast<unsigned char>(c);
     }
-    CachedWord& cached = words_[(key * 0x9E3779B97F4A7C15u) >> 56];
+    CachedWord& cached = words_[golden_multiple(key) >> 56];
     if (cached.key != key) {
         cached = {key, names_.intern(word)};
     }

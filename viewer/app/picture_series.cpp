@@ -1,5 +1,6 @@
 #include "viewer/app/picture_series.h"
 
+#include "grammar/hash.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/tell.h"
 #include "runtime/texture.h"
@@ -50,15 +51,6 @@ draw_picture(const Frame& frame, Renderer& renderer, FrameStats& stats, double& 
         }
     }
     return picture;
-}
-
-/// FNV-1a: tells whether two runs made the same picture.
-std::uint64_t digest_of(const std::vector<std::uint8_t>& texels) {
-    std::uint64_t digest = 0xCBF29CE484222325U;
-    for (const std::uint8_t texel : texels) {
-        digest = (digest ^ texel) * 0x100000001B3U;
-    }
-    return digest;
 }
 
 } // namespace
@@ -124,7 +116,7 @@ lsc::Status take_series(const ViewOptions& options,
             after(frame);
         }
         start = Clock::now();
-        series.digest = series.digest * 0x9E3779B97F4A7C15U + digest_of(picture.texels);
+        series.digest = golden_multiple(series.digest) + fnv1a(picture.texels);
         const std::string bytes = encode_png(picture);
         if (bytes.empty()) {
             return lsc::fail(Error{"there is no memory for the picture"}, console);
