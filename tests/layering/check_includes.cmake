@@ -2,7 +2,7 @@
 # Also fails where a library prints or ends the process. Usage: cmake -D ROOT=<folder> -P check_includes.cmake
 
 # What each folder may include, as regular expressions on the path after `#include "`.
-set(base "grammar/(source|diagnostic|diagnostics|result|contract|names|chunked_vector|hash)\\.(h|def)")
+set(base "grammar/(source|diagnostic|diagnostics|result|contract|names|chunked_vector|counted_enum|hash)\\.(h|def)")
 set(contract "compiler/(bytecode|settings|verify|module_file|disassemble|arithmetic|opcodes|turtle_operations)\\.(h|def)")
 set(allowed_grammar "grammar/.*")
 set(allowed_compiler "compiler/.*" "grammar/[^/]+")
