@@ -1,5 +1,6 @@
 #include "compiler/passes/branches.h"
 
+#include "compiler/append_bytes.h"
 #include "grammar/contract.h"
 
 #include <fmt/format.h>
@@ -14,11 +15,6 @@
 namespace lsys {
 
 namespace {
-
-template <typename T>
-void append_bytes(std::string& key, const T& value) {
-    key.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
 
 /// What a symbol can lead to by rewriting.
 struct Reach {
