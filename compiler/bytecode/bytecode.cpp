@@ -1,6 +1,8 @@
 #include "compiler/bytecode/bytecode.h"
 
+#include "compiler/bytecode/impl/bytecode_contents.h"
 #include "grammar/base/contract.h"
+#include "grammar/base/hash.h"
 
 #include <algorithm>
 #include <array>
@@ -29,57 +31,59 @@ constexpr std::array<TurtleInfo, kTurtleOperationCount> kTurtleOperations{{
 #undef LSYS_TURTLE
 }};
 
-/// Mixes 64-bit words one after the other. Each step is a bijection of the state for a given word
-/// and of the word for a given state, so that two sequences that differ in one word never collide.
-class Mixer {
-public:
-    void word(std::uint64_t word) {
-        state_ = (state_ ^ word) * kMultiplier;
-        state_ ^= state_ >> 29;
-    }
-    void real(float value) { word(std::bit_cast<std::uint32_t>(value)); }
-    void text(std::string_view bytes) {
-        word(bytes.size());
-        for (; bytes.size() >= 8; bytes.remove_prefix(8)) {
-            word(little_endian(bytes.data(), 8));
-        }
-        if (!bytes.empty()) {
-            word(little_endian(bytes.data(), bytes.size()));
-        }
-    }
+/// The hash of an empty sequence, before finish().
+constexpr std::uint64_t kStart = 0x6C73797374656D73; // "lsystems"
+
+/// A stream that ignores the fields handed to it.
+struct Ignored {
+    template <typename Value>
+    void number(const Value& /*value*/) {}
+    void real(const float& /*value*/) {}
+    void truth(const bool& /*value*/) {}
     template <typename Enum>
-    void tag(Enum value) {
-        word(static_cast<std::uint64_t>(value));
+    void tag(const Enum& /*value*/) {}
+    void text(const std::string& /*value*/) {}
+    void optional_number(const std::optional<std::uint32_t>& /*value*/) {}
+    template <typename Row, typename Function>
+    void table(const std::vector<Row>& /*rows*/, Function /*row*/) {}
+};
+
+/// Combines all fields that the derived word may depend on.
+class Digest {
+public:
+    [[nodiscard]] std::uint64_t result() const { return finish(state_); }
+
+    Ignored beside_word() { return {}; }
+    void implied(bool value) { number(std::uint64_t{value}); }
+    template <typename Value>
+    void number(const Value& value) {
+        state_ = combine(state_, value);
     }
-    [[nodiscard]] std::uint64_t result() const {
-        const std::uint64_t x = (state_ ^ (state_ >> 32)) * kMultiplier;
-        return x ^ (x >> 32);
+    void real(const float& value) { number(std::bit_cast<std::uint32_t>(value)); }
+    void truth(const bool& value) { number(std::uint64_t{value}); }
+    template <typename Enum>
+    void tag(const Enum& value) {
+        number(static_cast<std::uint64_t>(value));
+    }
+    template <typename Id>
+    void id(const Id& value) {
+        number(static_cast<std::uint64_t>(value));
+    }
+    void text(const std::string& value) { state_ = combine_bytes(state_, value); }
+    template <typename Row, typename Function>
+    void table(const std::vector<Row>& rows, Function row) {
+        number(rows.size());
+        for (const Row& each : rows) {
+            row(*this, each);
+        }
+    }
+    void codes(const std::vector<Code>& codes, std::uint32_t /*width*/) {
+        table(codes, [](Digest& digest, const Code& code) { digest.number(code); });
     }
 
 private:
-    static std::uint64_t little_endian(const char* bytes, std::size_t count) {
-        std::uint64_t word = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            word |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * i);
-        }
-        return word;
-    }
-
-    static constexpr std::uint64_t kMultiplier = 0x9E3779B97F4A7C15; // 2^64 / golden ratio, odd
-    std::uint64_t state_ = 0x6C73797374656D73;
+    std::uint64_t state_ = kStart;
 };
-
-void add(Mixer& mixer, TableRange range) {
-    mixer.word(range.first);
-    mixer.word(range.count);
-}
-
-void add(Mixer& mixer, const WordTemplate& word) {
-    add(mixer, word.codes);
-    mixer.word(word.arguments);
-    mixer.word(word.parameter_count);
-    mixer.word(word.draw_count);
-}
 
 } // namespace
 
@@ -174,72 +178,13 @@ std::optional<Site> place_of(const Bytecode& bytecode, std::uint32_t index) {
 }
 
 std::uint64_t checksum(std::string_view bytes) {
-    Mixer mixer;
-    mixer.text(bytes);
-    return mixer.result();
+    return finish(combine_bytes(kStart, bytes));
 }
 
 std::uint64_t digest(const Bytecode& bytecode) {
-    Mixer mixer;
-    mixer.tag(bytecode.settings.rewriting);
-    mixer.tag(bytecode.settings.choice);
-    mixer.tag(bytecode.settings.at_depth);
-    mixer.word(bytecode.settings.decompose_depth);
-    mixer.word(bytecode.symbols.size());
-    for (const BytecodeSymbol& symbol : bytecode.symbols) {
-        mixer.text(symbol.name);
-        mixer.word(symbol.parameter_count);
-        mixer.tag(symbol.kind);
-        mixer.tag(symbol.ignored);
-        mixer.tag(symbol.turtle == TurtleOperation::Cut);
-    }
-    mixer.word(bytecode.folded.size());
-    for (const FoldedModule& module : bytecode.folded) {
-        mixer.tag(module.symbol);
-        mixer.word(module.first_constant);
-    }
-    mixer.word(bytecode.constants.size());
-    for (const float constant : bytecode.constants) {
-        mixer.real(constant);
-    }
-    mixer.word(bytecode.globals.size());
-    for (const BytecodeGlobal& global : bytecode.globals) {
-        mixer.word(global.instruction);
-        mixer.word(global.draw_position);
-        mixer.word(global.draw_count);
-        mixer.tag(global.has_bounds);
-        mixer.real(global.minimum);
-        mixer.real(global.maximum);
-    }
-    mixer.word(bytecode.patterns.size());
-    for (const PatternItem& item : bytecode.patterns) {
-        mixer.tag(item.kind);
-        mixer.tag(item.symbol);
-    }
-    mixer.word(bytecode.template_codes.size());
-    for (const Code code : bytecode.template_codes) {
-        mixer.word(code);
-    }
-    mixer.word(bytecode.instructions.size());
-    for (const std::uint32_t instruction : bytecode.instructions) {
-        mixer.word(instruction);
-    }
-    mixer.word(bytecode.productions.size());
-    for (const BytecodeProduction& production : bytecode.productions) {
-        mixer.word(production.rule);
-        mixer.word(production.group);
-        mixer.tag(production.stage);
-        mixer.tag(production.stochastic);
-        mixer.real(production.weight);
-        add(mixer, production.left);
-        add(mixer, production.predecessor);
-        add(mixer, production.right);
-        mixer.word(production.condition);
-        add(mixer, production.successor);
-    }
-    add(mixer, bytecode.axiom);
-    mixer.word(bytecode.axiom_draw_position);
-    return mixer.result();
+    Digest digest;
+    describe(digest, bytecode);
+    return digest.result();
 }
 
 } // namespace lsys

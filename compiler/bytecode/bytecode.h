@@ -19,6 +19,7 @@
 #pragma once
 
 #include "compiler/bytecode/settings.h"
+#include "grammar/base/counted_enum.h"
 #include "grammar/base/source.h"
 #include "grammar/base/stage.h"
 
@@ -44,10 +45,15 @@ struct OpcodeInfo {
     std::uint8_t pushes;
     std::string_view meaning;
 };
-inline constexpr std::uint32_t kOpcodeCount = 0
-#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, meaning) +1
+template <>
+struct EnumCount<Opcode> {
+    enum Enumerator : std::size_t {
+#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, meaning) identifier,
 #undef LSYS_OPCODE
-    ;
+        kCount
+    };
+};
+inline constexpr std::uint32_t kOpcodeCount = kCountOf<Opcode>;
 /// Precondition: opcode < kOpcodeCount.
 [[nodiscard]] const OpcodeInfo& info(Opcode opcode);
 inline constexpr std::uint32_t kMaxOperand = (1U << 24) - 1;
@@ -63,10 +69,15 @@ enum class TurtleOperation : std::uint8_t {
 #include "compiler/bytecode/turtle_operations.def"
 #undef LSYS_TURTLE
 };
-inline constexpr std::uint32_t kTurtleOperationCount = 0
-#define LSYS_TURTLE(identifier, name, draws) +1
+template <>
+struct EnumCount<TurtleOperation> {
+    enum Enumerator : std::size_t {
+#define LSYS_TURTLE(identifier, name, draws) identifier,
 #undef LSYS_TURTLE
-    ;
+        kCount
+    };
+};
+inline constexpr std::uint32_t kTurtleOperationCount = kCountOf<TurtleOperation>;
 [[nodiscard]] std::string_view name_of(TurtleOperation operation);
 /// Parameters of a SaveBranch before the formals that its branch uses: whether an instance is to be
 /// taken, the age of the word that holds it, its id.
@@ -84,7 +95,7 @@ using Code = std::uint32_t;
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
 /// Bracket structure is a property of symbols, not of characters.
-enum class SymbolKind : std::uint8_t { Plain, BranchOpen, BranchClose, PolygonOpen, PolygonClose };
+LSYS_COUNTED_ENUM(SymbolKind, Plain, BranchOpen, BranchClose, PolygonOpen, PolygonClose);
 
 struct BytecodeSymbol {
     std::string name;
@@ -126,7 +137,7 @@ struct PlaceRun {
     std::uint32_t column = 0; // of the first
 };
 
-enum class PatternKind : std::uint8_t { Module, Open, Close };
+LSYS_COUNTED_ENUM(PatternKind, Module, Open, Close);
 
 /// One element of a context or predecessor. A module's parameters become formals first_formal, ...
 struct PatternItem {

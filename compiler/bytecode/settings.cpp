@@ -6,22 +6,30 @@ namespace lsys {
 
 namespace {
 
-template <typename Enum, std::size_t size>
-std::string_view name_in(const std::array<std::string_view, size>& names, Enum value) {
+/// The names of the enumerators, in their order.
+template <typename Enum>
+using EnumNames = std::array<std::string_view, kCountOf<Enum>>;
+
+template <typename Enum>
+std::string_view name_in(const EnumNames<Enum>& names, Enum value) {
     const auto index = static_cast<std::size_t>(value);
-    LSYS_CHECK(index < size, index);
+    LSYS_CHECK(index < names.size(), index);
     return names[index];
 }
 
-constexpr std::array<std::string_view, 4> kRewritingModes{"parallel", "sequential", "cyclic",
-                                                          "leftmost"};
-constexpr std::array<std::string_view, 2> kChoiceScopes{"module", "generation"};
-constexpr std::array<std::string_view, 2> kWeightRules{"one", "any"};
-constexpr std::array<std::string_view, 2> kAtDepths{"error", "stop"};
-constexpr std::array<std::string_view, 2> kRandomSources{"philox", "glibc"};
-constexpr std::array<std::string_view, 12> kTurtleProfiles{
+constexpr EnumNames<RewritingMode> kRewritingModes{"parallel", "sequential", "cyclic", "leftmost"};
+constexpr EnumNames<ChoiceScope> kChoiceScopes{"module", "generation"};
+constexpr EnumNames<WeightRule> kWeightRules{"one", "any"};
+constexpr EnumNames<AtDepth> kAtDepths{"error", "stop"};
+constexpr EnumNames<RandomSource> kRandomSources{"philox", "glibc"};
+constexpr EnumNames<TurtleProfile> kTurtleProfiles{
     "lsys", "thesis", "abop",        "houdini",       "l3d",      "lplus",
     "sys",  "carey",  "l3d_program", "lplus_program", "fractint", "sidefx"};
+// Names that are missing are empty and come last.
+static_assert(!kRewritingModes.back().empty() && !kChoiceScopes.back().empty() &&
+                  !kWeightRules.back().empty() && !kAtDepths.back().empty() &&
+                  !kRandomSources.back().empty() && !kTurtleProfiles.back().empty(),
+              "an enumerator has no name");
 
 } // namespace
 

@@ -2,6 +2,8 @@
 // after the front end no character and no keyword carries a meaning of its own.
 #pragma once
 
+#include "grammar/base/counted_enum.h"
+
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -9,33 +11,31 @@
 namespace lsys {
 
 /// How a generation rewrites the word (docs/language.md section 5).
-enum class RewritingMode : std::uint8_t { Parallel, Sequential, Cyclic, Leftmost };
+LSYS_COUNTED_ENUM(RewritingMode, Parallel, Sequential, Cyclic, Leftmost);
 /// Whether each module draws its production, or all modules of a rule share one draw a generation.
-enum class ChoiceScope : std::uint8_t { Module, Generation };
+LSYS_COUNTED_ENUM(ChoiceScope, Module, Generation);
 /// Where the draws of `choice generation` come from: section 6, or the rand() of glibc.
-enum class RandomSource : std::uint8_t { Philox, Glibc };
+LSYS_COUNTED_ENUM(RandomSource, Philox, Glibc);
 /// Whether unconditional groups must sum to 1.
-enum class WeightRule : std::uint8_t { One, Any };
+LSYS_COUNTED_ENUM(WeightRule, One, Any);
 /// What becomes of a module that `#decompose` or `#interpret` still matches at the greatest depth:
 /// it ends the run, or it stays what it is.
-enum class AtDepth : std::uint8_t { Error, Stop };
+LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
 /// Which table of section 7 gives modules their meaning for the turtle.
 /// L3dProgram and LplusProgram are L3d and Lplus as the program L3D has them.
-enum class TurtleProfile : std::uint8_t {
-    Lsys,
-    Thesis,
-    Abop,
-    Houdini,
-    L3d,
-    Lplus,
-    Sys,
-    Carey,
-    L3dProgram,
-    LplusProgram,
-    Fractint,
-    Sidefx,
-};
-inline constexpr TurtleProfile kLastTurtleProfile = TurtleProfile::Sidefx;
+LSYS_COUNTED_ENUM(TurtleProfile,
+                  Lsys,
+                  Thesis,
+                  Abop,
+                  Houdini,
+                  L3d,
+                  Lplus,
+                  Sys,
+                  Carey,
+                  L3dProgram,
+                  LplusProgram,
+                  Fractint,
+                  Sidefx);
 
 [[nodiscard]] constexpr bool is_of_program(TurtleProfile profile) {
     return profile == TurtleProfile::L3dProgram || profile == TurtleProfile::LplusProgram;

@@ -1,11 +1,12 @@
 #include "compiler/bytecode/verify.h"
 
+#include "compiler/bytecode/impl/bytecode_contents.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -13,11 +14,21 @@ namespace lsys {
 
 namespace {
 
-template <typename Enum>
-bool within(Enum value, Enum last) {
-    using Number = std::underlying_type_t<Enum>;
-    return static_cast<Number>(value) <= static_cast<Number>(last);
-}
+/// A stream that checks the fields whose type has more values than the bytecode may hold.
+struct RangeCheck {
+    bool all_enumerators = true;
+    bool all_finite = true;
+
+    RangeCheck& beside_word() { return *this; }
+    template <typename Enum>
+    void tag(const Enum& value) {
+        all_enumerators = all_enumerators && is_enumerator(value);
+    }
+    void real(const float& value) { all_finite = all_finite && std::isfinite(value); }
+    template <typename Value>
+    void number(const Value& /*value*/) {}
+    void truth(const bool& /*value*/) {}
+};
 
 std::uint32_t number(SymbolId id) {
     return static_cast<std::uint32_t>(id);
@@ -49,18 +60,13 @@ private:
 
     bool settings() {
         const Settings& s = bytecode_.settings;
-        if (!within(s.turtle, kLastTurtleProfile) ||
-            !within(s.rewriting, RewritingMode::Leftmost) ||
-            !within(s.choice, ChoiceScope::Generation) || !within(s.random, RandomSource::Glibc) ||
-            !within(s.weights, WeightRule::Any) || !within(s.at_depth, AtDepth::Stop)) {
+        RangeCheck ranges;
+        describe_settings(ranges, s);
+        if (!ranges.all_enumerators) {
             return fail("a setting has a value that does not exist");
         }
-        for (const float value :
-             {s.angle, s.step, s.width, s.angle_scale, s.step_scale, s.width_scale, s.spring,
-              s.density, s.damping, s.tropism[0], s.tropism[1], s.tropism[2], s.tropism[3]}) {
-            if (!std::isfinite(value)) {
-                return fail("a setting is not finite");
-            }
+        if (!ranges.all_finite) {
+            return fail("a setting is not finite");
         }
         if (s.sides < 3 || s.sides > 64) {
             return fail("a branch of {} sides", s.sides);
@@ -81,8 +87,7 @@ private:
             if (symbol.name.empty() || !printable(symbol.name)) {
                 return fail("symbol {} has no printable name", i);
             }
-            if (!within(symbol.kind, SymbolKind::PolygonClose) ||
-                static_cast<std::uint32_t>(symbol.turtle) >= kTurtleOperationCount) {
+            if (!is_enumerator(symbol.kind) || !is_enumerator(symbol.turtle)) {
                 return fail("symbol {} is of no known kind", i);
             }
             const bool saves_branch = symbol.turtle == TurtleOperation::SaveBranch;
@@ -236,7 +241,7 @@ private:
             if (p.name.empty() || !printable(p.name) || !site(p.name_site)) {
                 return fail("production {} has no name or no place", i);
             }
-            if (!within(p.stage, Stage::Interpret) ||
+            if (!is_enumerator(p.stage) ||
                 (i > 0 && p.stage < bytecode_.productions[i - 1].stage)) {
                 return fail("production {} is out of its stage", i);
             }

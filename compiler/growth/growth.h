@@ -12,6 +12,7 @@
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
+#include "compiler/growth/uint128.h"
 
 #include <cstdint>
 #include <optional>
@@ -20,11 +21,9 @@
 
 namespace lsys {
 
-__extension__ using UnsignedInt128 = unsigned __int128;
-
 /// An unsigned count: exact to 2^128 - 1, beyond as a binary64 logarithm.
 struct Count {
-    UnsignedInt128 value = 0;
+    Uint128 value;
     bool exceeds = false; // then log2 holds
     double log2 = 0.0;
 

@@ -4,6 +4,7 @@
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 #include "grammar/base/contract.h"
+#include "grammar/base/hash.h"
 #include "grammar/base/utf8.h"
 
 namespace lsys {
@@ -141,7 +142,7 @@ NameId AstBuilder::intern_word(std::string_view word) {
     for (const char c : word) {
         key = key << 8 | static_cast<unsigned char>(c);
     }
-    CachedWord& cached = words_[(key * 0x9E3779B97F4A7C15u) >> 56];
+    CachedWord& cached = words_[golden_multiple(key) >> 56];
     if (cached.key != key) {
         cached = {key, names_.intern(word)};
     }

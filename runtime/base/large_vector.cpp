@@ -1,14 +1,13 @@
 #include "runtime/base/large_vector.h"
 
-#include <cstdint>
+#include "runtime/base/huge_pages.h"
+
 #include <new>
-#include <sys/mman.h>
 
 namespace lsys {
 
 namespace {
 
-constexpr std::size_t kHugePage = std::size_t{2} << 20;
 constexpr std::size_t kLarge = 2 * kHugePage; // smaller blocks come from the heap
 
 } // namespace
@@ -18,7 +17,7 @@ void* allocate_large(std::size_t bytes) {
         return ::operator new(bytes);
     }
     void* const address = ::operator new (bytes, std::align_val_t{kHugePage});
-    madvise(address, bytes, MADV_HUGEPAGE); // a refusal costs time, no more
+    advise_huge_pages(address, bytes);
     return address;
 }
 

@@ -152,7 +152,7 @@ ExitStatus count_words(const StatsCommand& command,
 /// As a JSON number where it is one exactly, else as text.
 nlohmann::ordered_json json_count(const Count& count) {
     if (count.at_most(std::numeric_limits<std::uint64_t>::max())) {
-        return static_cast<std::uint64_t>(count.value);
+        return count.value.low;
     }
     std::string digits = to_text(count);
     digits.erase(std::remove(digits.begin(), digits.end(), ','), digits.end());

@@ -1,15 +1,19 @@
 // Layout, little-endian, without gaps:
 //   0  magic "lsystate"
-//   8  version            u32    12  code width          u32
+//   8  version            u32    12  bytecode version    u32
 //  16  program digest     u64    24  seed                u64
 //  32  generations        u32    36  age                 u32
 //  40  modules            u64    48  parameters          u64
-//  56  codes, of the code width each
+//  56  code width         u64
+//  64  codes, of the code width each
 //      parameters, binary32
 //      checksum           u64, over the checksums of header, codes and parameters
 #include "runtime/derive/state_file.h"
 
+#include "compiler/bytecode/module_file.h"
 #include "grammar/base/contract.h"
+
+#include <fmt/format.h>
 
 #include <array>
 #include <bit>
@@ -24,7 +28,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "words are written as they lie");
 
 constexpr std::string_view kMagic = "lsystate";
-constexpr std::size_t kHeaderBytes = 56;
+constexpr std::size_t kHeaderBytes = 64;
 constexpr std::size_t kChecksumBytes = 8;
 
 template <typename T>
@@ -96,6 +100,13 @@ bool holds_word_of(const Bytecode& bytecode, const Word& word) {
     return true;
 }
 
+Error other_version(std::string_view what, std::uint32_t version, std::uint32_t own) {
+    const bool newer = version > own;
+    return {fmt::format(
+        "the saved state was made by {} lsc ({} is version {}, this one reads {}){}",
+        newer ? "a newer" : "an older", what, version, own, newer ? "" : ": derive it again")};
+}
+
 bool fits(const Bytecode& bytecode, const Word& word) {
     switch (word.code_width()) {
     case 1:
@@ -121,13 +132,14 @@ bool write_state(const StateHeader& header,
     std::memcpy(at, kMagic.data(), kMagic.size());
     at += kMagic.size();
     put(at, kStateFileVersion);
-    put(at, word.code_width());
+    put(at, kModuleFileVersion);
     put(at, header.program_digest);
     put(at, header.seed);
     put(at, header.generations);
     put(at, header.age);
     put(at, word.module_count());
     put(at, word.parameter_count());
+    put(at, std::uint64_t{word.code_width()});
     const std::string_view head_bytes(head.data(), head.size());
     const std::string_view codes = code_bytes(word);
     const std::string_view parameters = bytes_of(word.parameters());
@@ -147,12 +159,15 @@ Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode) 
     }
     const char* at = bytes.data() + kMagic.size();
     const auto version = get<std::uint32_t>(at);
+    const auto bytecode_version = get<std::uint32_t>(at);
     if (version != kStateFileVersion) {
-        return Error{"the saved state has version " + std::to_string(version) +
-                     ", this lsc reads version " + std::to_string(kStateFileVersion) +
-                     ": derive it again"};
+        return other_version("its format", version, kStateFileVersion);
     }
-    const auto width = get<std::uint32_t>(at);
+    // The digest is one of the bytecode's contents, so that it does not tell whether the program
+    // is another one or was compiled to another version of bytecode.
+    if (bytecode_version != kModuleFileVersion) {
+        return other_version("its bytecode", bytecode_version, kModuleFileVersion);
+    }
     SavedState state;
     state.header.program_digest = get<std::uint64_t>(at);
     state.header.seed = get<std::uint64_t>(at);
@@ -160,6 +175,7 @@ Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode) 
     state.header.age = get<std::uint32_t>(at);
     const auto modules = get<std::uint64_t>(at);
     const auto parameters = get<std::uint64_t>(at);
+    const auto width = get<std::uint64_t>(at);
 
     // sizes are compared before they are multiplied
     const std::uint64_t body = bytes.size() - kHeaderBytes - kChecksumBytes;
@@ -186,7 +202,7 @@ Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode) 
     if (width != code_width(bytecode.code_count())) {
         return Error{"the saved state is damaged: its codes have the wrong width"};
     }
-    state.word = Word(width);
+    state.word = Word(static_cast<std::uint32_t>(width));
     if (!state.word.resize(modules, parameters)) {
         return Error{"there is not enough memory for the saved word"};
     }

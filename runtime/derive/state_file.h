@@ -1,5 +1,5 @@
 // A derivation saved in its middle: `--save-state`, `--from`. Holds the digest of the program,
-// seed, number of generations asked for, age and word, with magic, version and a checksum; the
+// seed, number of generations asked for, age and word, with magic, versions and a checksum; the
 // .cpp draws the layout.
 #pragma once
 
@@ -13,7 +13,10 @@
 
 namespace lsys {
 
-inline constexpr std::uint32_t kStateFileVersion = 1;
+// Version history.
+//   1  The first format. Its digest left out the source of random numbers.
+//   2  The version of the bytecode (kModuleFileVersion) beside the digest, which depends on it.
+inline constexpr std::uint32_t kStateFileVersion = 2;
 
 struct StateHeader {
     std::uint64_t program_digest = 0; // of digest()

@@ -1,6 +1,8 @@
 #include "runtime/derive/word.h"
 
 #include "grammar/base/contract.h"
+#include "runtime/base/huge_pages.h"
+#include "runtime/base/saturating.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -13,21 +15,12 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kHugePage = std::size_t{2} << 20;
 /// From here on huge pages: zeroing one is as quick as zeroing a third of it in small pages.
 constexpr std::size_t kHugeFrom = std::size_t{1} << 20;
 constexpr std::size_t kWorthAHugePage = kHugePage / 3;
 /// Addresses taken at once for a large arena; only those that are written become memory.
 constexpr std::size_t kLargeReservation = std::size_t{256} << 20;
 
-constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
-
-std::uint64_t saturating_add(std::uint64_t a, std::uint64_t b) {
-    return a > kMax - b ? kMax : a + b;
-}
-std::uint64_t saturating_multiply(std::uint64_t a, std::uint64_t b) {
-    return b != 0 && a > kMax / b ? kMax : a * b;
-}
 std::size_t round_up(std::size_t bytes, std::size_t unit) {
     return (bytes + unit - 1) / unit * unit;
 }
@@ -121,7 +114,7 @@ void Arena::advise() {
     const std::size_t rest = used_ % kHugePage;
     const std::size_t end = used_ - rest + (rest >= kWorthAHugePage ? kHugePage : 0);
     if (end > advised_) {
-        madvise(data_ + advised_, end - advised_, MADV_HUGEPAGE); // a refusal costs time, no more
+        advise_huge_pages(data_ + advised_, end - advised_);
         advised_ = end;
     }
 }

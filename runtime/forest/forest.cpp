@@ -1,5 +1,6 @@
 #include "runtime/forest/forest.h"
 
+#include "grammar/base/hash.h"
 #include "runtime/base/workers.h"
 
 #include <algorithm>
@@ -18,18 +19,12 @@ std::uint64_t digest_of(const Tree& tree, std::uint32_t node, const BranchInstan
         return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 |
                std::bit_cast<std::uint32_t>(b);
     };
-    constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;
-    std::uint64_t mixed = (std::uint64_t{tree.number} << 32 | node) * kOdd;
-    mixed ^= bits(branch.position.x, branch.position.y);
-    mixed *= kOdd;
-    mixed ^= bits(branch.position.z, branch.scale) + (mixed >> 31);
-    mixed *= kOdd;
-    mixed ^= bits(branch.rotation.w, branch.rotation.x) + (mixed >> 29);
-    mixed *= kOdd;
-    mixed ^= bits(branch.rotation.y, branch.rotation.z) + (mixed >> 30);
-    mixed *= kOdd;
-    mixed ^= branch.instance + (mixed >> 32);
-    return mixed * kOdd;
+    std::uint64_t mixed = golden_multiple(std::uint64_t{tree.number} << 32 | node);
+    mixed = golden_multiple(mixed ^ bits(branch.position.x, branch.position.y));
+    mixed = golden_multiple(mixed ^ (bits(branch.position.z, branch.scale) + (mixed >> 31)));
+    mixed = golden_multiple(mixed ^ (bits(branch.rotation.w, branch.rotation.x) + (mixed >> 29)));
+    mixed = golden_multiple(mixed ^ (bits(branch.rotation.y, branch.rotation.z) + (mixed >> 30)));
+    return golden_multiple(mixed ^ (branch.instance + (mixed >> 32)));
 }
 
 ForestCounts count_trees(const Forest& forest, std::span<const Tree> trees) {

@@ -1,5 +1,6 @@
 #include "runtime/meshing/texture.h"
 
+#include "grammar/base/hash.h"
 #include "runtime/meshing/shapes.h"
 
 #include <algorithm>
@@ -13,14 +14,10 @@ namespace {
 
 constexpr std::uint32_t kSize = 256;
 
-/// A number in [0, 1) for each point of a lattice; the mixing steps are those of Wellons'
-/// "lowbias32" (https://nullprogram.com/blog/2018/07/31/).
+/// A number in [0, 1) for each point of a lattice.
 float lattice(std::uint32_t x, std::uint32_t y, std::uint32_t layer) {
-    std::uint32_t h = x + 0x9E3779B9U * (y + 0x9E3779B9U * layer);
-    h = (h ^ (h >> 16U)) * 0x7FEB352DU;
-    h = (h ^ (h >> 15U)) * 0x846CA68BU;
-    h ^= h >> 16U;
-    return static_cast<float>(h >> 8U) / 16777216.0F;
+    constexpr std::uint32_t kRow = 0x9E3779B9;
+    return unit_float(lowbias32(x + kRow * (y + kRow * layer)));
 }
 
 float smooth(float low, float high, float x) {

@@ -1,5 +1,7 @@
 #include "runtime/meshing/user_mesh.h"
 
+#include "grammar/base/hash.h"
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
@@ -55,14 +57,8 @@ public:
 
 private:
     [[nodiscard]] std::size_t start(const Corner& corner) const {
-        // The finalizer of MurmurHash3, once for each half of the key.
-        const auto mix = [](std::uint64_t x) {
-            x = (x ^ (x >> 33)) * 0xFF51AFD7ED558CCDu;
-            x = (x ^ (x >> 33)) * 0xC4CEB9FE1A85EC53u;
-            return x ^ (x >> 33);
-        };
         const std::uint64_t low = corner.position | std::uint64_t{corner.texture} << 32;
-        return mix(mix(low) + corner.normal) & (slots_.size() - 1);
+        return mix64(mix64(low) + corner.normal) & (slots_.size() - 1);
     }
     void grow() {
         slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), kNotGiven);

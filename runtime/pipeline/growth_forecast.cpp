@@ -20,7 +20,7 @@ bool is_small(const Bytecode& bytecode) {
 
 std::uint64_t saturated(const Count& count) {
     constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
-    return count.at_most(kMax) ? static_cast<std::uint64_t>(count.value) : kMax;
+    return count.at_most(kMax) ? count.value.low : kMax;
 }
 
 /// Whether every `]` has its `[` within the template.
@@ -97,7 +97,7 @@ predict_counts(const Bytecode& bytecode, std::uint32_t generations, const Limits
         if (!size.modules.at_most(limits.max_modules)) {
             return std::nullopt;
         }
-        counts.push_back(static_cast<std::uint64_t>(size.modules.value));
+        counts.push_back(size.modules.value.low);
     }
     return counts;
 }

@@ -1,7 +1,7 @@
 // The values of options as text: numbers, sizes, definitions. Every message says what is allowed.
 #pragma once
 
-#include "compiler/compile.h"
+#include "compiler/program/compile_options.h"
 #include "grammar/base/result.h"
 #include "runtime/physics/physics.h"
 

@@ -58,13 +58,6 @@ void append_polygon(const Skeleton& skeleton, std::uint64_t index, std::string& 
 
 } // namespace
 
-glm::quat local_frame(const Skeleton& skeleton, std::uint32_t segment) {
-    const Segment& own = skeleton.segments[segment];
-    return own.parent == kNoSegment
-               ? own.frame
-               : glm::conjugate(skeleton.segments[own.parent].frame) * own.frame;
-}
-
 SkeletonStats measure(const Skeleton& skeleton) {
     SkeletonStats stats;
     double farthest = 0.0;

@@ -85,8 +85,6 @@ struct Skeleton {
 [[nodiscard]] inline glm::vec3 tip(const Segment& segment) {
     return segment.base + segment.length * heading(segment.frame);
 }
-/// The frame of a segment seen from its parent's; its own if it has none.
-[[nodiscard]] glm::quat local_frame(const Skeleton& skeleton, std::uint32_t segment);
 
 struct Bounds {
     glm::vec3 low{0.0F};

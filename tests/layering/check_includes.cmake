@@ -47,7 +47,7 @@ foreach(path ${sources})
         AND NOT path MATCHES "^runtime/base/workers\\.cpp$")
       list(APPEND failures "${path}: threads are made in runtime/base/workers.cpp and in viewer/app: ${line}")
     endif()
-    if(NOT folder MATCHES "^(runtime/cli|viewer/app)$" AND NOT path MATCHES "^grammar/base/contract\\.(h|cpp)$"
+    if(NOT folder MATCHES "^(runtime/(cli|program)|viewer/app)$" AND NOT path MATCHES "^grammar/base/contract\\.(h|cpp)$"
         AND line MATCHES "(std::(cout|cerr|exit|abort)|[^a-z_]f?printf\\()")
       list(APPEND failures "${path}: a library may not print or end the process: ${line}")
     endif()

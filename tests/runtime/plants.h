@@ -131,6 +131,14 @@ inline Skeleton tree(std::uint32_t depth, std::uint32_t segments_an_axis) {
     return plant;
 }
 
+/// The frame of a segment seen from its parent's; its own if it has none.
+inline glm::quat local_frame(const Skeleton& skeleton, std::uint32_t segment) {
+    const Segment& own = skeleton.segments[segment];
+    return own.parent == kNoSegment
+               ? own.frame
+               : glm::conjugate(skeleton.segments[own.parent].frame) * own.frame;
+}
+
 /// J of springs and weight, from nothing but the two poses.
 struct Potential {
     double energy = 0.0;

@@ -1,5 +1,6 @@
 #include "viewer/app/picture_series.h"
 
+#include "grammar/base/hash.h"
 #include "runtime/meshing/texture.h"
 #include "runtime/program/files.h"
 
@@ -49,15 +50,6 @@ draw_picture(const Frame& frame, Renderer& renderer, FrameStats& stats, double& 
         }
     }
     return picture;
-}
-
-/// FNV-1a: tells whether two runs made the same picture.
-std::uint64_t digest_of(const std::vector<std::uint8_t>& texels) {
-    std::uint64_t digest = 0xCBF29CE484222325U;
-    for (const std::uint8_t texel : texels) {
-        digest = (digest ^ texel) * 0x100000001B3U;
-    }
-    return digest;
 }
 
 } // namespace
@@ -123,7 +115,7 @@ ExitStatus take_series(const ViewOptions& options,
             after(frame);
         }
         start = Clock::now();
-        series.digest = series.digest * 0x9E3779B97F4A7C15U + digest_of(picture.texels);
+        series.digest = golden_multiple(series.digest) + fnv1a(picture.texels);
         const std::string bytes = encode_png(picture);
         if (bytes.empty()) {
             return report_error(Error{"there is no memory for the picture"}, console);

@@ -1,5 +1,7 @@
 #include "viewer/scene/forest_model.h"
 
+#include "grammar/base/hash.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -33,7 +35,7 @@ bool is_leaf(const PlacedObject& object) {
 
 /// Whether a leaf is one of those that are shown; those of a level are among those of a finer one.
 bool is_shown(std::size_t leaf, std::uint32_t leaves_of_one) {
-    const std::uint64_t mixed = (leaf + 1) * 0x9E3779B97F4A7C15U;
+    const std::uint64_t mixed = golden_multiple(std::uint64_t{leaf} + 1);
     return (mixed >> 40 & (leaves_of_one - 1)) == 0;
 }
 

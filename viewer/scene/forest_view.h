@@ -111,14 +111,6 @@ struct ForestLists {
     std::uint32_t expanded = 0;      // trees whose branches were made for this
     std::uint32_t waiting = 0;       // that should have branches but are far for now
     float detail = 1.0F;             // factor of sizes, so that most_triangles is kept
-
-    [[nodiscard]] std::uint64_t branch_trees() const {
-        std::uint64_t sum = 0;
-        for (const std::uint32_t count : trees_of_level) {
-            sum += count;
-        }
-        return sum;
-    }
 };
 
 /// A square of the ground.

@@ -1,5 +1,7 @@
 #include "viewer/scene/portrait_plan.h"
 
+#include "grammar/base/hash.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,10 +17,7 @@ constexpr std::uint32_t kRow = 4; // trees of a cell along a side
 
 /// Part of 1, the same for the same numbers.
 float drawn(std::uint32_t a, std::uint32_t b) {
-    std::uint32_t h = a * 0x9E3779B1U ^ b * 0x85EBCA77U;
-    h = (h ^ h >> 15U) * 0x2C1B3C6DU;
-    h = (h ^ h >> 12U) * 0x297A2D39U;
-    return static_cast<float>((h ^ h >> 15U) >> 8U) / 16777216.0F;
+    return unit_float(lattice32(a, b));
 }
 
 /// The mean scale of the trees of each form; 0 if it has none.

@@ -26,15 +26,6 @@ std::int64_t floor_to(double value, std::int64_t step) {
     return static_cast<std::int64_t>(std::floor(value / static_cast<double>(step))) * step;
 }
 
-/// As the shader has it.
-float morph_of(float distance, std::uint32_t level, std::uint32_t levels) {
-    if (level + 1 == levels) {
-        return 0.0F;
-    }
-    const float start = TerrainView::morph_start(level);
-    return std::clamp((distance - start) / (TerrainView::range(level) - start), 0.0F, 1.0F);
-}
-
 } // namespace
 
 float TerrainView::range(std::uint32_t level) {
@@ -154,68 +145,6 @@ bool TerrainView::visit(const Node& node, const ViewVolume& volume) {
         }
     }
     return true;
-}
-
-float TerrainView::drawn_height(float x, float z) const {
-    Node node;
-    node.level = levels_ - 1;
-    const auto index = [](float at, float size) {
-        return static_cast<std::int64_t>(std::floor(at / size));
-    };
-    const auto size_of = [](std::uint32_t level) {
-        return cell(level) * static_cast<float>(kNodeCells);
-    };
-    while (node.level != 0) {
-        const Node child{index(x, size_of(node.level - 1)), index(z, size_of(node.level - 1)),
-                         node.level - 1};
-        if (distance_to(child) >= range(child.level)) {
-            break;
-        }
-        node = child;
-    }
-    // The corners of the cell, where they have moved to.
-    const std::uint32_t level = node.level;
-    const HeightGrid& grid = grids_[level];
-    const float size = cell(level);
-    const auto corner = [&](std::int32_t cx, std::int32_t cz) {
-        const glm::vec2 place(static_cast<float>(cx) * size, static_cast<float>(cz) * size);
-        const float distance =
-            glm::length(glm::vec3(place - glm::vec2(eye_.x, eye_.z), eye_height_));
-        const float morph = morph_of(distance, level, levels_);
-        const std::int32_t even_x = cx - (cx & 1);
-        const std::int32_t even_z = cz - (cz & 1);
-        const glm::vec2 even(static_cast<float>(even_x) * size, static_cast<float>(even_z) * size);
-        const glm::vec2 moved = glm::mix(place, even, morph);
-        const float height = glm::mix(grid.at(cx, cz), grid.at(even_x, even_z), morph);
-        return glm::vec3(moved.x, height, moved.y);
-    };
-    const auto cx = static_cast<std::int32_t>(std::floor(x / size));
-    const auto cz = static_cast<std::int32_t>(std::floor(z / size));
-    // Corners move down to even places, so what covers a place lies at most one cell beyond.
-    for (std::int32_t dz = 0; dz <= 1; ++dz) {
-        for (std::int32_t dx = 0; dx <= 1; ++dx) {
-            const glm::vec3 a = corner(cx + dx, cz + dz);
-            const glm::vec3 b = corner(cx + dx + 1, cz + dz);
-            const glm::vec3 c = corner(cx + dx, cz + dz + 1);
-            const glm::vec3 d = corner(cx + dx + 1, cz + dz + 1);
-            for (const auto& [p, q, r] : {std::array{a, c, d}, std::array{a, d, b}}) {
-                const glm::vec2 u(q.x - p.x, q.z - p.z);
-                const glm::vec2 v(r.x - p.x, r.z - p.z);
-                const glm::vec2 w(x - p.x, z - p.z);
-                const float area = u.x * v.y - u.y * v.x;
-                if (std::abs(area) < 1e-9F) {
-                    continue;
-                }
-                const float s = (w.x * v.y - w.y * v.x) / area;
-                const float t = (u.x * w.y - u.y * w.x) / area;
-                constexpr float kSlack = 1e-4F;
-                if (s >= -kSlack && t >= -kSlack && s + t <= 1.0F + kSlack) {
-                    return p.y + s * (q.y - p.y) + t * (r.y - p.y);
-                }
-            }
-        }
-    }
-    return std::nanf("");
 }
 
 } // namespace lsys::view

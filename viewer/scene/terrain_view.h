@@ -70,8 +70,6 @@ public:
     /// The eye's height above the ground below it: distances to the ground count this, not the
     /// height of each hill.
     [[nodiscard]] float eye_height() const { return eye_height_; }
-    /// The height of the surface that is drawn at a place for the last camera, whatever is in view.
-    [[nodiscard]] float drawn_height(float x, float z) const;
 
 private:
     struct Node {

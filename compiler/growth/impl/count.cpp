@@ -5,16 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace lsys {
 
 namespace {
-
-constexpr UnsignedInt128 kMost = ~UnsignedInt128{0};
-
-bool is_small(UnsignedInt128 value) {
-    return (value >> 64) == 0;
-}
 
 Count from_log2(double log2) {
     return {0, true, log2};
@@ -32,14 +27,13 @@ double Count::approximate_log2() const {
     if (exceeds) {
         return log2;
     }
-    return value == 0 ? -std::numeric_limits<double>::infinity()
-                      : std::log2(static_cast<double>(value));
+    return value == 0 ? -std::numeric_limits<double>::infinity() : std::log2(to_double(value));
 }
 
 Count operator+(const Count& a, const Count& b) {
     if (!a.exceeds && !b.exceeds) {
-        if (const UnsignedInt128 sum = a.value + b.value; sum >= a.value) {
-            return {sum, false, 0.0};
+        if (const std::optional<Uint128> sum = checked_add(a.value, b.value)) {
+            return {*sum, false, 0.0};
         }
     }
     return from_log2(add_logs(a.approximate_log2(), b.approximate_log2()));
@@ -51,8 +45,8 @@ Count operator*(const Count& a, const Count& b) {
         return {};
     }
     if (!a.exceeds && !b.exceeds) {
-        if ((is_small(a.value) && is_small(b.value)) || a.value <= kMost / b.value) {
-            return {a.value * b.value, false, 0.0};
+        if (const std::optional<Uint128> product = checked_multiply(a.value, b.value)) {
+            return {*product, false, 0.0};
         }
     }
     return from_log2(a.approximate_log2() + b.approximate_log2());
@@ -63,13 +57,14 @@ std::string to_text(const Count& count) {
         return fmt::format("2^{:.0f}", count.log2);
     }
     std::string digits;
-    UnsignedInt128 rest = count.value;
+    Uint128 rest = count.value;
     for (int place = 0; rest != 0 || place == 0; ++place) {
         if (place != 0 && place % 3 == 0) {
             digits.push_back(',');
         }
-        digits.push_back(static_cast<char>('0' + static_cast<int>(rest % 10)));
-        rest /= 10;
+        const Uint128Division division = divide(rest, 10);
+        digits.push_back(static_cast<char>('0' + division.remainder));
+        rest = division.quotient;
     }
     std::reverse(digits.begin(), digits.end());
     return digits;

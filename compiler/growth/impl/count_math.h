@@ -14,8 +14,9 @@ namespace lsys::analysis {
 /// sum += value * times
 inline void add_times(Count& sum, const Count& value, std::uint64_t times) {
     constexpr int kRoom = 60; // a value this small times 2^64, and the sum of two such, fit
-    if (!sum.exceeds && !value.exceeds && (value.value >> kRoom) == 0 && (sum.value >> 126) == 0) {
-        sum.value += value.value * times;
+    if (!sum.exceeds && !value.exceeds && value.value.high == 0 && value.value.low >> kRoom == 0 &&
+        sum.value.high >> 62 == 0) {
+        sum.value = sum.value + full_product(value.value.low, times);
         return;
     }
     sum = sum + value * Count{times, false, 0.0};

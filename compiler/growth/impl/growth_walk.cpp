@@ -13,7 +13,7 @@ namespace lsys::analysis {
 namespace {
 
 std::uint64_t small(const Count& count) {
-    return static_cast<std::uint64_t>(count.value);
+    return count.value.low;
 }
 
 Count count_of(std::uint64_t value) {
@@ -32,8 +32,7 @@ Count subtract(const Count& a, const Count& b) {
 }
 
 double as_double(const Count& count) {
-    return count.exceeds ? std::exp2(std::min(count.log2, 1000.0))
-                         : static_cast<double>(count.value);
+    return count.exceeds ? std::exp2(std::min(count.log2, 1000.0)) : to_double(count.value);
 }
 
 } // namespace
@@ -186,7 +185,7 @@ Count GrowthWalk::most_matches(const SequenceRule& rule) const {
             }
         }
         if (!present.exceeds) {
-            present.value /= uses;
+            present.value = divide(present.value, uses).quotient;
         }
         if (first || less(present, most)) {
             most = present;

@@ -1,5 +1,6 @@
 #include "compiler/instancing/impl/branches.h"
 
+#include "compiler/program/append_bytes.h"
 #include "grammar/base/contract.h"
 
 #include <fmt/format.h>
@@ -14,11 +15,6 @@
 namespace lsys {
 
 namespace {
-
-template <typename T>
-void append_bytes(std::string& key, const T& value) {
-    key.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
 
 /// What a symbol can lead to by rewriting.
 struct Reach {

@@ -1,5 +1,7 @@
 #include "compiler/lower/impl/module_folder.h"
 
+#include "compiler/program/append_bytes.h"
+
 #include <cmath>
 
 namespace lsys {
@@ -15,11 +17,6 @@ std::uint64_t code_capacity(std::size_t symbol_count) {
     default:
         return kNone;
     }
-}
-
-template <typename T>
-void append_bytes(std::string& key, const T& value) {
-    key.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
 } // namespace

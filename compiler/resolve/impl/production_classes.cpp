@@ -1,21 +1,18 @@
 #include "compiler/resolve/impl/production_classes.h"
 
+#include "grammar/base/hash.h"
+
 #include <utility>
 
 namespace lsys {
 
 namespace {
 
-std::uint64_t mixed(std::uint64_t state, std::uint64_t word) {
-    state = (state ^ word) * 0x9E3779B97F4A7C15;
-    return state ^ (state >> 32);
-}
-
 std::uint64_t hash_of(const ProgramPattern& pattern, std::uint64_t state) {
-    state = mixed(state, pattern.items.size());
+    state = combine(state, pattern.items.size());
     for (const ProgramPatternItem& item : pattern.items) {
-        state = mixed(state, static_cast<std::uint64_t>(item.symbol));
-        state = mixed(state, static_cast<std::uint64_t>(item.kind));
+        state = combine(state, static_cast<std::uint64_t>(item.symbol));
+        state = combine(state, static_cast<std::uint64_t>(item.kind));
     }
     return state;
 }

@@ -54,18 +54,6 @@ constexpr std::array kCountKeys{
 constexpr std::array<std::string_view, 9> kOtherKeys{
     "turtle", "names", "rewriting", "choice", "weights", "random", "tropism", "seed", "at_depth"};
 
-constexpr std::array kTurtles{
-    TurtleProfile::Lsys,         TurtleProfile::Thesis,   TurtleProfile::Abop,
-    TurtleProfile::Houdini,      TurtleProfile::L3d,      TurtleProfile::Lplus,
-    TurtleProfile::Sys,          TurtleProfile::Carey,    TurtleProfile::L3dProgram,
-    TurtleProfile::LplusProgram, TurtleProfile::Fractint, TurtleProfile::Sidefx};
-constexpr std::array kModes{RewritingMode::Parallel, RewritingMode::Sequential,
-                            RewritingMode::Cyclic, RewritingMode::Leftmost};
-constexpr std::array kScopes{ChoiceScope::Module, ChoiceScope::Generation};
-constexpr std::array kAtDepths{AtDepth::Error, AtDepth::Stop};
-constexpr std::array kSources{RandomSource::Philox, RandomSource::Glibc};
-constexpr std::array kWeights{WeightRule::One, WeightRule::Any};
-
 /// What the front end reads.
 enum class NameReading : std::uint8_t { Words, Letters, Characters };
 constexpr std::array kReadings{NameReading::Words, NameReading::Letters, NameReading::Characters};
@@ -107,17 +95,17 @@ bool SetResolver::is_first(const SetNode& node) {
 void SetResolver::read_mode(const SetNode& node, std::string_view key) {
     Settings& settings = resolution_.program.settings;
     if (key == "turtle") {
-        choose(node, kTurtles, settings.turtle);
+        choose(node, enumerators_of<TurtleProfile>(), settings.turtle);
     } else if (key == "rewriting") {
-        choose(node, kModes, settings.rewriting);
+        choose(node, enumerators_of<RewritingMode>(), settings.rewriting);
     } else if (key == "choice") {
-        choose(node, kScopes, settings.choice);
+        choose(node, enumerators_of<ChoiceScope>(), settings.choice);
     } else if (key == "random") {
-        choose(node, kSources, settings.random);
+        choose(node, enumerators_of<RandomSource>(), settings.random);
     } else if (key == "weights") {
-        choose(node, kWeights, settings.weights);
+        choose(node, enumerators_of<WeightRule>(), settings.weights);
     } else if (key == "at_depth") {
-        choose(node, kAtDepths, settings.at_depth);
+        choose(node, enumerators_of<AtDepth>(), settings.at_depth);
     } else if (key == "names") {
         auto reading = NameReading::Words;
         choose(node, kReadings, reading);

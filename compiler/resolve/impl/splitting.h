@@ -4,6 +4,7 @@
 #pragma once
 
 #include "compiler/resolve/impl/resolution.h"
+#include "grammar/base/hash.h"
 
 #include <cstdint>
 #include <span>
@@ -45,9 +46,7 @@ private:
         std::size_t operator()(const Use& use) const {
             const auto name = static_cast<std::uint64_t>(use.name);
             const auto file = static_cast<std::uint64_t>(use.file);
-            std::uint64_t hash = (name ^ (file << 40)) * 0x9E3779B97F4A7C15;
-            hash = (hash ^ (hash >> 32) ^ use.parameter_count) * 0x9E3779B97F4A7C15;
-            return hash ^ (hash >> 32);
+            return mix64(combine(name ^ file << 40, use.parameter_count));
         }
     };
 

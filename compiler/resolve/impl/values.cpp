@@ -2,6 +2,7 @@
 
 #include "compiler/bytecode/arithmetic.h"
 #include "grammar/base/contract.h"
+#include "grammar/base/hash.h"
 
 #include <bit>
 #include <cmath>
@@ -25,7 +26,7 @@ ValueId ValueBuilder::add(const Value& value) {
 
 std::size_t ValueBuilder::slot_of(std::uint32_t bits) const {
     const std::size_t mask = literals_.size() - 1;
-    std::size_t slot = (bits * std::uint64_t{0x9E3779B97F4A7C15} >> 32) & mask;
+    std::size_t slot = (golden_multiple(std::uint64_t{bits}) >> 32) & mask;
     while (literals_[slot] != kNoValue &&
            std::bit_cast<std::uint32_t>((*this)[literals_[slot]].literal) != bits) {
         slot = (slot + 1) & mask;

@@ -1,5 +1,7 @@
 #include "runtime/derive/engine/folded_index.h"
 
+#include "grammar/base/hash.h"
+
 #include <bit>
 #include <cstddef>
 #include <cstring>
@@ -30,13 +32,10 @@ void FoldedIndex::add(Code code) {
     codes_.emplace(hash(bytecode_.symbol_of(code), constants_of(code)), code);
 }
 
-/// FNV-1a over words.
 std::uint64_t FoldedIndex::hash(SymbolId symbol, const float* arguments) const {
-    constexpr std::uint64_t kPrime = 0x100000001B3;
-    std::uint64_t mixed = (0xCBF29CE484222325 ^ static_cast<std::uint32_t>(symbol)) * kPrime;
+    std::uint64_t mixed = combine(0, static_cast<std::uint32_t>(symbol));
     for (std::uint32_t i = 0; i < bytecode_.symbol(symbol).parameter_count; ++i) {
-        mixed = (mixed ^ std::bit_cast<std::uint32_t>(arguments[i])) * kPrime;
-        mixed ^= mixed >> 29;
+        mixed = combine(mixed, std::bit_cast<std::uint32_t>(arguments[i]));
     }
     return mixed;
 }

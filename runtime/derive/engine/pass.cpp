@@ -1,22 +1,21 @@
 #include "runtime/derive/engine/pass.h"
 
 #include "grammar/base/contract.h"
+#include "runtime/base/saturating.h"
 #include "runtime/derive/engine/count.h"
 #include "runtime/derive/engine/faults.h"
+#include "runtime/derive/engine/remains.h"
 #include "runtime/derive/engine/write.h"
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
-#include <span>
 #include <utility>
 
 namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
 /// Programs of more codes are counted module by module.
 constexpr Code kCensusCodes = 4096;
 /// From this many modules on, counting them by all threads costs less than it saves over the
@@ -31,13 +30,6 @@ constexpr std::uint64_t kWorthSharing = 1U << 17;
 constexpr std::uint64_t kWorthStarting = 1U << 13;
 /// Modules between two reports of progress.
 constexpr std::uint64_t kProgressStride = std::uint64_t{1} << 24;
-
-std::uint64_t saturating_add(std::uint64_t a, std::uint64_t b) {
-    return a > kMax - b ? kMax : a + b;
-}
-std::uint64_t saturating_multiply(std::uint64_t a, std::uint64_t b) {
-    return b != 0 && a > kMax / b ? kMax : a * b;
-}
 
 /// Marks pay where this part of the modules or less is marked: of a word of which every module has
 /// one successor, and of one where each is chosen or tested, which costs more.
@@ -75,25 +67,14 @@ void Passes::report_progress(std::uint32_t generation, std::uint64_t modules) {
     }
 }
 
-namespace {
-
-template <typename C>
-bool any_rewritten(const Plan& plan, const Word& word) {
-    const std::span<const C> codes = word.codes<C>();
-    return std::any_of(codes.begin(), codes.end(),
-                       [&plan](C code) { return !plan.row(code).copies; });
-}
-
-} // namespace
-
 bool Passes::concerns(const Word& word) const {
     switch (word.code_width()) {
     case 1:
-        return any_rewritten<std::uint8_t>(plan_, word);
+        return may_rewrite(plan_, view<std::uint8_t>(word));
     case 2:
-        return any_rewritten<std::uint16_t>(plan_, word);
+        return may_rewrite(plan_, view<std::uint16_t>(word));
     default:
-        return any_rewritten<std::uint32_t>(plan_, word);
+        return may_rewrite(plan_, view<std::uint32_t>(word));
     }
 }
 

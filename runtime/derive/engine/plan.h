@@ -194,8 +194,6 @@ public:
     [[nodiscard]] std::uint32_t guard_distance() const {
         return parallel_ ? 1 : predecessor_count_;
     }
-    /// Rule in force, or kNone: all.
-    [[nodiscard]] std::uint32_t selected_rule() const { return selected_rule_; }
     /// First symbol of a rule's predecessor.
     [[nodiscard]] SymbolId first_symbol(std::uint32_t rule) const;
     /// The codes that are modules of a symbol.
@@ -273,7 +271,7 @@ private:
     std::uint32_t identity_first_ = 0;
     std::uint32_t dynamic_rows_ = 0;
     std::uint32_t predecessor_count_ = 1;
-    std::uint32_t selected_rule_ = kNone;
+    std::uint32_t selected_rule_ = kNone; // in force; kNone: all
     std::uint32_t record_width_ = 1;
     std::uint32_t code_width_ = 1;
     std::uint64_t folded_budget_ = 0; // candidates that may still be tried for folded modules

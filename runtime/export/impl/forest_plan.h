@@ -60,9 +60,6 @@ public:
     [[nodiscard]] std::span<const ForestCell> cells() const { return cells_; }
     /// Of all cells, by rising number of the instance within a cell.
     [[nodiscard]] std::span<const ForestGroup> groups() const { return groups_; }
-    [[nodiscard]] std::span<const ForestGroup> groups_of(const ForestCell& cell) const {
-        return groups().subspan(cell.first_group, cell.group_count);
-    }
     [[nodiscard]] std::span<const ForestPiece> pieces_of(const ForestCell& cell) const {
         return std::span(pieces_).subspan(cell.first_piece, cell.piece_count);
     }

@@ -1,5 +1,7 @@
 #include "runtime/meshing/impl/bark_noise.h"
 
+#include "grammar/base/hash.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,11 +14,12 @@ constexpr std::uint32_t kColumns = 5;         // lattice points around the tube
 constexpr double kRowsPerCircumference = 2.5; // bark is longer than wide
 constexpr double kMostRows = 1e15;            // above, doubles have no fractions left
 
-/// Mixes bits (a finaliser with two multiplications) to a number from -1 to 1.
+/// A number from -1 to 1 for each point of the lattice.
 float lattice_value(std::uint64_t row, std::uint32_t column, std::uint32_t seed) {
-    std::uint64_t bits = row * 0x9E3779B97F4A7C15u + (std::uint64_t{seed} << 8 | column);
-    bits = (bits ^ (bits >> 32)) * 0xD6E8FEB86659FD93u;
-    bits = (bits ^ (bits >> 32)) * 0xD6E8FEB86659FD93u;
+    constexpr std::uint64_t kFactor = 0xD6E8FEB86659FD93;
+    std::uint64_t bits = golden_multiple(row) + (std::uint64_t{seed} << 8 | column);
+    bits = xorshift_multiply(bits, 32, kFactor);
+    bits = xorshift_multiply(bits, 32, kFactor);
     return static_cast<float>(bits >> 40) * (2.0F / 16777215.0F) - 1.0F;
 }
 

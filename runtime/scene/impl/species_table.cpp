@@ -17,7 +17,7 @@ namespace {
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t kMaxWhole32 = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint64_t kMaxWhole63 = std::numeric_limits<std::int64_t>::max();
-constexpr double kMaxFloat = std::numeric_limits<float>::max();
+constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
 constexpr std::size_t kMaxStages = 256;
 constexpr double kMaxSeedsOfYear = 254.0;
 

@@ -184,27 +184,6 @@ TEST_CASE("a module's writer and place are found") {
     CHECK(place_of(without, 2) == std::nullopt);
 }
 
-TEST_CASE("the digest follows what decides the word and nothing else") {
-    const Bytecode bytecode = test::small_bytecode();
-    const auto changed = [&](const std::function<void(Bytecode&)>& change) {
-        Bytecode other = bytecode;
-        change(other);
-        return digest(other) != digest(bytecode);
-    };
-    CHECK_FALSE(changed([](Bytecode& b) { b.sites[0].line = 7; }));
-    CHECK_FALSE(changed([](Bytecode& b) { b.files[0] = "other.lsys"; }));
-    CHECK_FALSE(changed([](Bytecode& b) { b.settings.angle = 30.0F; }));
-    CHECK_FALSE(changed([](Bytecode& b) { b.productions[0].name = "q"; }));
-    CHECK_FALSE(changed([](Bytecode& b) { b.generations = 7; }));
-    CHECK_FALSE(changed([](Bytecode& b) { b.template_places[0].line = 7; }));
-    CHECK(changed([](Bytecode& b) { b.symbols[0].name = "C"; }));
-    CHECK(changed([](Bytecode& b) { b.symbols[2].ignored = false; }));
-    CHECK(changed([](Bytecode& b) { b.constants[0] = 0.25F; }));
-    CHECK(changed([](Bytecode& b) { b.settings.choice = ChoiceScope::Generation; }));
-    CHECK(changed([](Bytecode& b) { b.productions[1].weight = 0.25F; }));
-    CHECK(changed([](Bytecode& b) { b.instructions[1] = bits(1.5F); }));
-}
-
 TEST_CASE("a site is found for every instruction after a mark") {
     const Bytecode bytecode = test::small_bytecode();
     CHECK(site_of(bytecode, 9) == kNone);

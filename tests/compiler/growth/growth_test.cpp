@@ -104,7 +104,7 @@ TEST_CASE("counts are written with commas, and as powers of two beyond 2^128") {
     CHECK(to_text(exactly(0)) == "0");
     CHECK(to_text(exactly(999)) == "999");
     CHECK(to_text(exactly(1'234'567)) == "1,234,567");
-    const Count large{UnsignedInt128{1} << 127, false, 0.0};
+    const Count large{Uint128(std::uint64_t{1} << 63, 0), false, 0.0};
     CHECK(to_text(large) == "170,141,183,460,469,231,731,687,303,715,884,105,728");
     CHECK(to_text(large + large) == "2^128");
     CHECK(to_text(large * exactly(4)) == "2^129");

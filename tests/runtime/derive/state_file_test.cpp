@@ -1,3 +1,4 @@
+#include "compiler/bytecode/module_file.h"
 #include "runtime/derive/derive.h"
 #include "runtime/derive/state_file.h"
 #include "tests/support/bytecode_builder.h"
@@ -85,9 +86,19 @@ TEST_CASE("whatever is wrong with a saved state is said") {
     CHECK(message(bytes.substr(0, 30)).find("header is incomplete") != std::string::npos);
     CHECK(message(bytes.substr(0, bytes.size() - 9)).find("shorter") != std::string::npos);
     CHECK(message(bytes + "x").find("longer") != std::string::npos);
-    std::string newer = bytes;
-    newer[8] = 2;
-    CHECK(message(newer).find("version 2") != std::string::npos);
+    const auto with_byte = [&bytes](std::size_t at, std::uint32_t value) {
+        std::string changed = bytes;
+        changed[at] = static_cast<char>(value);
+        return changed;
+    };
+    CHECK(message(with_byte(8, 1)) == "the saved state was made by an older lsc (its format is "
+                                      "version 1, this one reads 2): derive it again");
+    CHECK(message(with_byte(8, kStateFileVersion + 1)) ==
+          "the saved state was made by a newer lsc (its format is version 3, this one reads 2)");
+    CHECK(message(with_byte(12, 4)) == "the saved state was made by an older lsc (its bytecode is "
+                                       "version 4, this one reads 5): derive it again");
+    CHECK(message(with_byte(12, kModuleFileVersion + 1)) ==
+          "the saved state was made by a newer lsc (its bytecode is version 6, this one reads 5)");
 
     BytecodeBuilder other = plant();
     other.production("s : f : * : f f");

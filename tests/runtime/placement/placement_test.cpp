@@ -1,3 +1,4 @@
+#include "grammar/base/hash.h"
 #include "runtime/placement/placement.h"
 #include "tests/runtime/placement/placements.h"
 
@@ -83,7 +84,8 @@ TEST_CASE("forests are the same on every machine and in every version") {
     NoiseOptions noise;
     noise.feature = 30.0;
     const Terrain ground = Terrain::noise({-100.0, -100.0, 200.0, 200.0}, noise).value();
-    // FNV-1a of all bytes, as g++ 12 and clang 14 make them on x86-64.
+    // FNV-1a of the bytes of each tree and four zeros behind them, as g++ 12 and clang 14 make
+    // them on x86-64.
     const std::vector<std::uint64_t> expected{
         0x5A58215400336BECU, 0xC692149E8450D500U, 0xE64B21214A83C50AU, 0x40D270F84CC7DA36U,
         0x91CCFC13974ACAE4U, 0x6B80210703125606U, 0x3BF438036224C867U, 0xF0C93E5550AF4479U,
@@ -92,12 +94,12 @@ TEST_CASE("forests are the same on every machine and in every version") {
         CAPTURE(i);
         const PlacementOptions options = small_forest(kAllMethods[i], map, 60.0);
         const LargeVector<Tree> trees = place_trees(options, ground).value().trees;
-        std::uint64_t digest = 0xCBF29CE484222325U;
-        const auto* const bytes = reinterpret_cast<const unsigned char*>(trees.data());
-        for (std::size_t byte = 0; byte < trees.size() * sizeof(Tree); ++byte) {
-            digest = (digest ^ bytes[byte]) * 0x100000001B3U;
+        std::string bytes;
+        for (const Tree& tree : trees) {
+            bytes.append(reinterpret_cast<const char*>(&tree), sizeof tree);
+            bytes.append(4, '\0');
         }
-        CHECK(digest == expected[i]);
+        CHECK(fnv1a(bytes) == expected[i]);
     }
 }
 
@@ -117,7 +119,6 @@ TEST_CASE(
             REQUIRE(tree.position.y == ground.height(tree.position.x, tree.position.z));
             REQUIRE((tree.yaw >= 0.0F && tree.yaw < 6.2832F));
             REQUIRE(tree.species < 2);
-            REQUIRE(tree.flags == 0);
             ++counts[tree.species];
             if (method != PlacementMethod::Domination) {
                 REQUIRE(tree.scale >= (tree.species == 1 ? 0.5F : 1.0F));

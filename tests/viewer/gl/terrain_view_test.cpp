@@ -1,4 +1,5 @@
 // Patches and heights of the ground that is drawn, beside the terrain itself.
+#include "tests/viewer/drawn_ground.h"
 #include "tests/viewer/wood.h"
 #include "viewer/gl/headless.h"
 #include "viewer/gl/impl/terrain_pass.h"
@@ -124,6 +125,7 @@ TEST_CASE("nothing in view is left out") {
 TEST_CASE("the surface that is drawn is near the terrain") {
     const Terrain terrain = hills(240.0F);
     TerrainView view(terrain, 3000.0F);
+    const glm::vec3 eye = cameras()[0].eye;
     view.select(view_volume(cameras()[0], 1280, 720));
     std::mt19937 draws(2);
     std::uniform_real_distribution<float> around(-1.0F, 1.0F);
@@ -132,7 +134,7 @@ TEST_CASE("the surface that is drawn is near the terrain") {
         for (int i = 0; i < 4000; ++i) {
             const float x = 120.0F + reach * around(draws);
             const float z = 120.0F + reach * around(draws);
-            const float height = view.drawn_height(x, z);
+            const float height = drawn_height(view, eye, x, z);
             REQUIRE(std::isfinite(height));
             worst = std::max(worst, std::abs(height - terrain.height(x, z)));
         }

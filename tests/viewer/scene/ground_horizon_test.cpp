@@ -1,4 +1,5 @@
 // What the ground hides, beside lines of sight that are followed step by step.
+#include "tests/viewer/drawn_ground.h"
 #include "tests/viewer/wood.h"
 #include "viewer/scene/ground_horizon.h"
 
@@ -25,7 +26,7 @@ bool is_blocked(const TerrainView& ground, const glm::vec3& eye, const glm::vec3
     const float length = glm::distance(eye, at);
     for (float way = 1.0F; way < length; way += 0.2F + 0.002F * way) {
         const glm::vec3 on_line = eye + (at - eye) * (way / length);
-        if (ground.drawn_height(on_line.x, on_line.z) > on_line.y) {
+        if (drawn_height(ground, eye, on_line.x, on_line.z) > on_line.y) {
             return true;
         }
     }

@@ -68,7 +68,6 @@ void Device::end_pass() {
 }
 
 void Device::report(std::string message) {
-    ++error_count_;
     if (errors_.size() < kMostErrors) {
         errors_.push_back(std::move(message));
     }

@@ -21,7 +21,6 @@ public:
     [[nodiscard]] std::uint64_t live_objects() const { return live_; }
     /// Errors since the start, in the driver's words; at most kMostErrors are kept.
     [[nodiscard]] const std::vector<std::string>& errors() const { return errors_; }
-    [[nodiscard]] std::uint64_t error_count() const { return error_count_; }
     /// Bytes that were sent to buffers and textures since the start.
     [[nodiscard]] std::uint64_t uploaded_bytes() const { return uploaded_; }
 
@@ -42,7 +41,6 @@ private:
     GLsync pass_ = nullptr; // the last one's end
     std::uint64_t live_ = 0;
     std::uint64_t uploaded_ = 0;
-    std::uint64_t error_count_ = 0;
     std::vector<std::string> errors_;
 };
 

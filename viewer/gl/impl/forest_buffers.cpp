@@ -1,5 +1,6 @@
 #include "viewer/gl/impl/forest_buffers.h"
 
+#include "grammar/base/hash.h"
 #include "runtime/meshing/texture.h"
 
 #include <glm/common.hpp>
@@ -9,7 +10,6 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <numbers>
 
 namespace lsys::view {
@@ -55,27 +55,19 @@ static_assert(sizeof(TreeRecord) == 24);
 
 /// Records for trees that are added; with more, all are copied within the device.
 constexpr std::size_t kRoomForTrees = std::size_t{1} << 14U;
-constexpr std::uint64_t kDigestStart = 0xCBF29CE484222325U;
 
 TreeRecord record_of(const ViewTree& tree, const Tree& full) {
     const float turns = full.yaw / (2.0F * std::numbers::pi_v<float>);
     const auto yaw = static_cast<std::uint32_t>(65536.0F * (turns - std::floor(turns))) & 0xFFFFU;
-    const std::uint32_t phase = full.number * 0x9E3779B1U >> 16U;
+    const std::uint32_t phase = golden_multiple(full.number) >> 16U;
     const auto portrait = static_cast<std::uint32_t>(tree.portrait & ~ViewTree::kGone);
     return {tree.position, tree.scale, phase << 16U | yaw, portrait << 16U | tree.form};
 }
 
-/// Eight bytes at a time; only tells whether two are alike.
+/// Tells whether two are alike.
 template <typename T>
 std::uint64_t digest_of(std::span<const T> items, std::uint64_t digest) {
-    const std::span<const std::byte> bytes = std::as_bytes(items);
-    for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
-        digest = (digest ^ word) * 0x9E3779B97F4A7C15U;
-        digest ^= digest >> 29U;
-    }
-    return digest;
+    return combine_bytes(digest, {reinterpret_cast<const char*>(items.data()), items.size_bytes()});
 }
 
 std::int16_t snorm16(float value) {
@@ -203,7 +195,7 @@ void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
     std::vector<std::uint32_t> listed;
     for (std::size_t f = 0; f < model.forms.size(); ++f) {
         auto& levels = form_levels_.emplace_back();
-        std::uint64_t& digest = mesh_digests_.emplace_back(kDigestStart);
+        std::uint64_t& digest = mesh_digests_.emplace_back(0);
         digest = digest_of(std::span<const float>(&boxes[f], 1), digest);
         const std::shared_ptr<const TreeMeshes> of_levels = std::move(model.forms[f].meshes);
         for (std::size_t l = 0; l < kTreeLevels; ++l) {
@@ -282,7 +274,7 @@ void ForestBuffers::upload_trees(const ForestView& view) {
     for (const ForestCell& cell : view.cells()) {
         const auto number = static_cast<std::uint32_t>(records.size());
         // Turned by quarters, so that squares stay squares.
-        const std::uint32_t drawn = number * 0x9E3779B1U;
+        const std::uint32_t drawn = golden_multiple(number);
         const std::uint32_t yaw = drawn >> 30U << 14U;
         const std::uint32_t phase = drawn & 0xFFFF0000U;
         records.push_back({cell.middle, cell.scale, phase | yaw, forms + cell.form});

@@ -65,15 +65,11 @@ struct RenderbufferKind {
 struct ProgramKind {
     static void destroy(GLuint name) { glDeleteProgram(name); }
 };
-struct QueryKind {
-    static void destroy(GLuint name) { glDeleteQueries(1, &name); }
-};
 using TextureObject = Object<TextureKind>;
 using VertexArray = Object<VertexArrayKind>;
 using Framebuffer = Object<FramebufferKind>;
 using Renderbuffer = Object<RenderbufferKind>;
 using ProgramObject = Object<ProgramKind>;
-using Query = Object<QueryKind>;
 
 [[nodiscard]] inline VertexArray make_vertex_array(Device& device) {
     GLuint name = 0;

@@ -1,5 +1,6 @@
 #include "viewer/gl/impl/portraits.h"
 
+#include "grammar/base/hash.h"
 #include "viewer/gl/impl/frame_block.h"
 #include "viewer/gl/impl/program.h"
 
@@ -42,11 +43,8 @@ std::uint64_t key_of(const Portrait& portrait,
                      const Cylinder& cylinder,
                      const ForestModel& model,
                      std::uint64_t meshes) {
-    std::uint64_t key = meshes ^ model.forest->key * 0xD6E8FEB86659FD93U;
-    const auto add = [&key](std::uint64_t word) {
-        key = (key ^ word) * 0x9E3779B97F4A7C15U;
-        key ^= key >> 29U;
-    };
+    std::uint64_t key = combine(meshes, model.forest->key);
+    const auto add = [&key](std::uint64_t word) { key = combine(key, word); };
     const auto add_length = [&add](float length) { add(std::bit_cast<std::uint32_t>(length)); };
     add(portrait.level);
     for (const float length : {cylinder.radius, cylinder.low, cylinder.high}) {

@@ -148,13 +148,4 @@ Result<ProgramObject> make_program(Device& device,
     return link(device, vertex, {&first.value(), &second.value()});
 }
 
-Result<ProgramObject>
-make_compute_program(Device& device, const ShaderSource& source, std::string_view compute) {
-    Result<ShaderObject> shader = compile_shader(device, source, compute, GL_COMPUTE_SHADER, "");
-    if (!shader) {
-        return shader.error();
-    }
-    return link(device, compute, {&shader.value()});
-}
-
 } // namespace lsys::view

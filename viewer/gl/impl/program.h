@@ -17,8 +17,5 @@ namespace lsys::view {
                                                  std::string_view vertex,
                                                  std::string_view fragment,
                                                  std::string_view defines = "");
-/// One compute shader.
-[[nodiscard]] Result<ProgramObject>
-make_compute_program(Device& device, const ShaderSource& source, std::string_view compute);
 
 } // namespace lsys::view

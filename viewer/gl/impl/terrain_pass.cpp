@@ -1,5 +1,6 @@
 #include "viewer/gl/impl/terrain_pass.h"
 
+#include "grammar/base/hash.h"
 #include "viewer/gl/impl/program.h"
 
 #include <algorithm>
@@ -22,13 +23,6 @@ constexpr GLint kLevels = 13;
 constexpr std::uint32_t kNoiseTexels = 128;
 constexpr GLsizei kPatchIndices = 6 * kPatchCells * kPatchCells;
 
-float hashed(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
-    std::uint32_t h = x * 0x9E3779B1U ^ y * 0x85EBCA77U ^ (channel + 1) * 0xC2B2AE3DU;
-    h = (h ^ h >> 15U) * 0x2C1B3C6DU;
-    h = (h ^ h >> 12U) * 0x297A2D39U;
-    return static_cast<float>((h ^ h >> 15U) >> 8U) / 16777216.0F;
-}
-
 /// Smooth noise that repeats after the texture, 0 to 1: a sum of octaves of values.
 float noise_at(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
     float sum = 0.0F;
@@ -45,7 +39,8 @@ float noise_at(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
         const float u = smooth(x);
         const float v = smooth(y);
         const auto value = [&](std::uint32_t dx, std::uint32_t dy) {
-            return hashed((column + dx) % cells, (row + dy) % cells, channel * 16 + cells);
+            return unit_float(
+                lattice32((column + dx) % cells, (row + dy) % cells, channel * 16 + cells));
         };
         sum += part * ((1.0F - v) * ((1.0F - u) * value(0, 0) + u * value(1, 0)) +
                        v * ((1.0F - u) * value(0, 1) + u * value(1, 1)));

@@ -1,0 +1,195 @@
+// The contents of a Bytecode, described once. describe() hands every field to a stream, in the
+// order of a .lsb file; the writer and the reader of module_file.cpp, the digest of bytecode.cpp
+// and the range checks of verify.cpp are streams.
+//
+// A stream has these functions, each of which takes a field by reference:
+//   number, real, truth, tag (an enumerator), id, text, optional_number, table, codes
+//   implied       a truth that follows from a field beside the word, and that the word depends on
+//   beside_word() the stream for fields on which no derived word depends: itself, or one that
+//                 ignores them
+// Every struct is taken apart by a structured binding, so that a field added to it does not compile
+// before it has a name here. Hand it to the stream: then it is written, read and digested. Only a
+// field that decides drawing, printing or messages goes to beside_word(). Either way the format of
+// .lsb files changes: raise kModuleFileVersion.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+
+namespace lsys {
+
+// `Value` is const for a stream that only looks at it.
+
+template <typename Stream, typename Value>
+void describe_settings(Stream& stream, Value& settings) {
+    auto& [turtle, rewriting, choice, weights, random, print_letters, print_characters, angle, step,
+           width, angle_scale, step_scale, width_scale, sides, has_tropism, tropism, has_seed, seed,
+           at_depth, decompose_depth, interpret_depth, spring, density, damping] = settings;
+    auto&& beside = stream.beside_word();
+    beside.tag(turtle);
+    stream.tag(rewriting);
+    stream.tag(choice);
+    beside.tag(weights); // a check of the probabilities, no more
+    stream.tag(random);
+    beside.truth(print_letters);
+    beside.truth(print_characters);
+    beside.real(angle);
+    beside.real(step);
+    beside.real(width);
+    beside.real(angle_scale);
+    beside.real(step_scale);
+    beside.real(width_scale);
+    beside.number(sides);
+    beside.truth(has_tropism);
+    for (auto& component : tropism) {
+        beside.real(component);
+    }
+    beside.truth(has_seed); // a default: a derivation is told its seed
+    beside.number(seed);
+    beside.real(spring);
+    beside.real(density);
+    beside.real(damping);
+    stream.tag(at_depth);
+    stream.number(decompose_depth);
+    beside.number(interpret_depth);
+}
+
+template <typename Stream, typename Value>
+void describe_range(Stream& stream, Value& range) {
+    auto& [first, count] = range;
+    stream.number(first);
+    stream.number(count);
+}
+
+template <typename Stream, typename Value>
+void describe_word(Stream& stream, Value& word) {
+    auto& [codes, arguments, parameter_count, draw_count] = word;
+    describe_range(stream, codes);
+    stream.number(arguments);
+    stream.number(parameter_count);
+    stream.number(draw_count);
+}
+
+template <typename Stream, typename Value>
+void describe_symbol(Stream& stream, Value& symbol) {
+    auto& [name, parameter_count, kind, ignored, turtle, mesh_file] = symbol;
+    auto&& beside = stream.beside_word();
+    stream.text(name);
+    stream.number(parameter_count);
+    stream.tag(kind);
+    stream.truth(ignored);
+    beside.tag(turtle);
+    stream.implied(turtle == TurtleOperation::Cut);
+    beside.text(mesh_file);
+}
+
+template <typename Stream, typename Value>
+void describe_folded(Stream& stream, Value& folded) {
+    auto& [symbol, first_constant] = folded;
+    stream.id(symbol);
+    stream.number(first_constant);
+}
+
+template <typename Stream, typename Value>
+void describe_global(Stream& stream, Value& global) {
+    auto& [name, instruction, draw_position, draw_count, has_bounds, minimum, maximum, site] =
+        global;
+    auto&& beside = stream.beside_word();
+    beside.text(name);
+    stream.number(instruction);
+    stream.number(draw_position);
+    stream.number(draw_count);
+    stream.truth(has_bounds);
+    stream.real(minimum);
+    stream.real(maximum);
+    beside.number(site);
+}
+
+template <typename Stream, typename Value>
+void describe_pattern_item(Stream& stream, Value& item) {
+    auto& [kind, symbol, first_formal] = item;
+    stream.tag(kind);
+    stream.id(symbol);
+    stream.number(first_formal);
+}
+
+template <typename Stream, typename Value>
+void describe_site(Stream& stream, Value& site) {
+    auto& [span, line, column] = site;
+    auto& [file, begin, end] = span;
+    stream.id(file);
+    stream.number(begin);
+    stream.number(end);
+    stream.number(line);
+    stream.number(column);
+}
+
+template <typename Stream, typename Value>
+void describe_site_mark(Stream& stream, Value& mark) {
+    auto& [instruction, site] = mark;
+    stream.number(instruction);
+    stream.number(site);
+}
+
+template <typename Stream, typename Value>
+void describe_place_run(Stream& stream, Value& run) {
+    auto& [first, begin, length, stride, line, column] = run;
+    stream.number(first);
+    stream.number(begin);
+    stream.number(length);
+    stream.number(stride);
+    stream.number(line);
+    stream.number(column);
+}
+
+template <typename Stream, typename Value>
+void describe_production(Stream& stream, Value& production) {
+    auto& [name, name_site, rule, group, stage, has_left, has_right, left, predecessor, right,
+           formal_count, condition, stochastic, weight, successor] = production;
+    auto&& beside = stream.beside_word();
+    beside.text(name);
+    beside.number(name_site);
+    stream.number(rule);
+    stream.number(group);
+    stream.tag(stage);
+    stream.truth(has_left);
+    stream.truth(has_right);
+    describe_range(stream, left);
+    describe_range(stream, predecessor);
+    describe_range(stream, right);
+    stream.number(formal_count);
+    stream.number(condition);
+    stream.truth(stochastic);
+    stream.real(weight);
+    describe_word(stream, successor);
+}
+
+template <typename Stream, typename Value>
+void describe(Stream& stream, Value& bytecode) {
+    auto& [settings, generations, files, symbols, folded, constants, globals, patterns,
+           template_codes, instructions, sites, site_marks, template_places, productions,
+           rule_count, group_count, axiom, axiom_site, axiom_draw_position, uses_steps] = bytecode;
+    auto&& beside = stream.beside_word();
+    describe_settings(stream, settings);
+    beside.optional_number(generations);
+    beside.table(files, [](auto& s, auto& path) { s.text(path); });
+    stream.table(symbols, [](auto& s, auto& row) { describe_symbol(s, row); });
+    stream.table(folded, [](auto& s, auto& row) { describe_folded(s, row); });
+    stream.table(constants, [](auto& s, auto& value) { s.real(value); });
+    stream.table(globals, [](auto& s, auto& row) { describe_global(s, row); });
+    stream.table(patterns, [](auto& s, auto& row) { describe_pattern_item(s, row); });
+    stream.codes(template_codes,
+                 code_width(std::uint64_t{bytecode.symbols.size()} + bytecode.folded.size()));
+    stream.table(instructions, [](auto& s, auto& word) { s.number(word); });
+    beside.table(sites, [](auto& s, auto& row) { describe_site(s, row); });
+    beside.table(site_marks, [](auto& s, auto& row) { describe_site_mark(s, row); });
+    beside.table(template_places, [](auto& s, auto& row) { describe_place_run(s, row); });
+    stream.table(productions, [](auto& s, auto& row) { describe_production(s, row); });
+    stream.number(rule_count);
+    stream.number(group_count);
+    describe_word(stream, axiom);
+    beside.number(axiom_site);
+    stream.number(axiom_draw_position);
+    stream.truth(uses_steps);
+}
+
+} // namespace lsys
