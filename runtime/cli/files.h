@@ -4,10 +4,12 @@
 
 #include "grammar/result.h"
 #include "runtime/cli/console.h"
+#include "runtime/cli/temporaries.h"
 
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lsys::lsc {
 
@@ -26,8 +28,8 @@ read_bytes(const std::string& path, std::uint64_t max_bytes, const Console& cons
 /// The name of a file of a series: tree.glb and 12 give tree.0012.glb.
 [[nodiscard]] std::string numbered(const std::string& path, std::uint32_t number);
 
-/// Something that is written. A regular file appears under its name, or replaces what was there,
-/// only at commit(); until then, and if it is never called, nothing has changed. Move only.
+/// A file while it is written. A regular file appears under its name, or replaces the one of that
+/// name, only at commit(); until then, and if it is never called, nothing has changed. Move only.
 class Output {
 public:
     Output(const Output&) = delete;
@@ -38,19 +40,40 @@ public:
 
     /// `-` is standard output.
     [[nodiscard]] static Result<Output> open(const std::string& path, const Console& console);
+    /// Like open(), but the file must be new: an Error here or at commit() if there is one of its
+    /// name, a dangling link included.
+    [[nodiscard]] static Result<Output> create(const std::string& path, const Console& console);
     [[nodiscard]] Result<Done> write(std::string_view text);
+    /// Ends the writing; the file keeps its temporary name. Idempotent.
+    [[nodiscard]] Result<Done> finish();
+    /// finish(), then the file gets its name.
     [[nodiscard]] Result<Done> commit();
 
 private:
+    friend Result<Done> commit_all(std::vector<Output>& outputs);
+    enum class Shown : std::uint8_t { No, New, Exchanged, Replaced };
+
     Output(const Console& console, std::string path) : console_(&console), path_(std::move(path)) {}
     [[nodiscard]] Error failure(int reason) const;
+    [[nodiscard]] Result<Done> make_temporary(bool exists, unsigned mode);
+    void drop_temporary();
+    [[nodiscard]] Result<Done> show();
+    void hide();
 
     const Console* console_;
-    std::string path_;      // as the user wrote it
-    std::string target_;    // with links resolved
-    std::string temporary_; // beside target_; empty where the file is written in place
-    int descriptor_ = -1;   // none: standard output
+    std::string path_;              // as the user wrote it
+    std::string target_;            // with links resolved
+    std::string temporary_;         // beside target_; empty where the file is written in place
+    TemporaryName* slot_ = nullptr; // of temporary_
+    int descriptor_ = -1;           // none: standard output, or finished
+    bool is_finished_ = false;
+    bool must_be_new_ = false;
+    Shown shown_ = Shown::No; // by commit_all()
 };
+
+/// Commits outputs that belong together: all of them appear or none. A file that was replaced comes
+/// back when a later one fails, except on file systems that cannot exchange two names.
+[[nodiscard]] Result<Done> commit_all(std::vector<Output>& outputs);
 
 /// open, write, commit.
 [[nodiscard]] Result<Done>
