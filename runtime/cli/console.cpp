@@ -148,4 +148,16 @@ Result<Done> Console::flush() const {
     return output_result(io_.out);
 }
 
+Status Console::finish(Status status) const {
+    if (!io_.out.good() && status != Status::Fine) {
+        return status; // whoever wrote has reported it
+    }
+    const Result<Done> done = flush();
+    if (done) {
+        return status;
+    }
+    error(done.error().message);
+    return worse(status, Status::Failure);
+}
+
 } // namespace lsys::lsc

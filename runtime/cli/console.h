@@ -54,6 +54,10 @@ public:
     /// Hands on what standard output still holds back.
     [[nodiscard]] Result<Done> flush() const;
 
+    /// The exit status of a command that ended as `status`, once standard output has taken all of
+    /// its results.
+    [[nodiscard]] Status finish(Status status) const;
+
 private:
     void say(std::string_view severity, std::string_view message) const;
 

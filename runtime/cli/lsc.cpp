@@ -13,54 +13,44 @@ namespace lsys::lsc {
 namespace {
 
 /// The command that each kind of options belongs to.
-struct Dispatch {
-    const Io& io;
+class Dispatch {
+public:
+    explicit Dispatch(const Io& io) : io_(io) {}
 
     Status operator()(const PrintText& text) const {
-        const Console console(io, {});
-        Result<Done> written = console.write(text.text);
-        if (written) {
-            written = console.flush();
-        }
+        const Console console(io_, {});
+        const Result<Done> written = console.write(text.text);
         if (!written) {
             console.error(written.error().message);
             return Status::Failure;
         }
-        return Status::Fine;
+        return console.finish(Status::Fine);
     }
     Status operator()(const UsageError& usage) const {
-        const Console console(io, {});
+        const Console console(io_, {});
         console.error(usage.message);
         console.help(usage.help);
         return Status::Failure;
     }
-    Status operator()(const CheckCommand& command) const {
-        return run_check(command, {io, command.messages});
+    Status operator()(const CheckCommand& command) const { return run(run_check, command); }
+    Status operator()(const CompileCommand& command) const { return run(run_compile, command); }
+    Status operator()(const DumpCommand& command) const { return run(run_dump, command); }
+    Status operator()(const ExportCommand& command) const { return run(run_export, command); }
+    Status operator()(const ForestCommand& command) const { return run(run_forest, command); }
+    Status operator()(const ImportCommand& command) const { return run(run_import, command); }
+    Status operator()(const StatsCommand& command) const { return run(run_stats, command); }
+    Status operator()(const FormatCommand& command) const { return run(run_format, command); }
+    Status operator()(const ExplainCommand& command) const { return run(run_explain, command); }
+
+private:
+    template <typename Command>
+    [[nodiscard]] Status run(Status (*run_command)(const Command& command, const Console& console),
+                             const Command& command) const {
+        const Console console(io_, command.messages);
+        return console.finish(run_command(command, console));
     }
-    Status operator()(const CompileCommand& command) const {
-        return run_compile(command, {io, command.messages});
-    }
-    Status operator()(const DumpCommand& command) const {
-        return run_dump(command, {io, command.messages});
-    }
-    Status operator()(const ExportCommand& command) const {
-        return run_export(command, {io, command.messages});
-    }
-    Status operator()(const ForestCommand& command) const {
-        return run_forest(command, {io, command.messages});
-    }
-    Status operator()(const ImportCommand& command) const {
-        return run_import(command, {io, command.messages});
-    }
-    Status operator()(const StatsCommand& command) const {
-        return run_stats(command, {io, command.messages});
-    }
-    Status operator()(const FormatCommand& command) const {
-        return run_format(command, {io, command.messages});
-    }
-    Status operator()(const ExplainCommand& command) const {
-        return run_explain(command, {io, command.messages});
-    }
+
+    const Io& io_;
 };
 
 /// Without allocating: there is no memory.

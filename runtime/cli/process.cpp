@@ -1,9 +1,13 @@
 #include "runtime/cli/process.h"
 
+#include "runtime/cli/console.h"
+
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
 #include <iostream>
 #include <string>
 #include <unistd.h>
@@ -24,6 +28,21 @@ extern "C" void on_interrupt(int signal) {
     }
 }
 
+/// Opens the standard streams that are closed, or the first files of the run would take their
+/// numbers and get what is meant for them. In the opposite direction, so that using them fails.
+void fill_standard_streams() {
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) {
+            continue;
+        }
+        const int direction = descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+        if (::open("/dev/null", direction) != descriptor &&
+            ::open("/", O_RDONLY | O_DIRECTORY) != descriptor) {
+            ::_exit(static_cast<int>(Status::Failure)); // nowhere to say why
+        }
+    }
+}
+
 bool is_capable_terminal(int descriptor) {
     const char* const kind = std::getenv("TERM");
     return ::isatty(descriptor) != 0 && kind != nullptr && std::strcmp(kind, "dumb") != 0;
@@ -35,6 +54,7 @@ int run_process(int argc,
                 char** argv,
                 const char* program,
                 int (*run)(std::span<const std::string> arguments, const Io& io)) {
+    fill_standard_streams();
     struct sigaction action {};
     action.sa_handler = on_interrupt;
     ::sigaction(SIGINT, &action, nullptr); // without SA_RESTART, so that a blocked read returns

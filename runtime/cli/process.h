@@ -9,7 +9,8 @@
 namespace lsys::lsc {
 
 /// Calls `run` with the arguments after the program's name and the streams of the process, and
-/// returns its exit status. Once a process. `program`: the name that messages begin with.
+/// returns its exit status. Once a process. `program`: the name that messages begin with. Standard
+/// streams that are closed become files that can be neither read nor written.
 [[nodiscard]] int run_process(int argc,
                               char** argv,
                               const char* program,

@@ -1,4 +1,5 @@
-// The executable as a process: Ctrl-C, a full disk, a limit on memory.
+// The executable as a process: Ctrl-C, standard streams that are closed, a full disk, a limit on
+// memory.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -6,11 +7,14 @@
 #include <chrono>
 #include <csignal>
 #include <fcntl.h>
+#include <filesystem>
 #include <string>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -25,6 +29,8 @@ struct Child {
     std::string out = "/dev/null";
     std::string err = "/dev/null";
     rlim_t memory = RLIM_INFINITY;
+    std::string in = "/dev/null";
+    int closed = -1; // standard stream
 };
 
 pid_t start(const Child& child) {
@@ -37,11 +43,15 @@ pid_t start(const Child& child) {
     raw.push_back(nullptr);
     const pid_t process = ::fork();
     if (process == 0) {
+        ::dup2(::open(child.in.c_str(), O_RDONLY), STDIN_FILENO);
         ::dup2(::open(child.out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
         ::dup2(::open(child.err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
         if (child.memory != RLIM_INFINITY) {
             const rlimit limit{child.memory, child.memory};
             ::setrlimit(RLIMIT_AS, &limit);
+        }
+        if (child.closed >= 0) {
+            ::close(child.closed);
         }
         ::execv(raw[0], raw.data());
         ::_exit(127);
@@ -56,11 +66,21 @@ int wait_for(pid_t process) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
+std::size_t file_count(const ScratchFolder& folder) {
+    std::size_t count = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        ++count;
+    }
+    return count;
+}
+
+constexpr const char* kEndless = "#n = 4000000000; #w : F F F F; #p : F : * : F;";
+
 } // namespace
 
 TEST_CASE("Ctrl-C ends a derivation with 130 and no file") {
     const ScratchFolder folder;
-    write_text(folder / "a.lsys", "#n = 4000000000; #w : F F F F; #p : F : * : F;");
+    write_text(folder / "a.lsys", kEndless);
     for (const char* option : {"--all", "--count"}) {
         const Clock::time_point begin = Clock::now();
         const pid_t process =
@@ -74,11 +94,85 @@ TEST_CASE("Ctrl-C ends a derivation with 130 and no file") {
         CHECK(read_text(folder / "err") == "lsc: interrupted\n");
         CHECK(!std::filesystem::exists(folder / "out"));
     }
-    std::size_t files = 0;
-    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-        ++files;
+    CHECK(file_count(folder) == 2); // the grammar and the messages
+}
+
+TEST_CASE("a standard stream that is closed is no file of the run") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 4; #w : F; #p : F : * : F + F;");
+    const lsys::tests::LscRun word = lsys::tests::run_lsc({"dump", folder / "a.lsys"}, "");
+    Child child{{"dump", "-v", folder / "a.lsys", "-o", folder / "out"}};
+    child.closed = STDERR_FILENO;
+    CHECK(wait_for(start(child)) == 0);
+    CHECK(read_text(folder / "out") == word.out);
+
+    child.arguments = {"dump", folder / "a.lsys", "--steps", "2", "--save-state", folder / "state"};
+    child.err = folder / "err";
+    child.closed = STDOUT_FILENO;
+    CHECK(wait_for(start(child)) == 2);
+    CHECK(read_text(folder / "err") == "lsc: error: cannot write standard output: it is closed\n");
+    CHECK(!std::filesystem::exists(folder / "state"));
+
+    child.arguments = {"check", folder / "a.lsys"}; // which prints nothing
+    CHECK(wait_for(start(child)) == 0);
+
+    child.arguments = {"check", "-"};
+    child.closed = STDIN_FILENO;
+    CHECK(wait_for(start(child)) == 2);
+    CHECK(read_text(folder / "err") == "lsc: error: cannot read `<stdin>`: it is closed\n");
+}
+
+TEST_CASE("every command reports that standard output is full") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 2; #w : F; #p : F : * : F [+F];");
+    std::filesystem::create_directories(folder / "systems");
+    write_text(folder / "systems/a.l", "a {\n angle 4\n axiom f\n f=f+f\n}\n");
+    const std::string a = folder / "a.lsys";
+    const std::vector<std::vector<std::string>> commands{
+        {"--help"},
+        {"--version"},
+        {"check", "--help"},
+        {"explain"},
+        {"explain", "look-alike"},
+        {"compile", a, "-o", "-"},
+        {"dump", a},
+        {"dump", a, "--all"},
+        {"dump", a, "--count"},
+        {"dump", a, "--stream"},
+        {"dump", a, "--origins"},
+        {"dump", a, "--save-state", "-", "-o", folder / "word"},
+        {"dump", a, "--stage", "tokens"},
+        {"dump", a, "--stage", "ast"},
+        {"dump", a, "--stage", "program"},
+        {"dump", a, "--stage", "bytecode"},
+        {"dump", a, "--stage", "skeleton"},
+        {"dump", a, "--stage", "mesh"},
+        {"export", a, "-o", "-", "--format", "ply"},
+        {"export", a, "-o", folder / "a.ply", "--stats"},
+        {"export", a, "-o", folder / "a.ply", "--stats", "--message-format", "json"},
+        {"forest", a, "--count", "3", "--stats"},
+        {"forest", a, "--count", "3", "--stats", "--message-format", "json"},
+        {"import", folder / "systems/a.l"},
+        {"import", "--all", folder / "systems", "-o", folder / "imported"},
+        {"import", folder / "systems/a.l", "-o", folder / "imported/"},
+        {"stats", a},
+        {"stats", a, "--message-format", "json"},
+        {"fmt", "-"},
+        {"check", "--fix", "-"},
+    };
+    for (const std::vector<std::string>& command : commands) {
+        std::string line;
+        for (const std::string& word : command) {
+            line += word + ' ';
+        }
+        CAPTURE(line);
+        Child child{command, "/dev/full", folder / "err"};
+        child.in = a;
+        CHECK(wait_for(start(child)) == 2);
+        CHECK(read_text(folder / "err")
+                  .find("cannot write standard output: no space left on "
+                        "device") != std::string::npos);
     }
-    CHECK(files == 2); // the grammar and the messages
 }
 
 TEST_CASE("a full disk is told and ends with 2") {

@@ -114,7 +114,7 @@ struct Dispatch {
     Status operator()(const lsc::PrintText& text) const {
         const Console console(io, {});
         const Result<Done> written = console.write(text.text);
-        return written ? Status::Fine : lsc::fail(written.error(), console);
+        return written ? console.finish(Status::Fine) : lsc::fail(written.error(), console);
     }
     Status operator()(const lsc::UsageError& usage) const {
         const Console console(io, {});
@@ -124,8 +124,8 @@ struct Dispatch {
     }
     Status operator()(const ViewOptions& options) const {
         const Console console(io, options.messages);
-        return options.screenshot.empty() ? run_window(options, console)
-                                          : run_pictures(options, console);
+        return console.finish(options.screenshot.empty() ? run_window(options, console)
+                                                         : run_pictures(options, console));
     }
 };
 
