@@ -15,7 +15,8 @@ struct Io {
     std::ostream& out;
     std::ostream& err;
     bool err_is_terminal = false; // colour and progress on `auto`
-    /// Becomes true on Ctrl-C; the run then ends with 130 as soon as it can.
+    /// Becomes true on Ctrl-C and other signals to end; the run then ends with 130 as soon as it
+    /// can.
     const std::atomic<bool>* interrupted = nullptr;
     const char* program = "lsc"; // that speaks
 };

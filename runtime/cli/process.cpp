@@ -1,6 +1,7 @@
 #include "runtime/cli/process.h"
 
 #include "runtime/cli/console.h"
+#include "runtime/cli/temporaries.h"
 
 #include <atomic>
 #include <cerrno>
@@ -17,15 +18,56 @@ namespace lsys::lsc {
 
 namespace {
 
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free); // or a handler may not touch it
+// Shells show a process that a signal ended as 128 and the signal's number.
+constexpr int kSignalStatus = 128;
+static_assert(kSignalStatus + SIGINT == static_cast<int>(Status::Interrupted));
 
-extern "C" void on_interrupt(int signal) {
-    // The second Ctrl-C does not wait.
-    if (interrupted.exchange(true)) {
+// Seconds to end in after SIGTERM or SIGHUP; a run that waits for a pipe does not see them.
+constexpr unsigned kPatience = 2;
+
+std::atomic<bool> interrupted{false};
+std::atomic<int> first_signal{0}; // that asked the process to end
+std::atomic<bool> has_alarm{false};
+// Or a handler may not touch them.
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+
+extern "C" void on_end_signal(int signal) {
+    int none = 0;
+    first_signal.compare_exchange_strong(none, signal);
+    const bool again = interrupted.exchange(true);
+    if (signal != SIGINT) {
+        // Sent twice by timeout(1) and by shells that lose their terminal, so a second one says
+        // nothing new.
+        if (!has_alarm.exchange(true)) {
+            ::alarm(kPatience);
+        }
+    } else if (again) { // the second Ctrl-C does not wait
+        remove_temporaries();
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }
+}
+
+extern "C" void on_alarm(int /*signal*/) {
+    remove_temporaries();
+    ::_exit(kSignalStatus + first_signal);
+}
+
+void handle_signals() {
+    struct sigaction action {};
+    action.sa_handler = on_end_signal; // without SA_RESTART, so that a blocked read returns
+    ::sigaction(SIGINT, &action, nullptr);
+    for (const int signal : {SIGTERM, SIGHUP}) {
+        struct sigaction before {};
+        ::sigaction(signal, nullptr, &before);
+        if (before.sa_handler != SIG_IGN) { // as nohup(1) has it
+            ::sigaction(signal, &action, nullptr);
+        }
+    }
+    action.sa_handler = on_alarm;
+    ::sigaction(SIGALRM, &action, nullptr);
+    // A file that grows beyond `ulimit -f` is an error of the write, which is reported.
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 /// Opens the standard streams that are closed, or the first files of the run would take their
@@ -55,14 +97,14 @@ int run_process(int argc,
                 const char* program,
                 int (*run)(std::span<const std::string> arguments, const Io& io)) {
     fill_standard_streams();
-    struct sigaction action {};
-    action.sa_handler = on_interrupt;
-    ::sigaction(SIGINT, &action, nullptr); // without SA_RESTART, so that a blocked read returns
+    handle_signals();
     std::ios::sync_with_stdio(false);
     std::cin.tie(nullptr);
     const std::vector<std::string> arguments(argv + 1, argv + argc);
-    return run(arguments, {std::cin, std::cout, std::cerr, is_capable_terminal(STDERR_FILENO),
-                           &interrupted, program});
+    const int status = run(arguments, {std::cin, std::cout, std::cerr,
+                                       is_capable_terminal(STDERR_FILENO), &interrupted, program});
+    const bool was_ended = status == static_cast<int>(Status::Interrupted) && first_signal != 0;
+    return was_ended ? kSignalStatus + first_signal : status;
 }
 
 } // namespace lsys::lsc

@@ -1,5 +1,5 @@
-// The executable as a process: Ctrl-C, standard streams that are closed, a full disk, a limit on
-// memory.
+// The executable as a process: signals, standard streams that are closed, a full disk, limits on
+// memory and on the size of files.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -30,7 +30,9 @@ struct Child {
     std::string err = "/dev/null";
     rlim_t memory = RLIM_INFINITY;
     std::string in = "/dev/null";
-    int closed = -1; // standard stream
+    rlim_t file_size = RLIM_INFINITY;
+    int closed = -1;        // standard stream
+    int ignored_signal = 0; // as nohup(1) has it
 };
 
 pid_t start(const Child& child) {
@@ -49,6 +51,13 @@ pid_t start(const Child& child) {
         if (child.memory != RLIM_INFINITY) {
             const rlimit limit{child.memory, child.memory};
             ::setrlimit(RLIMIT_AS, &limit);
+        }
+        if (child.file_size != RLIM_INFINITY) {
+            const rlimit limit{child.file_size, child.file_size};
+            ::setrlimit(RLIMIT_FSIZE, &limit);
+        }
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+            std::signal(signal, signal == child.ignored_signal ? SIG_IGN : SIG_DFL);
         }
         if (child.closed >= 0) {
             ::close(child.closed);
@@ -95,6 +104,81 @@ TEST_CASE("Ctrl-C ends a derivation with 130 and no file") {
         CHECK(!std::filesystem::exists(folder / "out"));
     }
     CHECK(file_count(folder) == 2); // the grammar and the messages
+}
+
+TEST_CASE("SIGTERM and SIGHUP end a derivation like Ctrl-C, with 143 and 129") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", kEndless);
+    for (const auto& [signal, status] : {std::pair{SIGTERM, 143}, std::pair{SIGHUP, 129}}) {
+        for (const int times : {1, 2}) { // timeout(1) sends its signal twice
+            const Clock::time_point begin = Clock::now();
+            const pid_t process = start({{"dump", "-q", folder / "a.lsys", "-o", folder / "out"},
+                                         "/dev/null",
+                                         folder / "err"});
+            std::this_thread::sleep_for(std::chrono::milliseconds(300));
+            CHECK(file_count(folder) == 3); // the output that is not finished
+            for (int i = 0; i < times; ++i) {
+                REQUIRE(::kill(process, signal) == 0);
+            }
+            CHECK(wait_for(process) == status);
+            CHECK(Clock::now() - begin < std::chrono::seconds(10));
+            CHECK(read_text(folder / "err") == "lsc: interrupted\n");
+            CHECK(file_count(folder) == 2);
+        }
+    }
+}
+
+TEST_CASE("a run that waits for a pipe ends soon after SIGTERM") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 12; #w : F; #p : F : * : F F F;");
+    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    // Open at both ends, so that a write into it waits for a reader.
+    const int both = ::open((folder / "pipe").c_str(), O_RDWR | O_CLOEXEC);
+    REQUIRE(both >= 0);
+    const Clock::time_point begin = Clock::now();
+    const pid_t process =
+        start({{"dump", folder / "a.lsys", "--save-state", folder / "state"}, folder / "pipe"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    CHECK(file_count(folder) == 3); // the state that is not finished
+    REQUIRE(::kill(process, SIGTERM) == 0);
+    CHECK(wait_for(process) == 143);
+    CHECK(Clock::now() - begin < std::chrono::seconds(10));
+    CHECK(file_count(folder) == 2);
+    ::close(both);
+}
+
+TEST_CASE("a second Ctrl-C does not wait, and leaves no file either") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 12; #w : F; #p : F : * : F F F;");
+    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    const int both = ::open((folder / "pipe").c_str(), O_RDWR | O_CLOEXEC);
+    REQUIRE(both >= 0);
+    const pid_t process =
+        start({{"dump", folder / "a.lsys", "--save-state", folder / "state"}, folder / "pipe"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    CHECK(file_count(folder) == 3);
+    for (int i = 0; i < 2; ++i) {
+        REQUIRE(::kill(process, SIGINT) == 0);
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    CHECK(wait_for(process) == -SIGINT);
+    CHECK(file_count(folder) == 2);
+    ::close(both);
+}
+
+TEST_CASE("a run under nohup outlives SIGHUP") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", kEndless);
+    Child child{{"dump", "-q", folder / "a.lsys", "-o", folder / "out"}};
+    child.ignored_signal = SIGHUP;
+    const pid_t process = start(child);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    REQUIRE(::kill(process, SIGHUP) == 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    int status = 0;
+    CHECK(::waitpid(process, &status, WNOHANG) == 0);
+    REQUIRE(::kill(process, SIGTERM) == 0);
+    CHECK(wait_for(process) == 143);
 }
 
 TEST_CASE("a standard stream that is closed is no file of the run") {
@@ -173,6 +257,17 @@ TEST_CASE("every command reports that standard output is full") {
                   .find("cannot write standard output: no space left on "
                         "device") != std::string::npos);
     }
+}
+
+TEST_CASE("a limit on the size of files is an error that leaves no file") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 12; #w : F; #p : F : * : F F F;");
+    Child child{{"dump", folder / "a.lsys", "-o", folder / "word"}, "/dev/null", folder / "err"};
+    child.file_size = 100'000;
+    CHECK(wait_for(start(child)) == 2);
+    CHECK(read_text(folder / "err") ==
+          "lsc: error: cannot write `" + folder / "word" + "`: file too large\n");
+    CHECK(file_count(folder) == 2);
 }
 
 TEST_CASE("a full disk is told and ends with 2") {
