@@ -352,6 +352,9 @@ void add_import(CLI::App& app, ImportCommand& command) {
                "Example: lsc import tree.l -o tree.lsys");
 }
 
+    app.add_flag("-f,--force", command.force,
+                 "Replace files in a folder that are there already; without it they stay, with "
+                 "exit status 2");
 void add_stats(CLI::App& app, StatsCommand& command) {
     app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
         ->required();
