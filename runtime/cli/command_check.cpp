@@ -3,10 +3,12 @@
 #include "runtime/cli/files.h"
 #include "runtime/cli/fixes.h"
 #include "runtime/cli/grammar_file.h"
+#include "runtime/cli/tell.h"
 
 #include <fmt/format.h>
 
 #include <utility>
+#include <vector>
 
 namespace lsys::lsc {
 
@@ -30,29 +32,42 @@ Status check_text(const std::string& path,
     return status;
 }
 
-/// Writes what the fixes changed: files in place, standard input to standard output.
+/// Writes what the fixes changed, all files or none: files in place, standard input to standard
+/// output.
 Result<Done> write_fixed(const std::string& path,
                          const std::string& bytes,
                          const FixedGrammar& fixed,
                          const Console& console) {
     const std::string root = shown_path(path);
-    if (path == "-") {
-        const auto mended = fixed.changed.find(root);
-        Result<Done> written =
-            write_file("-", mended != fixed.changed.end() ? mended->second : bytes, console);
-        if (!written) {
-            return written;
+    std::vector<Output> outputs;
+    const auto put = [&](const std::string& to, const std::string& text) {
+        Result<Output> output = Output::open(to, console);
+        if (!output) {
+            return Result<Done>(output.error());
         }
-    }
+        Result<Done> written = output.value().write(text);
+        if (written) {
+            written = output.value().finish();
+        }
+        outputs.push_back(std::move(output.value()));
+        return written;
+    };
     for (const auto& [changed_path, text] : fixed.changed) {
         if (path == "-" && changed_path == root) {
             continue;
         }
-        if (Result<Done> written = write_file(changed_path, text, console); !written) {
+        if (Result<Done> written = put(changed_path, text); !written) {
             return written;
         }
     }
-    return Done{};
+    if (path == "-") { // last: it cannot be taken back
+        const auto mended = fixed.changed.find(root);
+        if (Result<Done> written = put("-", mended != fixed.changed.end() ? mended->second : bytes);
+            !written) {
+            return written;
+        }
+    }
+    return commit_all(outputs);
 }
 
 Status fix_file(const std::string& path,
@@ -60,13 +75,21 @@ Status fix_file(const std::string& path,
                 const CheckCommand& command,
                 const Console& console) {
     FixedGrammar fixed;
-    Result<Done> done = fix_text(path, text, command.grammar, console, fixed);
-    if (done && !console.interrupted()) {
-        done = write_fixed(path, text.bytes, fixed, console);
-    }
+    const Result<Done> done =
+        fix_text(path, text, command.grammar, FixScope(path, command.files), console, fixed);
     if (!done) {
-        console.error(done.error().message);
-        return Status::Failure;
+        return fail(done.error(), console);
+    }
+    if (!console.interrupted()) {
+        if (const Result<Done> written = write_fixed(path, text.bytes, fixed, console); !written) {
+            const Status status = fail(written.error(), console);
+            if (fixed.changed.size() > 1) {
+                console.help(fmt::format("`{}` and the files that it includes are as they were: "
+                                         "either all of them are written or none",
+                                         shown_path(path)));
+            }
+            return status;
+        }
     }
     for (const std::string& line : fixed.lines) {
         console.line(line);
@@ -74,7 +97,12 @@ Status fix_file(const std::string& path,
     if (fixed.fix_count > fixed.lines.size()) {
         console.info(fmt::format("{} more fixes", fixed.fix_count - fixed.lines.size()));
     }
-    return console.show(fixed.grammar.diagnostics, fixed.grammar.sources);
+    const Status status = console.show(fixed.grammar.diagnostics, fixed.grammar.sources);
+    for (const std::string& left : fixed.left) {
+        console.info(fmt::format("`{}` is left as it is: it lies outside the folder of `{}`", left,
+                                 shown_path(path)));
+    }
+    return status;
 }
 
 } // namespace
