@@ -102,19 +102,19 @@ public:
         const ExportStatus status = write([&sink](std::string_view bytes) { return sink(bytes); });
         timing.bytes += sink.written();
         const Status told = tell_exported(status, sink, command_, grammar_, console_);
-        if (told == Status::Fine) {
-            outputs_.push_back(std::move(output.value()));
+        if (told != Status::Fine) {
+            return told;
         }
+        if (const Result<Done> finished = output.value().finish(); !finished) {
+            return fail(finished.error(), console_);
+        }
+        outputs_.push_back(std::move(output.value()));
         return told;
     }
-    /// Lets all be seen, in order.
+    /// Lets all be seen.
     Status commit() {
-        for (Output& output : outputs_) {
-            if (const Result<Done> done = output.commit(); !done) {
-                return fail(done.error(), console_);
-            }
-        }
-        return Status::Fine;
+        const Result<Done> done = commit_all(outputs_);
+        return done ? Status::Fine : fail(done.error(), console_);
     }
 
 private:
@@ -276,6 +276,7 @@ Status write_bent(Export& run) {
         physics.pose(bent);
         const Status status = write_plant(run, bent, numbered(command.output, frame));
         if (status != Status::Fine) {
+            note_frames(command.output, frame - 1, command.frames, run.console);
             return status;
         }
         for (std::uint32_t step = 0; step < steps; ++step) {

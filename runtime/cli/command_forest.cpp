@@ -144,9 +144,10 @@ Status make_meshes(Run& run) {
     return Status::Fine;
 }
 
-/// Writes `write`'s bytes to `path`, complete or not at all.
+/// Writes the bytes of `write` to `path` and adds the file to `outputs`, not to be seen yet.
 template <typename Write>
-Status write_output(Run& run, const std::string& path, const Write& write) {
+Status
+add_output(Run& run, const std::string& path, const Write& write, std::vector<Output>& outputs) {
     Result<Output> output = Output::open(path, run.console);
     if (!output) {
         return fail(output.error(), run.console);
@@ -168,8 +169,25 @@ Status write_output(Run& run, const std::string& path, const Write& write) {
     if (status != Status::Fine) {
         return status;
     }
-    const Result<Done> done = output.value().commit();
-    return done ? Status::Fine : fail(done.error(), run.console);
+    if (const Result<Done> finished = output.value().finish(); !finished) {
+        return fail(finished.error(), run.console);
+    }
+    outputs.push_back(std::move(output.value()));
+    return Status::Fine;
+}
+
+/// Lets the files be seen, all or none.
+Status show_outputs(std::vector<Output>& outputs, const Console& console) {
+    const Result<Done> done = commit_all(outputs);
+    return done ? Status::Fine : fail(done.error(), console);
+}
+
+/// Writes the bytes of `write` to `path`, complete or not at all.
+template <typename Write>
+Status write_output(Run& run, const std::string& path, const Write& write) {
+    std::vector<Output> outputs;
+    const Status status = add_output(run, path, write, outputs);
+    return status == Status::Fine ? show_outputs(outputs, run.console) : status;
 }
 
 Status tell(ForestExportStatus status, const Run& run) {
@@ -199,6 +217,7 @@ Status write_instances(Run& run, const ForestScene& scene, const std::string& pa
     info.cell = run.command.cell;
     info.threads = run.command.threads;
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
+    std::vector<Output> outputs; // pictures before the file that names them
     if (run.target.forest == ForestFormat::Usda) {
         info.textures = path != "-";
         std::vector<PictureFile> pictures;
@@ -209,15 +228,20 @@ Status write_instances(Run& run, const ForestScene& scene, const std::string& pa
         for (const PictureFile& picture : pictures) {
             const std::string beside =
                 (std::filesystem::path(path).parent_path() / picture.name).string();
-            if (const Result<Done> done = write_file(beside, picture.bytes, run.console); !done) {
-                return fail(done.error(), run.console);
+            const auto put = [&](const ByteSink& sink) {
+                return sink(picture.bytes) ? Status::Fine : Status::Interrupted;
+            };
+            if (const Status added = add_output(run, beside, put, outputs); added != Status::Fine) {
+                return added;
             }
         }
     }
     const ForestForm form = run.command.expand ? ForestForm::Expanded : ForestForm::Instanced;
-    return write_output(run, path, [&](const ByteSink& sink) {
+    const auto put = [&](const ByteSink& sink) {
         return tell(export_forest(scene, run.target.forest, form, info, sink), run);
-    });
+    };
+    const Status status = add_output(run, path, put, outputs);
+    return status == Status::Fine ? show_outputs(outputs, run.console) : status;
 }
 
 Status write_baked(Run& run, const ForestScene& scene, const std::string& path) {
@@ -374,6 +398,7 @@ Status write_years(Run& run, const ForestLimits& limits) {
         const std::string path = numbered(run.command.output, frame);
         const Status status = write_forest(run, path);
         if (status != Status::Fine) {
+            note_frames(run.command.output, frame - 1, run.command.frames, run.console);
             return status;
         }
         run.console.detail(

@@ -86,6 +86,16 @@ std::string numbered(const std::string& path, std::uint32_t number) {
     return name.replace_extension(fmt::format(".{:04}{}", number, extension)).string();
 }
 
+void note_frames(const std::string& path,
+                 std::uint32_t done,
+                 std::uint32_t count,
+                 const Console& console) {
+    if (done != 0) {
+        console.info(fmt::format("{} of {} frames are complete, the last of them `{}`", done, count,
+                                 numbered(path, done)));
+    }
+}
+
 std::string shown_path(const std::string& path) {
     return path == "-" ? "<stdin>" : path;
 }

@@ -27,6 +27,11 @@ read_bytes(const std::string& path, std::uint64_t max_bytes, const Console& cons
 
 /// The name of a file of a series: tree.glb and 12 give tree.0012.glb.
 [[nodiscard]] std::string numbered(const std::string& path, std::uint32_t number);
+/// Says which files of a series that ended early are there: the first `done` of `count`.
+void note_frames(const std::string& path,
+                 std::uint32_t done,
+                 std::uint32_t count,
+                 const Console& console);
 
 /// A file while it is written. A regular file appears under its name, or replaces the one of that
 /// name, only at commit(); until then, and if it is never called, nothing has changed. Move only.

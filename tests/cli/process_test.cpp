@@ -270,6 +270,46 @@ TEST_CASE("a limit on the size of files is an error that leaves no file") {
     CHECK(file_count(folder) == 2);
 }
 
+TEST_CASE("files that belong together are written all or not at all") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 6; #set names letters; #w : A; #object L LEAF;"
+                                  "#p : A : ~ 0.5 : F[+A][-A]/A L; #q : A : ~ 0.5 : F[+A]//A L;");
+    // The pictures fit, the forest and the plant that they belong to do not.
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"forest", folder / "a.lsys", "--count", "100"},
+          {"export", folder / "a.lsys", "-n", "8"}}) {
+        Child child{command, "/dev/null", folder / "err"};
+        child.arguments.insert(child.arguments.end(), {"-o", folder / "x.usda"});
+        child.file_size = 200'000;
+        CHECK(wait_for(start(child)) == 2);
+        CHECK(read_text(folder / "err") ==
+              "lsc: error: cannot write `" + folder / "x.usda" + "`: file too large\n");
+        CHECK(file_count(folder) == 2);
+        child.file_size = RLIM_INFINITY;
+        CHECK(wait_for(start(child)) == 0);
+        CHECK(file_count(folder) > 3);
+        for (const char* name : {"x.usda", "x.bark.png", "x.bark_normals.png", "x.leaf.png"}) {
+            std::filesystem::remove(folder / name);
+        }
+        CHECK(file_count(folder) == 2);
+    }
+}
+
+TEST_CASE("a series that ends early says which of its files are there") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 3; #w : F; #p : F : * : F [+F];");
+    Child child{{"forest", folder / "a.lsys", "--placement", "domination", "--count", "100",
+                 "--years", "40", "--frames", "10", "-o", folder / "x.json"},
+                "/dev/null",
+                folder / "err"};
+    std::filesystem::create_directory(folder / "x.0003.json");
+    CHECK(wait_for(start(child)) == 2);
+    CHECK(read_text(folder / "err")
+              .ends_with("lsc: error: cannot write `" + folder / "x.0003.json" +
+                         "`: is a directory\nlsc: 2 of 10 frames are complete, the last of them `" +
+                         folder / "x.0002.json" + "`\n"));
+}
+
 TEST_CASE("a full disk is told and ends with 2") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 10; #w : F; #p : F : * : F F;");
