@@ -57,7 +57,6 @@ private:
 /// What the end of an export makes of the run.
 Status tell_exported(ExportStatus status,
                      const Sink& sink,
-                     const ExportCommand& command,
                      const Grammar& grammar,
                      const Console& console) {
     switch (status) {
@@ -78,8 +77,7 @@ Status tell_exported(ExportStatus status,
     case ExportStatus::Stopped:
         return sink.failure() ? fail(*sink.failure(), console) : Status::Interrupted;
     case ExportStatus::OutOfMemory:
-        return show(plant_limit_diagnostic("the file", command.max_bytes), Status::Limit, grammar,
-                    console);
+        return show(no_memory_diagnostic("the file"), Status::Limit, grammar, console);
     }
     return Status::Failure;
 }
@@ -87,8 +85,7 @@ Status tell_exported(ExportStatus status,
 /// Files of one plant, all complete or all absent.
 class Files {
 public:
-    Files(const ExportCommand& command, const Grammar& grammar, const Console& console)
-        : command_(command), grammar_(grammar), console_(console) {}
+    Files(const Grammar& grammar, const Console& console) : grammar_(grammar), console_(console) {}
 
     /// Writes one, which is not to be seen yet.
     Status add(const std::string& path,
@@ -101,7 +98,7 @@ public:
         Sink sink(output.value(), console_);
         const ExportStatus status = write([&sink](std::string_view bytes) { return sink(bytes); });
         timing.bytes += sink.written();
-        const Status told = tell_exported(status, sink, command_, grammar_, console_);
+        const Status told = tell_exported(status, sink, grammar_, console_);
         if (told != Status::Fine) {
             return told;
         }
@@ -118,7 +115,6 @@ public:
     }
 
 private:
-    const ExportCommand& command_;
     const Grammar& grammar_;
     const Console& console_;
     std::vector<Output> outputs_;
@@ -143,8 +139,7 @@ add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info,
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
     std::vector<PictureFile> pictures;
     if (make_picture_files(run.mesh, run.format, info, pictures) != ExportStatus::Ok) {
-        return show(plant_limit_diagnostic("the file", run.command.max_bytes), Status::Limit,
-                    run.grammar, run.console);
+        return show(no_memory_diagnostic("the pictures"), Status::Limit, run.grammar, run.console);
     }
     const auto put = [](std::string_view bytes, const ByteSink& sink) {
         return sink(bytes) ? ExportStatus::Ok : ExportStatus::Stopped;
@@ -207,7 +202,7 @@ Status write_plant(Export& run,
     info.user_meshes = &run.plant.user_meshes;
     info.animation = animation;
     info.threads = command.threads;
-    Files files(command, run.grammar, run.console);
+    Files files(run.grammar, run.console);
     Status status = Status::Fine;
     if (is_regular(path)) {
         status = add_side_files(run, path, info, files);

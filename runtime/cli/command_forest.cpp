@@ -123,10 +123,11 @@ Status make_meshes(Run& run) {
                                   "--heroes, --sides or generations"},
                             run.console);
             case InstanceMeshStatus::Limit:
-            case InstanceMeshStatus::OutOfMemory:
                 return show_limit(
                     plant_limit_diagnostic("the mesh of the heroes", run.command.max_bytes),
                     run.console);
+            case InstanceMeshStatus::OutOfMemory:
+                return show_limit(no_memory_diagnostic("the mesh of the heroes"), run.console);
             }
         }
     }
@@ -205,7 +206,7 @@ Status tell(ForestExportStatus status, const Run& run) {
     case ForestExportStatus::Stopped:
         return Status::Interrupted;
     case ForestExportStatus::OutOfMemory:
-        return show_limit(plant_limit_diagnostic("the file", run.command.max_bytes), run.console);
+        return show_limit(no_memory_diagnostic("the file"), run.console);
     }
     return Status::Failure;
 }
@@ -254,9 +255,10 @@ Status write_baked(Run& run, const ForestScene& scene, const std::string& path) 
                           "branches are instances"},
                     run.console);
     case MeshStatus::Limit:
-    case MeshStatus::OutOfMemory:
         return show_limit(plant_limit_diagnostic("the baked forest", run.command.max_bytes),
                           run.console);
+    case MeshStatus::OutOfMemory:
+        return show_limit(no_memory_diagnostic("the baked forest"), run.console);
     }
     ExportInfo info;
     info.grammar = std::filesystem::path(path).stem().string();
@@ -274,8 +276,7 @@ Status write_baked(Run& run, const ForestScene& scene, const std::string& path) 
         case ExportStatus::Stopped:
             return Status::Interrupted;
         case ExportStatus::OutOfMemory:
-            return show_limit(plant_limit_diagnostic("the file", run.command.max_bytes),
-                              run.console);
+            return show_limit(no_memory_diagnostic("the file"), run.console);
         case ExportStatus::TooLarge:
         case ExportStatus::TooManyJoints:
             break;

@@ -3,6 +3,7 @@
 #include "grammar/diagnostic.h"
 #include "grammar/dialect.h"
 #include "runtime/cli/arguments.h"
+#include "runtime/cli/memory_size.h"
 #include "runtime/cli/option_parsers.h"
 #include "runtime/turtle.h"
 

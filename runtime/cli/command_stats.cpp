@@ -1,8 +1,8 @@
 #include "compiler/growth.h"
-#include "runtime/cli/arguments.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/grammar_file.h"
+#include "runtime/cli/memory_size.h"
 #include "runtime/cli/tell.h"
 #include "runtime/derive.h"
 

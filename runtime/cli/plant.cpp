@@ -88,8 +88,10 @@ Status tell_drawn(TurtleStatus status,
     for (Diagnostic& diagnostic : turtle_diagnostics(faults, *grammar.bytecode)) {
         diagnostics.add(std::move(diagnostic));
     }
-    if (status == TurtleStatus::Limit || status == TurtleStatus::OutOfMemory) {
+    if (status == TurtleStatus::Limit) {
         diagnostics.add(plant_limit_diagnostic("the skeleton", max_bytes));
+    } else if (status == TurtleStatus::OutOfMemory) {
+        diagnostics.add(no_memory_diagnostic("the skeleton"));
     }
     const Status shown = console.show(diagnostics, grammar.sources);
     switch (status) {
@@ -218,9 +220,10 @@ Status mesh_plant(const Plant& plant,
                                            "`--level`, or for fewer generations with `-n`"),
                     Status::Limit, grammar, console);
     case MeshStatus::Limit:
-    case MeshStatus::OutOfMemory:
         return show(plant_limit_diagnostic("the mesh", options.max_bytes), Status::Limit, grammar,
                     console);
+    case MeshStatus::OutOfMemory:
+        return show(no_memory_diagnostic("the mesh"), Status::Limit, grammar, console);
     }
     return Status::Failure;
 }

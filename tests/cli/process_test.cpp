@@ -343,4 +343,19 @@ TEST_CASE("a word that the system has no memory for ends with 3") {
                kLittle})) == 3);
     CHECK(read_text(folder / "err").find("memory") != std::string::npos);
 }
+
+TEST_CASE("a plant that the system has no memory for is not blamed on the limit") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 23; #w : F; #p : F : * : F F;");
+    constexpr rlim_t kLittle = rlim_t{400} << 20;
+    CHECK(wait_for(start({{"export", folder / "a.lsys", "--threads", "1", "--max-memory", "1T",
+                           "-o", folder / "a.stl"},
+                          "/dev/null",
+                          folder / "err",
+                          kLittle})) == 3);
+    CHECK(read_text(folder / "err") ==
+          "lsc: error: the system has no memory for the skeleton [limit-reached]\n"
+          "help: ask for fewer generations with `-n`\n");
+    CHECK(file_count(folder) == 2);
+}
 #endif
