@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <string_view>
 
 namespace lsys::view {
 
@@ -31,8 +32,9 @@ lsc::Status make_model(const ViewOptions& options,
         known = {&before->model, before->grown.forest.key, before->mesh_options, grown.known};
     }
     document.mesh_options = mesh;
-    switch (make_forest_model(grown.forest, *grown.terrain, grown.user_meshes, mesh, document.model,
-                              known)) {
+    const InstanceMeshStatus made = make_forest_model(
+        grown.forest, *grown.terrain, grown.user_meshes, mesh, document.model, known);
+    switch (made) {
     case InstanceMeshStatus::Ok:
         break;
     case InstanceMeshStatus::Joined:
@@ -40,10 +42,16 @@ lsc::Status make_model(const ViewOptions& options,
                                "a forest cannot be put together from them"},
                          console);
     case InstanceMeshStatus::TooManyVertices:
+        return lsc::fail(Error{"the heroes have more than 4,294,967,295 vertices; ask for fewer "
+                               "--heroes, --sides or generations"},
+                         console);
     case InstanceMeshStatus::Limit:
     case InstanceMeshStatus::OutOfMemory: {
+        const std::string_view what = "the mesh of the heroes";
         Diagnostics diagnostics;
-        diagnostics.add(plant_limit_diagnostic("the mesh of the heroes", options.max_bytes));
+        diagnostics.add(made == InstanceMeshStatus::Limit
+                            ? plant_limit_diagnostic(what, options.max_bytes)
+                            : no_memory_diagnostic(what));
         static_cast<void>(console.show(diagnostics, {}));
         return lsc::Status::Limit;
     }
