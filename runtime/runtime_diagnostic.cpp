@@ -199,6 +199,12 @@ std::string byte_size_text(std::uint64_t bytes) {
     return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.1f} {}", size, kUnits[unit]);
 }
 
+Error memory_error(std::string_view subject, std::uint64_t left) {
+    return Error{fmt::format("{} takes more than the {} that are left of the memory limit", subject,
+                             byte_size_text(left)),
+                 ErrorKind::Limit};
+}
+
 Diagnostic
 runtime_diagnostic(const RuntimeError& error, const Bytecode& bytecode, bool sources_loaded) {
     Diagnostic diagnostic;

@@ -4,10 +4,13 @@
 
 #include "compiler/bytecode.h"
 #include "grammar/diagnostic.h"
+#include "grammar/result.h"
 #include "runtime/derive.h"
 #include "runtime/limits.h"
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace lsys {
 
@@ -22,6 +25,10 @@ runtime_diagnostic(const RuntimeError& error, const Bytecode& bytecode, bool sou
                                           const Limits& limits,
                                           const Bytecode& bytecode,
                                           bool sources_loaded);
+
+/// `subject`, such as "its mesh", needs more memory than the `left` bytes that may still be used
+/// for what is read from files; of ErrorKind::Limit.
+[[nodiscard]] Error memory_error(std::string_view subject, std::uint64_t left);
 
 /// 1,234,567
 [[nodiscard]] std::string grouped_digits(std::uint64_t value);

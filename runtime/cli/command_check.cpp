@@ -20,7 +20,8 @@ Status check_text(const std::string& path,
                   const Console& console) {
     Grammar grammar;
     const Result<Done> compiled =
-        compile_text(path, std::move(text), command.grammar, make_loader(console), grammar);
+        compile_text(path, std::move(text), command.grammar,
+                     make_loader(command.grammar.max_bytes, console), grammar);
     const Status status = console.show(grammar.diagnostics, grammar.sources);
     if (!compiled) {
         console.error(compiled.error().message);

@@ -89,7 +89,7 @@ Status dump_syntax(const DumpCommand& command, const Console& console) {
     Names names;
     Diagnostics diagnostics;
     const FileId root = sources.add(shown_path(command.file), std::move(grammar.value().bytes));
-    const FileLoader load = make_loader(console);
+    const FileLoader load = make_loader(command.max_bytes, console);
     const ParseContext context{
         sources, names, diagnostics, load, command.grammar.bug_compatible, command.grammar.system};
     const std::string text = command.stage == Stage::Tokens
@@ -182,7 +182,9 @@ Status run_dump(const DumpCommand& command, const Console& console) {
         return dump_syntax(command, console);
     }
     Grammar grammar;
-    const Status status = load_grammar(command.file, command.grammar, console, grammar);
+    GrammarOptions options = command.grammar;
+    options.max_bytes = command.max_bytes;
+    const Status status = load_grammar(command.file, options, console, grammar);
     if (status != Status::Fine) {
         return status;
     }

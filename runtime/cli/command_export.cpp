@@ -302,7 +302,9 @@ Status run_export(const ExportCommand& command, const Console& console) {
                     console);
     }
     Grammar grammar;
-    Status status = load_grammar(command.file, command.grammar, console, grammar);
+    GrammarOptions options = command.grammar;
+    options.max_bytes = command.max_bytes;
+    Status status = load_grammar(command.file, options, console, grammar);
     if (status != Status::Fine) {
         return status;
     }

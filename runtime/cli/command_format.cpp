@@ -2,6 +2,7 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/files.h"
 #include "runtime/cli/grammar_file.h"
+#include "runtime/cli/memory_size.h"
 
 #include <fmt/format.h>
 
@@ -27,7 +28,7 @@ Status format_file(const std::string& path, const FormatCommand& command, const 
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
-    const FileLoader load = make_loader(console);
+    const FileLoader load = make_loader(half_of_memory(), console);
     const std::string before = grammar.value().bytes;
     const FileId file = sources.add(shown_path(path), std::move(grammar.value().bytes));
     const std::optional<std::string> text = format_lsys(file, {sources, names, diagnostics, load});

@@ -37,8 +37,8 @@ Status import_text(const std::string& path,
                    Imported& imported) {
     imported.dialect = text.dialect;
     Grammar grammar;
-    const Result<Done> compiled =
-        compile_text(path, std::move(text), options, make_loader(console), grammar);
+    const Result<Done> compiled = compile_text(path, std::move(text), options,
+                                               make_loader(options.max_bytes, console), grammar);
     if (!compiled) {
         return fail(compiled.error(), console);
     }

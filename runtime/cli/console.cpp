@@ -133,6 +133,12 @@ Status Console::show(Diagnostics& diagnostics, const SourceMap& sources) const {
         render_all(diagnostics, sources, render_options(), text);
     }
     io_.err << text << std::flush;
+    const auto is_limit = [](const Diagnostic& diagnostic) {
+        return diagnostic.code == DiagnosticCode::LimitReached;
+    };
+    if (std::any_of(diagnostics.all().begin(), diagnostics.all().end(), is_limit)) {
+        return Status::Limit;
+    }
     return diagnostics.has_errors() ? Status::AuthorErrors : Status::Fine;
 }
 

@@ -45,7 +45,8 @@ public:
     /// What is going on; only if verbose.
     void detail(std::string_view message) const;
 
-    /// Sorts, applies --deny and -q, prints; AuthorErrors if there are errors.
+    /// Sorts, applies --deny and -q, prints; AuthorErrors if there are errors, Limit if one of them
+    /// is a limit.
     [[nodiscard]] Status show(Diagnostics& diagnostics, const SourceMap& sources) const;
     [[nodiscard]] RenderOptions render_options() const;
 

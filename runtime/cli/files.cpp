@@ -1,6 +1,7 @@
 #include "runtime/cli/files.h"
 
 #include "runtime/cli/descriptor.h"
+#include "runtime/runtime_diagnostic.h"
 
 #include <fmt/format.h>
 
@@ -16,6 +17,7 @@
 #include <memory>
 #include <sys/random.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 #include <utility>
 
@@ -25,11 +27,19 @@ namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 20;
 
-Error size_error(std::uint64_t max_bytes) {
-    return Error{fmt::format("it has more than {} bytes, the most that can be read", max_bytes)};
+/// Fine while `size` bytes are within the limit.
+Result<Done> check_size(std::uint64_t size, const ReadLimit& limit) {
+    if (size > limit.memory && limit.memory < limit.max_bytes) {
+        return memory_error("it", limit.memory);
+    }
+    if (size > limit.max_bytes) {
+        return Error{
+            fmt::format("it has more than {} bytes, the most that can be read", limit.max_bytes)};
+    }
+    return Done{};
 }
 
-Result<std::string> read_standard_input(std::uint64_t max_bytes, const Console& console) {
+Result<std::string> read_standard_input(const ReadLimit& limit, const Console& console) {
     std::istream& in = console.io().in;
     std::string bytes;
     while (in.good()) {
@@ -40,14 +50,86 @@ Result<std::string> read_standard_input(std::uint64_t max_bytes, const Console& 
         if (console.interrupted()) {
             return Error{"interrupted"};
         }
-        if (bytes.size() > max_bytes) {
-            return size_error(max_bytes);
+        if (const Result<Done> checked = check_size(bytes.size(), limit); !checked) {
+            return checked.error();
         }
     }
     if (in.bad()) {
         return Error{reason_text(errno)};
     }
     return bytes;
+}
+
+enum class Source : std::uint8_t { Named, Regular };
+
+/// Why a file of this kind is not read; empty: it is.
+std::string_view reason_against(const struct stat& facts, int descriptor, Source source) {
+    if (S_ISDIR(facts.st_mode)) {
+        return "it is a directory";
+    }
+    const bool is_null = S_ISCHR(facts.st_mode) && facts.st_rdev == ::makedev(1, 3);
+    if (S_ISREG(facts.st_mode) || is_null) {
+        return {};
+    }
+    if (source == Source::Regular) {
+        return "it is not a regular file";
+    }
+    const bool is_device = S_ISBLK(facts.st_mode) || S_ISCHR(facts.st_mode);
+    return is_device && ::isatty(descriptor) == 0 ? "it is a device" : "";
+}
+
+Result<std::string> read_descriptor(int descriptor,
+                                    std::uint64_t expected,
+                                    const ReadLimit& limit,
+                                    const Console& console) {
+    const std::uint64_t most = std::min(limit.max_bytes, limit.memory);
+    std::string bytes;
+    bytes.reserve(expected + 1);
+    while (true) {
+        const std::size_t size = bytes.size();
+        // One byte more than expected, so that the end is seen without growing.
+        const std::size_t room = std::max<std::size_t>(bytes.capacity() - size, 1);
+        bytes.resize(size + std::min(room, kPiece));
+        const ssize_t count = ::read(descriptor, bytes.data() + size, bytes.size() - size);
+        const int reason = errno;
+        bytes.resize(size + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+        if (console.interrupted()) {
+            return Error{"interrupted"};
+        }
+        if (count < 0 && reason != EINTR) {
+            return Error{reason_text(reason)};
+        }
+        if (const Result<Done> checked = check_size(bytes.size(), limit); !checked) {
+            return checked.error();
+        }
+        if (count == 0) {
+            return bytes;
+        }
+        if (bytes.size() == bytes.capacity()) {
+            const std::uint64_t next = bytes.size() + std::max(bytes.size() / 2, kPiece);
+            bytes.reserve(std::min(next, std::max(most, most + 1)));
+        }
+    }
+}
+
+Result<std::string>
+read_path(const std::string& path, Source source, const ReadLimit& limit, const Console& console) {
+    // A pipe without a writer is not waited for where it is refused anyway.
+    const int mode = source == Source::Regular ? O_NONBLOCK : 0;
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | mode));
+    struct stat facts {};
+    if (file.get() < 0 || ::fstat(file.get(), &facts) != 0) {
+        return Error{reason_text(errno)};
+    }
+    if (const std::string_view reason = reason_against(facts, file.get(), source);
+        !reason.empty()) {
+        return Error{std::string(reason)};
+    }
+    const auto expected = static_cast<std::uint64_t>(std::max<off_t>(facts.st_size, 0));
+    if (const Result<Done> checked = check_size(expected, limit); !checked) {
+        return checked.error();
+    }
+    return read_descriptor(file.get(), expected, limit, console);
 }
 
 /// Six letters that nobody can foretell.
@@ -101,55 +183,19 @@ std::string shown_path(const std::string& path) {
 }
 
 Result<std::string>
-read_file(const std::string& path, std::uint64_t max_bytes, const Console& console) {
-    Result<std::string> bytes = path == "-" ? read_standard_input(max_bytes, console)
-                                            : read_bytes(path, max_bytes, console);
+read_file(const std::string& path, const ReadLimit& limit, const Console& console) {
+    Result<std::string> bytes = path == "-" ? read_standard_input(limit, console)
+                                            : read_path(path, Source::Named, limit, console);
     if (!bytes) {
-        return Error{fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message)};
+        return Error{fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message),
+                     bytes.error().kind};
     }
     return bytes;
 }
 
 Result<std::string>
-read_bytes(const std::string& path, std::uint64_t max_bytes, const Console& console) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    struct stat facts {};
-    if (file.get() < 0 || ::fstat(file.get(), &facts) != 0) {
-        return Error{reason_text(errno)};
-    }
-    if (S_ISDIR(facts.st_mode)) {
-        return Error{"it is a directory"};
-    }
-    const auto expected = static_cast<std::uint64_t>(std::max<off_t>(facts.st_size, 0));
-    if (expected > max_bytes) {
-        return size_error(max_bytes);
-    }
-    std::string bytes;
-    bytes.reserve(static_cast<std::size_t>(expected) + 1);
-    while (true) {
-        const std::size_t size = bytes.size();
-        // One byte more than expected, so that the end is seen without growing.
-        const std::size_t room = std::max<std::size_t>(bytes.capacity() - size, 1);
-        bytes.resize(size + std::min(room, kPiece));
-        const ssize_t count = ::read(file.get(), bytes.data() + size, bytes.size() - size);
-        const int reason = errno;
-        bytes.resize(size + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-        if (console.interrupted()) {
-            return Error{"interrupted"};
-        }
-        if (count < 0 && reason != EINTR) {
-            return Error{reason_text(reason)};
-        }
-        if (bytes.size() > max_bytes) {
-            return size_error(max_bytes);
-        }
-        if (count == 0) {
-            return bytes;
-        }
-        if (bytes.size() == bytes.capacity()) {
-            bytes.reserve(bytes.size() + std::max(bytes.size() / 2, kPiece));
-        }
-    }
+read_bytes(const std::string& path, const ReadLimit& limit, const Console& console) {
+    return read_path(path, Source::Regular, limit, console);
 }
 
 Error Output::failure(int reason) const {

@@ -13,12 +13,20 @@
 
 namespace lsys::lsc {
 
-/// The bytes of `path`, or of standard input for `-`; at most `max_bytes`.
+/// How much of a file may be read.
+struct ReadLimit {
+    std::uint64_t max_bytes = 0;              // of a file of its kind
+    std::uint64_t memory = ~std::uint64_t{0}; // that is left for it: more is of ErrorKind::Limit
+};
+
+/// The bytes of `path`, or of standard input for `-`: a file that the user names, which may be a
+/// pipe or a terminal. Other devices are refused: they have no end.
 [[nodiscard]] Result<std::string>
-read_file(const std::string& path, std::uint64_t max_bytes, const Console& console);
-/// The same of a file; its Error is the reason alone.
+read_file(const std::string& path, const ReadLimit& limit, const Console& console);
+/// The bytes of a file that another file names: a regular one or /dev/null, so that nobody has to
+/// wait for it. The Error is the reason alone.
 [[nodiscard]] Result<std::string>
-read_bytes(const std::string& path, std::uint64_t max_bytes, const Console& console);
+read_bytes(const std::string& path, const ReadLimit& limit, const Console& console);
 
 /// What `errno` means, lower case.
 [[nodiscard]] std::string reason_text(int reason);

@@ -159,12 +159,12 @@ Result<Done> fix_text(const std::string& path,
                       FixedGrammar& fixed) {
     const std::string root = shown_path(path);
     std::map<std::string, std::string>& changed = fixed.changed;
-    const FileLoader from_disk = make_loader(console);
-    const FileLoader load = [&](const std::string& wanted) -> Result<std::string> {
-        const auto known = changed.find(wanted);
-        return known != changed.end() ? Result<std::string>(known->second) : from_disk(wanted);
-    };
     for (int round = 0;; ++round) {
+        const FileLoader from_disk = make_loader(options.max_bytes, console);
+        const FileLoader load = [&](const std::string& wanted) -> Result<std::string> {
+            const auto known = changed.find(wanted);
+            return known != changed.end() ? Result<std::string>(known->second) : from_disk(wanted);
+        };
         fixed.grammar = Grammar();
         Grammar& grammar = fixed.grammar;
         const auto mended = changed.find(root);

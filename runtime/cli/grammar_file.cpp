@@ -3,6 +3,7 @@
 #include "compiler/compile.h"
 #include "compiler/module_file.h"
 #include "runtime/cli/files.h"
+#include "runtime/cli/tell.h"
 
 #include <fmt/format.h>
 
@@ -115,14 +116,17 @@ Result<Done> check_system(const std::string& path, Dialect dialect, const Gramma
                                    shown_path(path), row_of(dialect).title)};
 }
 
-FileLoader make_loader(const Console& console) {
-    return
-        [console](const std::string& path) { return read_bytes(path, kMaxSourceBytes, console); };
+FileLoader make_loader(std::uint64_t max_bytes, const Console& console) {
+    return [console, left = max_bytes](const std::string& path) mutable {
+        Result<std::string> bytes = read_bytes(path, {kMaxSourceBytes, left}, console);
+        left -= bytes ? bytes.value().size() : 0;
+        return bytes;
+    };
 }
 
 Result<GrammarText>
 read_grammar(const std::string& path, const std::string& dialect, const Console& console) {
-    Result<std::string> bytes = read_file(path, kMaxSourceBytes, console);
+    Result<std::string> bytes = read_file(path, {kMaxSourceBytes}, console);
     if (!bytes) {
         return bytes.error();
     }
@@ -175,10 +179,10 @@ Status load_grammar(const std::string& path,
                     const GrammarOptions& options,
                     const Console& console,
                     Grammar& grammar) {
-    Result<std::string> bytes = read_file(path, kMaxSourceBytes, console);
+    Result<std::string> bytes = read_file(path, {kMaxSourceBytes, options.max_bytes}, console);
     if (!bytes) {
-        console.error(bytes.error().message);
-        return console.interrupted() ? Status::Interrupted : Status::Failure;
+        const Status status = fail(bytes.error(), console);
+        return console.interrupted() ? Status::Interrupted : status;
     }
     if (is_module_file(bytes.value()) || path.ends_with(kModuleExtension)) {
         return load_module(bytes.value(), path, options, console, grammar);
@@ -188,8 +192,9 @@ Status load_grammar(const std::string& path,
         console.error(dialect.error().message);
         return Status::Failure;
     }
-    const Result<Done> compiled = compile_text(path, {std::move(bytes.value()), dialect.value()},
-                                               options, make_loader(console), grammar);
+    const FileLoader load = make_loader(options.max_bytes - bytes.value().size(), console);
+    const Result<Done> compiled =
+        compile_text(path, {std::move(bytes.value()), dialect.value()}, options, load, grammar);
     const Status status = console.show(grammar.diagnostics, grammar.sources);
     if (!compiled) {
         console.error(compiled.error().message);

@@ -13,6 +13,7 @@
 #include "runtime/cli/console.h"
 #include "runtime/cli/options.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,8 +32,8 @@ struct Grammar {
     bool is_module_file = false;       // read from a .lsb: `sources` is empty
 };
 
-/// Reads files for #include.
-[[nodiscard]] FileLoader make_loader(const Console& console);
+/// Reads files for #include, which take at most `max_bytes` together.
+[[nodiscard]] FileLoader make_loader(std::uint64_t max_bytes, const Console& console);
 
 /// The bytes of a grammar and the dialect that they are in.
 struct GrammarText {

@@ -7,6 +7,7 @@
 #include "runtime/cli/plant.h"
 #include "runtime/cli/stopwatch.h"
 #include "runtime/cli/tell.h"
+#include "runtime/texture.h"
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include <chrono>
 #include <filesystem>
 #include <ostream>
+#include <set>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -32,30 +34,42 @@ fail_at(SourceSpan place, const Error& error, const SourceMap& sources, const Co
     if (place.file == kNoFile) {
         return fail(error, console);
     }
+    const bool is_limit = error.kind == ErrorKind::Limit;
     Diagnostics diagnostics;
-    diagnostics.add(DiagnosticCode::BadSceneValue, place, error.message);
+    Diagnostic& diagnostic =
+        diagnostics.add(is_limit ? DiagnosticCode::LimitReached : DiagnosticCode::BadSceneValue,
+                        place, error.message);
+    if (is_limit) {
+        diagnostic.help.emplace_back("raise the limit with `--max-memory`");
+    }
     static_cast<void>(console.show(diagnostics, sources));
-    return Status::Failure;
+    return is_limit ? Status::Limit : Status::Failure;
 }
 
 Result<GreyMap> read_map(const std::string& path,
                          std::uint32_t columns,
                          std::uint32_t rows,
-                         const Console& console) {
-    Result<std::string> bytes = read_file(path, ~std::uint64_t{0}, console);
+                         const Console& console,
+                         FileBudget& budget) {
+    const Result<std::string> bytes = read_file(path, {~std::uint64_t{0}, budget.left}, console);
     if (!bytes) {
         return bytes.error();
     }
-    Result<GreyMap> map =
-        columns != 0 ? read_grey_raw(bytes.value(), columns, rows) : read_grey_png(bytes.value());
+    const std::uint64_t left = budget.left - bytes.value().size();
+    Result<GreyMap> map = columns != 0 ? read_grey_raw(bytes.value(), columns, rows, left)
+                                       : read_grey_png(bytes.value(), left);
     if (!map) {
-        return Error{fmt::format("cannot use `{}`: {}", path, map.error().message)};
+        return Error{fmt::format("cannot use `{}`: {}", path, map.error().message),
+                     map.error().kind};
     }
+    budget.take(map.value().values.size() * sizeof(std::uint16_t));
     return map;
 }
 
-Result<Terrain>
-make_terrain(const SceneTerrain& terrain, const std::string& folder, const Console& console) {
+Result<Terrain> make_terrain(const SceneTerrain& terrain,
+                             const std::string& folder,
+                             const Console& console,
+                             FileBudget& budget) {
     switch (terrain.kind) {
     case TerrainKind::Flat:
         return Terrain::flat(terrain.region, terrain.base);
@@ -64,8 +78,8 @@ make_terrain(const SceneTerrain& terrain, const std::string& folder, const Conso
     case TerrainKind::HeightMap:
         break;
     }
-    Result<GreyMap> map =
-        read_map(path_in(folder, terrain.map.path), terrain.map_columns, terrain.map_rows, console);
+    Result<GreyMap> map = read_map(path_in(folder, terrain.map.path), terrain.map_columns,
+                                   terrain.map_rows, console, budget);
     if (!map) {
         return map.error();
     }
@@ -78,6 +92,7 @@ Status grow_stage(const SceneSpecies& species,
                   std::optional<std::uint32_t> generations,
                   const ForestLimits& limits,
                   const Console& console,
+                  FileBudget& budget,
                   ForestStage& stage,
                   std::vector<UserMesh>& user_meshes,
                   std::vector<std::string>& files) {
@@ -87,6 +102,7 @@ Status grow_stage(const SceneSpecies& species,
     options.system = species.system.text;
     options.generations = generations;
     options.max_modules = limits.max_modules;
+    options.max_bytes = limits.max_bytes;
     for (const SceneDefinition& definition : species.definitions) {
         options.definitions.push_back({definition.name, definition.value});
     }
@@ -117,6 +133,9 @@ Status grow_stage(const SceneSpecies& species,
     cache.limits = {limits.max_modules, limits.max_bytes};
     cache.max_bytes = limits.max_bytes;
     cache.cancelled = console.io().interrupted;
+    for (const UserMesh& mesh : user_meshes) { // those of the stage before
+        budget.give_back(mesh.byte_count());
+    }
     user_meshes.clear();
     const std::string folder = std::filesystem::path(path).parent_path().string();
     for (const BytecodeSymbol& symbol : grammar.bytecode->symbols) {
@@ -125,7 +144,7 @@ Status grow_stage(const SceneSpecies& species,
         }
     }
     const Status read =
-        read_user_meshes(path, *grammar.bytecode, console, user_meshes, cache.mesh_lengths);
+        read_user_meshes(path, *grammar.bytecode, console, budget, user_meshes, cache.mesh_lengths);
     for (const UserMesh& mesh : user_meshes) {
         files.insert(files.end(), mesh.files.begin(), mesh.files.end());
     }
@@ -182,7 +201,7 @@ std::optional<std::size_t> find_known(const SceneSpecies& species, const KnownFo
 
 Status
 load_scene(const std::string& path, const Console& console, SourceMap& sources, Scene& scene) {
-    Result<std::string> text = read_file(path, kMaxSourceBytes, console);
+    Result<std::string> text = read_file(path, {kMaxSourceBytes}, console);
     if (!text) {
         return fail(text.error(), console);
     }
@@ -217,15 +236,18 @@ Status grow_species(const Scene& scene,
         // Of what is not read again.
         grown.files.insert(grown.files.end(), known.grown->files.begin(), known.grown->files.end());
     }
-    Result<Terrain> terrain = make_terrain(scene.terrain, folder, console);
+    FileBudget budget{limits.max_bytes};
+    Result<Terrain> terrain = make_terrain(scene.terrain, folder, console, budget);
     if (!terrain) {
-        return fail_at(scene.terrain.map.span,
-                       Error{fmt::format("terrain: {}", terrain.error().message)}, sources,
-                       console);
+        return fail_at(
+            scene.terrain.map.span,
+            Error{fmt::format("terrain: {}", terrain.error().message), terrain.error().kind},
+            sources, console);
     }
     grown.terrain.emplace(std::move(terrain.value()));
     if (!scene.density_map.path.empty()) {
-        Result<GreyMap> map = read_map(path_in(folder, scene.density_map.path), 0, 0, console);
+        Result<GreyMap> map =
+            read_map(path_in(folder, scene.density_map.path), 0, 0, console, budget);
         if (!map) {
             return fail_at(scene.density_map.span, map.error(), sources, console);
         }
@@ -233,6 +255,7 @@ Status grow_species(const Scene& scene,
     }
     const Clock::time_point start = Clock::now();
     grown.forest.key = scene.placement.key;
+    std::set<const Texture*> known_pictures; // that are counted
     for (const SceneSpecies& species : scene.species) {
         std::error_code ignored;
         if (!std::filesystem::exists(path_in(folder, species.grammar.path), ignored)) {
@@ -257,6 +280,11 @@ Status grow_species(const Scene& scene,
             console.io().err << said << std::flush;
             made.stages = known.grown->forest.species[*at].stages;
             meshes = known.grown->user_meshes[*at];
+            for (const UserMesh& mesh : meshes) {
+                const bool is_new =
+                    mesh.picture != nullptr && known_pictures.insert(mesh.picture.get()).second;
+                budget.take(mesh.byte_count() + (is_new ? mesh.picture->texels.size() : 0));
+            }
             continue;
         }
         const std::size_t stages = std::max<std::size_t>(species.stages.size(), 1);
@@ -270,7 +298,7 @@ Status grow_species(const Scene& scene,
                 console.options());
             const Status status =
                 grow_stage(species, path_in(folder, species.grammar.path), generations, limits,
-                           heard, made.stages.emplace_back(), meshes, grown.files);
+                           heard, budget, made.stages.emplace_back(), meshes, grown.files);
             said += text.str();
             io.err << text.str() << std::flush;
             if (status != Status::Fine) {

@@ -21,7 +21,7 @@ namespace lsys::lsc {
 struct ForestLimits {
     std::uint32_t threads = 0;
     std::uint64_t max_modules = 0; // of one word
-    std::uint64_t max_bytes = 0;   // of each word, skeleton and mesh
+    std::uint64_t max_bytes = 0;   // of each word, skeleton and mesh, and of what files hold
 };
 
 /// A forest and what it stands on.

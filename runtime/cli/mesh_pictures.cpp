@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -34,22 +35,28 @@ struct Library {
 
 class Search {
 public:
-    Search(const std::string& path, const std::string& text, UserMesh& mesh)
-        : path_(path), text_(text), mesh_(mesh) {}
+    Search(const std::string& path, const std::string& text, FileBudget& budget, UserMesh& mesh)
+        : path_(path), text_(text), budget_(budget), mesh_(mesh),
+          held_(text.size() + mesh.byte_count()) {}
 
     void run(const Console& console) {
         for (const ObjName& name : mesh_.libraries) {
             Library library{beside(path_, name.name), {}, {}};
             mesh_.files.push_back(library.path);
-            Result<std::string> read = read_bytes(library.path, kMaxSourceBytes, console);
+            Result<std::string> read = read_bytes(library.path, {kMaxSourceBytes, left()}, console);
             if (!read) {
-                warn(path_, text_, obj_, name,
-                     fmt::format("cannot read `{}`: {}", shown_path(library.path),
-                                 read.error().message));
+                report(path_, text_, obj_, name,
+                       Error{fmt::format("cannot read `{}`: {}", shown_path(library.path),
+                                         read.error().message),
+                             read.error().kind});
+                if (read.error().kind == ErrorKind::Limit) {
+                    return;
+                }
                 continue;
             }
             library.text = std::move(read.value());
-            library.materials = pictures_of(library.text);
+            held_ += library.text.size();
+            library.materials = pictures_of(library.text, mesh_.materials);
             libraries_.push_back(std::move(library));
         }
         if (libraries_.empty()) {
@@ -75,23 +82,44 @@ public:
     SourceMap sources;
 
 private:
+    [[nodiscard]] std::uint64_t left() const {
+        return budget_.left - std::min(budget_.left, held_);
+    }
+
+    /// At the place of `name` in `text`: a warning, or an error where the memory is missing.
+    void report(const std::string& path,
+                const std::string& text,
+                FileId& file,
+                const ObjName& name,
+                const Error& error) {
+        const bool is_limit = error.kind == ErrorKind::Limit;
+        const DiagnosticCode code =
+            is_limit ? DiagnosticCode::LimitReached : DiagnosticCode::MeshPicture;
+        if (!diagnostics.admits(code)) {
+            return;
+        }
+        SourceSpan span;
+        std::string message = error.message;
+        if (text.size() > kMaxSourceBytes) {
+            message = fmt::format("{}: {}", shown_path(path), message);
+        } else {
+            if (file == kNoFile) {
+                file = sources.add(shown_path(path), text);
+            }
+            const auto begin = static_cast<std::uint32_t>(name.offset);
+            span = {file, begin, begin + static_cast<std::uint32_t>(name.name.size())};
+        }
+        Diagnostic& added = diagnostics.add(code, span, std::move(message));
+        if (is_limit) {
+            added.help.emplace_back("raise the limit with `--max-memory`");
+        }
+    }
     void warn(const std::string& path,
               const std::string& text,
               FileId& file,
               const ObjName& name,
               std::string message) {
-        if (text.size() > kMaxSourceBytes) {
-            diagnostics.add(DiagnosticCode::MeshPicture, SourceSpan{},
-                            fmt::format("{}: {}", shown_path(path), message));
-            return;
-        }
-        if (file == kNoFile) {
-            file = sources.add(shown_path(path), text);
-        }
-        const auto begin = static_cast<std::uint32_t>(name.offset);
-        diagnostics.add(DiagnosticCode::MeshPicture,
-                        {file, begin, begin + static_cast<std::uint32_t>(name.name.size())},
-                        std::move(message));
+        report(path, text, file, name, Error{std::move(message)});
     }
 
     /// The picture of a material; no path: it has none.
@@ -128,15 +156,18 @@ private:
             Library& library = *found.library;
             warn(library.path, library.text, library.file, found.picture->file, std::move(message));
         };
-        const Result<std::string> bytes = read_bytes(path, kMaxPictureBytes, console);
-        if (!bytes) {
-            say(fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message));
-            return;
-        }
-        Result<Texture> picture = read_picture(bytes.value());
-        if (!picture) {
-            say(fmt::format("cannot use `{}`: {}", shown_path(path), picture.error().message));
-            return;
+        std::shared_ptr<const Texture> picture = budget_.pictures[path];
+        if (picture == nullptr) {
+            Result<Texture> decoded = decode(path, console);
+            if (!decoded) {
+                Library& library = *found.library;
+                report(library.path, library.text, library.file, found.picture->file,
+                       decoded.error());
+                return;
+            }
+            budget_.take(decoded.value().texels.size());
+            picture = std::make_shared<const Texture>(std::move(decoded.value()));
+            budget_.pictures[path] = picture;
         }
         if (found.picture->has_options) {
             say("options before the name of a picture are left out");
@@ -146,12 +177,30 @@ private:
                             shown_path(path_)));
             return;
         }
-        mesh_.picture = std::make_shared<const Texture>(std::move(picture.value()));
+        mesh_.picture = std::move(picture);
+    }
+
+    Result<Texture> decode(const std::string& path, const Console& console) const {
+        const Result<std::string> bytes = read_bytes(path, {kMaxPictureBytes, left()}, console);
+        if (!bytes) {
+            return Error{
+                fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message),
+                bytes.error().kind};
+        }
+        Result<Texture> picture = read_picture(bytes.value(), left() - bytes.value().size());
+        if (!picture) {
+            return Error{
+                fmt::format("cannot use `{}`: {}", shown_path(path), picture.error().message),
+                picture.error().kind};
+        }
+        return picture;
     }
 
     const std::string& path_;
     const std::string& text_;
+    FileBudget& budget_;
     UserMesh& mesh_;
+    std::uint64_t held_; // bytes that the budget does not know: the text of the files, the mesh
     FileId obj_ = kNoFile;
     bool is_unknown_told_ = false;
     std::vector<Library> libraries_;
@@ -162,8 +211,9 @@ private:
 Status read_mesh_picture(const std::string& path,
                          const std::string& text,
                          const Console& console,
+                         FileBudget& budget,
                          UserMesh& mesh) {
-    Search search(path, text, mesh);
+    Search search(path, text, budget, mesh);
     search.run(console);
     return console.show(search.diagnostics, search.sources);
 }

@@ -35,6 +35,7 @@ struct GrammarOptions {
     std::vector<Definition> definitions;
     std::optional<std::uint32_t> generations; // -n
     std::uint64_t max_modules = std::uint64_t{1} << 32;
+    std::uint64_t max_bytes = ~std::uint64_t{0}; // of the files that it is made from
 };
 
 struct CheckCommand {

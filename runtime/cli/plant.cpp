@@ -112,6 +112,7 @@ Status tell_drawn(TurtleStatus status,
 Status read_user_meshes(const std::string& grammar_file,
                         const Bytecode& bytecode,
                         const Console& console,
+                        FileBudget& budget,
                         std::vector<UserMesh>& meshes,
                         std::vector<float>& lengths) {
     Status shown = Status::Fine;
@@ -122,16 +123,24 @@ Status read_user_meshes(const std::string& grammar_file,
             continue;
         }
         const std::string path = (folder / symbol.mesh_file).string();
-        Result<std::string> text = read_file(path, ~std::uint64_t{0}, console);
+        const Result<std::string> text =
+            read_bytes(path, {~std::uint64_t{0}, budget.left}, console);
         if (!text) {
-            return fail(text.error(), console);
-        }
-        Result<UserMesh> mesh = read_obj(text.value());
-        if (!mesh) {
-            return fail(Error{fmt::format("cannot use `{}`: {}", path, mesh.error().message)},
+            return fail(Error{fmt::format("cannot read `{}`: {}", path, text.error().message),
+                              text.error().kind},
                         console);
         }
-        shown = worse(shown, read_mesh_picture(path, text.value(), console, mesh.value()));
+        Result<UserMesh> mesh = read_obj(text.value(), budget.left - text.value().size());
+        if (!mesh) {
+            return fail(Error{fmt::format("cannot use `{}`: {}", path, mesh.error().message),
+                              mesh.error().kind},
+                        console);
+        }
+        shown = worse(shown, read_mesh_picture(path, text.value(), console, budget, mesh.value()));
+        if (shown == Status::Limit) {
+            return shown;
+        }
+        budget.take(mesh.value().byte_count());
         lengths.resize(bytecode.symbols.size(), 1.0F);
         lengths[i] = mesh.value().length();
         meshes.push_back(std::move(mesh.value()));
@@ -176,8 +185,9 @@ grow_plant(const PlantRequest& request, Grammar& grammar, const Console& console
         progress.update(generation, modules, Clock::now());
     };
     TurtleOptions turtle_options;
-    if (const Status read = read_user_meshes(request.file, bytecode, console, plant.user_meshes,
-                                             turtle_options.mesh_lengths);
+    FileBudget budget{request.max_bytes};
+    if (const Status read = read_user_meshes(request.file, bytecode, console, budget,
+                                             plant.user_meshes, turtle_options.mesh_lengths);
         read != Status::Fine) {
         return read;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runtime/cli/console.h"
+#include "runtime/cli/file_budget.h"
 #include "runtime/cli/grammar_file.h"
 #include "runtime/cli/options.h"
 #include "runtime/derive.h"
@@ -61,10 +62,12 @@ struct Plant {
                                 const Console& console);
 
 /// Reads the mesh files of `#object`, which lie beside the grammar unless their path is absolute.
-/// `lengths` are those of the symbols. Fine: all are there, but pictures may be missing.
+/// `lengths` are those of the symbols. Fine: all are there, but pictures may be missing. `budget`
+/// counts what is read.
 [[nodiscard]] Status read_user_meshes(const std::string& grammar_file,
                                       const Bytecode& bytecode,
                                       const Console& console,
+                                      FileBudget& budget,
                                       std::vector<UserMesh>& meshes,
                                       std::vector<float>& lengths);
 

@@ -15,6 +15,10 @@ Status show(Diagnostic diagnostic, Status status, const Grammar& grammar, const 
 
 Status fail(const Error& error, const Console& console) {
     console.error(error.message);
+    if (error.kind == ErrorKind::Limit) {
+        console.help("raise the limit with `--max-memory`");
+        return Status::Limit;
+    }
     return Status::Failure;
 }
 

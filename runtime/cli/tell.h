@@ -12,7 +12,7 @@ namespace lsys::lsc {
 /// Shows a diagnostic of the run; returns `status`.
 Status show(Diagnostic diagnostic, Status status, const Grammar& grammar, const Console& console);
 
-/// Prints an error of the environment; returns Failure.
+/// Prints an error of the environment; returns Failure, or Limit where memory is meant.
 Status fail(const Error& error, const Console& console);
 
 /// The exit status of a derivation that ended as `status`, after its message.

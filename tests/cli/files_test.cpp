@@ -49,37 +49,37 @@ TEST_CASE("files are read whole, whatever they hold") {
     for (const std::size_t size : {0U, 4U, 1U << 20U, (3U << 20U) + 1U}) {
         bytes.resize(size, 'x');
         write_text(f.folder / "x", bytes);
-        const Result<std::string> read = read_file(f.folder / "x", kMany, f.console);
+        const Result<std::string> read = read_file(f.folder / "x", {kMany}, f.console);
         REQUIRE(read.ok());
         CHECK(read.value() == bytes);
     }
-    const Result<std::string> device = read_file("/dev/null", kMany, f.console);
+    const Result<std::string> device = read_file("/dev/null", {kMany}, f.console);
     REQUIRE(device.ok());
     CHECK(device.value().empty());
 }
 
 TEST_CASE("what cannot be read is named with its reason") {
     Fixture f;
-    CHECK(read_file(f.folder / "none", kMany, f.console).error().message ==
+    CHECK(read_file(f.folder / "none", {kMany}, f.console).error().message ==
           "cannot read `" + f.folder / "none" + "`: no such file or directory");
-    CHECK(read_file(f.folder.path().string(), kMany, f.console).error().message ==
+    CHECK(read_file(f.folder.path().string(), {kMany}, f.console).error().message ==
           "cannot read `" + f.folder.path().string() + "`: it is a directory");
     write_text(f.folder / "large", "12345");
-    CHECK(read_file(f.folder / "large", 4, f.console).error().message ==
+    CHECK(read_file(f.folder / "large", {4}, f.console).error().message ==
           "cannot read `" + f.folder / "large" +
               "`: it has more than 4 bytes, the most that can be read");
-    CHECK(read_file(f.folder / "large", 5, f.console).value() == "12345");
+    CHECK(read_file(f.folder / "large", {5}, f.console).value() == "12345");
     // Without an end, and without a size.
-    CHECK(!read_file("/dev/zero", 3'000'000, f.console).ok());
+    CHECK(!read_file("/dev/zero", {3'000'000}, f.console).ok());
 }
 
 TEST_CASE("standard input has the name -") {
     Fixture f;
     f.in.str(std::string(3'000'000, 'x'));
-    CHECK(read_file("-", kMany, f.console).value().size() == 3'000'000);
+    CHECK(read_file("-", {kMany}, f.console).value().size() == 3'000'000);
     Fixture too_long;
     too_long.in.str("12345");
-    CHECK(!read_file("-", 4, too_long.console).ok());
+    CHECK(!read_file("-", {4}, too_long.console).ok());
 }
 
 TEST_CASE("a written file appears when it is complete") {

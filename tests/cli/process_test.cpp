@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <fcntl.h>
 #include <filesystem>
 #include <string>
@@ -68,11 +69,21 @@ pid_t start(const Child& child) {
     return process;
 }
 
+struct Ended {
+    int status = 0;    // exit status, or -signal
+    long peak_kib = 0; // of memory
+};
+
+Ended end_of(pid_t process) {
+    int status = 0;
+    rusage usage{};
+    ::wait4(process, &status, 0, &usage);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), usage.ru_maxrss};
+}
+
 /// The exit status, or -signal.
 int wait_for(pid_t process) {
-    int status = 0;
-    ::waitpid(process, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    return end_of(process).status;
 }
 
 std::size_t file_count(const ScratchFolder& folder) {
@@ -357,5 +368,80 @@ TEST_CASE("a plant that the system has no memory for is not blamed on the limit"
           "lsc: error: the system has no memory for the skeleton [limit-reached]\n"
           "help: ask for fewer generations with `-n`\n");
     CHECK(file_count(folder) == 2);
+}
+
+TEST_CASE("pictures and meshes of files are within the limit on memory") {
+    const ScratchFolder folder;
+    // The picture of 8192 by 8192 pixels has 8 KB as a file and 256 MiB in memory.
+    write_text(folder / "card.mtl",
+               "newmtl card\nmap_Kd " LSYS_SOURCE_DIR "/tests/ui/objects/parts/large.png\n");
+    write_text(folder / "card.obj", "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 0 2 0\n"
+                                    "vt 0 0\nvt 1 0\nvt 0.5 1\nf 1/1 2/2 3/3\n");
+    std::string objects;
+    std::string word;
+    for (char name = 'A'; name < 'M'; ++name) {
+        objects += std::string("#object ") + name + " \"card.obj\";\n";
+        word += std::string(" ") + name;
+    }
+    write_text(folder / "a.lsys", "#n = 1;\n" + objects + "#w :" + word + ";\n");
+    const auto run = [&](const char* limit, const char* output) {
+        return end_of(
+            start({{"export", "--max-memory", limit, folder / "a.lsys", "-o", folder / output},
+                   "/dev/null",
+                   folder / "err"}));
+    };
+    const Ended refused = run("50M", "a.glb");
+    CHECK(refused.status == 3);
+    CHECK(refused.peak_kib < 200L << 10);
+    CHECK(read_text(folder / "err").find("limit-reached") != std::string::npos);
+    // STL has no pictures, so this is what reading takes: one picture for all objects.
+    const Ended read = run("300M", "a.stl");
+    CHECK(read.status == 0);
+    CHECK(read.peak_kib < 450L << 10);
+}
+
+TEST_CASE("a pipe without an end is read as far as the limit on memory") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 1; #w : F;");
+    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    const std::vector<std::vector<std::string>> commands{
+        {"dump", "--from", folder / "pipe", folder / "a.lsys"},
+        {"dump", folder / "pipe", "--dialect", "lsys"},
+        {"forest", folder / "a.lsys", "--placement", "density-map", "--density-map",
+         folder / "pipe", "--check"}};
+    for (const std::vector<std::string>& command : commands) {
+        Child child{command, "/dev/null", folder / "err"};
+        child.arguments.insert(child.arguments.end(), {"--max-memory", "20M"});
+        const pid_t process = start(child);
+        const pid_t writer = ::fork();
+        if (writer == 0) {
+            const int pipe = ::open((folder / "pipe").c_str(), O_WRONLY | O_CLOEXEC);
+            const std::string piece(1 << 16, ' ');
+            while (::write(pipe, piece.data(), piece.size()) > 0) {
+            }
+            ::_exit(0);
+        }
+        const Ended ended = end_of(process);
+        ::kill(writer, SIGKILL);
+        static_cast<void>(end_of(writer));
+        CAPTURE(command.front(), read_text(folder / "err"));
+        CHECK(ended.status == 3);
+        CHECK(ended.peak_kib < 200L << 10);
+        CHECK(read_text(folder / "err").find("of the memory limit") != std::string::npos);
+    }
+}
+
+TEST_CASE("a pipe that a grammar names is not waited for") {
+    const ScratchFolder folder;
+    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    write_text(folder / "a.lsys", "#n = 1;\n#include \"pipe\";\n#w : F;\n");
+    write_text(folder / "b.lsys", "#n = 1;\n#object Q \"pipe\";\n#w : Q;\n");
+    CHECK(wait_for(start({{"check", folder / "a.lsys"}, "/dev/null", folder / "err"})) == 1);
+    CHECK(read_text(folder / "err").find("it is not a regular file") != std::string::npos);
+    CHECK(wait_for(start({{"export", folder / "b.lsys", "-o", folder / "b.glb"},
+                          "/dev/null",
+                          folder / "err"})) == 2);
+    CHECK(read_text(folder / "err") ==
+          "lsc: error: cannot read `" + folder / "pipe" + "`: it is not a regular file\n");
 }
 #endif

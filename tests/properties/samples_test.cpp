@@ -47,7 +47,7 @@ with_axiom(const std::filesystem::path& path, const std::string& text, const std
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
-    const FileLoader load = lsc::make_loader(console);
+    const FileLoader load = lsc::make_loader(~std::uint64_t{0}, console);
     const FileId root = sources.add(path.string(), text);
     const Ast ast = parse_lsys(root, {sources, names, diagnostics, load});
     for (const Statement& statement : ast.statements) {

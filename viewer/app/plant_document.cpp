@@ -11,8 +11,9 @@ lsc::Status make_plant_document(const ViewOptions& options,
                                 const lsc::Console& console,
                                 PlantDocument& document) {
     lsc::Clock::time_point start = lsc::Clock::now();
-    lsc::Status status =
-        lsc::load_grammar(options.file, options.grammar, console, document.grammar);
+    lsc::GrammarOptions grammar = options.grammar;
+    grammar.max_bytes = options.max_bytes;
+    lsc::Status status = lsc::load_grammar(options.file, grammar, console, document.grammar);
     if (status != lsc::Status::Fine) {
         return status;
     }

@@ -120,7 +120,7 @@ lsc::Status run_window(const ViewOptions& options, const lsc::Console& console) 
         return lsc::fail(Error{fmt::format("--camera: {}", camera.error().message)}, console);
     }
     // A file that cannot be read is a mistake on the command line; one with errors is shown.
-    if (const Result<std::string> bytes = lsc::read_file(options.file, ~std::uint64_t{0}, console);
+    if (const Result<std::string> bytes = lsc::read_file(options.file, {kMaxSourceBytes}, console);
         !bytes) {
         return lsc::fail(bytes.error(), console);
     }
