@@ -89,13 +89,18 @@ FileId IncludeChain::enter(std::string_view path, SourceSpan path_span) {
         Result<std::string> bytes = context_.load(beside);
         const bool too_large = bytes.ok() && bytes.value().size() > kMaxSourceBytes;
         if (!bytes.ok() || too_large) {
-            if (diagnostics.admits(DiagnosticCode::IncludeNotFound)) {
+            const bool is_limit = !bytes.ok() && bytes.error().kind == ErrorKind::Limit;
+            const DiagnosticCode code =
+                is_limit ? DiagnosticCode::LimitReached : DiagnosticCode::IncludeNotFound;
+            if (diagnostics.admits(code)) {
                 Diagnostic& diagnostic = diagnostics.add(
-                    DiagnosticCode::IncludeNotFound, path_span,
+                    code, path_span,
                     "cannot read `" + beside +
                         "`: " + (too_large ? "it is larger than 2 GiB" : bytes.error().message));
-                diagnostic.help.emplace_back(
-                    "the path is relative to the file that holds the #include");
+                if (!is_limit) {
+                    diagnostic.help.emplace_back(
+                        "the path is relative to the file that holds the #include");
+                }
             }
             return kNoFile;
         }

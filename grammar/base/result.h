@@ -1,19 +1,27 @@
 // Result<T>: a value, or the failure of the environment (a missing file, a full disk, a damaged
-// module file). Mistakes of a grammar's author are Diagnostics, not Results.
+// module file, a file beyond the memory that the run may use). Mistakes of a grammar's author are
+// Diagnostics, not Results.
 #pragma once
 
 #include "grammar/base/contract.h"
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <variant>
 
 namespace lsys {
 
+enum class ErrorKind : std::uint8_t {
+    Environment,
+    Limit, // more memory would be needed than the run may use
+};
+
 /// What failed, in words for the user: lower case, no final stop, with the file's name where one is
 /// concerned.
 struct Error {
     std::string message;
+    ErrorKind kind = ErrorKind::Environment;
 };
 
 template <typename T>

@@ -1,6 +1,7 @@
 #include "runtime/base/grey_map.h"
 
 #include "runtime/base/png_samples.h"
+#include "runtime/base/size_text.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +9,9 @@
 
 namespace lsys {
 
-Result<GreyMap> read_grey_png(std::string_view bytes) {
-    const Result<PngSamples> read =
-        read_png_samples(bytes, PngForm::SixteenBits, kMaxMapPixels, "map");
+Result<GreyMap> read_grey_png(std::string_view bytes, std::uint64_t max_bytes) {
+    const Result<PngSamples> read = read_png_samples(
+        bytes, {PngForm::SixteenBits, kMaxMapPixels, max_bytes, sizeof(std::uint16_t), "map"});
     if (!read) {
         return read.error();
     }
@@ -31,7 +32,10 @@ Result<GreyMap> read_grey_png(std::string_view bytes) {
     return map;
 }
 
-Result<GreyMap> read_grey_raw(std::string_view bytes, std::uint32_t columns, std::uint32_t rows) {
+Result<GreyMap> read_grey_raw(std::string_view bytes,
+                              std::uint32_t columns,
+                              std::uint32_t rows,
+                              std::uint64_t max_bytes) {
     const std::uint64_t pixels = std::uint64_t{columns} * rows;
     if (pixels > kMaxMapPixels) {
         return Error{
@@ -40,6 +44,11 @@ Result<GreyMap> read_grey_raw(std::string_view bytes, std::uint32_t columns, std
     if (pixels == 0 || bytes.size() != 2 * pixels) {
         return Error{fmt::format("{} by {} samples of 16 bits are {} bytes; there are {}", columns,
                                  rows, 2 * pixels, bytes.size())};
+    }
+    if (bytes.size() > max_bytes) {
+        return memory_error(fmt::format("a map of {} by {} pixels ({})", columns, rows,
+                                        byte_size_text(bytes.size())),
+                            max_bytes);
     }
     GreyMap map{columns, rows, LargeVector<std::uint16_t>(pixels)};
     for (std::uint64_t i = 0; i < pixels; ++i) {

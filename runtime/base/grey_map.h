@@ -26,11 +26,15 @@ struct GreyMap {
 };
 
 /// Reads a PNG file of 1 to 16 bits a sample; 8 bits b become 257 b. Samples are taken as they are
-/// stored: no gamma, no opacity. Pictures with colours are refused, unless every pixel is grey.
-[[nodiscard]] Result<GreyMap> read_grey_png(std::string_view bytes);
+/// stored: no gamma, no opacity. Pictures with colours are refused, unless every pixel is grey. At
+/// most `max_bytes` are used beside `bytes`.
+[[nodiscard]] Result<GreyMap> read_grey_png(std::string_view bytes, std::uint64_t max_bytes);
 
-/// Reads raw samples of 16 bits, little-endian, by rows, without a header.
-[[nodiscard]] Result<GreyMap>
-read_grey_raw(std::string_view bytes, std::uint32_t columns, std::uint32_t rows);
+/// Reads raw samples of 16 bits, little-endian, by rows, without a header. At most `max_bytes` are
+/// used beside `bytes`.
+[[nodiscard]] Result<GreyMap> read_grey_raw(std::string_view bytes,
+                                            std::uint32_t columns,
+                                            std::uint32_t rows,
+                                            std::uint64_t max_bytes);
 
 } // namespace lsys

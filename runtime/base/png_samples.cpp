@@ -1,5 +1,7 @@
 #include "runtime/base/png_samples.h"
 
+#include "runtime/base/size_text.h"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -79,12 +81,6 @@ bool read_rows(png_structp png, const PngSize& size, std::size_t row_bytes, png_
     return true;
 }
 
-struct PngRequest {
-    PngForm form = PngForm::Rgba;
-    std::uint64_t most_pixels = 0;
-    std::string_view what;
-};
-
 Result<PngSamples>
 read_with(png_structp png, png_infop info, const PngRequest& request, PngInput& input) {
     const auto damaged = [&input] {
@@ -95,13 +91,19 @@ read_with(png_structp png, png_infop info, const PngRequest& request, PngInput& 
         return damaged();
     }
     const std::uint64_t pixels = std::uint64_t{size.columns} * size.rows;
-    if (pixels > request.most_pixels) {
+    if (pixels > request.max_pixels) {
         return Error{fmt::format("a {} of {} by {} pixels; the most is {}", request.what,
-                                 size.columns, size.rows, request.most_pixels)};
+                                 size.columns, size.rows, request.max_pixels)};
     }
     const std::size_t row_bytes = png_get_rowbytes(png, info);
+    const std::uint64_t needed = row_bytes * size.rows + pixels * request.further_bytes;
+    if (needed > request.max_bytes) {
+        return memory_error(fmt::format("a {} of {} by {} pixels ({})", request.what, size.columns,
+                                        size.rows, byte_size_text(needed)),
+                            request.max_bytes);
+    }
     PngSamples samples{size.columns, size.rows, size.channels,
-                       LargeVector<std::uint8_t>(row_bytes * size.rows)};
+                       std::vector<std::uint8_t>(row_bytes * size.rows)};
     if (!read_rows(png, size, row_bytes, samples.bytes.data())) {
         return damaged();
     }
@@ -110,10 +112,7 @@ read_with(png_structp png, png_infop info, const PngRequest& request, PngInput& 
 
 } // namespace
 
-Result<PngSamples> read_png_samples(std::string_view bytes,
-                                    PngForm form,
-                                    std::uint64_t most_pixels,
-                                    std::string_view what) {
+Result<PngSamples> read_png_samples(std::string_view bytes, const PngRequest& request) {
     PngInput input{bytes, {}};
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &input, fail, ignore_warning);
     png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
@@ -122,7 +121,7 @@ Result<PngSamples> read_png_samples(std::string_view bytes,
         return Error{"there is no memory to read a PNG"};
     }
     png_set_read_fn(png, &input, take);
-    Result<PngSamples> samples = read_with(png, info, {form, most_pixels, what}, input);
+    Result<PngSamples> samples = read_with(png, info, request, input);
     png_destroy_read_struct(&png, &info, nullptr);
     return samples;
 }

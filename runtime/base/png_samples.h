@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 namespace lsys {
 
@@ -14,7 +15,7 @@ struct PngSamples {
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
     std::uint32_t channels = 0; // of a pixel
-    LargeVector<std::uint8_t> bytes;
+    std::vector<std::uint8_t> bytes;
 };
 
 enum class PngForm : std::uint8_t {
@@ -22,11 +23,15 @@ enum class PngForm : std::uint8_t {
     Rgba,        // four bytes a pixel
 };
 
-/// `what` is a picture called in errors: "map". A picture of more pixels is refused before there is
-/// memory for it.
+/// How a picture is read. One that is too large is refused before there is memory for it.
+struct PngRequest {
+    PngForm form = PngForm::Rgba;
+    std::uint64_t max_pixels = 0;
+    std::uint64_t max_bytes = 0;     // of the samples and what the caller makes of them
+    std::uint32_t further_bytes = 0; // of a pixel, that the caller makes beside the samples
+    std::string_view what;           // in errors: "map"
+};
 [[nodiscard]] Result<PngSamples> read_png_samples(std::string_view bytes,
-                                                  PngForm form,
-                                                  std::uint64_t most_pixels,
-                                                  std::string_view what);
+                                                  const PngRequest& request);
 
 } // namespace lsys

@@ -1,6 +1,7 @@
 #include "compiler/bytecode/module_file.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/fixes.h"
+#include "runtime/cli/tell.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <vector>
 
 namespace lsys::lsc {
 
@@ -19,7 +21,7 @@ ExitStatus check_text(const std::string& path,
                       const Console& console) {
     Result<CompiledText> compiled =
         compile_text(path, std::move(text), command.grammar, command.run.limits.max_modules,
-                     make_loader(make_project(console, command.run)));
+                     make_loader(make_project(console, command.run), command.run.limits.max_bytes));
     if (!compiled) {
         return report_error(compiled.error(), console);
     }
@@ -34,29 +36,42 @@ ExitStatus check_text(const std::string& path,
     return status;
 }
 
-/// Writes what the fixes changed: files in place, standard input to standard output.
+/// Writes what the fixes changed, all files or none: files in place, standard input to standard
+/// output.
 Result<Done> write_fixed(const std::string& path,
                          const std::string& bytes,
                          const FixedGrammar& fixed,
                          const Console& console) {
     const std::string root = shown_path(path);
-    if (path == "-") {
-        const auto mended = fixed.changed.find(root);
-        Result<Done> written =
-            write_file("-", mended != fixed.changed.end() ? mended->second : bytes, console);
-        if (!written) {
-            return written;
+    std::vector<Output> outputs;
+    const auto put = [&](const std::string& to, const std::string& text) {
+        Result<Output> output = Output::open(to, console);
+        if (!output) {
+            return Result<Done>(output.error());
         }
-    }
+        Result<Done> written = output.value().write(text);
+        if (written) {
+            written = output.value().finish();
+        }
+        outputs.push_back(std::move(output.value()));
+        return written;
+    };
     for (const auto& [changed_path, text] : fixed.changed) {
         if (path == "-" && changed_path == root) {
             continue;
         }
-        if (Result<Done> written = write_file(changed_path, text, console); !written) {
+        if (Result<Done> written = put(changed_path, text); !written) {
             return written;
         }
     }
-    return Done{};
+    if (path == "-") { // last: it cannot be taken back
+        const auto mended = fixed.changed.find(root);
+        if (Result<Done> written = put("-", mended != fixed.changed.end() ? mended->second : bytes);
+            !written) {
+            return written;
+        }
+    }
+    return commit_all(outputs);
 }
 
 ExitStatus fix_file(const std::string& path,
@@ -64,14 +79,21 @@ ExitStatus fix_file(const std::string& path,
                     const CheckCommand& command,
                     const Console& console) {
     FixedGrammar fixed;
-    Result<Done> done =
-        fix_text(path, text, command.grammar, make_project(console, command.run), fixed);
-    if (done && !console.interrupted()) {
-        done = write_fixed(path, text.bytes, fixed, console);
-    }
+    const Result<Done> done = fix_text(path, text, command.grammar, FixScope(path, command.files),
+                                       make_project(console, command.run), fixed);
     if (!done) {
-        console.error(done.error().message);
-        return ExitStatus::Failure;
+        return report_error(done.error(), console);
+    }
+    if (!console.interrupted()) {
+        if (const Result<Done> written = write_fixed(path, text.bytes, fixed, console); !written) {
+            const ExitStatus status = report_error(written.error(), console);
+            if (fixed.changed.size() > 1) {
+                console.help(fmt::format("`{}` and the files that it includes are as they were: "
+                                         "either all of them are written or none",
+                                         shown_path(path)));
+            }
+            return status;
+        }
     }
     for (const std::string& line : fixed.lines) {
         console.line(line);
@@ -79,7 +101,13 @@ ExitStatus fix_file(const std::string& path,
     if (fixed.fix_count > fixed.lines.size()) {
         console.info(fmt::format("{} more fixes", fixed.fix_count - fixed.lines.size()));
     }
-    return console.show(fixed.compiled.diagnostics, *fixed.compiled.grammar.sources);
+    const ExitStatus status =
+        console.show(fixed.compiled.diagnostics, *fixed.compiled.grammar.sources);
+    for (const std::string& left : fixed.left) {
+        console.info(fmt::format("`{}` is left as it is: it lies outside the folder of `{}`", left,
+                                 shown_path(path)));
+    }
+    return status;
 }
 
 } // namespace

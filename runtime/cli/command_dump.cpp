@@ -95,7 +95,7 @@ ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
     Names names;
     Diagnostics diagnostics;
     const FileId root = sources.add(shown_path(command.file), std::move(grammar.bytes));
-    const FileLoader load = make_loader(project);
+    const FileLoader load = make_loader(project, project.limits.max_bytes);
     const ParseContext context{
         sources, names, diagnostics, load, command.grammar.bug_compatible, command.grammar.system};
     const std::string text = command.stage == DumpStage::Tokens

@@ -60,7 +60,6 @@ private:
 /// What the end of an export makes of the run.
 ExitStatus tell_exported(ExportStatus status,
                          const Sink& sink,
-                         const ExportCommand& command,
                          const Grammar& grammar,
                          const Console& console) {
     switch (status) {
@@ -83,8 +82,8 @@ ExitStatus tell_exported(ExportStatus status,
     case ExportStatus::Stopped:
         return sink.failure() ? report_error(*sink.failure(), console) : ExitStatus::Interrupted;
     case ExportStatus::OutOfMemory:
-        return show_diagnostic(plant_limit_diagnostic("the file", command.run.limits.max_bytes),
-                               ExitStatus::Limit, grammar, console);
+        return show_diagnostic(no_memory_diagnostic("the file"), ExitStatus::Limit, grammar,
+                               console);
     }
     return ExitStatus::Failure;
 }
@@ -92,8 +91,7 @@ ExitStatus tell_exported(ExportStatus status,
 /// Files of one plant, all complete or all absent.
 class Files {
 public:
-    Files(const ExportCommand& command, const Grammar& grammar, const Console& console)
-        : command_(command), grammar_(grammar), console_(console) {}
+    Files(const Grammar& grammar, const Console& console) : grammar_(grammar), console_(console) {}
 
     /// Writes one, which is not to be seen yet.
     ExitStatus add(const std::string& path,
@@ -106,24 +104,23 @@ public:
         Sink sink(output.value(), console_);
         const ExportStatus status = write([&sink](std::string_view bytes) { return sink(bytes); });
         timing.bytes += sink.written();
-        const ExitStatus told = tell_exported(status, sink, command_, grammar_, console_);
-        if (told == ExitStatus::Ok) {
-            outputs_.push_back(std::move(output.value()));
+        const ExitStatus told = tell_exported(status, sink, grammar_, console_);
+        if (told != ExitStatus::Ok) {
+            return told;
         }
+        if (const Result<Done> finished = output.value().finish(); !finished) {
+            return fail(finished.error(), console_);
+        }
+        outputs_.push_back(std::move(output.value()));
         return told;
     }
-    /// Lets all be seen, in order.
+    /// Lets all be seen.
     ExitStatus commit() {
-        for (Output& output : outputs_) {
-            if (const Result<Done> done = output.commit(); !done) {
-                return report_error(done.error(), console_);
-            }
-        }
-        return ExitStatus::Ok;
+        const Result<Done> done = commit_all(outputs_);
+        return done ? ExitStatus::Ok : report_error(done.error(), console_);
     }
 
 private:
-    const ExportCommand& command_;
     const Grammar& grammar_;
     const Console& console_;
     std::vector<Output> outputs_;
@@ -149,8 +146,8 @@ add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info,
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
     std::vector<PictureFile> pictures;
     if (make_picture_files(run.mesh, run.format, info, pictures) != ExportStatus::Ok) {
-        return show_diagnostic(plant_limit_diagnostic("the file", run.command.run.limits.max_bytes),
-                               ExitStatus::Limit, run.grammar, run.console);
+        return show_diagnostic(no_memory_diagnostic("the pictures"), ExitStatus::Limit, run.grammar,
+                               run.console);
     }
     const auto put = [](std::string_view bytes, const ByteSink& sink) {
         return sink(bytes) ? ExportStatus::Ok : ExportStatus::Stopped;
@@ -211,7 +208,7 @@ ExitStatus write_plant(Export& run,
     info.user_meshes = &run.plant.user_meshes;
     info.animation = animation;
     info.threads = command.run.threads;
-    Files files(command, run.grammar, run.console);
+    Files files(run.grammar, run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
         status = add_side_files(run, path, info, files);
@@ -282,6 +279,7 @@ ExitStatus write_bent(Export& run) {
         physics.pose(bent);
         const ExitStatus status = write_plant(run, bent, numbered(command.output, frame));
         if (status != ExitStatus::Ok) {
+            note_frames(command.output, frame - 1, command.frames, run.console);
             return status;
         }
         for (std::uint32_t step = 0; step < steps; ++step) {

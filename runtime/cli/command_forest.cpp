@@ -117,9 +117,10 @@ ExitStatus make_meshes(Run& run) {
     return ExitStatus::Ok;
 }
 
-/// Writes `write`'s bytes to `path`, complete or not at all.
+/// Writes the bytes of `write` to `path` and adds the file to `outputs`, not to be seen yet.
 template <typename Write>
-ExitStatus write_output(Run& run, const std::string& path, const Write& write) {
+ExitStatus
+add_output(Run& run, const std::string& path, const Write& write, std::vector<Output>& outputs) {
     Result<Output> output = Output::open(path, run.console);
     if (!output) {
         return report_error(output.error(), run.console);
@@ -141,8 +142,25 @@ ExitStatus write_output(Run& run, const std::string& path, const Write& write) {
     if (status != ExitStatus::Ok) {
         return status;
     }
-    const Result<Done> done = output.value().commit();
-    return done ? ExitStatus::Ok : report_error(done.error(), run.console);
+    if (const Result<Done> finished = output.value().finish(); !finished) {
+        return report_error(finished.error(), run.console);
+    }
+    outputs.push_back(std::move(output.value()));
+    return ExitStatus::Ok;
+}
+
+/// Lets the files be seen, all or none.
+ExitStatus show_outputs(std::vector<Output>& outputs, const Console& console) {
+    const Result<Done> done = commit_all(outputs);
+    return done ? ExitStatus::Ok : report_error(done.error(), console);
+}
+
+/// Writes the bytes of `write` to `path`, complete or not at all.
+template <typename Write>
+ExitStatus write_output(Run& run, const std::string& path, const Write& write) {
+    std::vector<Output> outputs;
+    const ExitStatus status = add_output(run, path, write, outputs);
+    return status == ExitStatus::Ok ? show_outputs(outputs, run.console) : status;
 }
 
 ExitStatus tell(ForestExportStatus status, const Run& run) {
@@ -162,9 +180,7 @@ ExitStatus tell(ForestExportStatus status, const Run& run) {
     case ForestExportStatus::Stopped:
         return ExitStatus::Interrupted;
     case ForestExportStatus::OutOfMemory:
-        return run.console.show(
-            plant_limit_diagnostic("the file", run.command.run.limits.max_bytes),
-            ExitStatus::Limit);
+        return run.console.show(no_memory_diagnostic("the file"), ExitStatus::Limit);
     }
     return ExitStatus::Failure;
 }
@@ -176,6 +192,7 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     info.cell = run.command.cell;
     info.threads = run.command.run.threads;
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
+    std::vector<Output> outputs; // pictures before the file that names them
     if (run.target.forest == ForestFormat::Usda) {
         info.textures = path != "-";
         std::vector<PictureFile> pictures;
@@ -186,15 +203,21 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
         for (const PictureFile& picture : pictures) {
             const std::string beside =
                 (std::filesystem::path(path).parent_path() / picture.name).string();
-            if (const Result<Done> done = write_file(beside, picture.bytes, run.console); !done) {
-                return report_error(done.error(), run.console);
+            const auto put = [&](const ByteSink& sink) {
+                return sink(picture.bytes) ? ExitStatus::Ok : ExitStatus::Interrupted;
+            };
+            if (const ExitStatus added = add_output(run, beside, put, outputs);
+                added != ExitStatus::Ok) {
+                return added;
             }
         }
     }
     const ForestForm form = run.command.expand ? ForestForm::Expanded : ForestForm::Instanced;
-    return write_output(run, path, [&](const ByteSink& sink) {
+    const auto put = [&](const ByteSink& sink) {
         return tell(export_forest(scene, run.target.forest, form, info, sink), run);
-    });
+    };
+    const Status status = add_output(run, path, put, outputs);
+    return status == Status::Fine ? show_outputs(outputs, run.console) : status;
 }
 
 ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& path) {
@@ -208,10 +231,11 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
                   "branches are instances"},
             run.console);
     case MeshStatus::Limit:
-    case MeshStatus::OutOfMemory:
         return run.console.show(
             plant_limit_diagnostic("the baked forest", run.command.run.limits.max_bytes),
             ExitStatus::Limit);
+    case MeshStatus::OutOfMemory:
+        return run.console.show(no_memory_diagnostic("the baked forest"), ExitStatus::Limit);
     }
     ExportInfo info;
     info.grammar = std::filesystem::path(path).stem().string();
@@ -229,9 +253,7 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
         case ExportStatus::Stopped:
             return ExitStatus::Interrupted;
         case ExportStatus::OutOfMemory:
-            return run.console.show(
-                plant_limit_diagnostic("the file", run.command.run.limits.max_bytes),
-                ExitStatus::Limit);
+            return run.console.show(no_memory_diagnostic("the file"), ExitStatus::Limit);
         case ExportStatus::TooLarge:
         case ExportStatus::TooManyJoints:
             break;
@@ -355,6 +377,7 @@ ExitStatus write_years(Run& run) {
         const std::string path = numbered(run.command.output, frame);
         const ExitStatus status = write_forest(run, path);
         if (status != ExitStatus::Ok) {
+            note_frames(run.command.output, frame - 1, run.command.frames, run.console);
             return status;
         }
         run.console.detail(

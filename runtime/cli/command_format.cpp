@@ -1,5 +1,6 @@
 #include "grammar/format/format.h"
 #include "runtime/cli/commands.h"
+#include "runtime/program/memory_size.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
@@ -30,7 +31,7 @@ format_file(const std::string& path, const FormatCommand& command, const Console
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
-    const FileLoader load = make_loader(project);
+    const FileLoader load = make_loader(project, half_of_memory());
     const std::string before = grammar.bytes;
     const FileId file = sources.add(shown_path(path), std::move(grammar.bytes));
     const std::optional<std::string> text = format_lsys(file, {sources, names, diagnostics, load});

@@ -38,8 +38,9 @@ ExitStatus import_text(const std::string& path,
                        Imported& imported) {
     const Project project = make_project(console, run);
     imported.dialect = text.dialect;
-    Result<CompiledText> compiled = compile_text(path, std::move(text), options,
-                                                 project.limits.max_modules, make_loader(project));
+    Result<CompiledText> compiled =
+        compile_text(path, std::move(text), options, project.limits.max_modules,
+                     make_loader(project, project.limits.max_bytes));
     if (!compiled) {
         return report_error(compiled.error(), console);
     }
@@ -82,8 +83,12 @@ Result<std::vector<fs::path>> files_of(const std::string& folder) {
     return files;
 }
 
-/// What came of many.
-struct Tally {
+/// An import of several systems, each to a file whose name is made from that of the system.
+struct FolderImport {
+    const ImportCommand& command;
+    const Console& console;
+    fs::path folder;
+    std::set<std::string> names; // of the files of this run
     ExitStatus status = ExitStatus::Ok;
     std::uint64_t done = 0;
     std::uint64_t lost = 0;
@@ -100,43 +105,73 @@ std::string file_name(std::string_view name) {
     return text.starts_with('.') ? "_" + text : text;
 }
 
-/// Imports one system to the file `to`, and says on a line what came of it.
+/// The path of `stem`.lsys in the folder; of `stem`-2.lsys, ... where this run has a file of that
+/// name: `a/b` and `a_b` are different systems.
+std::string new_path(const std::string& stem, FolderImport& import) {
+    std::string name = stem + ".lsys";
+    for (std::uint64_t number = 2; !import.names.insert(name).second; ++number) {
+        name = fmt::format("{}-{}.lsys", stem, number);
+    }
+    return (import.folder / name).string();
+}
+
+/// Writes a file whose name nobody has given, so one that is there stays unless --force is given.
+Status write_named(const std::string& path, const std::string& text, const FolderImport& import) {
+    if (import.command.force) {
+        return write_imported(path, text, import.console);
+    }
+    std::error_code ignored;
+    if (fs::exists(fs::symlink_status(path, ignored))) {
+        return fail(Error{fmt::format("`{}` is there already; --force replaces it", path)},
+                    import.console);
+    }
+    Result<Output> output = Output::create(path, import.console);
+    if (!output) {
+        return fail(output.error(), import.console);
+    }
+    Result<Done> done = output.value().write(text);
+    if (done) {
+        done = output.value().commit();
+    }
+    return done ? Status::Fine : fail(done.error(), import.console);
+}
+
+/// Imports one system to `stem`.lsys and prints a line about it.
 Result<Done> import_one(const std::string& path,
                         GrammarText text,
                         const GrammarOptions& options,
-                        const RunOptions& run,
-                        const fs::path& to,
-                        const Console& console,
-                        Tally& tally) {
+                        const std::string& stem,
+                        FolderImport& import) {
+    const Console& console = import.console;
     const std::string_view title = row_of(text.dialect).title;
     Imported imported;
-    ExitStatus one = import_text(path, std::move(text), options, run, console, imported);
+    ExitStatus one =
+        import_text(path, std::move(text), options, import.command.run, console, imported);
+    std::string to;
     if (one == ExitStatus::Ok) {
-        one = write_imported(to.string(), imported.text, console);
+        to = new_path(stem, import);
+        one = write_named(to, imported.text, import);
     }
-    (one == ExitStatus::Ok ? tally.done : tally.lost) += 1;
-    tally.status = worse(tally.status, one);
+    (one == ExitStatus::Ok ? import.done : import.lost) += 1;
+    import.status = worse(import.status, one);
     const std::string what =
         options.system.empty() ? path : fmt::format("{}: `{}`", path, options.system);
     return console.write(one == ExitStatus::Ok
                              ? fmt::format("{}: {}, {} warnings, written to {}\n", what, title,
-                                           imported.warnings, to.string())
+                                           imported.warnings, to)
                              : fmt::format("{}: {}, not imported\n", what, title));
 }
 
-/// All systems of a file, each to `folder`/`prefix`NAME.lsys. Of two with one name, whatever the
-/// case of its letters, only the first can be asked for.
+/// All systems of a file, each to `prefix`NAME.lsys. Of two with one name, whatever the case of its
+/// letters, only the first can be asked for.
 Result<Done> import_systems(const std::string& path,
                             const GrammarText& text,
-                            const ImportCommand& command,
-                            const fs::path& folder,
                             const std::string& prefix,
-                            const Console& console,
-                            Tally& tally) {
+                            FolderImport& import) {
     std::set<std::string> known;
     for (const std::string& system : systems_in(text.dialect, text.bytes)) {
-        if (console.interrupted()) {
-            tally.status = ExitStatus::Interrupted;
+        if (import.console.interrupted()) {
+            import.status = ExitStatus::Interrupted;
             return Done{};
         }
         std::string low = system;
@@ -144,20 +179,19 @@ Result<Done> import_systems(const std::string& path,
             return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
         });
         if (!known.insert(low).second) {
-            ++tally.lost;
-            tally.status = worse(tally.status, ExitStatus::AuthorErrors);
-            if (Result<Done> written = console.write(fmt::format(
+            ++import.lost;
+            import.status = worse(import.status, ExitStatus::AuthorErrors);
+            if (Result<Done> written = import.console.write(fmt::format(
                     "{}: `{}`: a second system of this name, not imported\n", path, system));
                 !written) {
                 return written;
             }
             continue;
         }
-        GrammarOptions options = command.grammar;
+        GrammarOptions options = import.command.grammar;
         options.system = system;
         if (Result<Done> written =
-                import_one(path, text, options, command.run,
-                           folder / (prefix + file_name(system) + ".lsys"), console, tally);
+                import_one(path, text, options, prefix + file_name(system), import);
             !written) {
             return written;
         }
@@ -173,16 +207,16 @@ Result<Done> make_folder(const fs::path& folder) {
                  : Done{};
 }
 
-ExitStatus end_tally(const Result<Done>& result, const Tally& tally, const Console& console) {
+ExitStatus end_import(const Result<Done>& result, const FolderImport& import) {
     if (!result) {
-        return report_error(result.error(), console);
+        return report_error(result.error(), import.console);
     }
-    if (tally.status == ExitStatus::Interrupted) {
-        return tally.status;
+    if (import.status == ExitStatus::Interrupted) {
+        return import.status;
     }
     const Result<Done> written =
-        console.write(fmt::format("{} imported, {} not\n", tally.done, tally.lost));
-    return written ? tally.status : report_error(written.error(), console);
+        import.console.write(fmt::format("{} imported, {} not\n", import.done, import.lost));
+    return written ? import.status : report_error(written.error(), import.console);
 }
 
 /// A line for each system of the files; what is no grammar of a known dialect is passed over.
@@ -191,12 +225,11 @@ ExitStatus import_folder(const ImportCommand& command, const Console& console) {
     if (!files) {
         return report_error(files.error(), console);
     }
-    const fs::path target =
-        command.output.empty() ? fs::path(command.folder) : fs::path(command.output);
-    if (const Result<Done> made = make_folder(target); !made) {
+    FolderImport import{
+        command, console, command.output.empty() ? command.folder : command.output, {}};
+    if (const Result<Done> made = make_folder(import.folder); !made) {
         return report_error(made.error(), console);
     }
-    Tally tally;
     for (const fs::path& path : files.value()) {
         if (console.interrupted()) {
             return ExitStatus::Interrupted;
@@ -213,15 +246,14 @@ ExitStatus import_folder(const ImportCommand& command, const Console& console) {
                              systems_in(text.value().dialect, text.value().bytes).size() > 1;
         const std::string name = path.filename().string();
         const Result<Done> result =
-            several ? import_systems(path.string(), text.value(), command, target, name + ".",
-                                     console, tally)
-                    : import_one(path.string(), std::move(text.value()), command.grammar,
-                                 command.run, target / (name + ".lsys"), console, tally);
+            several
+                ? import_systems(path.string(), text.value(), name + ".", import)
+                : import_one(path.string(), std::move(text.value()), command.grammar, name, import);
         if (!result) {
             return report_error(result.error(), console);
         }
     }
-    return end_tally(Done{}, tally, console);
+    return end_import(Done{}, import);
 }
 
 /// `-o FOLDER` of a file of several systems.
@@ -230,10 +262,9 @@ import_to_folder(const ImportCommand& command, const GrammarText& text, const Co
     if (const Result<Done> made = make_folder(command.output); !made) {
         return report_error(made.error(), console);
     }
-    Tally tally;
-    const Result<Done> result =
-        import_systems(command.file, text, command, command.output, "", console, tally);
-    return end_tally(result, tally, console);
+    FolderImport import{command, console, command.output, {}};
+    const Result<Done> result = import_systems(command.file, text, "", import);
+    return end_import(result, import);
 }
 
 bool is_folder(const std::string& path) {

@@ -2,6 +2,8 @@
 
 #include "grammar/base/diagnostic.h"
 #include "grammar/dialects/dialect.h"
+#include "runtime/program/memory_size.h"
+#include "runtime/program/arguments.h"
 #include "runtime/program/option_parsers.h"
 #include "runtime/turtle/turtle.h"
 
@@ -40,12 +42,19 @@ struct AllCommands {
 
 void add_check(CLI::App& app, CheckCommand& command) {
     app.add_option("FILE", command.files, "Grammars; `-` is standard input")->required();
-    app.add_flag("--fix", command.fix, "Apply every repair that is certain to the files");
+    app.add_flag("--fix", command.fix,
+                 "Apply every repair that is certain to FILE, and to files that it includes from "
+                 "its own folder or below");
     add_grammar(app, command.grammar, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
-    app.footer("Exit status: 0 no errors, 1 errors in a grammar, 2 a file or the command line.\n"
-               "Example: lsc check --fix tree.lsys");
+    app.footer(
+        "--fix leaves a file that lies outside the folder of FILE as it is, symbolic links "
+        "resolved, unless\nit is named here too; of a grammar and what it includes all files are "
+        "written or none.\n"
+        "Exit status: 0 no errors, 1 errors in a grammar, 2 a file or the command line, 3 a "
+        "limit.\n"
+        "Example: lsc check --fix tree.lsys");
 }
 
 void add_compile(CLI::App& app, CompileCommand& command) {
@@ -236,6 +245,9 @@ void add_import(CLI::App& app, ImportCommand& command) {
                    "holds several; `-` is standard output (default: standard output; with --all "
                    "beside the originals)")
         ->type_name("FILE");
+    app.add_flag("-f,--force", command.force,
+                 "Replace files in a folder that are there already; without it they stay, with "
+                 "exit status 2");
     add_grammar(app, command.grammar, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);

@@ -1,6 +1,8 @@
 #include "compiler/growth/growth.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/derivation_report.h"
+#include "runtime/program/memory_size.h"
+#include "runtime/cli/tell.h"
 #include "runtime/derive/derive.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/program/arguments.h"

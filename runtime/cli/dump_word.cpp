@@ -49,7 +49,8 @@ Result<Done> plan_from_state(const DumpCommand& command,
                              const Bytecode& bytecode,
                              const Console& console,
                              Plan& plan) {
-    Result<std::string> bytes = read_file(command.from, ~std::uint64_t{0}, console);
+    Result<std::string> bytes =
+        read_file(command.from, {~std::uint64_t{0}, command.max_bytes}, console);
     if (!bytes) {
         return bytes.error();
     }

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <optional>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace lsys::lsc {
@@ -49,15 +50,60 @@ std::string describe(const Diagnostic& diagnostic, const Fix& fix, const SourceM
                        info(diagnostic.code).name);
 }
 
+/// Without symbolic links and `..`; empty if there is no such file.
+std::filesystem::path real_path(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::path real = std::filesystem::canonical(path, error);
+    return error ? std::filesystem::path() : real;
+}
+
 } // namespace
 
-FileEdits
-choose_edits(const Diagnostics& diagnostics, const SourceMap& sources, FixedGrammar& fixed) {
+FixScope::FixScope(const std::string& path, std::span<const std::string> named)
+    : root_(shown_path(path)) {
+    const std::filesystem::path folder =
+        path == "-" ? std::filesystem::path() : std::filesystem::path(path).parent_path();
+    folder_ = real_path(folder.empty() ? "." : folder);
+    for (const std::string& each : named) {
+        named_.insert(real_path(each));
+    }
+}
+
+bool FixScope::contains(const std::string& path) const {
+    if (path == root_) {
+        return true;
+    }
+    const std::filesystem::path real = real_path(path);
+    if (real.empty() || folder_.empty()) {
+        return false;
+    }
+    const auto [inner, rest] =
+        std::mismatch(folder_.begin(), folder_.end(), real.begin(), real.end());
+    return inner == folder_.end() || named_.contains(real);
+}
+
+FileEdits choose_edits(const Diagnostics& diagnostics,
+                       const SourceMap& sources,
+                       const FixScope& scope,
+                       FixedGrammar& fixed) {
     FileEdits chosen;
     std::map<std::string, TakenPlaces> taken;
+    std::map<std::string, bool> known; // paths, and whether the scope has them
+    fixed.left.clear();
+    const auto is_left = [&](const Edit& edit) {
+        const std::string& path = sources.file(edit.span.file).path();
+        auto found = known.find(path);
+        if (found == known.end()) {
+            found = known.emplace(path, scope.contains(path)).first;
+        }
+        if (!found->second) {
+            fixed.left.insert(path);
+        }
+        return !found->second;
+    };
     for (const Diagnostic& diagnostic : diagnostics.all()) {
         const Fix* const fix = first_applicable(diagnostic);
-        if (fix == nullptr) {
+        if (fix == nullptr || std::any_of(fix->edits.begin(), fix->edits.end(), is_left)) {
             continue;
         }
         // A file that is included twice is one text, so paths decide, not ids.
@@ -108,16 +154,17 @@ std::string apply_edits(std::string_view text, const std::vector<const Edit*>& e
 Result<Done> fix_text(const std::string& path,
                       const GrammarText& original,
                       const GrammarOptions& options,
+                      const FixScope& scope,
                       const Project& project,
                       FixedGrammar& fixed) {
     const std::string root = shown_path(path);
     std::map<std::string, std::string>& changed = fixed.changed;
-    const FileLoader from_disk = make_loader(project);
-    const FileLoader load = [&](const std::string& wanted) -> Result<std::string> {
-        const auto known = changed.find(wanted);
-        return known != changed.end() ? Result<std::string>(known->second) : from_disk(wanted);
-    };
     for (int round = 0;; ++round) {
+        const FileLoader from_disk = make_loader(project, project.limits.max_bytes);
+        const FileLoader load = [&](const std::string& wanted) -> Result<std::string> {
+            const auto known = changed.find(wanted);
+            return known != changed.end() ? Result<std::string>(known->second) : from_disk(wanted);
+        };
         const auto mended = changed.find(root);
         const std::string& bytes = mended != changed.end() ? mended->second : original.bytes;
         Result<CompiledText> compiled = compile_text(path, {bytes, original.dialect}, options,
@@ -135,7 +182,7 @@ Result<Done> fix_text(const std::string& path,
         if (round == kMaxRounds || project.is_cancelled()) {
             return Done{};
         }
-        const FileEdits edits = choose_edits(diagnostics, sources, fixed);
+        const FileEdits edits = choose_edits(diagnostics, sources, scope, fixed);
         if (edits.empty()) {
             return Done{};
         }

@@ -13,54 +13,45 @@ namespace lsys::lsc {
 namespace {
 
 /// The command that each kind of options belongs to.
-struct Dispatch {
-    const Io& io;
+class Dispatch {
+public:
+    explicit Dispatch(const Io& io) : io_(io) {}
 
     ExitStatus operator()(const PrintText& text) const {
-        const Console console(io, {});
-        Result<Done> written = console.write(text.text);
-        if (written) {
-            written = console.flush();
-        }
+        const Console console(io_, {});
+        const Result<Done> written = console.write(text.text);
         if (!written) {
             console.error(written.error().message);
             return ExitStatus::Failure;
         }
-        return ExitStatus::Ok;
+        return console.finish(ExitStatus::Ok);
     }
     ExitStatus operator()(const UsageError& usage) const {
-        const Console console(io, {});
+        const Console console(io_, {});
         console.error(usage.message);
         console.help(usage.help);
         return ExitStatus::Failure;
     }
-    ExitStatus operator()(const CheckCommand& command) const {
-        return run_check(command, {io, command.messages});
+    ExitStatus operator()(const CheckCommand& command) const { return run(run_check, command); }
+    ExitStatus operator()(const CompileCommand& command) const { return run(run_compile, command); }
+    ExitStatus operator()(const DumpCommand& command) const { return run(run_dump, command); }
+    ExitStatus operator()(const ExportCommand& command) const { return run(run_export, command); }
+    ExitStatus operator()(const ForestCommand& command) const { return run(run_forest, command); }
+    ExitStatus operator()(const ImportCommand& command) const { return run(run_import, command); }
+    ExitStatus operator()(const StatsCommand& command) const { return run(run_stats, command); }
+    ExitStatus operator()(const FormatCommand& command) const { return run(run_format, command); }
+    ExitStatus operator()(const ExplainCommand& command) const { return run(run_explain, command); }
+
+private:
+    template <typename Command>
+    [[nodiscard]] ExitStatus run(ExitStatus (*run_command)(const Command& command,
+                                                           const Console& console),
+                                 const Command& command) const {
+        const Console console(io_, command.messages);
+        return console.finish(run_command(command, console));
     }
-    ExitStatus operator()(const CompileCommand& command) const {
-        return run_compile(command, {io, command.messages});
-    }
-    ExitStatus operator()(const DumpCommand& command) const {
-        return run_dump(command, {io, command.messages});
-    }
-    ExitStatus operator()(const ExportCommand& command) const {
-        return run_export(command, {io, command.messages});
-    }
-    ExitStatus operator()(const ForestCommand& command) const {
-        return run_forest(command, {io, command.messages});
-    }
-    ExitStatus operator()(const ImportCommand& command) const {
-        return run_import(command, {io, command.messages});
-    }
-    ExitStatus operator()(const StatsCommand& command) const {
-        return run_stats(command, {io, command.messages});
-    }
-    ExitStatus operator()(const FormatCommand& command) const {
-        return run_format(command, {io, command.messages});
-    }
-    ExitStatus operator()(const ExplainCommand& command) const {
-        return run_explain(command, {io, command.messages});
-    }
+
+    const Io& io_;
 };
 
 /// Without allocating: there is no memory.

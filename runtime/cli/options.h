@@ -111,6 +111,7 @@ struct ImportCommand {
     std::string file;   // empty: all of `folder`
     std::string folder; // whose files are all imported
     std::string output; // a file, or a folder for --all
+    bool force = false; // replace files whose names come from systems or other files
 };
 
 struct FormatCommand {

@@ -4,10 +4,14 @@
 
 #include "compiler/bytecode/bytecode.h"
 #include "grammar/base/diagnostic.h"
+#include "grammar/base/result.h"
 #include "runtime/base/limits.h"
+#include "runtime/base/size_text.h"
 #include "runtime/derive/derive.h"
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace lsys {
 
@@ -22,10 +26,5 @@ runtime_diagnostic(const RuntimeError& error, const Bytecode& bytecode, bool sou
                                           const Limits& limits,
                                           const Bytecode& bytecode,
                                           bool sources_loaded);
-
-/// 1,234,567
-[[nodiscard]] std::string grouped_digits(std::uint64_t value);
-/// 640 B, 1.5 KiB, 3.2 GiB
-[[nodiscard]] std::string byte_size_text(std::uint64_t bytes);
 
 } // namespace lsys

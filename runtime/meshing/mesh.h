@@ -111,6 +111,7 @@ struct UserMesh {
     std::shared_ptr<const Texture> picture; // that all of it shows; may be none
     std::vector<std::string> files;         // that were looked for to find it
     [[nodiscard]] float length() const;     // greatest y, at least 0
+    [[nodiscard]] std::uint64_t byte_count() const; // of memory, without the picture
 };
 
 /// Makes `mesh` from `skeleton`. `user_meshes` are those of Skeleton::mesh_files, in order. The

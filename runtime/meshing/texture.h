@@ -33,8 +33,8 @@ struct Texture {
 /// Most texels of a picture that is read, and along a side.
 inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 26;
 inline constexpr std::uint32_t kMaxTextureSide = 16384;
-/// Reads a PNG file. Other formats are refused by name.
-[[nodiscard]] Result<Texture> read_picture(std::string_view bytes);
+/// Reads a PNG file whose texels take at most `max_bytes`. Other formats are refused by name.
+[[nodiscard]] Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes);
 /// Whether any texel is less than half opaque.
 [[nodiscard]] bool has_holes(const Texture& texture);
 /// Of what is at least half opaque, linear; white if nothing is.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace lsys {
 
@@ -36,11 +37,12 @@ float linear(std::uint8_t value) { // IEC 61966-2-1
 
 } // namespace
 
-Result<Texture> read_picture(std::string_view bytes) {
+Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes) {
     if (const std::string_view format = other_format(bytes); !format.empty()) {
         return Error{fmt::format("it is a {}; only PNG is read", format)};
     }
-    Result<PngSamples> read = read_png_samples(bytes, PngForm::Rgba, kMaxTexels, "picture");
+    Result<PngSamples> read =
+        read_png_samples(bytes, {PngForm::Rgba, kMaxTexels, max_bytes, 0, "picture"});
     if (!read) {
         return read.error();
     }
@@ -52,7 +54,7 @@ Result<Texture> read_picture(std::string_view bytes) {
     Texture texture;
     texture.width = samples.columns;
     texture.height = samples.rows;
-    texture.texels.assign(samples.bytes.begin(), samples.bytes.end());
+    texture.texels = std::move(samples.bytes);
     return texture;
 }
 

@@ -1,6 +1,7 @@
 #include "runtime/meshing/user_mesh.h"
 
 #include "grammar/base/hash.h"
+#include "runtime/base/size_text.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -54,14 +55,25 @@ public:
         return slots_[slot];
     }
     [[nodiscard]] const std::vector<Corner>& corners() const { return corners_; }
+    [[nodiscard]] std::uint64_t byte_count() const {
+        return corners_.capacity() * sizeof(Corner) + slots_.capacity() * sizeof(std::uint32_t);
+    }
+    /// Bytes that `more` new corners need beside byte_count(); 0 while there is room.
+    [[nodiscard]] std::uint64_t growth(std::size_t more) const {
+        const std::size_t count = corners_.size() + more;
+        const bool has_room = count <= corners_.capacity() && 2 * count <= slots_.size();
+        return has_room ? 0 : 2 * byte_count() + kFirstSlots * sizeof(std::uint32_t);
+    }
 
 private:
+    static constexpr std::size_t kFirstSlots = 1024;
+
     [[nodiscard]] std::size_t start(const Corner& corner) const {
         const std::uint64_t low = corner.position | std::uint64_t{corner.texture} << 32;
         return mix64(mix64(low) + corner.normal) & (slots_.size() - 1);
     }
     void grow() {
-        slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), kNotGiven);
+        slots_.assign(std::max<std::size_t>(kFirstSlots, 2 * slots_.size()), kNotGiven);
         for (std::uint32_t i = 0; i < corners_.size(); ++i) {
             std::size_t slot = start(corners_[i]);
             while (slots_[slot] != kNotGiven) {
@@ -81,7 +93,7 @@ bool is_blank(char c) {
 
 class Reader {
 public:
-    explicit Reader(std::string_view text) : text_(text) {}
+    Reader(std::string_view text, std::uint64_t max_bytes) : text_(text), max_bytes_(max_bytes) {}
 
     Result<UserMesh> read() {
         while (at_ < text_.size()) {
@@ -92,6 +104,11 @@ public:
         }
         if (mesh_.indices.empty()) {
             return Error{"there is no face in it"};
+        }
+        const std::uint64_t finished_bytes =
+            numbers_.corners().size() * (2 * sizeof(glm::vec3) + sizeof(glm::vec2));
+        if (!has_memory(finished_bytes)) {
+            return std::move(*error_);
         }
         finish();
         return std::move(mesh_);
@@ -139,6 +156,36 @@ private:
         error_ = Error{fmt::format("line {}: {}", line, what)};
     }
 
+    // --- memory
+    [[nodiscard]] std::uint64_t held_bytes() const {
+        const auto of = [](const auto& items) { return items.capacity() * sizeof(items[0]); };
+        return of(positions_) + of(normals_) + of(texture_coordinates_) + of(around_) +
+               of(mesh_.indices) + numbers_.byte_count() + name_bytes_;
+    }
+    /// Sets the error if not.
+    bool has_memory(std::uint64_t more) {
+        if (held_bytes() + more <= max_bytes_) {
+            return true;
+        }
+        error_ = memory_error("its mesh", max_bytes_);
+        return false;
+    }
+    /// Room for `more` items, by doubling; the old ones are there until they have been moved.
+    template <typename T>
+    bool make_room(std::vector<T>& items, std::size_t more) {
+        const std::size_t count = items.size() + more;
+        if (count <= items.capacity()) {
+            return true;
+        }
+        constexpr std::size_t kLeast = 32;
+        const std::size_t room = std::max({count, 2 * items.capacity(), kLeast});
+        if (!has_memory(room * sizeof(T))) {
+            return false;
+        }
+        items.reserve(room);
+        return true;
+    }
+
     void read_line() {
         const std::uint64_t line = line_;
         const std::string_view kind = word();
@@ -151,7 +198,7 @@ private:
         } else if (kind == "f") {
             read_face(line);
         } else if (kind == "mtllib") {
-            add_name(rest_of_line(), known_libraries_, mesh_.libraries);
+            static_cast<void>(add_name(rest_of_line(), known_libraries_, mesh_.libraries));
         } else if (kind == "usemtl") {
             material_ = rest_of_line();
         }
@@ -176,12 +223,22 @@ private:
         }
         return {std::string(text_.substr(begin, end - begin)), begin};
     }
-    static void add_name(const ObjName& name,
-                         std::unordered_set<std::string>& known,
-                         std::vector<ObjName>& names) {
-        if (known.insert(name.name).second) {
-            names.push_back(name);
+    bool add_name(const ObjName& name,
+                  std::unordered_set<std::string>& known,
+                  std::vector<ObjName>& names) {
+        if (known.contains(name.name)) {
+            return true;
         }
+        // A node of the set, its place in the table, an item of the list that may just be moved.
+        const std::uint64_t bytes =
+            2 * name.name.size() + 8 * sizeof(void*) + sizeof(std::string) + 3 * sizeof(ObjName);
+        if (!has_memory(bytes)) {
+            return false;
+        }
+        name_bytes_ += bytes;
+        known.insert(name.name);
+        names.push_back(name);
+        return true;
     }
 
     // --- numbers
@@ -223,13 +280,15 @@ private:
     }
     void read_position(std::uint64_t line) {
         std::array<float, 3> p{};
-        if (read_numbers(line, p, "a vertex needs three numbers of up to 1e18")) {
+        if (read_numbers(line, p, "a vertex needs three numbers of up to 1e18") &&
+            make_room(positions_, 1)) {
             positions_.emplace_back(p[0], p[1], p[2]);
         }
     }
     void read_normal(std::uint64_t line) {
         std::array<float, 3> n{};
-        if (read_numbers(line, n, "a normal needs three numbers of up to 1e18")) {
+        if (read_numbers(line, n, "a normal needs three numbers of up to 1e18") &&
+            make_room(normals_, 1)) {
             normals_.emplace_back(n[0], n[1], n[2]);
         }
     }
@@ -252,7 +311,9 @@ private:
                 return;
             }
         }
-        texture_coordinates_.emplace_back(t[0], 1.0F - t[1]);
+        if (make_room(texture_coordinates_, 1)) {
+            texture_coordinates_.emplace_back(t[0], 1.0F - t[1]);
+        }
     }
 
     // --- faces
@@ -315,8 +376,8 @@ private:
             }
             if (count == 0) {
                 first = corner;
-            } else if (count > 1) {
-                add_triangle(first, last, corner);
+            } else if (count > 1 && !add_triangle(first, last, corner)) {
+                return;
             }
             last = corner;
             ++count;
@@ -325,24 +386,37 @@ private:
             fail(line, fmt::format("a face needs three corners and has {}", count));
         }
     }
-    void add_triangle(const Corner& a, const Corner& b, const Corner& c) {
+    /// False: there is no memory for it.
+    bool add_triangle(const Corner& a, const Corner& b, const Corner& c) {
         const glm::dvec3 p(positions_[a.position]);
         const glm::dvec3 area = glm::cross(glm::dvec3(positions_[b.position]) - p,
                                            glm::dvec3(positions_[c.position]) - p);
         if (glm::dot(area, area) == 0.0) {
-            return;
+            return true;
         }
         if (mesh_.materials.empty() || material_.name != last_material_) {
             last_material_ = material_.name;
-            add_name(material_, known_materials_, mesh_.materials);
+            if (!add_name(material_, known_materials_, mesh_.materials)) {
+                return false;
+            }
+        }
+        const std::uint64_t growth = numbers_.growth(3);
+        if ((growth != 0 && !has_memory(growth)) || !make_room(mesh_.indices, 3)) {
+            return false;
         }
         for (const Corner* corner : {&a, &b, &c}) {
             mesh_.indices.push_back(numbers_.number(*corner));
             if (!has_normal(*corner)) {
-                around_.resize(std::max(around_.size(), positions_.size()));
+                if (around_.size() < positions_.size()) {
+                    if (!make_room(around_, positions_.size() - around_.size())) {
+                        return false;
+                    }
+                    around_.resize(positions_.size());
+                }
                 around_[corner->position] += area;
             }
         }
+        return true;
     }
     [[nodiscard]] bool has_normal(const Corner& corner) const {
         return corner.normal != kNotGiven && normals_[corner.normal] != glm::vec3(0.0F);
@@ -374,6 +448,8 @@ private:
     static constexpr float kLargest = 1e18F; // so that areas and lengths stay finite
 
     std::string_view text_;
+    std::uint64_t max_bytes_;
+    std::uint64_t name_bytes_ = 0; // of names of materials and their files
     std::size_t at_ = 0;
     std::uint64_t line_ = 1;
     std::optional<Error> error_;
@@ -399,7 +475,27 @@ float UserMesh::length() const {
     return greatest;
 }
 
-std::unordered_map<std::string, MaterialPicture> pictures_of(std::string_view mtl) {
+std::uint64_t UserMesh::byte_count() const {
+    const auto of = [](const auto& items) { return items.capacity() * sizeof(items[0]); };
+    std::uint64_t bytes = of(positions) + of(normals) + of(texture_coordinates) + of(indices) +
+                          of(libraries) + of(materials) + of(files);
+    for (const std::vector<ObjName>* const names : {&libraries, &materials}) {
+        for (const ObjName& name : *names) {
+            bytes += name.name.size();
+        }
+    }
+    for (const std::string& file : files) {
+        bytes += file.size();
+    }
+    return bytes;
+}
+
+std::unordered_map<std::string, MaterialPicture> pictures_of(std::string_view mtl,
+                                                             std::span<const ObjName> wanted) {
+    std::unordered_set<std::string_view> names;
+    for (const ObjName& each : wanted) {
+        names.insert(each.name);
+    }
     std::unordered_map<std::string, MaterialPicture> materials;
     MaterialPicture* material = nullptr; // that the lines are about
     for (std::size_t at = 0; at < mtl.size();) {
@@ -425,7 +521,8 @@ std::unordered_map<std::string, MaterialPicture> pictures_of(std::string_view mt
             --last;
         }
         if (kind == "newmtl") {
-            material = &materials[std::string(mtl.substr(begin, last - begin))];
+            const std::string_view name = mtl.substr(begin, last - begin);
+            material = names.contains(name) ? &materials[std::string(name)] : nullptr;
         } else if (kind == "map_Kd" && material != nullptr) {
             // Options stand before the name: a word, then its numbers or one more word.
             while (begin < last && mtl[begin] == '-') {
@@ -453,11 +550,11 @@ std::unordered_map<std::string, MaterialPicture> pictures_of(std::string_view mt
     return materials;
 }
 
-Result<UserMesh> read_obj(std::string_view text) {
+Result<UserMesh> read_obj(std::string_view text, std::uint64_t max_bytes) {
     if (text.size() > kMaxBytes) {
         return Error{"it has more than 8 GiB"};
     }
-    return Reader(text).read();
+    return Reader(text, max_bytes).read();
 }
 
 } // namespace lsys

@@ -2,6 +2,7 @@
 
 #include "compiler/instancing/instance.h"
 #include "grammar/dialects/dialect.h"
+#include "runtime/meshing/texture.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/impl/drawing_end.h"
 #include "runtime/pipeline/impl/mesh_files.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 namespace lsys {
@@ -46,27 +48,41 @@ Step::Ended fail_at(SourceSpan place, const Error& error, const LoadedScene& loa
     if (place.file == kNoFile || step.project().is_cancelled()) {
         return step.fail(error);
     }
-    step.diagnose(make_diagnostic(DiagnosticCode::BadSceneValue, place, error.message),
-                  loaded.sources);
-    return step.end(Stop::Failed);
+    const bool is_limit = error.kind == ErrorKind::Limit;
+    Diagnostic diagnostic =
+        make_diagnostic(is_limit ? DiagnosticCode::LimitReached : DiagnosticCode::BadSceneValue,
+                        place, error.message);
+    if (is_limit) {
+        diagnostic.help.emplace_back("raise the limit with `--max-memory`");
+    }
+    step.diagnose(std::move(diagnostic), loaded.sources);
+    return step.end(is_limit ? Stop::Limit : Stop::Failed);
 }
 
-Result<GreyMap>
-read_map(const std::string& path, std::uint32_t columns, std::uint32_t rows, const Step& step) {
-    const Result<std::string> bytes = step.read(path, ~std::uint64_t{0});
+Result<GreyMap> read_map(const std::string& path,
+                         std::uint32_t columns,
+                         std::uint32_t rows,
+                         const Step& step,
+                         FileBudget& budget) {
+    const Result<std::string> bytes = step.read(path, {~std::uint64_t{0}, budget.left});
     if (!bytes) {
         return bytes.error();
     }
-    Result<GreyMap> map =
-        columns != 0 ? read_grey_raw(bytes.value(), columns, rows) : read_grey_png(bytes.value());
+    const std::uint64_t left = budget.left - bytes.value().size();
+    Result<GreyMap> map = columns != 0 ? read_grey_raw(bytes.value(), columns, rows, left)
+                                       : read_grey_png(bytes.value(), left);
     if (!map) {
-        return Error{fmt::format("cannot use `{}`: {}", path, map.error().message)};
+        return Error{fmt::format("cannot use `{}`: {}", path, map.error().message),
+                     map.error().kind};
     }
+    budget.take(map.value().values.size() * sizeof(std::uint16_t));
     return map;
 }
 
-Result<Terrain>
-make_terrain(const SceneTerrain& terrain, const std::string& folder, const Step& step) {
+Result<Terrain> make_terrain(const SceneTerrain& terrain,
+                             const std::string& folder,
+                             const Step& step,
+                             FileBudget& budget) {
     switch (terrain.kind) {
     case TerrainKind::Flat:
         return Terrain::flat(terrain.region, terrain.base);
@@ -75,8 +91,8 @@ make_terrain(const SceneTerrain& terrain, const std::string& folder, const Step&
     case TerrainKind::HeightMap:
         break;
     }
-    Result<GreyMap> map =
-        read_map(path_in(folder, terrain.map.path), terrain.map_columns, terrain.map_rows, step);
+    Result<GreyMap> map = read_map(path_in(folder, terrain.map.path), terrain.map_columns,
+                                   terrain.map_rows, step, budget);
     if (!map) {
         return map.error();
     }
@@ -92,7 +108,8 @@ struct GrownStage {
 Outcome<GrownStage> grow_stage(const SceneSpecies& species,
                                const std::string& path,
                                std::optional<std::uint32_t> generations,
-                               const Project& project) {
+                               const Project& project,
+                               FileBudget& budget) {
     Step step(project);
     GrammarOptions options;
     options.dialect = species.dialect.text;
@@ -121,7 +138,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     grammar.program.reset();
     grammar.bytecode = std::move(system->bytecode);
     MeshFiles meshes;
-    if (!step.take(read_mesh_files(path, grammar.bytecode, project), meshes)) {
+    if (!step.take(read_mesh_files(path, grammar.bytecode, project, budget), meshes)) {
         return step.end();
     }
     grown.user_meshes = std::move(meshes.meshes);
@@ -196,7 +213,7 @@ Outcome<LoadedScene> load_scene(const std::vector<std::string>& files,
         return step.fail("a scene names its grammars, so it stands alone");
     } else {
         const std::string& path = files.front();
-        Result<std::string> text = step.read(path, kMaxSourceBytes);
+        Result<std::string> text = step.read(path, {kMaxSourceBytes});
         if (!text) {
             return step.fail(text.error());
         }
@@ -220,14 +237,18 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
     Step step(project);
     const Scene& scene = loaded.scene;
     GrownForest grown;
-    Result<Terrain> terrain = make_terrain(scene.terrain, loaded.folder, step);
+    FileBudget budget{project.limits.max_bytes};
+    Result<Terrain> terrain = make_terrain(scene.terrain, loaded.folder, step, budget);
     if (!terrain) {
-        return fail_at(scene.terrain.map.span,
-                       Error{fmt::format("terrain: {}", terrain.error().message)}, loaded, step);
+        return fail_at(
+            scene.terrain.map.span,
+            Error{fmt::format("terrain: {}", terrain.error().message), terrain.error().kind},
+            loaded, step);
     }
     grown.terrain.emplace(std::move(terrain.value()));
     if (!scene.density_map.path.empty()) {
-        Result<GreyMap> map = read_map(path_in(loaded.folder, scene.density_map.path), 0, 0, step);
+        Result<GreyMap> map =
+            read_map(path_in(loaded.folder, scene.density_map.path), 0, 0, step, budget);
         if (!map) {
             return fail_at(scene.density_map.span, map.error(), loaded, step);
         }
@@ -235,6 +256,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
     }
     const Stopwatch growing;
     grown.forest.key = scene.placement.key;
+    std::set<const Texture*> known_pictures; // that are counted
     for (const SceneSpecies& species : scene.species) {
         const std::string path = path_in(loaded.folder, species.grammar.path);
         if (!project.host.file_exists(path)) {
@@ -257,13 +279,22 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
             step.messages.append(messages);
             made.stages = known.grown->forest.species[*at].stages;
             meshes = known.grown->user_meshes[*at];
+            for (const UserMesh& mesh : meshes) {
+                const bool is_new =
+                    mesh.picture != nullptr && known_pictures.insert(mesh.picture.get()).second;
+                budget.take(mesh.byte_count() + (is_new ? mesh.picture->texels.size() : 0));
+            }
             continue;
         }
         const std::size_t stages = std::max<std::size_t>(species.stages.size(), 1);
         for (std::size_t i = 0; i < stages; ++i) {
             const std::optional<std::uint32_t> generations =
                 species.stages.empty() ? std::nullopt : std::optional(species.stages[i]);
-            Outcome<GrownStage> stage = grow_stage(species, path, generations, project);
+            for (const UserMesh& mesh : meshes) { // those of the stage before
+                budget.give_back(mesh.byte_count());
+            }
+            meshes.clear();
+            Outcome<GrownStage> stage = grow_stage(species, path, generations, project, budget);
             messages.append(stage.messages());
             step.messages.append(stage.messages());
             if (!stage) {
@@ -296,10 +327,12 @@ mesh_forest(const GrownForest& grown, const MeshOptions& options, const Project&
                 return step.fail("the heroes have more than 4,294,967,295 vertices; ask for fewer "
                                  "--heroes, --sides or generations");
             case InstanceMeshStatus::Limit:
-            case InstanceMeshStatus::OutOfMemory:
                 step.diagnose(plant_limit_diagnostic("the mesh of the heroes", limited.max_bytes),
                               nullptr);
                 return step.end(Stop::Limit);
+            case InstanceMeshStatus::OutOfMemory:
+                step.diagnose(no_memory_diagnostic("the mesh of the heroes"), nullptr);
+                return step.end(Stop::OutOfMemory);
             }
         }
     }

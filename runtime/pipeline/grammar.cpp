@@ -113,16 +113,19 @@ std::string shown_path(const std::string& path) {
     return path == "-" ? "<stdin>" : path;
 }
 
-FileLoader make_loader(const Project& project) {
-    return [read = project.host.read_file](const std::string& path) {
-        return read(path, kMaxSourceBytes);
-    };
+FileLoader make_loader(const Project& project, std::uint64_t max_bytes) {
+    return
+        [read = project.host.read_named_file, left = max_bytes](const std::string& path) mutable {
+            Result<std::string> bytes = read(path, {kMaxSourceBytes, left});
+            left -= bytes ? bytes.value().size() : 0;
+            return bytes;
+        };
 }
 
 Outcome<GrammarText>
 read_grammar(const std::string& path, const std::string& dialect, const Project& project) {
     Step step(project);
-    Result<std::string> bytes = step.read(path, kMaxSourceBytes);
+    Result<std::string> bytes = step.read(path, {kMaxSourceBytes});
     if (!bytes) {
         return step.fail(bytes.error());
     }
@@ -191,7 +194,7 @@ Result<CompiledText> compile_text(const std::string& path,
 Outcome<Grammar>
 load_grammar(const std::string& path, const GrammarOptions& options, const Project& project) {
     Step step(project);
-    Result<std::string> bytes = step.read(path, kMaxSourceBytes);
+    Result<std::string> bytes = step.read(path, {kMaxSourceBytes, project.limits.max_bytes});
     if (!bytes) {
         return step.fail(bytes.error());
     }
@@ -202,9 +205,9 @@ load_grammar(const std::string& path, const GrammarOptions& options, const Proje
     if (!dialect) {
         return step.fail(dialect.error());
     }
-    Result<CompiledText> compiled =
-        compile_text(path, {std::move(bytes.value()), dialect.value()}, options,
-                     project.limits.max_modules, make_loader(project));
+    const FileLoader load = make_loader(project, project.limits.max_bytes - bytes.value().size());
+    Result<CompiledText> compiled = compile_text(path, {std::move(bytes.value()), dialect.value()},
+                                                 options, project.limits.max_modules, load);
     if (!compiled) {
         return step.fail(compiled.error());
     }
@@ -213,7 +216,7 @@ load_grammar(const std::string& path, const GrammarOptions& options, const Proje
     if (text.definition_error) {
         return step.fail(*text.definition_error);
     }
-    return fine ? step.done(std::move(text.grammar)) : step.end(Stop::Diagnosed);
+    return fine ? step.done(std::move(text.grammar)) : step.end_diagnosed();
 }
 
 } // namespace lsys

@@ -58,8 +58,8 @@ struct CompiledText {
 /// `path` in messages; `-` is standard input.
 [[nodiscard]] std::string shown_path(const std::string& path);
 
-/// Reads files for #include.
-[[nodiscard]] FileLoader make_loader(const Project& project);
+////// Reads files for #include, which take at most `max_bytes` together.
+[[nodiscard]] FileLoader make_loader(const Project& project, std::uint64_t max_bytes);
 
 /// `dialect`: a name of one, or empty. Failed: the file cannot be read, or nothing tells its
 /// dialect.

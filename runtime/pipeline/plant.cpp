@@ -135,7 +135,8 @@ Outcome<Plant> grow_plant(const PlantOptions& options, Grammar& grammar, const P
     }
     TurtleOptions turtle_options;
     MeshFiles meshes;
-    if (!step.take(read_mesh_files(options.file, bytecode, project), meshes)) {
+    FileBudget budget{project.limits.max_bytes};
+    if (!step.take(read_mesh_files(options.file, bytecode, project, budget), meshes)) {
         return step.end();
     }
     plant.user_meshes = std::move(meshes.meshes);
@@ -182,7 +183,7 @@ Outcome<Mesh> mesh_plant(const Plant& plant,
     case MeshStatus::Limit:
         break;
     case MeshStatus::OutOfMemory:
-        step.diagnose(plant_limit_diagnostic("the mesh", limited.max_bytes), nullptr);
+        step.diagnose(no_memory_diagnostic("the mesh"), nullptr);
         return step.end(Stop::OutOfMemory);
     }
     step.diagnose(plant_limit_diagnostic("the mesh", limited.max_bytes), nullptr);

@@ -22,12 +22,22 @@ struct DerivationProgress {
     const std::vector<double>& expected;
 };
 
+////// How much of a file may be read.
+struct ReadLimit {
+    std::uint64_t max_bytes = 0;              // of a file of its kind
+    std::uint64_t memory = ~std::uint64_t{0}; // left for it: more is an Error of ErrorKind::Limit
+};
+
 /// What the pipeline asks of the program around it. The functions may be called from any thread,
 /// but never from two at once.
 struct Host {
-    /// The bytes of a file, at most `max_bytes` of them. An Error is the reason alone: "no such
-    /// file or directory".
-    std::function<Result<std::string>(const std::string& path, std::uint64_t max_bytes)> read_file;
+    ///    /// The bytes of a file that the user names, which may be a pipe. An Error is the reason
+    ///    alone:
+    /// "no such file or directory".
+    std::function<Result<std::string>(const std::string& path, const ReadLimit& limit)> read_file;
+    /// The same of a file that another file names: a regular one, so that nobody waits for it.
+    std::function<Result<std::string>(const std::string& path, const ReadLimit& limit)>
+        read_named_file;
     std::function<bool(const std::string& path)> file_exists;
     /// Becomes true when the result is no longer wanted; may be null.
     const std::atomic<bool>* cancelled = nullptr;

@@ -4,13 +4,29 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lsys {
 
-Result<std::string> Step::read(const std::string& path, std::uint64_t max_bytes) const {
-    Result<std::string> bytes = project_.host.read_file(path, max_bytes);
-    return bytes ? std::move(bytes)
-                 : Error{fmt::format("cannot read `{}`: {}", shown_path(path),
-                                     bytes.error().message)};
+namespace {
+
+/// An Error that names the file.
+Result<std::string> name_file(Result<std::string> bytes, const std::string& path) {
+    if (bytes) {
+        return bytes;
+    }
+    return Error{fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message),
+                 bytes.error().kind};
+}
+
+} // namespace
+
+Result<std::string> Step::read(const std::string& path, const ReadLimit& limit) const {
+    return name_file(project_.host.read_file(path, limit), path);
+}
+
+Result<std::string> Step::read_named(const std::string& path, const ReadLimit& limit) const {
+    return name_file(project_.host.read_named_file(path, limit), path);
 }
 
 bool Step::diagnose(Diagnostics diagnostics, std::shared_ptr<const SourceMap> sources) {
@@ -28,12 +44,28 @@ bool Step::diagnose(Diagnostic diagnostic, std::shared_ptr<const SourceMap> sour
     return diagnose(std::move(diagnostics), std::move(sources));
 }
 
+Step::Ended Step::end_diagnosed() {
+    const auto is_limit = [](const Diagnostic& diagnostic) {
+        return diagnostic.code == DiagnosticCode::LimitReached;
+    };
+    const bool limit =
+        std::any_of(messages.all().begin(), messages.all().end(), [&](const Message& message) {
+            const std::vector<Diagnostic>& all = message.diagnostics.all();
+            return std::any_of(all.begin(), all.end(), is_limit);
+        });
+    return end(limit ? Stop::Limit : Stop::Diagnosed);
+}
+
 Step::Ended Step::fail(Error error) {
     if (project_.is_cancelled()) {
         return end(Stop::Cancelled);
     }
+    const bool is_limit = error.kind == ErrorKind::Limit;
     messages.add_error(std::move(error.message));
-    return end(Stop::Failed);
+    if (is_limit) {
+        messages.add_help("raise the limit with `--max-memory`");
+    }
+    return end(is_limit ? Stop::Limit : Stop::Failed);
 }
 
 } // namespace lsys

@@ -16,8 +16,11 @@ public:
 
     [[nodiscard]] const Project& project() const { return project_; }
 
-    /// A file of the host; its Error names the file.
-    [[nodiscard]] Result<std::string> read(const std::string& path, std::uint64_t max_bytes) const;
+    /// A file that the user names; its Error names the file.
+    [[nodiscard]] Result<std::string> read(const std::string& path, const ReadLimit& limit) const;
+    /// A file that another file names; its Error names the file.
+    [[nodiscard]] Result<std::string> read_named(const std::string& path,
+                                                 const ReadLimit& limit) const;
 
     /// Adds diagnostics, warnings as errors where the project denies them; returns whether the
     /// step may go on.
@@ -54,7 +57,10 @@ public:
     };
     [[nodiscard]] Ended end(Stop stop) { return {stop, std::move(messages)}; }
     [[nodiscard]] Ended end() { return end(stop_); }
-    /// A failure of the environment; Cancelled where the host has cancelled the step.
+    /// Limit where a diagnostic says so, else Diagnosed.
+    [[nodiscard]] Ended end_diagnosed();
+    /// A failure of the environment, or a limit of memory; Cancelled where the host has cancelled
+    /// the step.
     [[nodiscard]] Ended fail(Error error);
     [[nodiscard]] Ended fail(std::string message) { return fail(Error{std::move(message)}); }
 

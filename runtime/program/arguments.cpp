@@ -7,9 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <system_error>
-#include <unistd.h>
 
 namespace lsys {
 
@@ -122,15 +120,6 @@ Result<Definition> parse_definition(std::string_view text) {
     }
     definition.value = parsed.value;
     return definition;
-}
-
-std::uint64_t half_of_memory() {
-    const long pages = ::sysconf(_SC_PHYS_PAGES);
-    const long page_size = ::sysconf(_SC_PAGESIZE);
-    if (pages <= 0 || page_size <= 0) {
-        return std::numeric_limits<std::uint64_t>::max();
-    }
-    return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_size) / 2;
 }
 
 } // namespace lsys

@@ -31,7 +31,4 @@ parse_whole(std::string_view text, std::uint64_t low, std::uint64_t high);
 /// `NAME=number`.
 [[nodiscard]] Result<Definition> parse_definition(std::string_view text);
 
-/// Half of the physical memory, in bytes.
-[[nodiscard]] std::uint64_t half_of_memory();
-
 } // namespace lsys

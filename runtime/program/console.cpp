@@ -153,6 +153,10 @@ messages_text(const Messages& messages, const MessageOptions& options, const cha
 
 ExitStatus report_error(const Error& error, const Console& console) {
     console.error(error.message);
+    if (error.kind == ErrorKind::Limit) {
+        console.help("raise the limit with `--max-memory`");
+        return ExitStatus::Limit;
+    }
     return ExitStatus::Failure;
 }
 
@@ -176,6 +180,12 @@ ExitStatus Console::show(Diagnostics& diagnostics, const SourceMap& sources) con
     }
     diagnostics.sort_by_place();
     print(diagnostics, sources);
+    const auto is_limit = [](const Diagnostic& diagnostic) {
+        return diagnostic.code == DiagnosticCode::LimitReached;
+    };
+    if (std::any_of(diagnostics.all().begin(), diagnostics.all().end(), is_limit)) {
+        return ExitStatus::Limit;
+    }
     return diagnostics.has_errors() ? ExitStatus::AuthorErrors : ExitStatus::Ok;
 }
 
@@ -189,6 +199,18 @@ Result<Done> Console::flush() const {
     errno = 0;
     io_.out.flush();
     return output_result(io_.out);
+}
+
+ExitStatus Console::finish(ExitStatus status) const {
+    if (!io_.out.good() && status != ExitStatus::Ok) {
+        return status; // whoever wrote has reported it
+    }
+    const Result<Done> done = flush();
+    if (done) {
+        return status;
+    }
+    error(done.error().message);
+    return worse(status, ExitStatus::Failure);
 }
 
 } // namespace lsys

@@ -52,7 +52,9 @@ public:
     }
     /// Prints one diagnostic without a place; returns `status`.
     [[nodiscard]] ExitStatus show(Diagnostic diagnostic, ExitStatus status) const;
-    /// Sorts, applies --deny and -q, prints; AuthorErrors if there are errors.
+    ///    /// Sorts, applies --deny and -q, prints; AuthorErrors if there are errors, Limit if one
+    ///    of them
+    /// is a limit.
     [[nodiscard]] ExitStatus show(Diagnostics& diagnostics, const SourceMap& sources) const;
     [[nodiscard]] RenderOptions render_options() const;
 
@@ -60,6 +62,10 @@ public:
     [[nodiscard]] Result<Done> write(std::string_view text) const;
     /// Hands on what standard output still holds back.
     [[nodiscard]] Result<Done> flush() const;
+
+    /// The exit status of a command that ended as `status`, once standard output has taken all of
+    /// its results.
+    [[nodiscard]] ExitStatus finish(ExitStatus status) const;
 
 private:
     void print(const Diagnostics& diagnostics, const SourceMap& sources) const;
@@ -73,7 +79,7 @@ private:
 [[nodiscard]] std::string
 messages_text(const Messages& messages, const MessageOptions& options, const char* program);
 
-/// Prints an error of the environment; returns Failure.
+////// Prints an error of the environment; returns Failure, or Limit where memory is missing.
 [[nodiscard]] ExitStatus report_error(const Error& error, const Console& console);
 
 } // namespace lsys

@@ -1,19 +1,24 @@
 #include "runtime/program/files.h"
 
+#include "runtime/base/size_text.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/program/descriptor.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <istream>
 #include <memory>
+#include <sys/random.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 #include <utility>
 
@@ -23,13 +28,91 @@ namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 20;
 
-Error size_error(std::uint64_t max_bytes) {
-    return Error{fmt::format("it has more than {} bytes, the most that can be read", max_bytes)};
+/// Fine while `size` bytes are within the limit.
+Result<Done> check_size(std::uint64_t size, const ReadLimit& limit) {
+    if (size > limit.memory && limit.memory < limit.max_bytes) {
+        return memory_error("it", limit.memory);
+    }
+    if (size > limit.max_bytes) {
+        return Error{
+            fmt::format("it has more than {} bytes, the most that can be read", limit.max_bytes)};
+    }
+    return Done{};
+}
+
+/// Why a file of this kind is not read; empty: it is.
+std::string_view reason_against(const struct stat& facts, int descriptor, FileKind kind) {
+    if (S_ISDIR(facts.st_mode)) {
+        return "it is a directory";
+    }
+    const bool is_null = S_ISCHR(facts.st_mode) && facts.st_rdev == ::makedev(1, 3);
+    if (S_ISREG(facts.st_mode) || is_null) {
+        return {};
+    }
+    if (kind == FileKind::Regular) {
+        return "it is not a regular file";
+    }
+    const bool is_device = S_ISBLK(facts.st_mode) || S_ISCHR(facts.st_mode);
+    return is_device && ::isatty(descriptor) == 0 ? "it is a device" : "";
+}
+
+Result<std::string> read_descriptor(int descriptor,
+                                    std::uint64_t expected,
+                                    const ReadLimit& limit,
+                                    const std::atomic<bool>* cancelled) {
+    const std::uint64_t most = std::min(limit.max_bytes, limit.memory);
+    std::string bytes;
+    bytes.reserve(expected + 1);
+    while (true) {
+        const std::size_t size = bytes.size();
+        // One byte more than expected, so that the end is seen without growing.
+        const std::size_t room = std::max<std::size_t>(bytes.capacity() - size, 1);
+        bytes.resize(size + std::min(room, kPiece));
+        const ssize_t count = ::read(descriptor, bytes.data() + size, bytes.size() - size);
+        const int reason = errno;
+        bytes.resize(size + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+        if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed)) {
+            return Error{"interrupted"};
+        }
+        if (count < 0 && reason != EINTR) {
+            return Error{reason_text(reason)};
+        }
+        if (const Result<Done> checked = check_size(bytes.size(), limit); !checked) {
+            return checked.error();
+        }
+        if (count == 0) {
+            return bytes;
+        }
+        if (bytes.size() == bytes.capacity()) {
+            const std::uint64_t next = bytes.size() + std::max(bytes.size() / 2, kPiece);
+            bytes.reserve(std::min(next, std::max(most, most + 1)));
+        }
+    }
+}
+
+/// Six letters that nobody can foretell.
+std::string random_letters() {
+    constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789";
+    std::uint64_t bits = 0;
+    if (::getrandom(&bits, sizeof bits, GRND_NONBLOCK) != sizeof bits) {
+        // Only O_EXCL counts then: the name need not be secret, but another for each attempt.
+        static std::atomic<std::uint64_t> count{0};
+        bits = (static_cast<std::uint64_t>(::getpid()) << 20) + ++count;
+    }
+    std::string letters;
+    for (int i = 0; i < 6; ++i) {
+        letters += kLetters[bits % kLetters.size()];
+        bits /= kLetters.size();
+    }
+    return letters;
 }
 
 } // namespace
 
 std::string reason_text(int reason) {
+    if (reason == EBADF) { // a standard stream that the process was started without
+        return "it is closed";
+    }
     std::string text = std::strerror(reason);
     if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') {
         text[0] = static_cast<char>(text[0] - 'A' + 'a');
@@ -43,17 +126,17 @@ std::string numbered(const std::string& path, std::uint32_t number) {
     return name.replace_extension(fmt::format(".{:04}{}", number, extension)).string();
 }
 
-Result<std::string>
-read_file(const std::string& path, std::uint64_t max_bytes, const Console& console) {
-    Result<std::string> bytes = path == "-" ? read_standard_input(max_bytes, console)
-                                            : read_bytes(path, max_bytes, console.io().interrupted);
-    if (!bytes) {
-        return Error{fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message)};
+void note_frames(const std::string& path,
+                 std::uint32_t done,
+                 std::uint32_t count,
+                 const Console& console) {
+    if (done != 0) {
+        console.info(fmt::format("{} of {} frames are complete, the last of them `{}`", done, count,
+                                 numbered(path, done)));
     }
-    return bytes;
 }
 
-Result<std::string> read_standard_input(std::uint64_t max_bytes, const Console& console) {
+Result<std::string> read_standard_input(const ReadLimit& limit, const Console& console) {
     std::istream& in = console.io().in;
     std::string bytes;
     while (in.good()) {
@@ -64,8 +147,8 @@ Result<std::string> read_standard_input(std::uint64_t max_bytes, const Console& 
         if (console.interrupted()) {
             return Error{"interrupted"};
         }
-        if (bytes.size() > max_bytes) {
-            return size_error(max_bytes);
+        if (const Result<Done> checked = check_size(bytes.size(), limit); !checked) {
+            return checked.error();
         }
     }
     if (in.bad()) {
@@ -74,46 +157,37 @@ Result<std::string> read_standard_input(std::uint64_t max_bytes, const Console& 
     return bytes;
 }
 
-Result<std::string>
-read_bytes(const std::string& path, std::uint64_t max_bytes, const std::atomic<bool>* cancelled) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+Result<std::string> read_bytes(const std::string& path,
+                               FileKind kind,
+                               const ReadLimit& limit,
+                               const std::atomic<bool>* cancelled) {
+    // A pipe without a writer is not waited for where it is refused anyway.
+    const int mode = kind == FileKind::Regular ? O_NONBLOCK : 0;
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | mode));
     struct stat facts {};
     if (file.get() < 0 || ::fstat(file.get(), &facts) != 0) {
         return Error{reason_text(errno)};
     }
-    if (S_ISDIR(facts.st_mode)) {
-        return Error{"it is a directory"};
+    if (const std::string_view reason = reason_against(facts, file.get(), kind); !reason.empty()) {
+        return Error{std::string(reason)};
     }
     const auto expected = static_cast<std::uint64_t>(std::max<off_t>(facts.st_size, 0));
-    if (expected > max_bytes) {
-        return size_error(max_bytes);
+    if (const Result<Done> checked = check_size(expected, limit); !checked) {
+        return checked.error();
     }
-    std::string bytes;
-    bytes.reserve(static_cast<std::size_t>(expected) + 1);
-    while (true) {
-        const std::size_t size = bytes.size();
-        // One byte more than expected, so that the end is seen without growing.
-        const std::size_t room = std::max<std::size_t>(bytes.capacity() - size, 1);
-        bytes.resize(size + std::min(room, kPiece));
-        const ssize_t count = ::read(file.get(), bytes.data() + size, bytes.size() - size);
-        const int reason = errno;
-        bytes.resize(size + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-        if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed)) {
-            return Error{"interrupted"};
-        }
-        if (count < 0 && reason != EINTR) {
-            return Error{reason_text(reason)};
-        }
-        if (bytes.size() > max_bytes) {
-            return size_error(max_bytes);
-        }
-        if (count == 0) {
-            return bytes;
-        }
-        if (bytes.size() == bytes.capacity()) {
-            bytes.reserve(bytes.size() + std::max(bytes.size() / 2, kPiece));
-        }
+    return read_descriptor(file.get(), expected, limit, cancelled);
+}
+
+Result<std::string>
+read_file(const std::string& path, const ReadLimit& limit, const Console& console) {
+    Result<std::string> bytes =
+        path == "-" ? read_standard_input(limit, console)
+                    : read_bytes(path, FileKind::Named, limit, console.io().interrupted);
+    if (!bytes) {
+        return Error{fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message),
+                     bytes.error().kind};
     }
+    return bytes;
 }
 
 Error Output::failure(int reason) const {
@@ -123,7 +197,8 @@ Error Output::failure(int reason) const {
 Output::Output(Output&& other) noexcept
     : console_(other.console_), path_(std::move(other.path_)), target_(std::move(other.target_)),
       temporary_(std::exchange(other.temporary_, std::string())),
-      descriptor_(std::exchange(other.descriptor_, -1)) {}
+      slot_(std::exchange(other.slot_, nullptr)), descriptor_(std::exchange(other.descriptor_, -1)),
+      is_finished_(other.is_finished_), must_be_new_(other.must_be_new_), shown_(other.shown_) {}
 
 Output::~Output() {
     if (descriptor_ >= 0) {
@@ -131,7 +206,40 @@ Output::~Output() {
     }
     if (!temporary_.empty()) {
         ::unlink(temporary_.c_str());
+        drop_temporary();
     }
+}
+
+void Output::drop_temporary() {
+    temporary_.clear();
+    if (slot_ != nullptr) {
+        forget_temporary(std::exchange(slot_, nullptr));
+    }
+}
+
+/// Makes an empty file beside target_. One that will replace another is private until it has the
+/// `mode` of that one; the kernel gives a new one the mode that the process has for new files.
+Result<Done> Output::make_temporary(bool exists, unsigned mode) {
+    constexpr int kAttempts = 100;
+    const mode_t first_mode = exists ? 0600 : 0666;
+    for (int attempt = 0; attempt < kAttempts && descriptor_ < 0; ++attempt) {
+        std::string name = target_ + '.' + random_letters();
+        descriptor_ =
+            ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, first_mode);
+        if (descriptor_ >= 0) {
+            slot_ = remember_temporary(name);
+            temporary_ = std::move(name);
+        } else if (errno != EEXIST) {
+            return failure(errno);
+        }
+    }
+    if (descriptor_ < 0) {
+        return failure(EEXIST);
+    }
+    if (exists && ::fchmod(descriptor_, mode) != 0) {
+        return failure(errno);
+    }
+    return Done{};
 }
 
 Result<Output> Output::open(const std::string& path, const Console& console) {
@@ -163,19 +271,22 @@ Result<Output> Output::open(const std::string& path, const Console& console) {
         }
         output.target_ = real.get();
     }
-    std::string name = output.target_ + ".XXXXXX";
-    output.descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
-    if (output.descriptor_ < 0) {
-        return output.failure(errno);
+    if (Result<Done> made = output.make_temporary(exists, facts.st_mode & 0777U); !made) {
+        return made.error();
     }
-    output.temporary_ = std::move(name);
-    // A temporary file is private; the real one is as open as the one it replaces, or as new ones
-    // are.
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    const mode_t mode = exists ? facts.st_mode & 07777U : 0666U & ~mask;
-    if (::fchmod(output.descriptor_, mode) != 0) {
-        return output.failure(errno);
+    return output;
+}
+
+Result<Output> Output::create(const std::string& path, const Console& console) {
+    Output output(console, path);
+    output.must_be_new_ = true;
+    output.target_ = path;
+    struct stat facts {};
+    if (::lstat(path.c_str(), &facts) == 0) {
+        return output.failure(EEXIST);
+    }
+    if (Result<Done> made = output.make_temporary(false, 0); !made) {
+        return made.error();
     }
     return output;
 }
@@ -194,7 +305,10 @@ Result<Done> Output::write(std::string_view text) {
     return Done{};
 }
 
-Result<Done> Output::commit() {
+Result<Done> Output::finish() {
+    if (std::exchange(is_finished_, true)) {
+        return Done{};
+    }
     if (descriptor_ < 0) {
         return console_->flush();
     }
@@ -202,12 +316,73 @@ Result<Done> Output::commit() {
     if (::close(std::exchange(descriptor_, -1)) != 0) {
         return failure(errno);
     }
-    if (!temporary_.empty()) {
-        if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
-            return failure(errno);
-        }
-        temporary_.clear();
+    return Done{};
+}
+
+Result<Done> Output::commit() {
+    if (Result<Done> finished = finish(); !finished) {
+        return finished;
     }
+    if (temporary_.empty()) {
+        return Done{};
+    }
+    const unsigned flags = must_be_new_ ? RENAME_NOREPLACE : 0;
+    int failed = ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), flags);
+    if (failed != 0 && flags != 0 && (errno == EINVAL || errno == ENOSYS)) {
+        failed = ::rename(temporary_.c_str(), target_.c_str()); // open() saw none of its name
+    }
+    if (failed != 0) {
+        return failure(errno);
+    }
+    drop_temporary();
+    return Done{};
+}
+
+/// Gives the file its name; the temporary name gets the file that was there, so that hide() can
+/// bring it back.
+Result<Done> Output::show() {
+    struct stat facts {};
+    const bool replaces = ::lstat(target_.c_str(), &facts) == 0;
+    if (temporary_.empty() || must_be_new_ || !replaces || !S_ISREG(facts.st_mode)) {
+        const bool has_name = !temporary_.empty();
+        Result<Done> done = commit();
+        shown_ = done && has_name ? Shown::New : Shown::No;
+        return done;
+    }
+    if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) ==
+        0) {
+        shown_ = Shown::Exchanged;
+        return Done{};
+    }
+    Result<Done> done = commit();
+    shown_ = done ? Shown::Replaced : Shown::No;
+    return done;
+}
+
+void Output::hide() {
+    if (shown_ == Shown::New) {
+        ::unlink(target_.c_str());
+    } else if (shown_ == Shown::Exchanged) {
+        ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE);
+    }
+}
+
+Result<Done> commit_all(std::vector<Output>& outputs) {
+    // A full disk is known after these; nothing has changed until then.
+    for (Output& output : outputs) {
+        if (Result<Done> finished = output.finish(); !finished) {
+            return finished;
+        }
+    }
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        if (Result<Done> shown = outputs[i].show(); !shown) {
+            while (i > 0) {
+                outputs[--i].hide();
+            }
+            return shown;
+        }
+    }
+    outputs.clear(); // and with them the files that were replaced
     return Done{};
 }
 

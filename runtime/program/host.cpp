@@ -10,8 +10,11 @@ namespace lsys {
 
 Host make_file_host(const std::atomic<bool>* cancelled) {
     Host host;
-    host.read_file = [cancelled](const std::string& path, std::uint64_t max_bytes) {
-        return read_bytes(path, max_bytes, cancelled);
+    host.read_file = [cancelled](const std::string& path, const ReadLimit& limit) {
+        return read_bytes(path, FileKind::Named, limit, cancelled);
+    };
+    host.read_named_file = [cancelled](const std::string& path, const ReadLimit& limit) {
+        return read_bytes(path, FileKind::Regular, limit, cancelled);
     };
     host.file_exists = [](const std::string& path) {
         std::error_code ignored;
@@ -24,8 +27,8 @@ Host make_file_host(const std::atomic<bool>* cancelled) {
 Host make_host(const Console& console) {
     Host host = make_file_host(console.io().interrupted);
     host.read_file = [&console, read = std::move(host.read_file)](const std::string& path,
-                                                                  std::uint64_t max_bytes) {
-        return path == "-" ? read_standard_input(max_bytes, console) : read(path, max_bytes);
+                                                                  const ReadLimit& limit) {
+        return path == "-" ? read_standard_input(limit, console) : read(path, limit);
     };
     return host;
 }

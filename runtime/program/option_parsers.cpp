@@ -2,6 +2,7 @@
 
 #include "grammar/base/diagnostic.h"
 #include "grammar/dialects/dialect.h"
+#include "runtime/program/memory_size.h"
 #include "runtime/turtle/turtle.h"
 
 #include <limits>
@@ -42,6 +43,7 @@ void add_dialect(CLI::App& app, std::string& dialect) {
 }
 
 void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run) {
+    run.limits.max_bytes = half_of_memory();
     add_parsed(app, "-n,--generations", options.generations, whole(0, kMaxGenerations),
                "Generations, instead of #n")
         ->type_name("N")
@@ -94,8 +96,8 @@ void add_run_limits(CLI::App& app, RunOptions& run) {
     run.limits.max_bytes = half_of_memory();
     add_parsed(
         app, "--max-memory", run.limits.max_bytes, parse_size,
-        "The most memory each of word, skeleton and mesh may take: 500M, 2G (default half of "
-        "the machine's)")
+        "The most memory each of word, skeleton, mesh and the files that are read may take: 500M, "
+        "2G (default half of the machine's or the container's)")
         ->type_name("SIZE")
         ->group("Limits");
     constexpr std::uint64_t kMaxThreads = 1024;

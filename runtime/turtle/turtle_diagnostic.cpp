@@ -106,4 +106,11 @@ Diagnostic plant_limit_diagnostic(std::string_view what, std::uint64_t max_bytes
         "ask for fewer generations with `-n`, or raise the limit with `--max-memory`");
 }
 
+Diagnostic no_memory_diagnostic(std::string_view what) {
+    Diagnostic diagnostic = make_diagnostic(DiagnosticCode::LimitReached, {},
+                                            fmt::format("the system has no memory for {}", what));
+    diagnostic.help.emplace_back("ask for fewer generations with `-n`");
+    return diagnostic;
+}
+
 } // namespace lsys

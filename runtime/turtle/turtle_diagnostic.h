@@ -23,4 +23,7 @@ turtle_diagnostics(const std::array<TurtleFault, kTurtleFaultKinds>& faults,
 [[nodiscard]] Diagnostic
 plant_limit_diagnostic(std::string_view what, std::string_view limit, std::string help);
 
+/// A plant of which the system has no memory for `what`, although it may be within the limit.
+[[nodiscard]] Diagnostic no_memory_diagnostic(std::string_view what);
+
 } // namespace lsys

@@ -43,7 +43,8 @@ with_axiom(const std::filesystem::path& path, const std::string& text, const std
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
-    const FileLoader load = make_loader(Project{make_file_host(nullptr), {}, 0, false});
+    const FileLoader load =
+        make_loader(Project{make_file_host(nullptr), {}, 0, false}, ~std::uint64_t{0});
     const FileId root = sources.add(path.string(), text);
     const Ast ast = parse_lsys(root, {sources, names, diagnostics, load});
     for (const Statement& statement : ast.statements) {

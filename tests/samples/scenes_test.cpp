@@ -91,8 +91,8 @@ TEST_CASE("sample scenes place their trees") {
         lsys::PlacementOptions options = sample.scene.placement;
         lsys::GreyMap map;
         if (!sample.scene.density_map.path.empty()) {
-            lsys::Result<lsys::GreyMap> read =
-                lsys::read_grey_png(bytes_of(sample.folder / sample.scene.density_map.path));
+            lsys::Result<lsys::GreyMap> read = lsys::read_grey_png(
+                bytes_of(sample.folder / sample.scene.density_map.path), ~std::uint64_t{0});
             REQUIRE(read);
             map = std::move(read.value());
             options.density_map = &map;

@@ -119,7 +119,7 @@ TEST_CASE("files that a mesh asks for are recorded, so that they can be watched"
 
 TEST_CASE("pictures are read whatever their samples, and their colours are known") {
     const Texture picture = half_red();
-    const Result<Texture> read = lsys::read_picture(encode_png(picture));
+    const Result<Texture> read = lsys::read_picture(encode_png(picture), 256);
     REQUIRE(read);
     CHECK(read.value().width == 8);
     CHECK(read.value().texels == picture.texels);
@@ -128,6 +128,11 @@ TEST_CASE("pictures are read whatever their samples, and their colours are known
     Texture grey{1, 1, {188, 188, 188, 255}};
     CHECK_FALSE(has_holes(grey));
     CHECK(mean_colour(grey).g == Approx(0.503F).margin(0.002));
-    CHECK_FALSE(lsys::read_picture(""));
-    CHECK_FALSE(lsys::read_picture("BM and so on"));
+    CHECK_FALSE(lsys::read_picture("", 256));
+    CHECK_FALSE(lsys::read_picture("BM and so on", 256));
+    const Result<Texture> large = lsys::read_picture(encode_png(picture), 255);
+    REQUIRE_FALSE(large);
+    CHECK(large.error().kind == ErrorKind::Limit);
+    CHECK(large.error().message == "a picture of 8 by 8 pixels (256 B) takes more than the 255 B "
+                                   "that are left of the memory limit");
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <string_view>
 
 namespace lsys::view {
 
@@ -26,18 +27,24 @@ Outcome<Done> make_model(const ViewOptions& options,
         known = {&before->model, before->grown.forest.key, before->mesh_options, grown.known};
     }
     document.mesh_options = mesh;
-    switch (make_forest_model(grown.forest, *grown.terrain, grown.user_meshes, mesh, document.model,
-                              known)) {
+    const InstanceMeshStatus made = make_forest_model(
+        grown.forest, *grown.terrain, grown.user_meshes, mesh, document.model, known);
+    switch (made) {
     case InstanceMeshStatus::Ok:
         break;
     case InstanceMeshStatus::Joined:
         return step.fail("--method boxes: a branch and its parent are one surface there, so a "
                          "forest cannot be put together from them");
     case InstanceMeshStatus::TooManyVertices:
+        return step.fail(
+            "the heroes have more than 4,294,967,295 vertices; ask for fewer --heroes, "
+            "--sides or generations");
     case InstanceMeshStatus::Limit:
-    case InstanceMeshStatus::OutOfMemory:
         step.diagnose(plant_limit_diagnostic("the mesh of the heroes", mesh.max_bytes), nullptr);
         return step.end(Stop::Limit);
+    case InstanceMeshStatus::OutOfMemory:
+        step.diagnose(no_memory_diagnostic("the mesh of the heroes"), nullptr);
+        return step.end(Stop::OutOfMemory);
     }
     return step.done(Done{});
 }

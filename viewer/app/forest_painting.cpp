@@ -242,7 +242,7 @@ Result<Done> ForestPainting::save(const std::string& file, const Console& consol
     if (!painter_) {
         return Done{}; // what is there is what was read
     }
-    Result<std::string> before = read_file(file, kMaxSourceBytes, console);
+    Result<std::string> before = read_file(file, {kMaxSourceBytes}, console);
     if (!before) {
         return before.error();
     }

@@ -92,7 +92,7 @@ void LiveForest::files_changed(const std::vector<std::string>& files,
     }
     if (files.size() == 1) {
         const std::lock_guard lock(saved_mutex_);
-        const Result<std::string> text = read_file(files.front(), kMaxSourceBytes, console_);
+        const Result<std::string> text = read_file(files.front(), {kMaxSourceBytes}, console_);
         if (!saved_text_.empty() && text && text.value() == saved_text_) {
             return; // that is what is shown
         }

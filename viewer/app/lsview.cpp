@@ -115,7 +115,7 @@ struct Dispatch {
     ExitStatus operator()(const PrintText& text) const {
         const Console console(io, {});
         const Result<Done> written = console.write(text.text);
-        return written ? ExitStatus::Ok : report_error(written.error(), console);
+        return written ? console.finish(ExitStatus::Ok) : report_error(written.error(), console);
     }
     ExitStatus operator()(const UsageError& usage) const {
         const Console console(io, {});
@@ -125,8 +125,8 @@ struct Dispatch {
     }
     ExitStatus operator()(const ViewOptions& options) const {
         const Console console(io, options.messages);
-        return options.screenshot.empty() ? run_window(options, console)
-                                          : run_pictures(options, console);
+        return console.finish(options.screenshot.empty() ? run_window(options, console)
+                                                         : run_pictures(options, console));
     }
 };
 

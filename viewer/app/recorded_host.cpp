@@ -11,11 +11,14 @@ Host record_files(Host host, std::vector<std::string>& files) {
             files.push_back(path);
         }
     };
-    host.read_file = [add, read = std::move(host.read_file)](const std::string& path,
-                                                             std::uint64_t max_bytes) {
-        add(path);
-        return read(path, max_bytes);
+    const auto recorded = [add](auto read) {
+        return [add, read = std::move(read)](const std::string& path, const ReadLimit& limit) {
+            add(path);
+            return read(path, limit);
+        };
     };
+    host.read_file = recorded(std::move(host.read_file));
+    host.read_named_file = recorded(std::move(host.read_named_file));
     host.file_exists = [add, exists = std::move(host.file_exists)](const std::string& path) {
         add(path);
         return exists(path);

@@ -17,7 +17,7 @@ ShaderSource shaders_of(const std::string& folder, const Console& console) {
     return [folder, console](std::string_view name) -> std::optional<std::string> {
         constexpr std::uint64_t kMostBytes = 1 << 20;
         Result<std::string> text =
-            read_file((std::filesystem::path(folder) / name).string(), kMostBytes, console);
+            read_file((std::filesystem::path(folder) / name).string(), {kMostBytes}, console);
         return text ? std::optional(std::move(text.value())) : std::nullopt;
     };
 }

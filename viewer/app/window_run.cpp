@@ -119,7 +119,7 @@ ExitStatus run_window(const ViewOptions& options, const Console& console) {
         return report_error(Error{fmt::format("--camera: {}", camera.error().message)}, console);
     }
     // A file that cannot be read is a mistake on the command line; one with errors is shown.
-    if (const Result<std::string> bytes = read_file(options.file, ~std::uint64_t{0}, console);
+    if (const Result<std::string> bytes = read_file(options.file, {kMaxSourceBytes}, console);
         !bytes) {
         return report_error(bytes.error(), console);
     }

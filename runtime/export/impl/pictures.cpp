@@ -78,6 +78,15 @@ Texture paint(const Picture& picture) {
     return texture;
 }
 
+std::string encode_picture(const Picture& picture) {
+    const bool as_it_is = picture.file != nullptr && picture.kind == PictureKind::Colour &&
+                          picture.tint == glm::vec3(1.0F);
+    if (as_it_is) { // no second copy of what may be large
+        return encode_png(*picture.file);
+    }
+    return encode_png(paint(picture));
+}
+
 } // namespace
 
 Pictures find_pictures(const Mesh& mesh, ExportFormat format, const ExportInfo& info) {
@@ -126,7 +135,7 @@ std::vector<std::string> encode_pictures(const std::vector<Picture>& pictures,
     std::vector<std::string> files(pictures.size());
     Workers workers(threads);
     for_each_piece(workers, pictures.size(),
-                   [&](std::uint64_t i) { files[i] = encode_png(paint(pictures[i])); });
+                   [&](std::uint64_t i) { files[i] = encode_picture(pictures[i]); });
     const bool all = std::none_of(files.begin(), files.end(),
                                   [](const std::string& file) { return file.empty(); });
     if (!all) {

@@ -33,8 +33,10 @@ std::optional<Stop> report_drawing(const DerivationEnd& derived,
     for (Diagnostic& diagnostic : turtle_diagnostics(faults, grammar.bytecode)) {
         diagnostics.add(std::move(diagnostic));
     }
-    if (drawn == TurtleStatus::Limit || drawn == TurtleStatus::OutOfMemory) {
+    if (drawn == TurtleStatus::Limit) {
         diagnostics.add(plant_limit_diagnostic("the skeleton", limits.max_bytes));
+    } else if (drawn == TurtleStatus::OutOfMemory) {
+        diagnostics.add(no_memory_diagnostic("the skeleton"));
     }
     const bool fine = step.diagnose(std::move(diagnostics), grammar.sources);
     switch (drawn) {

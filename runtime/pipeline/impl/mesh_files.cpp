@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -36,21 +37,31 @@ struct Library {
 /// Finds and reads the picture of a mesh that was read from `text`, the file `path`.
 class PictureSearch {
 public:
-    PictureSearch(const std::string& path, const std::string& text, UserMesh& mesh)
-        : path_(path), text_(text), mesh_(mesh) {}
+    PictureSearch(const std::string& path,
+                  const std::string& text,
+                  FileBudget& budget,
+                  UserMesh& mesh)
+        : path_(path), text_(text), budget_(budget), mesh_(mesh),
+          held_(text.size() + mesh.byte_count()) {}
 
     void run(const Project& project) {
         for (const ObjName& name : mesh_.libraries) {
             Library library{beside(path_, name.name), {}, {}};
-            Result<std::string> read = project.host.read_file(library.path, kMaxSourceBytes);
+            Result<std::string> read =
+                project.host.read_named_file(library.path, {kMaxSourceBytes, left()});
             if (!read) {
-                warn(path_, text_, obj_, name,
-                     fmt::format("cannot read `{}`: {}", shown_path(library.path),
-                                 read.error().message));
+                report(path_, text_, obj_, name,
+                       Error{fmt::format("cannot read `{}`: {}", shown_path(library.path),
+                                         read.error().message),
+                             read.error().kind});
+                if (read.error().kind == ErrorKind::Limit) {
+                    return;
+                }
                 continue;
             }
             library.text = std::move(read.value());
-            library.materials = pictures_of(library.text);
+            held_ += library.text.size();
+            library.materials = pictures_of(library.text, mesh_.materials);
             libraries_.push_back(std::move(library));
         }
         if (libraries_.empty()) {
@@ -73,26 +84,49 @@ public:
     }
 
     Diagnostics diagnostics;
+    bool has_limit = false; // memory is missing
     std::shared_ptr<SourceMap> sources = std::make_shared<SourceMap>();
 
 private:
+    [[nodiscard]] std::uint64_t left() const {
+        return budget_.left - std::min(budget_.left, held_);
+    }
+
+    /// At the place of `name` in `text`: a warning, or an error where the memory is missing.
+    void report(const std::string& path,
+                const std::string& text,
+                FileId& file,
+                const ObjName& name,
+                const Error& error) {
+        const bool is_limit = error.kind == ErrorKind::Limit;
+        const DiagnosticCode code =
+            is_limit ? DiagnosticCode::LimitReached : DiagnosticCode::MeshPicture;
+        if (!diagnostics.admits(code)) {
+            return;
+        }
+        SourceSpan span;
+        std::string message = error.message;
+        if (text.size() > kMaxSourceBytes) {
+            message = fmt::format("{}: {}", shown_path(path), message);
+        } else {
+            if (file == kNoFile) {
+                file = sources->add(shown_path(path), text);
+            }
+            const auto begin = static_cast<std::uint32_t>(name.offset);
+            span = {file, begin, begin + static_cast<std::uint32_t>(name.name.size())};
+        }
+        Diagnostic& added = diagnostics.add(code, span, std::move(message));
+        if (is_limit) {
+            has_limit = true;
+            added.help.emplace_back("raise the limit with `--max-memory`");
+        }
+    }
     void warn(const std::string& path,
               const std::string& text,
               FileId& file,
               const ObjName& name,
               std::string message) {
-        if (text.size() > kMaxSourceBytes) {
-            diagnostics.add(DiagnosticCode::MeshPicture, SourceSpan{},
-                            fmt::format("{}: {}", shown_path(path), message));
-            return;
-        }
-        if (file == kNoFile) {
-            file = sources->add(shown_path(path), text);
-        }
-        const auto begin = static_cast<std::uint32_t>(name.offset);
-        diagnostics.add(DiagnosticCode::MeshPicture,
-                        {file, begin, begin + static_cast<std::uint32_t>(name.name.size())},
-                        std::move(message));
+        report(path, text, file, name, Error{std::move(message)});
     }
 
     /// The picture of a material; no path: it has none.
@@ -129,15 +163,18 @@ private:
             Library& library = *found.library;
             warn(library.path, library.text, library.file, found.picture->file, std::move(message));
         };
-        const Result<std::string> bytes = project.host.read_file(path, kMaxPictureBytes);
-        if (!bytes) {
-            say(fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message));
-            return;
-        }
-        Result<Texture> picture = read_picture(bytes.value());
-        if (!picture) {
-            say(fmt::format("cannot use `{}`: {}", shown_path(path), picture.error().message));
-            return;
+        std::shared_ptr<const Texture> picture = budget_.pictures[path];
+        if (picture == nullptr) {
+            Result<Texture> decoded = decode(path, project);
+            if (!decoded) {
+                Library& library = *found.library;
+                report(library.path, library.text, library.file, found.picture->file,
+                       decoded.error());
+                return;
+            }
+            budget_.take(decoded.value().texels.size());
+            picture = std::make_shared<const Texture>(std::move(decoded.value()));
+            budget_.pictures[path] = picture;
         }
         if (found.picture->has_options) {
             say("options before the name of a picture are left out");
@@ -147,12 +184,31 @@ private:
                             shown_path(path_)));
             return;
         }
-        mesh_.picture = std::make_shared<const Texture>(std::move(picture.value()));
+        mesh_.picture = std::move(picture);
+    }
+
+    Result<Texture> decode(const std::string& path, const Project& project) const {
+        const Result<std::string> bytes =
+            project.host.read_named_file(path, {kMaxPictureBytes, left()});
+        if (!bytes) {
+            return Error{
+                fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message),
+                bytes.error().kind};
+        }
+        Result<Texture> picture = read_picture(bytes.value(), left() - bytes.value().size());
+        if (!picture) {
+            return Error{
+                fmt::format("cannot use `{}`: {}", shown_path(path), picture.error().message),
+                picture.error().kind};
+        }
+        return picture;
     }
 
     const std::string& path_;
     const std::string& text_;
+    FileBudget& budget_;
     UserMesh& mesh_;
+    std::uint64_t held_; // bytes that the budget does not know: the text of the files, the mesh
     FileId obj_ = kNoFile;
     bool reported_unknown_ = false;
     std::vector<Library> libraries_;
@@ -160,8 +216,10 @@ private:
 
 } // namespace
 
-Outcome<MeshFiles>
-read_mesh_files(const std::string& grammar_file, const Bytecode& bytecode, const Project& project) {
+Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
+                                   const Bytecode& bytecode,
+                                   const Project& project,
+                                   FileBudget& budget) {
     Step step(project);
     MeshFiles files;
     bool fine = true;
@@ -172,17 +230,23 @@ read_mesh_files(const std::string& grammar_file, const Bytecode& bytecode, const
             continue;
         }
         const std::string path = (folder / symbol.mesh_file).string();
-        Result<std::string> text = step.read(path, ~std::uint64_t{0});
+        const Result<std::string> text = step.read_named(path, {~std::uint64_t{0}, budget.left});
         if (!text) {
             return step.fail(text.error());
         }
-        Result<UserMesh> mesh = read_obj(text.value());
+        Result<UserMesh> mesh = read_obj(text.value(), budget.left - text.value().size());
         if (!mesh) {
-            return step.fail(fmt::format("cannot use `{}`: {}", path, mesh.error().message));
+            return step.fail(Error{fmt::format("cannot use `{}`: {}", path, mesh.error().message),
+                                   mesh.error().kind});
         }
-        PictureSearch search(path, text.value(), mesh.value());
+        PictureSearch search(path, text.value(), budget, mesh.value());
         search.run(project);
+        const bool has_limit = search.has_limit;
         fine = step.diagnose(std::move(search.diagnostics), search.sources) && fine;
+        if (has_limit) {
+            return step.end(Stop::Limit);
+        }
+        budget.take(mesh.value().byte_count());
         files.lengths.resize(bytecode.symbols.size(), 1.0F);
         files.lengths[i] = mesh.value().length();
         files.meshes.push_back(std::move(mesh.value()));

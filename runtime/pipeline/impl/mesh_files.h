@@ -4,6 +4,7 @@
 #include "compiler/bytecode/bytecode.h"
 #include "grammar/base/outcome.h"
 #include "runtime/meshing/mesh.h"
+#include "runtime/pipeline/impl/file_budget.h"
 #include "runtime/pipeline/project.h"
 
 #include <string>
@@ -17,8 +18,11 @@ struct MeshFiles {
 };
 
 /// Reads the mesh files, which lie beside `grammar_file` unless their path is absolute. Meshes
-/// whose picture is missing or cannot be shown have none, which is a warning at its place.
-[[nodiscard]] Outcome<MeshFiles>
-read_mesh_files(const std::string& grammar_file, const Bytecode& bytecode, const Project& project);
+/// whose/// picture is missing or cannot be shown have none, which is a warning at its place.
+/// `budget` counts the memory of all that is read.
+[[nodiscard]] Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
+                                                 const Bytecode& bytecode,
+                                                 const Project& project,
+                                                 FileBudget& budget);
 
 } // namespace lsys

@@ -5,11 +5,10 @@
 #include <cstdint>
 #include <png.h>
 #include <string>
+#include <string_view>
 #include <vector>
 
 using lsys::GreyMap;
-using lsys::read_grey_png;
-using lsys::read_grey_raw;
 
 namespace {
 
@@ -47,6 +46,16 @@ std::string png_of(png_uint_32 columns,
     png_write_end(png, nullptr);
     png_destroy_write_struct(&png, &info);
     return bytes;
+}
+
+constexpr std::uint64_t kPlenty = std::uint64_t{1} << 40; // bytes
+
+lsys::Result<GreyMap> read_grey_png(std::string_view bytes) {
+    return lsys::read_grey_png(bytes, kPlenty);
+}
+lsys::Result<GreyMap>
+read_grey_raw(std::string_view bytes, std::uint32_t columns, std::uint32_t rows) {
+    return lsys::read_grey_raw(bytes, columns, rows, kPlenty);
 }
 
 std::vector<std::uint16_t> values_of(const GreyMap& map) {
@@ -140,4 +149,20 @@ TEST_CASE("raw samples are little-endian and of the given size") {
     CHECK(short_by_one.error().message == "1 by 2 samples of 16 bits are 4 bytes; there are 3");
     CHECK_FALSE(read_grey_raw("", 0, 0));
     CHECK_FALSE(read_grey_raw("", 0xFFFFFFFF, 0xFFFFFFFF));
+}
+
+TEST_CASE("a map that takes more memory than is left is refused before it is decoded") {
+    // 1,000 by 1,000 pixels of 2 bytes, as samples and as values, in a file of a few hundred bytes.
+    const std::string png =
+        png_of(1000, 1000, {1, PNG_COLOR_TYPE_GRAY}, std::vector<std::uint8_t>(125'000));
+    CHECK(png.size() < 2000);
+    CHECK(lsys::read_grey_png(png, 4'000'000).ok());
+    const auto refused = lsys::read_grey_png(png, 3'999'999);
+    REQUIRE(!refused.ok());
+    CHECK(refused.error().kind == lsys::ErrorKind::Limit);
+    CHECK(refused.error().message == "a map of 1000 by 1000 pixels (3.8 MiB) takes more than the "
+                                     "3.8 MiB that are left of the memory limit");
+    const std::string raw(20'000, '\0');
+    CHECK(lsys::read_grey_raw(raw, 100, 100, 20'000).ok());
+    CHECK(lsys::read_grey_raw(raw, 100, 100, 19'999).error().kind == lsys::ErrorKind::Limit);
 }

@@ -47,7 +47,3 @@ TEST_CASE("definitions are a name and a number") {
         CHECK(!parse_definition(text).ok());
     }
 }
-
-TEST_CASE("half of the memory is a sensible number") {
-    CHECK(half_of_memory() > (std::uint64_t{1} << 26));
-}

@@ -3,10 +3,16 @@
 
 #include <catch2/catch.hpp>
 
+#include <atomic>
+#include <fcntl.h>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
+#include <utility>
+#include <vector>
 
 using namespace lsys;
 using namespace lsys;
@@ -43,37 +49,37 @@ TEST_CASE("files are read whole, whatever they hold") {
     for (const std::size_t size : {0U, 4U, 1U << 20U, (3U << 20U) + 1U}) {
         bytes.resize(size, 'x');
         write_text(f.folder / "x", bytes);
-        const Result<std::string> read = read_file(f.folder / "x", kMany, f.console);
+        const Result<std::string> read = read_file(f.folder / "x", {kMany}, f.console);
         REQUIRE(read.ok());
         CHECK(read.value() == bytes);
     }
-    const Result<std::string> device = read_file("/dev/null", kMany, f.console);
+    const Result<std::string> device = read_file("/dev/null", {kMany}, f.console);
     REQUIRE(device.ok());
     CHECK(device.value().empty());
 }
 
 TEST_CASE("what cannot be read is named with its reason") {
     Fixture f;
-    CHECK(read_file(f.folder / "none", kMany, f.console).error().message ==
+    CHECK(read_file(f.folder / "none", {kMany}, f.console).error().message ==
           "cannot read `" + f.folder / "none" + "`: no such file or directory");
-    CHECK(read_file(f.folder.path().string(), kMany, f.console).error().message ==
+    CHECK(read_file(f.folder.path().string(), {kMany}, f.console).error().message ==
           "cannot read `" + f.folder.path().string() + "`: it is a directory");
     write_text(f.folder / "large", "12345");
-    CHECK(read_file(f.folder / "large", 4, f.console).error().message ==
+    CHECK(read_file(f.folder / "large", {4}, f.console).error().message ==
           "cannot read `" + f.folder / "large" +
               "`: it has more than 4 bytes, the most that can be read");
-    CHECK(read_file(f.folder / "large", 5, f.console).value() == "12345");
+    CHECK(read_file(f.folder / "large", {5}, f.console).value() == "12345");
     // Without an end, and without a size.
-    CHECK(!read_file("/dev/zero", 3'000'000, f.console).ok());
+    CHECK(!read_file("/dev/zero", {3'000'000}, f.console).ok());
 }
 
 TEST_CASE("standard input has the name -") {
     Fixture f;
     f.in.str(std::string(3'000'000, 'x'));
-    CHECK(read_file("-", kMany, f.console).value().size() == 3'000'000);
+    CHECK(read_file("-", {kMany}, f.console).value().size() == 3'000'000);
     Fixture too_long;
     too_long.in.str("12345");
-    CHECK(!read_file("-", 4, too_long.console).ok());
+    CHECK(!read_file("-", {4}, too_long.console).ok());
 }
 
 TEST_CASE("a written file appears when it is complete") {
@@ -113,6 +119,87 @@ TEST_CASE("a replaced file keeps its permissions, and a link stays a link") {
     ::umask(mask);
     REQUIRE(::stat((f.folder / "new").c_str(), &facts) == 0);
     CHECK((facts.st_mode & 0777U) == 0644);
+}
+
+TEST_CASE("writing never changes the umask of other threads") {
+    Fixture f;
+    const mode_t mask = ::umask(022);
+    std::atomic<bool> ends{false};
+    std::atomic<int> wrong{0};
+    std::thread other([&] {
+        const std::string name = f.folder / "other";
+        while (!ends) {
+            const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0666);
+            struct stat facts {};
+            wrong += ::fstat(descriptor, &facts) == 0 && (facts.st_mode & 0777U) == 0644 ? 0 : 1;
+            ::close(descriptor);
+            ::unlink(name.c_str());
+        }
+    });
+    for (int i = 0; i < 5000; ++i) {
+        REQUIRE(write_file(f.folder / "x", "", f.console).ok());
+    }
+    ends = true;
+    other.join();
+    ::umask(mask);
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("a file that must be new replaces none") {
+    Fixture f;
+    write_text(f.folder / "old", "first");
+    REQUIRE(::symlink("nowhere", (f.folder / "link").c_str()) == 0);
+    for (const char* name : {"old", "link"}) {
+        CHECK(Output::create(f.folder / name, f.console).error().message ==
+              "cannot write `" + f.folder / name + "`: file exists");
+    }
+    Result<Output> late = Output::create(f.folder / "late", f.console);
+    REQUIRE(late.ok());
+    write_text(f.folder / "late", "first"); // by another program
+    CHECK(late.value().commit().error().message ==
+          "cannot write `" + f.folder / "late" + "`: file exists");
+    CHECK(read_text(f.folder / "late") == "first");
+    Result<Output> output = Output::create(f.folder / "new", f.console);
+    REQUIRE(output.ok());
+    CHECK(output.value().write("text").ok());
+    CHECK(output.value().commit().ok());
+    CHECK(read_text(f.folder / "new") == "text");
+}
+
+TEST_CASE("files that belong together appear together") {
+    Fixture f;
+    write_text(f.folder / "old", "first");
+    std::vector<Output> outputs;
+    for (const char* name : {"new", "old", "-"}) {
+        Result<Output> output = Output::open(name[0] == '-' ? name : f.folder / name, f.console);
+        REQUIRE(output.ok());
+        CHECK(output.value().write("second").ok());
+        outputs.push_back(std::move(output.value()));
+    }
+    CHECK(read_text(f.folder / "old") == "first");
+    CHECK(commit_all(outputs).ok());
+    CHECK(read_text(f.folder / "new") == "second");
+    CHECK(read_text(f.folder / "old") == "second");
+    CHECK(f.out.str() == "second");
+    CHECK(f.file_count() == 2);
+}
+
+TEST_CASE("of files that belong together none appears if one cannot") {
+    Fixture f;
+    write_text(f.folder / "old", "first");
+    std::vector<Output> outputs;
+    for (const char* name : {"new", "old", "last"}) {
+        Result<Output> output = Output::open(f.folder / name, f.console);
+        REQUIRE(output.ok());
+        CHECK(output.value().write("second").ok());
+        outputs.push_back(std::move(output.value()));
+    }
+    std::filesystem::create_directory(f.folder / "last"); // by another program
+    CHECK(commit_all(outputs).error().message ==
+          "cannot write `" + f.folder / "last" + "`: is a directory");
+    outputs.clear();
+    CHECK(read_text(f.folder / "old") == "first");
+    CHECK(f.file_count() == 2); // it and the directory
 }
 
 TEST_CASE("what cannot be written is named with its reason, and leaves nothing") {

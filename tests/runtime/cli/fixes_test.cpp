@@ -28,7 +28,7 @@ struct Fixture {
         return {{file, begin, end}, std::move(replacement)};
     }
     std::string apply() {
-        const FileEdits edits = choose_edits(diagnostics, sources, fixed);
+        const FileEdits edits = choose_edits(diagnostics, sources, FixScope("a.lsys", {}), fixed);
         const auto found = edits.find("a.lsys");
         return apply_edits(sources.file(file).text(),
                            found == edits.end() ? std::vector<const Edit*>() : found->second);

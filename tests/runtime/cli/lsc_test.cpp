@@ -7,10 +7,15 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <new>
 #include <sstream>
 #include <streambuf>
 #include <string>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <vector>
 
 namespace {
@@ -147,4 +152,86 @@ TEST_CASE("check --fix writes the file once and as a whole") {
     const lsys::tests::LscRun again = lsys::tests::run_lsc({"check", folder / "a.lsys"}, "");
     CHECK(again.status == 0);
     CHECK(again.err == "");
+}
+
+TEST_CASE("check --fix leaves included files outside the folder of the grammar as they are") {
+    const ScratchFolder folder;
+    const std::string wrong = "#p : F(x) : * : F(x \u2212 1)\n";
+    const std::string right = "#p : F(x) : * : F(x - 1);\n";
+    std::filesystem::create_directories(folder / "home/parts");
+    std::filesystem::create_directories(folder / "homely");
+    write_text(folder / "home/a.lsys", "#n = 1;\n#w : F(3);\n#include \"parts/below.lsys\";\n"
+                                       "#include \"../homely/outside.lsys\";\n"
+                                       "#include \"../home/parts/../around.lsys\";\n"
+                                       "#include \"parts/link.lsys\";\n#include \"" +
+                                           folder / "absolute.lsys" + "\";\n");
+    for (const char* name : {"home/parts/below.lsys", "home/around.lsys", "homely/outside.lsys",
+                             "target.lsys", "absolute.lsys"}) {
+        write_text(folder / name, wrong);
+    }
+    std::filesystem::create_symlink(folder / "target.lsys", folder / "home/parts/link.lsys");
+    std::filesystem::create_symlink(folder / "home", folder / "way");
+
+    const auto fix = [&](const std::vector<std::string>& files) {
+        std::vector<std::string> arguments{"check", "--fix", "--message-format", "short"};
+        arguments.insert(arguments.end(), files.begin(), files.end());
+        return lsys::tests::run_lsc(arguments, "");
+    };
+    const lsys::tests::LscRun fixed = fix({folder / "way/a.lsys"});
+    CHECK(fixed.status == 1);
+    CHECK(read_text(folder / "home/parts/below.lsys") == right);
+    CHECK(read_text(folder / "home/around.lsys") == right);
+    for (const char* name : {"homely/outside.lsys", "target.lsys", "absolute.lsys"}) {
+        CHECK(read_text(folder / name) == wrong);
+    }
+    for (const char* name :
+         {"way/../homely/outside.lsys", "way/parts/link.lsys", "absolute.lsys"}) {
+        const std::string path = folder / name;
+        CHECK(fixed.err.find("lsc: `" + path +
+                             "` is left as it is: it lies outside the folder of `" +
+                             folder / "way/a.lsys" + "`\n") != std::string::npos);
+        CHECK(fixed.err.find(path + ":1:") != std::string::npos); // its mistakes are shown
+    }
+    // A file that is named is to be written.
+    CHECK(fix({folder / "home/a.lsys", folder / "absolute.lsys"}).status == 1);
+    CHECK(read_text(folder / "absolute.lsys") == right);
+    CHECK(read_text(folder / "target.lsys") == wrong);
+}
+
+TEST_CASE("check --fix writes all files of a grammar or none") {
+    const ScratchFolder folder;
+    std::filesystem::create_directories(folder / "closed");
+    const std::string first = "#n = 1\n#w : F(3);\n#include \"closed/b.lsys\";\n";
+    const std::string second = "#p : F(x) : * : F(x \u2212 1)\n";
+    write_text(folder / "a.lsys", first);
+    write_text(folder / "closed/b.lsys", second);
+    write_text(folder / "err", "");
+    for (const char* name : {"", "a.lsys", "closed", "closed/b.lsys", "err"}) {
+        REQUIRE(::chmod((folder / name).c_str(), 0777) == 0);
+    }
+    REQUIRE(::chmod((folder / "closed/b.lsys").c_str(), 0444) == 0);
+    const pid_t process = ::fork();
+    if (process == 0) { // permissions bind everyone but root
+        std::istringstream in;
+        std::ostringstream out;
+        std::ofstream err(folder / "err");
+        const int nobody = 65534;
+        const bool is_bound = ::geteuid() != 0 || (::setgid(nobody) == 0 && ::setuid(nobody) == 0);
+        const int status =
+            is_bound ? run({"check", "--fix", folder / "a.lsys"}, {in, out, err}) : 99;
+        err.close();
+        ::_exit(status);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(process, &status, 0) == process);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 2);
+    CHECK(read_text(folder / "err") ==
+          "lsc: error: cannot write `" + folder / "closed/b.lsys" + "`: permission denied\n" +
+              "lsc: help: `" + folder / "a.lsys" +
+              "` and the files that it includes are as they were: either all of them are written "
+              "or none\n");
+    CHECK(read_text(folder / "a.lsys") == first);
+    CHECK(read_text(folder / "closed/b.lsys") == second);
+    CHECK(file_count(folder) == 3);
 }

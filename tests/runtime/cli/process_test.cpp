@@ -1,16 +1,21 @@
-// The executable as a process: Ctrl-C, a full disk, a limit on memory.
+// The executable as a process: signals, standard streams that are closed, a full disk, limits on
+// memory and on the size of files.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
 
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <fcntl.h>
+#include <filesystem>
 #include <string>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -25,6 +30,10 @@ struct Child {
     std::string out = "/dev/null";
     std::string err = "/dev/null";
     rlim_t memory = RLIM_INFINITY;
+    std::string in = "/dev/null";
+    rlim_t file_size = RLIM_INFINITY;
+    int closed = -1;        // standard stream
+    int ignored_signal = 0; // as nohup(1) has it
 };
 
 pid_t start(const Child& child) {
@@ -37,11 +46,22 @@ pid_t start(const Child& child) {
     raw.push_back(nullptr);
     const pid_t process = ::fork();
     if (process == 0) {
+        ::dup2(::open(child.in.c_str(), O_RDONLY), STDIN_FILENO);
         ::dup2(::open(child.out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
         ::dup2(::open(child.err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
         if (child.memory != RLIM_INFINITY) {
             const rlimit limit{child.memory, child.memory};
             ::setrlimit(RLIMIT_AS, &limit);
+        }
+        if (child.file_size != RLIM_INFINITY) {
+            const rlimit limit{child.file_size, child.file_size};
+            ::setrlimit(RLIMIT_FSIZE, &limit);
+        }
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+            std::signal(signal, signal == child.ignored_signal ? SIG_IGN : SIG_DFL);
+        }
+        if (child.closed >= 0) {
+            ::close(child.closed);
         }
         ::execv(raw[0], raw.data());
         ::_exit(127);
@@ -49,18 +69,38 @@ pid_t start(const Child& child) {
     return process;
 }
 
+struct Ended {
+    int status = 0;    // exit status, or -signal
+    long peak_kib = 0; // of memory
+};
+
+Ended end_of(pid_t process) {
+    int status = 0;
+    rusage usage{};
+    ::wait4(process, &status, 0, &usage);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), usage.ru_maxrss};
+}
+
 /// The exit status, or -signal.
 int wait_for(pid_t process) {
-    int status = 0;
-    ::waitpid(process, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    return end_of(process).status;
 }
+
+std::size_t file_count(const ScratchFolder& folder) {
+    std::size_t count = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        ++count;
+    }
+    return count;
+}
+
+constexpr const char* kEndless = "#n = 4000000000; #w : F F F F; #p : F : * : F;";
 
 } // namespace
 
 TEST_CASE("Ctrl-C ends a derivation with 130 and no file") {
     const ScratchFolder folder;
-    write_text(folder / "a.lsys", "#n = 4000000000; #w : F F F F; #p : F : * : F;");
+    write_text(folder / "a.lsys", kEndless);
     for (const char* option : {"--all", "--count"}) {
         const Clock::time_point begin = Clock::now();
         const pid_t process =
@@ -74,11 +114,211 @@ TEST_CASE("Ctrl-C ends a derivation with 130 and no file") {
         CHECK(read_text(folder / "err") == "lsc: interrupted\n");
         CHECK(!std::filesystem::exists(folder / "out"));
     }
-    std::size_t files = 0;
-    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-        ++files;
+    CHECK(file_count(folder) == 2); // the grammar and the messages
+}
+
+TEST_CASE("SIGTERM and SIGHUP end a derivation like Ctrl-C, with 143 and 129") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", kEndless);
+    for (const auto& [signal, status] : {std::pair{SIGTERM, 143}, std::pair{SIGHUP, 129}}) {
+        for (const int times : {1, 2}) { // timeout(1) sends its signal twice
+            const Clock::time_point begin = Clock::now();
+            const pid_t process = start({{"dump", "-q", folder / "a.lsys", "-o", folder / "out"},
+                                         "/dev/null",
+                                         folder / "err"});
+            std::this_thread::sleep_for(std::chrono::milliseconds(300));
+            CHECK(file_count(folder) == 3); // the output that is not finished
+            for (int i = 0; i < times; ++i) {
+                REQUIRE(::kill(process, signal) == 0);
+            }
+            CHECK(wait_for(process) == status);
+            CHECK(Clock::now() - begin < std::chrono::seconds(10));
+            CHECK(read_text(folder / "err") == "lsc: interrupted\n");
+            CHECK(file_count(folder) == 2);
+        }
     }
-    CHECK(files == 2); // the grammar and the messages
+}
+
+TEST_CASE("a run that waits for a pipe ends soon after SIGTERM") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 12; #w : F; #p : F : * : F F F;");
+    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    // Open at both ends, so that a write into it waits for a reader.
+    const int both = ::open((folder / "pipe").c_str(), O_RDWR | O_CLOEXEC);
+    REQUIRE(both >= 0);
+    const Clock::time_point begin = Clock::now();
+    const pid_t process =
+        start({{"dump", folder / "a.lsys", "--save-state", folder / "state"}, folder / "pipe"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    CHECK(file_count(folder) == 3); // the state that is not finished
+    REQUIRE(::kill(process, SIGTERM) == 0);
+    CHECK(wait_for(process) == 143);
+    CHECK(Clock::now() - begin < std::chrono::seconds(10));
+    CHECK(file_count(folder) == 2);
+    ::close(both);
+}
+
+TEST_CASE("a second Ctrl-C does not wait, and leaves no file either") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 12; #w : F; #p : F : * : F F F;");
+    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    const int both = ::open((folder / "pipe").c_str(), O_RDWR | O_CLOEXEC);
+    REQUIRE(both >= 0);
+    const pid_t process =
+        start({{"dump", folder / "a.lsys", "--save-state", folder / "state"}, folder / "pipe"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    CHECK(file_count(folder) == 3);
+    for (int i = 0; i < 2; ++i) {
+        REQUIRE(::kill(process, SIGINT) == 0);
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    CHECK(wait_for(process) == -SIGINT);
+    CHECK(file_count(folder) == 2);
+    ::close(both);
+}
+
+TEST_CASE("a run under nohup outlives SIGHUP") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", kEndless);
+    Child child{{"dump", "-q", folder / "a.lsys", "-o", folder / "out"}};
+    child.ignored_signal = SIGHUP;
+    const pid_t process = start(child);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    REQUIRE(::kill(process, SIGHUP) == 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    int status = 0;
+    CHECK(::waitpid(process, &status, WNOHANG) == 0);
+    REQUIRE(::kill(process, SIGTERM) == 0);
+    CHECK(wait_for(process) == 143);
+}
+
+TEST_CASE("a standard stream that is closed is no file of the run") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 4; #w : F; #p : F : * : F + F;");
+    const lsys::tests::LscRun word = lsys::tests::run_lsc({"dump", folder / "a.lsys"}, "");
+    Child child{{"dump", "-v", folder / "a.lsys", "-o", folder / "out"}};
+    child.closed = STDERR_FILENO;
+    CHECK(wait_for(start(child)) == 0);
+    CHECK(read_text(folder / "out") == word.out);
+
+    child.arguments = {"dump", folder / "a.lsys", "--steps", "2", "--save-state", folder / "state"};
+    child.err = folder / "err";
+    child.closed = STDOUT_FILENO;
+    CHECK(wait_for(start(child)) == 2);
+    CHECK(read_text(folder / "err") == "lsc: error: cannot write standard output: it is closed\n");
+    CHECK(!std::filesystem::exists(folder / "state"));
+
+    child.arguments = {"check", folder / "a.lsys"}; // which prints nothing
+    CHECK(wait_for(start(child)) == 0);
+
+    child.arguments = {"check", "-"};
+    child.closed = STDIN_FILENO;
+    CHECK(wait_for(start(child)) == 2);
+    CHECK(read_text(folder / "err") == "lsc: error: cannot read `<stdin>`: it is closed\n");
+}
+
+TEST_CASE("every command reports that standard output is full") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 2; #w : F; #p : F : * : F [+F];");
+    std::filesystem::create_directories(folder / "systems");
+    write_text(folder / "systems/a.l", "a {\n angle 4\n axiom f\n f=f+f\n}\n");
+    const std::string a = folder / "a.lsys";
+    const std::vector<std::vector<std::string>> commands{
+        {"--help"},
+        {"--version"},
+        {"check", "--help"},
+        {"explain"},
+        {"explain", "look-alike"},
+        {"compile", a, "-o", "-"},
+        {"dump", a},
+        {"dump", a, "--all"},
+        {"dump", a, "--count"},
+        {"dump", a, "--stream"},
+        {"dump", a, "--origins"},
+        {"dump", a, "--save-state", "-", "-o", folder / "word"},
+        {"dump", a, "--stage", "tokens"},
+        {"dump", a, "--stage", "ast"},
+        {"dump", a, "--stage", "program"},
+        {"dump", a, "--stage", "bytecode"},
+        {"dump", a, "--stage", "skeleton"},
+        {"dump", a, "--stage", "mesh"},
+        {"export", a, "-o", "-", "--format", "ply"},
+        {"export", a, "-o", folder / "a.ply", "--stats"},
+        {"export", a, "-o", folder / "a.ply", "--stats", "--message-format", "json"},
+        {"forest", a, "--count", "3", "--stats"},
+        {"forest", a, "--count", "3", "--stats", "--message-format", "json"},
+        {"import", folder / "systems/a.l"},
+        {"import", "--all", folder / "systems", "-o", folder / "imported"},
+        {"import", folder / "systems/a.l", "-o", folder / "imported/"},
+        {"stats", a},
+        {"stats", a, "--message-format", "json"},
+        {"fmt", "-"},
+        {"check", "--fix", "-"},
+    };
+    for (const std::vector<std::string>& command : commands) {
+        std::string line;
+        for (const std::string& word : command) {
+            line += word + ' ';
+        }
+        CAPTURE(line);
+        Child child{command, "/dev/full", folder / "err"};
+        child.in = a;
+        CHECK(wait_for(start(child)) == 2);
+        CHECK(read_text(folder / "err")
+                  .find("cannot write standard output: no space left on "
+                        "device") != std::string::npos);
+    }
+}
+
+TEST_CASE("a limit on the size of files is an error that leaves no file") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 12; #w : F; #p : F : * : F F F;");
+    Child child{{"dump", folder / "a.lsys", "-o", folder / "word"}, "/dev/null", folder / "err"};
+    child.file_size = 100'000;
+    CHECK(wait_for(start(child)) == 2);
+    CHECK(read_text(folder / "err") ==
+          "lsc: error: cannot write `" + folder / "word" + "`: file too large\n");
+    CHECK(file_count(folder) == 2);
+}
+
+TEST_CASE("files that belong together are written all or not at all") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 6; #set names letters; #w : A; #object L LEAF;"
+                                  "#p : A : ~ 0.5 : F[+A][-A]/A L; #q : A : ~ 0.5 : F[+A]//A L;");
+    // The pictures fit, the forest and the plant that they belong to do not.
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"forest", folder / "a.lsys", "--count", "100"},
+          {"export", folder / "a.lsys", "-n", "8"}}) {
+        Child child{command, "/dev/null", folder / "err"};
+        child.arguments.insert(child.arguments.end(), {"-o", folder / "x.usda"});
+        child.file_size = 200'000;
+        CHECK(wait_for(start(child)) == 2);
+        CHECK(read_text(folder / "err") ==
+              "lsc: error: cannot write `" + folder / "x.usda" + "`: file too large\n");
+        CHECK(file_count(folder) == 2);
+        child.file_size = RLIM_INFINITY;
+        CHECK(wait_for(start(child)) == 0);
+        CHECK(file_count(folder) > 3);
+        for (const char* name : {"x.usda", "x.bark.png", "x.bark_normals.png", "x.leaf.png"}) {
+            std::filesystem::remove(folder / name);
+        }
+        CHECK(file_count(folder) == 2);
+    }
+}
+
+TEST_CASE("a series that ends early says which of its files are there") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 3; #w : F; #p : F : * : F [+F];");
+    Child child{{"forest", folder / "a.lsys", "--placement", "domination", "--count", "100",
+                 "--years", "40", "--frames", "10", "-o", folder / "x.json"},
+                "/dev/null",
+                folder / "err"};
+    std::filesystem::create_directory(folder / "x.0003.json");
+    CHECK(wait_for(start(child)) == 2);
+    CHECK(read_text(folder / "err")
+              .ends_with("lsc: error: cannot write `" + folder / "x.0003.json" +
+                         "`: is a directory\nlsc: 2 of 10 frames are complete, the last of them `" +
+                         folder / "x.0002.json" + "`\n"));
 }
 
 TEST_CASE("a full disk is told and ends with 2") {
@@ -113,5 +353,95 @@ TEST_CASE("a word that the system has no memory for ends with 3") {
                folder / "err",
                kLittle})) == 3);
     CHECK(read_text(folder / "err").find("memory") != std::string::npos);
+}
+
+TEST_CASE("a plant that the system has no memory for is not blamed on the limit") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 23; #w : F; #p : F : * : F F;");
+    constexpr rlim_t kLittle = rlim_t{400} << 20;
+    CHECK(wait_for(start({{"export", folder / "a.lsys", "--threads", "1", "--max-memory", "1T",
+                           "-o", folder / "a.stl"},
+                          "/dev/null",
+                          folder / "err",
+                          kLittle})) == 3);
+    CHECK(read_text(folder / "err") ==
+          "lsc: error: the system has no memory for the skeleton [limit-reached]\n"
+          "help: ask for fewer generations with `-n`\n");
+    CHECK(file_count(folder) == 2);
+}
+
+TEST_CASE("pictures and meshes of files are within the limit on memory") {
+    const ScratchFolder folder;
+    // The picture of 8192 by 8192 pixels has 8 KB as a file and 256 MiB in memory.
+    write_text(folder / "card.mtl",
+               "newmtl card\nmap_Kd " LSYS_SOURCE_DIR "/tests/ui/objects/parts/large.png\n");
+    write_text(folder / "card.obj", "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 0 2 0\n"
+                                    "vt 0 0\nvt 1 0\nvt 0.5 1\nf 1/1 2/2 3/3\n");
+    std::string objects;
+    std::string word;
+    for (char name = 'A'; name < 'M'; ++name) {
+        objects += std::string("#object ") + name + " \"card.obj\";\n";
+        word += std::string(" ") + name;
+    }
+    write_text(folder / "a.lsys", "#n = 1;\n" + objects + "#w :" + word + ";\n");
+    const auto run = [&](const char* limit, const char* output) {
+        return end_of(
+            start({{"export", "--max-memory", limit, folder / "a.lsys", "-o", folder / output},
+                   "/dev/null",
+                   folder / "err"}));
+    };
+    const Ended refused = run("50M", "a.glb");
+    CHECK(refused.status == 3);
+    CHECK(refused.peak_kib < 200L << 10);
+    CHECK(read_text(folder / "err").find("limit-reached") != std::string::npos);
+    // STL has no pictures, so this is what reading takes: one picture for all objects.
+    const Ended read = run("300M", "a.stl");
+    CHECK(read.status == 0);
+    CHECK(read.peak_kib < 450L << 10);
+}
+
+TEST_CASE("a pipe without an end is read as far as the limit on memory") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 1; #w : F;");
+    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    const std::vector<std::vector<std::string>> commands{
+        {"dump", "--from", folder / "pipe", folder / "a.lsys"},
+        {"dump", folder / "pipe", "--dialect", "lsys"},
+        {"forest", folder / "a.lsys", "--placement", "density-map", "--density-map",
+         folder / "pipe", "--check"}};
+    for (const std::vector<std::string>& command : commands) {
+        Child child{command, "/dev/null", folder / "err"};
+        child.arguments.insert(child.arguments.end(), {"--max-memory", "20M"});
+        const pid_t process = start(child);
+        const pid_t writer = ::fork();
+        if (writer == 0) {
+            const int pipe = ::open((folder / "pipe").c_str(), O_WRONLY | O_CLOEXEC);
+            const std::string piece(1 << 16, ' ');
+            while (::write(pipe, piece.data(), piece.size()) > 0) {
+            }
+            ::_exit(0);
+        }
+        const Ended ended = end_of(process);
+        ::kill(writer, SIGKILL);
+        static_cast<void>(end_of(writer));
+        CAPTURE(command.front(), read_text(folder / "err"));
+        CHECK(ended.status == 3);
+        CHECK(ended.peak_kib < 200L << 10);
+        CHECK(read_text(folder / "err").find("of the memory limit") != std::string::npos);
+    }
+}
+
+TEST_CASE("a pipe that a grammar names is not waited for") {
+    const ScratchFolder folder;
+    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    write_text(folder / "a.lsys", "#n = 1;\n#include \"pipe\";\n#w : F;\n");
+    write_text(folder / "b.lsys", "#n = 1;\n#object Q \"pipe\";\n#w : Q;\n");
+    CHECK(wait_for(start({{"check", folder / "a.lsys"}, "/dev/null", folder / "err"})) == 1);
+    CHECK(read_text(folder / "err").find("it is not a regular file") != std::string::npos);
+    CHECK(wait_for(start({{"export", folder / "b.lsys", "-o", folder / "b.glb"},
+                          "/dev/null",
+                          folder / "err"})) == 2);
+    CHECK(read_text(folder / "err") ==
+          "lsc: error: cannot read `" + folder / "pipe" + "`: it is not a regular file\n");
 }
 #endif

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,10 +13,12 @@ using namespace lsys;
 
 namespace {
 
+constexpr std::uint64_t kPlenty = std::uint64_t{1} << 40; // bytes
+
 const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 UserMesh read(const std::string& text) {
-    Result<UserMesh> result = read_obj(text);
+    Result<UserMesh> result = read_obj(text, kPlenty);
     INFO((result.ok() ? "" : result.error().message));
     REQUIRE(result.ok());
     UserMesh mesh = std::move(result.value());
@@ -31,7 +35,7 @@ UserMesh read(const std::string& text) {
 }
 
 std::string message(const std::string& text) {
-    const Result<UserMesh> result = read_obj(text);
+    const Result<UserMesh> result = read_obj(text, kPlenty);
     return result.ok() ? "read" : result.error().message;
 }
 
@@ -163,4 +167,44 @@ TEST_CASE("hostile OBJ text ends in an error or a mesh") {
         face += " 3 1/" + std::to_string(i);
     }
     CHECK(read(many + face).positions.size() == 100'002);
+}
+
+TEST_CASE("an OBJ of any content uses no more memory than it may") {
+    constexpr std::size_t kCount = 20'000;
+    const auto repeated = [](const std::function<std::string(std::size_t)>& line) {
+        std::string text = kSquare;
+        for (std::size_t i = 0; i < kCount; ++i) {
+            text += line(i);
+        }
+        return text + "f 1 2 3\n";
+    };
+    const std::string fan = [] {
+        std::string text = kSquare + "f";
+        for (std::size_t i = 0; i < kCount; ++i) {
+            text += " 1 2 3";
+        }
+        return text + "\n";
+    }();
+    const std::vector<std::string> texts{
+        repeated([](std::size_t) { return std::string("v 0 0 0\n"); }),
+        repeated([](std::size_t) { return std::string("vn 0 0 1\n"); }),
+        repeated([](std::size_t) { return std::string("vt 0\n"); }),
+        repeated([](std::size_t) { return std::string("f 1 2 3\n"); }),
+        repeated([](std::size_t) { return std::string("v 1 2 9\nf -1 2 3\n"); }),
+        repeated([](std::size_t i) { return "mtllib " + std::to_string(i) + "\n"; }),
+        repeated([](std::size_t i) { return "usemtl " + std::to_string(i) + "\nf 1 2 3\n"; }),
+        fan,
+    };
+    for (const std::string& text : texts) {
+        CAPTURE(text.substr(kSquare.size(), 20));
+        const Result<UserMesh> whole = read_obj(text, kPlenty);
+        REQUIRE(whole.ok());
+        CHECK(read_obj(text, 16'000'000).ok());
+        const Result<UserMesh> refused = read_obj(text, 100'000);
+        REQUIRE(!refused.ok());
+        CHECK(refused.error().kind == ErrorKind::Limit);
+        CHECK(refused.error().message ==
+              "its mesh takes more than the 97.7 KiB that are left of the memory limit");
+    }
+    CHECK(read(kSquare + "f 1 2 3\n").byte_count() < 1000);
 }

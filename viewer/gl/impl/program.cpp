@@ -1,5 +1,7 @@
 #include "viewer/gl/impl/program.h"
 
+#include "viewer/gl/impl/shader_log.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -52,28 +54,6 @@ Result<Done> assemble(const ShaderSource& source, std::string_view name, Assembl
     return Done{};
 }
 
-/// The driver's log, with the names of files for their numbers.
-std::string named(std::string log, const std::vector<std::string>& files) {
-    std::string result;
-    std::size_t at = 0;
-    while (at < log.size()) {
-        const std::size_t end = std::min(log.find('\n', at), log.size());
-        std::string row = log.substr(at, end - at);
-        at = end + 1;
-        // `0:12(3): error` of Mesa, `0(12) : error` of others.
-        const std::size_t digits = row.find_first_not_of("0123456789");
-        if (digits != 0 && digits != std::string::npos &&
-            (row[digits] == ':' || row[digits] == '(')) {
-            const std::size_t file = std::stoul(row.substr(0, digits));
-            if (file < files.size()) {
-                row = files[file] + row.substr(digits);
-            }
-        }
-        result += result.empty() ? row : "\n" + row;
-    }
-    return result;
-}
-
 struct ShaderKind {
     static void destroy(GLuint name) { glDeleteShader(name); }
 };
@@ -102,7 +82,7 @@ Result<ShaderObject> compile_shader(Device& device,
         glGetShaderInfoLog(shader.name(), static_cast<GLsizei>(log.size()), &written, log.data());
         return Error{fmt::format(
             "shader `{}`: {}", name,
-            named(std::string(log.data(), static_cast<std::size_t>(written)), assembly.files))};
+            name_files({log.data(), static_cast<std::size_t>(written)}, assembly.files))};
     }
     return shader;
 }

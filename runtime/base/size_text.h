@@ -1,0 +1,20 @@
+// Sizes in messages.
+#pragma once
+
+#include "grammar/base/result.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace lsys {
+
+/// 1,234,567
+[[nodiscard]] std::string grouped_digits(std::uint64_t value);
+/// 640 B, 1.5 KiB, 3.2 GiB
+[[nodiscard]] std::string byte_size_text(std::uint64_t bytes);
+/// `subject`, such as "its mesh", needs more memory than the `left` bytes that may still be used
+/// for what is read from files; of ErrorKind::Limit.
+[[nodiscard]] Error memory_error(std::string_view subject, std::uint64_t left);
+
+} // namespace lsys

@@ -1,0 +1,54 @@
+#include "runtime/program/temporaries.h"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <unistd.h>
+
+namespace lsys {
+
+struct TemporaryName {
+    std::atomic<char*> path{nullptr}; // whoever exchanges it for null owns the text
+    TemporaryName* next = nullptr;
+};
+
+namespace {
+
+// Lists only grow, by names at their head, so that a handler can walk them at any time.
+std::atomic<TemporaryName*> first_name{nullptr};
+static_assert(std::atomic<char*>::is_always_lock_free);
+static_assert(std::atomic<TemporaryName*>::is_always_lock_free);
+
+} // namespace
+
+TemporaryName* remember_temporary(const std::string& path) {
+    auto text = std::make_unique<char[]>(path.size() + 1); // ends in 0
+    std::copy(path.begin(), path.end(), text.get());
+    for (TemporaryName* name = first_name; name != nullptr; name = name->next) {
+        char* empty = nullptr;
+        if (name->path.compare_exchange_strong(empty, text.get())) {
+            text.release();
+            return name;
+        }
+    }
+    auto* const name = new TemporaryName;
+    name->path = text.release();
+    name->next = first_name;
+    while (!first_name.compare_exchange_weak(name->next, name)) {
+    }
+    return name;
+}
+
+void forget_temporary(TemporaryName* name) {
+    const std::unique_ptr<char[]> text(name->path.exchange(nullptr));
+}
+
+void remove_temporaries() noexcept {
+    for (TemporaryName* name = first_name; name != nullptr; name = name->next) {
+        if (const char* const path = name->path.exchange(nullptr)) {
+            ::unlink(path);
+        }
+    }
+}
+
+} // namespace lsys

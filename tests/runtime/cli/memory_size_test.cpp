@@ -1,0 +1,67 @@
+#include "runtime/cli/memory_size.h"
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+using namespace lsys::lsc;
+using lsys::tests::ScratchFolder;
+using lsys::tests::write_text;
+
+namespace {
+
+constexpr std::uint64_t kNone = ~std::uint64_t{0};
+
+struct Root : ScratchFolder {
+    void put(const std::string& path, const std::string& text) const {
+        const std::filesystem::path file = this->path() / path;
+        std::filesystem::create_directories(file.parent_path());
+        write_text(file, text);
+    }
+};
+
+} // namespace
+
+TEST_CASE("a machine without limits of cgroups has its physical memory") {
+    const Root root;
+    CHECK(cgroup_memory(root.path()) == kNone);
+    root.put("proc/self/cgroup", "0::/user.slice\n");
+    CHECK(cgroup_memory(root.path()) == kNone);
+    root.put("sys/fs/cgroup/user.slice/memory.max", "max\n");
+    CHECK(cgroup_memory(root.path()) == kNone);
+    CHECK(half_of_memory() > (std::uint64_t{1} << 26));
+}
+
+TEST_CASE("of the limits of cgroup v2 the least counts") {
+    const Root root;
+    root.put("proc/self/cgroup", "0::/a/b\n");
+    root.put("sys/fs/cgroup/a/b/memory.max", "3000000000\n");
+    CHECK(cgroup_memory(root.path()) == 3'000'000'000);
+    root.put("sys/fs/cgroup/a/memory.max", "536870912\n"); // of the service above
+    CHECK(cgroup_memory(root.path()) == 536'870'912);
+    root.put("sys/fs/cgroup/memory.max", "max\n");
+    CHECK(cgroup_memory(root.path()) == 536'870'912);
+}
+
+TEST_CASE("a container sees its own group as the topmost one") {
+    const Root root;
+    root.put("proc/self/cgroup", "0::/\n");
+    root.put("sys/fs/cgroup/memory.max", "268435456\n");
+    CHECK(cgroup_memory(root.path()) == 268'435'456);
+    root.put("proc/self/cgroup", "0::/../outside\n");
+    CHECK(cgroup_memory(root.path()) == 268'435'456);
+}
+
+TEST_CASE("limits of cgroup v1 count, those of the whole container too") {
+    const Root root;
+    root.put("proc/self/cgroup", "12:pids:/x\n11:cpuset,memory:/docker/1f\n1:name=systemd:/x\n");
+    root.put("sys/fs/cgroup/memory/memory.limit_in_bytes", "134217728\n"); // as mounted inside
+    CHECK(cgroup_memory(root.path()) == 134'217'728);
+    root.put("sys/fs/cgroup/memory/docker/1f/memory.limit_in_bytes", "67108864\n");
+    CHECK(cgroup_memory(root.path()) == 67'108'864);
+    root.put("sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n"); // none
+    CHECK(cgroup_memory(root.path()) == 67'108'864);
+}
