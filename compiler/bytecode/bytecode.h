@@ -49,6 +49,7 @@ template <>
 struct EnumCount<Opcode> {
     enum Enumerator : std::size_t {
 #define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, meaning) identifier,
+#include "compiler/bytecode/opcodes.def"
 #undef LSYS_OPCODE
         kCount
     };
@@ -73,6 +74,7 @@ template <>
 struct EnumCount<TurtleOperation> {
     enum Enumerator : std::size_t {
 #define LSYS_TURTLE(identifier, name, draws) identifier,
+#include "compiler/bytecode/turtle_operations.def"
 #undef LSYS_TURTLE
         kCount
     };

@@ -1,7 +1,6 @@
 #include "compiler/bytecode/module_file.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/fixes.h"
-#include "runtime/cli/tell.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"

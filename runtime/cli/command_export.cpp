@@ -109,7 +109,7 @@ public:
             return told;
         }
         if (const Result<Done> finished = output.value().finish(); !finished) {
-            return fail(finished.error(), console_);
+            return report_error(finished.error(), console_);
         }
         outputs_.push_back(std::move(output.value()));
         return told;

@@ -216,8 +216,8 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     const auto put = [&](const ByteSink& sink) {
         return tell(export_forest(scene, run.target.forest, form, info, sink), run);
     };
-    const Status status = add_output(run, path, put, outputs);
-    return status == Status::Fine ? show_outputs(outputs, run.console) : status;
+    const ExitStatus status = add_output(run, path, put, outputs);
+    return status == ExitStatus::Ok ? show_outputs(outputs, run.console) : status;
 }
 
 ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& path) {

@@ -1,9 +1,9 @@
 #include "grammar/format/format.h"
 #include "runtime/cli/commands.h"
-#include "runtime/program/memory_size.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
+#include "runtime/program/memory_size.h"
 
 #include <fmt/format.h>
 

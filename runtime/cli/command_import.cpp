@@ -116,24 +116,24 @@ std::string new_path(const std::string& stem, FolderImport& import) {
 }
 
 /// Writes a file whose name nobody has given, so one that is there stays unless --force is given.
-Status write_named(const std::string& path, const std::string& text, const FolderImport& import) {
+ExitStatus write_named(const std::string& path, const std::string& text, const FolderImport& import) {
     if (import.command.force) {
         return write_imported(path, text, import.console);
     }
     std::error_code ignored;
     if (fs::exists(fs::symlink_status(path, ignored))) {
-        return fail(Error{fmt::format("`{}` is there already; --force replaces it", path)},
+        return report_error(Error{fmt::format("`{}` is there already; --force replaces it", path)},
                     import.console);
     }
     Result<Output> output = Output::create(path, import.console);
     if (!output) {
-        return fail(output.error(), import.console);
+        return report_error(output.error(), import.console);
     }
     Result<Done> done = output.value().write(text);
     if (done) {
         done = output.value().commit();
     }
-    return done ? Status::Fine : fail(done.error(), import.console);
+    return done ? ExitStatus::Ok : report_error(done.error(), import.console);
 }
 
 /// Imports one system to `stem`.lsys and prints a line about it.

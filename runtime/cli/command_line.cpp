@@ -2,8 +2,8 @@
 
 #include "grammar/base/diagnostic.h"
 #include "grammar/dialects/dialect.h"
-#include "runtime/program/memory_size.h"
 #include "runtime/program/arguments.h"
+#include "runtime/program/memory_size.h"
 #include "runtime/program/option_parsers.h"
 #include "runtime/turtle/turtle.h"
 

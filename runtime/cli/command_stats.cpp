@@ -1,13 +1,12 @@
 #include "compiler/growth/growth.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/derivation_report.h"
-#include "runtime/program/memory_size.h"
-#include "runtime/cli/tell.h"
 #include "runtime/derive/derive.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/program/arguments.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
+#include "runtime/program/memory_size.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -50,7 +50,7 @@ Result<Done> plan_from_state(const DumpCommand& command,
                              const Console& console,
                              Plan& plan) {
     Result<std::string> bytes =
-        read_file(command.from, {~std::uint64_t{0}, command.max_bytes}, console);
+        read_file(command.from, {~std::uint64_t{0}, command.run.limits.max_bytes}, console);
     if (!bytes) {
         return bytes.error();
     }

@@ -20,7 +20,7 @@ namespace {
 
 // Shells show a process that a signal ended as 128 and the signal's number.
 constexpr int kSignalStatus = 128;
-static_assert(kSignalStatus + SIGINT == static_cast<int>(Status::Interrupted));
+static_assert(kSignalStatus + SIGINT == static_cast<int>(ExitStatus::Interrupted));
 
 // Seconds to end in after SIGTERM or SIGHUP; a run that waits for a pipe does not see them.
 constexpr unsigned kPatience = 2;
@@ -80,7 +80,7 @@ void fill_standard_streams() {
         const int direction = descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY;
         if (::open("/dev/null", direction) != descriptor &&
             ::open("/", O_RDONLY | O_DIRECTORY) != descriptor) {
-            ::_exit(static_cast<int>(Status::Failure)); // nowhere to say why
+            ::_exit(static_cast<int>(ExitStatus::Failure)); // nowhere to say why
         }
     }
 }
@@ -103,7 +103,7 @@ int run_process(int argc,
     const std::vector<std::string> arguments(argv + 1, argv + argc);
     const int status = run(arguments, {std::cin, std::cout, std::cerr,
                                        is_capable_terminal(STDERR_FILENO), &interrupted, program});
-    const bool was_ended = status == static_cast<int>(Status::Interrupted) && first_signal != 0;
+    const bool was_ended = status == static_cast<int>(ExitStatus::Interrupted) && first_signal != 0;
     return was_ended ? kSignalStatus + first_signal : status;
 }
 

@@ -1,4 +1,4 @@
-#include "runtime/cli/memory_size.h"
+#include "runtime/program/memory_size.h"
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
