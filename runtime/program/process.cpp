@@ -71,15 +71,14 @@ void handle_signals() {
 }
 
 /// Opens the standard streams that are closed, or the first files of the run would take their
-/// numbers and get what is meant for them. In the opposite direction, so that using them fails.
+/// numbers and get what is meant for them. What they become can be neither read nor written, nor
+/// opened anew as /dev/stdout: /dev/null would swallow the output.
 void fill_standard_streams() {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) {
             continue;
         }
-        const int direction = descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY;
-        if (::open("/dev/null", direction) != descriptor &&
-            ::open("/", O_RDONLY | O_DIRECTORY) != descriptor) {
+        if (::open("/", O_PATH | O_DIRECTORY) != descriptor) {
             ::_exit(static_cast<int>(ExitStatus::Failure)); // nowhere to say why
         }
     }

@@ -114,6 +114,10 @@ TEST_CASE("a replaced file keeps its permissions, and a link stays a link") {
     struct stat facts {};
     REQUIRE(::stat((f.folder / "x").c_str(), &facts) == 0);
     CHECK((facts.st_mode & 0777U) == 0640);
+    REQUIRE(::chmod((f.folder / "x").c_str(), 04755) == 0); // other bytes, so other rights
+    CHECK(write_file(f.folder / "x", "third", f.console).ok());
+    REQUIRE(::stat((f.folder / "x").c_str(), &facts) == 0);
+    CHECK((facts.st_mode & 07777U) == 0755);
     const mode_t mask = ::umask(022);
     CHECK(write_file(f.folder / "new", "", f.console).ok());
     ::umask(mask);

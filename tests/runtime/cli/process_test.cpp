@@ -208,6 +208,9 @@ TEST_CASE("a standard stream that is closed is no file of the run") {
     CHECK(read_text(folder / "err") == "lsc: error: cannot write standard output: it is closed\n");
     CHECK(!std::filesystem::exists(folder / "state"));
 
+    child.arguments = {"dump", folder / "a.lsys", "-o", "/dev/stdout"};
+    CHECK(wait_for(start(child)) == 2);
+
     child.arguments = {"check", folder / "a.lsys"}; // which prints nothing
     CHECK(wait_for(start(child)) == 0);
 
@@ -215,6 +218,8 @@ TEST_CASE("a standard stream that is closed is no file of the run") {
     child.closed = STDIN_FILENO;
     CHECK(wait_for(start(child)) == 2);
     CHECK(read_text(folder / "err") == "lsc: error: cannot read `<stdin>`: it is closed\n");
+    child.arguments = {"check", "/dev/stdin"};
+    CHECK(wait_for(start(child)) == 2);
 }
 
 TEST_CASE("every command reports that standard output is full") {
