@@ -10,6 +10,13 @@
 
 namespace lsys {
 
+namespace {
+
+/// The random numbers of one choice: each production of the module has them all as parameters.
+constexpr int kMostDraws = 1000;
+
+} // namespace
+
 CpfgWriter::CpfgWriter(CpfgSession& session, Translation& out)
     : session_(session), context_(session.context), out_(out), header_{out.file(), 0, 1},
       expressions_(session, view_.curves) {}
@@ -102,6 +109,11 @@ void CpfgWriter::bind_group(const std::vector<std::size_t>& members) {
             return;
         }
         draws += bindings_[i].draws;
+        if (draws > kMostDraws) {
+            session_.unable(each.span, "more than 1000 random numbers, here and before, that the "
+                                       "choice among the productions of one module needs");
+            return;
+        }
     }
     draws += chosen(session_.productions[members.front()]) ? 1 : 0;
     int first = 0;
@@ -445,6 +457,12 @@ void CpfgWriter::weighted(const CpfgProduction& each, std::size_t index) {
             other.weight < 0 ? "1" : in_cpfg_parentheses(expressions_.term(other.weight).text);
         part += condition.empty() ? "" : " * (" + condition + " != 0)";
         all += (all.empty() ? "" : " + ") + part;
+        if (all.size() > kLongestCpfgTerm) { // it stands in the conditions of all of them
+            session_.unable(session_.productions[groups_.at(index).front()].span,
+                            "so many productions for one module that the sum of their weights is "
+                            "too long for one expression");
+            return;
+        }
         if (until.empty() || !last) {
             until = all;
         }

@@ -51,6 +51,9 @@ void PlainReader::replace_look_alike(std::uint32_t begin,
                                      std::string_view plain,
                                      std::string_view name) {
     map_.replace(begin, begin + point.length, plain);
+    if (diagnostics_ == nullptr) {
+        return;
+    }
     if (group_.count == 0 || group_.end != begin || group_.plain.empty() != plain.empty()) {
         report_group();
         group_ = {begin, begin, {}, {}, name, 0};
@@ -72,8 +75,7 @@ void PlainReader::replace_look_alike(std::uint32_t begin,
 }
 
 void PlainReader::report_group() {
-    if (group_.count != 0 && diagnostics_ != nullptr &&
-        diagnostics_->admits(DiagnosticCode::LookAlike)) {
+    if (group_.count != 0 && diagnostics_->admits(DiagnosticCode::LookAlike)) {
         const bool is_blank = group_.plain.find_first_not_of(' ') == std::string::npos;
         const std::string what =
             group_.code_points + (group_.name.empty() ? "" : " (" + std::string(group_.name) + ")");
@@ -110,6 +112,9 @@ bool PlainReader::is_word_at(std::uint32_t at) const {
 }
 
 void PlainReader::report_unknown(std::uint32_t begin, const CodePoint& point) {
+    if (diagnostics_ == nullptr) {
+        return;
+    }
     const bool is_letter = is_foreign_letter(point.value);
     std::uint32_t first = begin;
     std::uint32_t end = begin + point.length;
@@ -130,8 +135,7 @@ void PlainReader::report_unknown(std::uint32_t begin, const CodePoint& point) {
     }
     const bool same_word = begin < word_end_;
     word_end_ = std::max(word_end_, end);
-    if (!same_word && diagnostics_ != nullptr &&
-        diagnostics_->admits(DiagnosticCode::UnknownCharacter)) {
+    if (!same_word && diagnostics_->admits(DiagnosticCode::UnknownCharacter)) {
         const std::string text(text_.substr(first, end - first));
         Diagnostic& diagnostic =
             diagnostics_->add(DiagnosticCode::UnknownCharacter, {file_, first, end},

@@ -125,7 +125,11 @@ void make_plain(const ParseContext& context, Diagnostics& diagnostics, PlainText
             strays = all_beyond_ascii(valid);
             break;
         }
-        std::sort(strays.begin(), strays.end());
+        const auto found = strays.begin() + static_cast<std::ptrdiff_t>(known);
+        if (!std::is_sorted(found, strays.end())) {
+            std::sort(found, strays.end());
+        }
+        std::inplace_merge(strays.begin(), found, strays.end());
         strays.erase(std::unique(strays.begin(), strays.end(),
                                  [](const StrayCharacter& a, const StrayCharacter& b) {
                                      return a.begin == b.begin;

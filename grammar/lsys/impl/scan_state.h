@@ -10,6 +10,7 @@
 #include "grammar/ast/ast_builder.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace lsys {
@@ -77,6 +78,7 @@ struct ScanState {
     bool value_before = false; // the last token ends a value
     bool name_before = false;  // the last token is a name in an expression
     std::uint32_t statement_begin = 0;
+    std::optional<std::uint32_t> colons; // of the statement, once counted
     std::uint32_t part_begin = 0;
     std::uint32_t comment_begin = 0;
     std::uint32_t next_statement = 0; // where a supplied `;` was found missing

@@ -68,6 +68,7 @@ void open_statement(ParseSession& session, Keyword keyword) {
     scan.keyword = keyword;
     scan.statement_open = true;
     scan.statement_begin = scan.begin;
+    scan.colons.reset();
     scan.skipping = false;
     session.failed = false;
     scan.semicolon_supplied = false;
@@ -75,6 +76,16 @@ void open_statement(ParseSession& session, Keyword keyword) {
     scan.open_braces = 0;
     scan.chain = 0;
     scan.depth = 0;
+}
+
+/// The `:` from the statement's begin to its end. Counted once: a statement may have any number of
+/// mistakes that ask for it.
+std::uint32_t colons_of_statement(ParseSession& session) {
+    ScanState& scan = session.scan;
+    if (!scan.colons) {
+        scan.colons = count_colons(session.scanned.text, scan.statement_begin);
+    }
+    return *scan.colons;
 }
 
 Token begin_parts(ParseSession& session, std::string_view word, char next) {
@@ -87,8 +98,7 @@ Token begin_parts(ParseSession& session, std::string_view word, char next) {
 /// `#word`, which is neither a keyword nor followed by `:`.
 Token unknown_statement(ParseSession& session, std::string_view word, char next) {
     ScanState& scan = session.scan;
-    const std::string_view text = session.scanned.text;
-    if (count_colons(text, scan.statement_begin) >= 2) {
+    if (colons_of_statement(session) >= 2) {
         return begin_parts(session, word, next); // a production; missing_opening() will tell
     }
     const std::optional<Keyword> meant = suggest_keyword(word);
@@ -114,9 +124,8 @@ Token unknown_statement(ParseSession& session, std::string_view word, char next)
 }
 
 /// `#axiom : ...;` has a `:` like a production, but only one.
-bool is_axiom_by_another_name(const ParseSession& session, std::string_view word) {
-    return is_synonym(word, Keyword::Axiom) &&
-           count_colons(session.scanned.text, session.scan.statement_begin) == 1;
+bool is_axiom_by_another_name(ParseSession& session, std::string_view word) {
+    return is_synonym(word, Keyword::Axiom) && colons_of_statement(session) == 1;
 }
 
 Token start(ParseSession& session, std::string_view word) {
@@ -476,7 +485,7 @@ Token lose_statement(ParseSession& session) {
 bool lacks_colon(ParseSession& session, std::string_view inserted) {
     ScanState& scan = session.scan;
     if ((scan.part != Part::Head && scan.part != Part::Condition) ||
-        count_colons(session.scanned.text, scan.statement_begin) >= 3) {
+        colons_of_statement(session) >= 3) {
         return false;
     }
     if (session.wants(DiagnosticCode::MissingColon)) {

@@ -1,6 +1,7 @@
 // Texts of translations, and places in the original.
 #include "grammar/ast/translation.h"
 #include "grammar/lsys/parse.h"
+#include "grammar/dialects/dialect.h"
 
 #include <catch2/catch.hpp>
 
@@ -117,4 +118,31 @@ TEST_CASE("modules of a translation keep within the file of their statement") {
     CHECK(spans(ast.axioms[0].modules) == std::vector{a, a, a});
     const SourceSpan c{other, 100, 101};
     CHECK(spans(ast.productions[0].successor) == std::vector{c});
+}
+
+TEST_CASE("a choice among productions of cpfg needs a bounded count of random numbers") {
+    // Each production of the module has the numbers of all as parameters.
+    const auto errors_of = [](int count, const std::string& weight) {
+        std::string text = "Lsystem: 1\nseed: 1\nderivation length: 1\nAxiom: A\n";
+        for (int i = 0; i < count; ++i) {
+            text += "A : ran(1) > 0.5 { x = ran(1); } --> B(x) : " + weight + "\n";
+        }
+        SourceMap sources;
+        Names names;
+        Diagnostics diagnostics;
+        const FileLoader load = [](const std::string&) -> Result<std::string> {
+            return Error{"no such file"};
+        };
+        const FileId root = sources.add("many.l", text + "endlsystem\n");
+        static_cast<void>(parse_dialect(root, Dialect::Cpfg, {sources, names, diagnostics, load}));
+        std::string messages;
+        for (const Diagnostic& diagnostic : diagnostics.all()) {
+            messages += diagnostic.message + "\n";
+        }
+        return messages;
+    };
+    CHECK(errors_of(20, "3") == "");
+    CHECK(errors_of(3000, "3").find("more than 1000 random numbers") != std::string::npos);
+    const std::string weight = "3" + std::string(200, '0');
+    CHECK(errors_of(300, weight).find("the sum of their weights is too long") != std::string::npos);
 }

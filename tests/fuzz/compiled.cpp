@@ -1,0 +1,61 @@
+#include "tests/fuzz/compiled.h"
+
+#include "compiler/bytecode/verify.h"
+#include "grammar/rendering/render_diagnostic.h"
+#include "runtime/derive/derive.h"
+#include "runtime/derive/word_text.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+CompiledText compile_text(std::string text, lsys::Dialect dialect, std::string_view system) {
+    lsys::SourceMap sources;
+    lsys::Names names;
+    lsys::Diagnostics diagnostics;
+    const lsys::FileLoader no_files = [](const std::string&) -> lsys::Result<std::string> {
+        return lsys::Error{"no such file"};
+    };
+    const lsys::FileId file = sources.add("fuzz", std::move(text));
+    CompiledText made;
+    lsys::Ast ast = lsys::parse_dialect(
+        file, dialect, {sources, names, diagnostics, no_files, false, system}, &made.translation);
+    lsys::CompileOutcome outcome =
+        lsys::compile(std::move(ast), names, sources, lsys::CompileOptions{}, diagnostics);
+    // Every message has places of its file.
+    diagnostics.sort_by_place();
+    for (const lsys::MessageFormat format :
+         {lsys::MessageFormat::Human, lsys::MessageFormat::Json}) {
+        std::string messages;
+        lsys::render_all(diagnostics, sources, {format, false, 50}, messages);
+    }
+    made.has_errors = diagnostics.has_errors();
+    made.bytecode = std::move(outcome.bytecode);
+    if (made.bytecode.has_value() == made.has_errors ||
+        (made.bytecode && lsys::verify(*made.bytecode).has_value())) {
+        std::abort();
+    }
+    return made;
+}
+
+std::string derived_text(const lsys::Bytecode& bytecode) {
+    lsys::DeriveOptions options;
+    options.generations = std::min<std::uint32_t>(bytecode.generations.value_or(3), 4);
+    options.threads = 1;
+    options.limits.max_modules = 20'000;
+    options.limits.max_bytes = 16U << 20;
+    lsys::Derivation derivation(bytecode, options);
+    lsys::DeriveStatus status = derivation.start();
+    if (status == lsys::DeriveStatus::Ok) {
+        status = derivation.run_to(options.generations);
+    }
+    std::string text = std::to_string(static_cast<int>(status)) + " ";
+    if (status == lsys::DeriveStatus::Ok) {
+        static_cast<void>(
+            lsys::WordPrinter(bytecode).print(derivation.word(), [&](std::string_view piece) {
+                text += piece;
+                return true;
+            }));
+    }
+    return text;
+}

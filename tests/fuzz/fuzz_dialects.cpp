@@ -1,0 +1,46 @@
+// Text of every other dialect to word. What `lsc import` would write is right .lsys and derives the
+// same word, or there is an error.
+#include "grammar/format/format.h"
+#include "tests/fuzz/compiled.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace {
+
+void try_system(const std::string& text, lsys::Dialect dialect, const std::string& system) {
+    const CompiledText original = compile_text(text, dialect, system);
+    if (!original.bytecode) {
+        return;
+    }
+    const CompiledText imported =
+        compile_text(lsys::format_text(original.translation), lsys::Dialect::Lsys, "");
+    if (!imported.bytecode ||
+        derived_text(*original.bytecode) != derived_text(*imported.bytecode)) {
+        std::abort();
+    }
+}
+
+} // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    constexpr std::size_t kMostSystems = 4;
+    const std::string text(data, data + size);
+    static_cast<void>(lsys::detect_dialect("fuzz", text));
+    for (const lsys::DialectRow& row : lsys::dialects()) {
+        if (row.dialect == lsys::Dialect::Lsys) {
+            continue;
+        }
+        std::vector<std::string> systems = lsys::systems_in(row.dialect, text);
+        systems.resize(std::min(systems.size(), kMostSystems));
+        try_system(text, row.dialect, "");
+        for (const std::string& system : systems) {
+            try_system(text, row.dialect, system);
+        }
+    }
+    return 0;
+}
