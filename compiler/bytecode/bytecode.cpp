@@ -42,6 +42,8 @@ struct Ignored {
     void truth(const bool& /*value*/) {}
     template <typename Enum>
     void tag(const Enum& /*value*/) {}
+    template <typename Id>
+    void id(const Id& /*value*/) {}
     void text(const std::string& /*value*/) {}
     void optional_number(const std::optional<std::uint32_t>& /*value*/) {}
     template <typename Row, typename Function>
