@@ -1,8 +1,8 @@
 // Text with characters beyond ASCII to word. The text is tried with a few of them put into it, at
 // places that only the text decides: typographic ones, letters, invisible ones and damaged UTF-8.
 // Nothing that is written without an error may keep one where it has a meaning.
-#include "grammar/format/format.h"
 #include "grammar/base/source.h"
+#include "grammar/format/format.h"
 #include "tests/fuzz/compiled.h"
 
 #include <array>

@@ -1,9 +1,9 @@
 #include "grammar/lsys/impl/plain_text.h"
 
 #include "grammar/base/utf8.h"
+#include "grammar/lsys/impl/look_alikes.h"
 #include "grammar/lsys/impl/plain_reader.h"
 #include "grammar/lsys/impl/scanning.h"
-#include "grammar/lsys/impl/look_alikes.h"
 
 #include <algorithm>
 #include <cstring>

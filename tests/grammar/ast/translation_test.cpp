@@ -1,7 +1,7 @@
 // Texts of translations, and places in the original.
 #include "grammar/ast/translation.h"
-#include "grammar/lsys/parse.h"
 #include "grammar/dialects/dialect.h"
+#include "grammar/lsys/parse.h"
 
 #include <catch2/catch.hpp>
 
