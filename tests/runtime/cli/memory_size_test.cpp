@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-using namespace lsys::lsc;
+using namespace lsys;
 using lsys::tests::ScratchFolder;
 using lsys::tests::write_text;
 
