@@ -12,6 +12,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lsys {
 
@@ -27,6 +28,8 @@ struct ParseContext {
     /// Of dialects whose program has bugs: they are kept.
     bool bug_compatible = false;
     std::string_view system{}; // of a file that holds several, the one that is read
+    /// Collects the place of every statement, of those with errors too; may be null.
+    std::vector<SourceSpan>* statements = nullptr;
 };
 
 /// Parses the .lsys file `root` and, in place, the files it includes. Always yields an Ast; after
