@@ -13,12 +13,16 @@ namespace lsys::lsc {
 namespace {
 
 Status check_text(const std::string& path,
-                  GrammarText text,
+                  const GrammarText& text,
                   const CheckCommand& command,
                   const Console& console) {
     Grammar grammar;
-    const Result<Done> compiled =
-        compile_text(path, std::move(text), command.grammar, make_loader(console), grammar);
+    Result<Done> compiled =
+        compile_text(path, text, command.grammar, make_loader(console), grammar);
+    if (compiled && command.messages.format == MessageFormat::Json) {
+        // Editors apply what is machine applicable.
+        compiled = offer_doubtful_fixes(path, text, command.grammar, console, grammar);
+    }
     const Status status = console.show(grammar.diagnostics, grammar.sources);
     if (!compiled) {
         console.error(compiled.error().message);
@@ -92,7 +96,7 @@ Status run_check(const CheckCommand& command, const Console& console) {
         } else if (command.fix) {
             status = worse(status, fix_file(path, text.value(), command, console));
         } else {
-            status = worse(status, check_text(path, std::move(text.value()), command, console));
+            status = worse(status, check_text(path, text.value(), command, console));
         }
     }
     return status;

@@ -206,7 +206,9 @@ void add_check(CLI::App& app, CheckCommand& command) {
     add_grammar(app, command.grammar);
     add_messages(app, command.messages);
     add_deny(app, command.messages);
-    app.footer("Exit status: 0 no errors, 1 errors in a grammar, 2 a file or the command line.\n"
+    app.footer("A repair is certain where nothing else can have been meant and its statement is\n"
+               "right afterwards. Others are shown as help.\n"
+               "Exit status: 0 no errors, 1 errors in a grammar, 2 a file or the command line.\n"
                "Example: lsc check --fix tree.lsys");
 }
 

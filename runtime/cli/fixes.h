@@ -1,5 +1,19 @@
-// `lsc check --fix`: applies the machine-applicable fixes of a grammar and of the files it
-// includes, in memory, until none is left.
+// `lsc check --fix`: applies the certain fixes of a grammar and of the files it includes, in
+// memory, until none is left. It never makes another grammar than the author meant:
+//
+// 1. A fix is certain (Fix::machine_applicable) where its diagnostic knows of no other repair.
+// 2. A statement with a syntax error that has no certain fix keeps all its errors
+//    (Diagnostics::offer_partial_fixes).
+// 3. Warnings wait until no error is left, since an error may be their cause.
+// 4. The fixes of a statement hold together: if it still has a syntax error after them, or an error
+//    that it had not before, all are taken back; where a bracket or comma is repaired, because of
+//    any error. But typographic characters are replaced in any
+//    case, one by one: the error of another character does not make them doubtful.
+// 5. A bracket or comma is repaired where no other repair is as good: each of them gives a
+//    statement that does not parse or reads the same, or a grammar with more warnings
+//    (other_repairs.h).
+//
+// What is not applied is offered: shown as help, and not machine applicable in JSON.
 #pragma once
 
 #include "grammar/result.h"
@@ -20,7 +34,8 @@ struct FixedGrammar {
     /// One line a fix: `tree.lsys:7:26: fixed: write A S(1) [code]`; the first kMaxFixLines.
     std::vector<std::string> lines;
     std::uint64_t fix_count = 0;
-    /// What the mended text compiles to, with the diagnostics that are left.
+    /// What the mended text compiles to, with the diagnostics that are left; their fixes are
+    /// offers.
     Grammar grammar;
 };
 inline constexpr std::size_t kMaxFixLines = 50;
@@ -32,15 +47,12 @@ inline constexpr std::size_t kMaxFixLines = 50;
                                     const Console& console,
                                     FixedGrammar& fixed);
 
-/// Chooses of `diagnostics` the first machine-applicable fix of each, leaving out those that touch
-/// one before; returns the edits of each file, by path and place, and counts and describes them in
-/// `fixed`.
-using FileEdits = std::map<std::string, std::vector<const Edit*>>;
-[[nodiscard]] FileEdits
-choose_edits(const Diagnostics& diagnostics, const SourceMap& sources, FixedGrammar& fixed);
-
-/// `text` with the edits applied; they are in order of place and do not overlap. A line feed of a
-/// replacement becomes CRLF where the text has CRLF.
-[[nodiscard]] std::string apply_edits(std::string_view text, const std::vector<const Edit*>& edits);
+/// Turns the fixes of `grammar`, which `text` was compiled to, that fix_text() does not apply into
+/// offers.
+[[nodiscard]] Result<Done> offer_doubtful_fixes(const std::string& path,
+                                                const GrammarText& text,
+                                                const GrammarOptions& options,
+                                                const Console& console,
+                                                Grammar& grammar);
 
 } // namespace lsys::lsc

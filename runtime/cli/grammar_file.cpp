@@ -148,8 +148,9 @@ Result<Done> compile_text(const std::string& path,
     };
     Ast ast = parse_dialect(root, text.dialect,
                             {grammar.sources, grammar.names, grammar.diagnostics, load_included,
-                             options.bug_compatible, options.system},
+                             options.bug_compatible, options.system, &grammar.statements},
                             &grammar.translation);
+    grammar.syntax_diagnostics = grammar.diagnostics.all().size();
     const bool foreign = text.dialect != Dialect::Lsys;
     if (foreign && grammar.diagnostics.has_errors()) {
         return Done{}; // nothing can be said of the rest

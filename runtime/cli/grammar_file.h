@@ -24,11 +24,14 @@ struct Grammar {
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
-    std::optional<Program> program;    // of a source without errors
-    std::optional<Bytecode> bytecode;  // without errors
-    std::vector<std::string> included; // what #include asked for, whether it could be read or not
-    std::string translation;           // .lsys text of a grammar of another dialect
-    bool is_module_file = false;       // read from a .lsb: `sources` is empty
+    std::optional<Program> program;     // of a source without errors
+    std::optional<Bytecode> bytecode;   // without errors
+    std::vector<std::string> included;  // what #include asked for, whether it could be read or not
+    std::vector<SourceSpan> statements; // of a source, with errors or without
+    /// The first diagnostics, before they are sorted, are those of the syntax.
+    std::size_t syntax_diagnostics = 0;
+    std::string translation;     // .lsys text of a grammar of another dialect
+    bool is_module_file = false; // read from a .lsb: `sources` is empty
 };
 
 /// Reads files for #include.
