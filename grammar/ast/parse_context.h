@@ -10,6 +10,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lsys {
 
@@ -25,6 +26,8 @@ struct ParseContext {
     /// Reproduce the bugs of the dialect's original program.
     bool bug_compatible = false;
     std::string_view system{}; // the one to read, of a file that holds several
+    /// Collects the place of every statement, of those with errors too; may be null.
+    std::vector<SourceSpan>* statements = nullptr;
 };
 
 } // namespace lsys

@@ -86,6 +86,17 @@ Diagnostic make_diagnostic(DiagnosticCode code, SourceSpan span, std::string mes
     return diagnostic;
 }
 
+bool has_certain_fix(const Diagnostic& diagnostic) {
+    return std::any_of(diagnostic.fixes.begin(), diagnostic.fixes.end(),
+                       [](const Fix& fix) { return fix.machine_applicable && !fix.edits.empty(); });
+}
+
+void offer_fixes(Diagnostic& diagnostic) {
+    for (Fix& fix : diagnostic.fixes) {
+        fix.machine_applicable = false;
+    }
+}
+
 Diagnostic& Diagnostics::add(Diagnostic diagnostic) {
     ++counts_[static_cast<std::size_t>(diagnostic.severity)];
     if (all_.size() >= kMaxStored) {
@@ -121,6 +132,22 @@ void Diagnostics::sort_by_place() {
         --counts_[static_cast<std::size_t>(dropped->severity)];
     }
     all_.erase(kept, all_.end());
+}
+
+void Diagnostics::offer_partial_fixes(std::size_t first) {
+    const auto begin = all_.begin() + static_cast<std::ptrdiff_t>(std::min(first, all_.size()));
+    const bool is_partial = std::any_of(begin, all_.end(), [](const Diagnostic& diagnostic) {
+        return diagnostic.severity == Severity::Error && !has_certain_fix(diagnostic);
+    });
+    if (is_partial) {
+        offer_fixes_from(first);
+    }
+}
+
+void Diagnostics::offer_fixes_from(std::size_t first) {
+    for (std::size_t i = first; i < all_.size(); ++i) {
+        offer_fixes(all_[i]);
+    }
 }
 
 void Diagnostics::drop_repairs(std::string_view language) {

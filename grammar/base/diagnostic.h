@@ -46,8 +46,9 @@ struct Edit {
     std::string replacement;
 };
 
-/// A repair. `lsc check --fix` applies those that are machine applicable: after it the message is
-/// gone and the author's intent is kept. The edits do not overlap and all belong together.
+/// A repair. It is machine applicable where nothing else can have been meant: `lsc check --fix`
+/// then applies it, under the conditions of runtime/cli/fixes.h. All others are offered: shown, for
+/// the author to decide. The edits do not overlap and all belong together.
 struct Fix {
     std::string title;
     std::vector<Edit> edits;
@@ -67,6 +68,11 @@ struct Diagnostic {
     std::vector<std::string> help;
     std::vector<Fix> fixes;
 };
+
+/// Whether one of the fixes of a diagnostic is machine applicable.
+[[nodiscard]] bool has_certain_fix(const Diagnostic& diagnostic);
+/// Leaves all fixes of a diagnostic as offers.
+void offer_fixes(Diagnostic& diagnostic);
 
 /// A diagnostic with its code's usual severity.
 [[nodiscard]] Diagnostic make_diagnostic(DiagnosticCode code, SourceSpan span, std::string message);
@@ -95,6 +101,20 @@ public:
     /// Sorts by file (in order of ids), place, then severity, keeping discovery order among equals,
     /// and drops exact repetitions.
     void sort_by_place();
+    /// Offers the fixes of all diagnostics stored from number `first` on if one of these is an
+    /// error without a certain fix: what is repaired in part is still wrong.
+    void offer_partial_fixes(std::size_t first);
+    /// Offers them in any case.
+    void offer_fixes_from(std::size_t first);
+    /// Offers the fixes of the diagnostics that `is_doubtful` holds for.
+    template <typename Predicate>
+    void offer_fixes_where(const Predicate& is_doubtful) {
+        for (Diagnostic& diagnostic : all_) {
+            if (is_doubtful(diagnostic)) {
+                offer_fixes(diagnostic);
+            }
+        }
+    }
     /// Forgets all repairs, and help that holds `language`: the text is of another language.
     void drop_repairs(std::string_view language);
     /// Turns every warning into an error (`--deny warnings`).

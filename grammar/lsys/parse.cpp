@@ -1,8 +1,10 @@
 #include "grammar/lsys/parse.h"
 
+#include "grammar/lsys/impl/lookahead.h"
 #include "grammar/lsys/impl/parse_session.h"
 #include "grammar/lsys/impl/plain_text.h"
 #include "grammar/lsys/impl/scanning.h"
+#include "grammar/lsys/impl/statement_ends.h"
 
 #include <algorithm>
 #include <utility>
@@ -32,15 +34,17 @@ void parse_file(FileId file, const ParseContext& context, Ast& ast, IncludeChain
 
 void ParseSession::end_statement(SourceSpan span, bool whole) {
     const bool is_kept = builder.finish_statement(span, whole);
-    if (is_kept && scan.semicolon_supplied && wants(DiagnosticCode::MissingSemicolon)) {
-        const SourceSpan place = supplied();
-        Diagnostic& diagnostic = context.diagnostics.add(
-            DiagnosticCode::MissingSemicolon, place, "`;` is missing at the end of a statement");
-        if (scan.draining != Drain::EndOfFile) {
-            diagnostic.labels.push_back({scanned.span(scan.next_statement, scan.next_statement + 1),
-                                         "the next statement begins here"});
-        }
-        diagnostic.fixes.push_back({"add `;`", {{place, ";"}}, true});
+    if (is_kept && scan.semicolon_supplied) {
+        lsys_grammar::report_missing_semicolon(*this);
+    }
+    if (is_commented_out(scanned.text, scan.statement_begin)) {
+        context.diagnostics.offer_fixes_from(scan.first_diagnostic);
+    } else {
+        context.diagnostics.offer_partial_fixes(scan.first_diagnostic);
+    }
+    if (context.statements != nullptr) {
+        const std::uint32_t begin = scanned.source_begin(scan.statement_begin);
+        context.statements->push_back({scanned.file, begin, std::max(begin, span.end)});
     }
     if (!is_kept || ast_.statements.back().kind != StatementKind::Include || includes == nullptr) {
         return;

@@ -14,6 +14,7 @@
 #include "grammar/lsys/impl/plain_text.h"
 #include "grammar/lsys/impl/scanning.h"
 #include "grammar/lsys/impl/statement_tokens.h"
+#include "grammar/lsys/impl/statement_ends.h"
 #include "lsys/parser.h"
 
 #define YY_DECL                                                                                    \
@@ -158,7 +159,13 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           BEGIN(LINE_COMMENT);
                         }
   "#"[ \t]*{IDENT}      {
-                          return start_statement(session, TEXT);
+                          if (is_hash_comment(session, TEXT)) {
+                              scan.comment_begin = scan.begin;
+                              scan.comment_return = INITIAL;
+                              BEGIN(LINE_COMMENT);
+                          } else {
+                              return start_statement(session, TEXT);
+                          }
                         }
   {IDENT}               {
                           return start_without_hash(session, TEXT);
@@ -202,8 +209,8 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           after_opening_colon(session);
                           return Token(Parser::token::TOK_COLON, span);
                         }
-  "="                   {
-                          return opening_equals(session);
+  [=,]                  {
+                          return opening_sign(session);
                         }
   {IDENT}               {
                           if (const auto missing = missing_opening(session)) {
@@ -218,7 +225,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           }
                           return Token(Parser::token::TOK_IDENTIFIER, session.builder.intern(TEXT), span);
                         }
-  [^:;=#A-Za-z_ \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF] {
+  [^:;=,#A-Za-z_ \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF] {
                           if (const auto missing = missing_opening(session)) {
                               SHORTEN(0);
                               return *missing;
@@ -254,6 +261,14 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           return unclosed_quote(session);
                         }
   "`"                   { return Token(Parser::token::TOK_OTHER, session.token()); }
+}
+<OBJECT_VALUE,SETTING>{
+  "//"                  {
+                          report_comment_in_statement(session);
+                          scan.comment_begin = scan.begin;
+                          scan.comment_return = YY_START;
+                          BEGIN(LINE_COMMENT);
+                        }
 }
 <OBJECT_NAME,OBJECT_VALUE>{
   ":"                   { return Token(Parser::token::TOK_COLON, session.token()); }
@@ -305,9 +320,24 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           scan.push(OpenBracket::Kind::Module);
                           return Token(Parser::token::TOK_OPEN, span);
                         }
-  ")"                   { report_extra_parenthesis(session); }
+  ")"+                  {
+                          switch (extra_parenthesis(session)) {
+                          case Stray::Module: {
+                              SHORTEN(1);
+                              const SourceSpan span = session.token();
+                              return Token(Parser::token::TOK_QUOTED, read_as_module(session, "]"), span);
+                          }
+                          case Stray::Lost: {
+                              return lose_statement(session);
+                          }
+                          default:
+                              break;
+                          }
+                        }
   ":"                   {
-                          return colon_after_modules(session);
+                          if (!is_doubled_colon(session)) {
+                              return colon_after_modules(session);
+                          }
                         }
   "<"                   {
                           if (scan.part == Part::Head) {
@@ -504,14 +534,20 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           }
                         }
   "//"                  {
-                          report_comment_in_expression(session);
+                          if (is_quotient(session.scanned.text, scan.end)) {
+                              report_quotient(session);
+                              OPERATOR(SLASH);
+                          }
+                          report_comment_in_statement(session);
                           scan.comment_begin = scan.begin;
                           scan.comment_return = YY_START;
                           BEGIN(LINE_COMMENT);
                         }
   "//*"                 { SHORTEN(1); OPERATOR(SLASH); }
   ":"                   {
-                          return colon_in_expression(session);
+                          if (!is_doubled_colon(session)) {
+                              return colon_in_expression(session);
+                          }
                         }
   [[\]$"'.?@\\`]        { scan.after_operator(); return Token(Parser::token::TOK_OTHER, session.token()); }
 }

@@ -15,14 +15,23 @@ namespace lsys::lsc {
 namespace {
 
 ExitStatus check_text(const std::string& path,
-                      GrammarText text,
+                      const GrammarText& text,
                       const CheckCommand& command,
                       const Console& console) {
+    const Project project = make_project(console, command.run);
     Result<CompiledText> compiled =
-        compile_text(path, std::move(text), command.grammar, command.run.limits.max_modules,
-                     make_loader(make_project(console, command.run), command.run.limits.max_bytes));
+        compile_text(path, text, command.grammar, project.limits.max_modules,
+                     make_loader(project, project.limits.max_bytes));
     if (!compiled) {
         return report_error(compiled.error(), console);
+    }
+    if (!compiled.value().definition_error && command.messages.format == MessageFormat::Json) {
+        // Editors apply what is machine applicable.
+        const Result<Done> offered = offer_doubtful_fixes(
+            path, text, command.grammar, FixScope(path, command.files), project, compiled.value());
+        if (!offered) {
+            return report_error(offered.error(), console);
+        }
     }
     Diagnostics& diagnostics = compiled.value().diagnostics;
     const ExitStatus status = console.show(diagnostics, *compiled.value().grammar.sources);
@@ -125,7 +134,7 @@ ExitStatus run_check(const CheckCommand& command, const Console& console) {
         } else if (command.fix) {
             status = worse(status, fix_file(path, text, command, console));
         } else {
-            status = worse(status, check_text(path, std::move(text), command, console));
+            status = worse(status, check_text(path, text, command, console));
         }
     }
     return status;

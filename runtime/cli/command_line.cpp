@@ -49,6 +49,8 @@ void add_check(CLI::App& app, CheckCommand& command) {
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer(
+        "A repair is certain where nothing else can have been meant and its statement is\n"
+        "right afterwards. Others are shown as help.\n"
         "--fix leaves a file that lies outside the folder of FILE as it is, symbolic links "
         "resolved, unless\nit is named here too; of a grammar and what it includes all files are "
         "written or none.\n"

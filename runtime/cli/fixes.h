@@ -1,16 +1,29 @@
-// `lsc check --fix`: applies the machine-applicable fixes of a grammar and of the files it
-// includes, in memory, until none is left.
+// `lsc check --fix`: applies the certain fixes of a grammar and of the files it includes, in
+// memory, until none is left. It never makes another grammar than the author meant:
+//
+// 1. A fix is certain (Fix::machine_applicable) where its diagnostic knows of no other repair.
+// 2. A statement with a syntax error that has no certain fix keeps all its errors
+//    (Diagnostics::offer_partial_fixes).
+// 3. Warnings wait until no error is left, since an error may be their cause.
+// 4. The fixes of a statement hold together: if it still has a syntax error after them, or an error
+//    that it had not before, all are taken back; where a bracket or comma is repaired, because of
+//    any error. But typographic characters are replaced in any
+//    case, one by one: the error of another character does not make them doubtful.
+// 5. A bracket or comma is repaired where no other repair is as good: each of them gives a
+//    statement that does not parse or reads the same, or a grammar with more warnings
+//    (other_repairs.h).
+//
+// What is not applied is offered: shown as help, and not machine applicable in JSON.
 #pragma once
 
 #include "grammar/base/result.h"
+#include "runtime/cli/fix_scope.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/project.h"
 
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <set>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -24,25 +37,11 @@ struct FixedGrammar {
     std::uint64_t fix_count = 0;
     /// Files outside the scope that have certain fixes left.
     std::set<std::string> left;
-    CompiledText compiled; // the mended text, with the diagnostics that are left
+    /// What the mended text compiles to, with the diagnostics that are left; their fixes are
+    /// offers.
+    CompiledText compiled;
 };
 inline constexpr std::size_t kMaxFixLines = 50;
-
-/// The files that may be written: those that the user named, and those in the folder of the grammar
-/// or below it. A grammar may include any file, which is not to be rewritten for that. Symbolic
-/// links and `..` are resolved.
-class FixScope {
-public:
-    /// `named`: the files of the command line, `path` one of them; `-` is in the current folder.
-    FixScope(const std::string& path, std::span<const std::string> named);
-    /// `path`: of a file that exists.
-    [[nodiscard]] bool contains(const std::string& path) const;
-
-private:
-    std::string root_; // as messages name it
-    std::filesystem::path folder_;
-    std::set<std::filesystem::path> named_;
-};
 
 /// Mends `text`, that of `path`, and the files that it includes as far as `scope` has them. A byte
 /// order mark and CRLF line ends stay.
@@ -53,17 +52,13 @@ private:
                                     const Project& project,
                                     FixedGrammar& fixed);
 
-/// Chooses of `diagnostics` the first machine-applicable fix of each, leaving out those that touch
-/// one before and those that `scope` does not allow; returns the edits of each file, by path and
-/// place, and counts and describes them in `fixed`.
-using FileEdits = std::map<std::string, std::vector<const Edit*>>;
-[[nodiscard]] FileEdits choose_edits(const Diagnostics& diagnostics,
-                                     const SourceMap& sources,
-                                     const FixScope& scope,
-                                     FixedGrammar& fixed);
-
-/// `text` with the edits applied; they are in order of place and do not overlap. A line feed of a
-/// replacement becomes CRLF where the text has CRLF.
-[[nodiscard]] std::string apply_edits(std::string_view text, const std::vector<const Edit*>& edits);
+/// Turns the fixes of `compiled`, which `text` was compiled to, that fix_text() does not apply into
+/// offers.
+[[nodiscard]] Result<Done> offer_doubtful_fixes(const std::string& path,
+                                                const GrammarText& text,
+                                                const GrammarOptions& options,
+                                                const FixScope& scope,
+                                                const Project& project,
+                                                CompiledText& compiled);
 
 } // namespace lsys::lsc

@@ -156,8 +156,9 @@ Result<CompiledText> compile_text(const std::string& path,
     const FileId root = grammar.sources->add(shown_path(path), std::move(text.bytes));
     Ast ast = parse_dialect(root, text.dialect,
                             {*grammar.sources, grammar.names, compiled.diagnostics, load,
-                             options.bug_compatible, options.system},
+                             options.bug_compatible, options.system, &compiled.statements},
                             &grammar.translation);
+    compiled.syntax_diagnostics = compiled.diagnostics.all().size();
     const bool foreign = text.dialect != Dialect::Lsys;
     if (foreign && compiled.diagnostics.has_errors()) {
         return compiled; // nothing can be said of the rest

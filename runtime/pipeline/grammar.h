@@ -51,6 +51,9 @@ struct Grammar {
 struct CompiledText {
     Grammar grammar;
     Diagnostics diagnostics;
+    std::vector<SourceSpan> statements; // places of all, of those with errors too
+    /// The first diagnostics, before they are sorted, are those of the syntax.
+    std::size_t syntax_diagnostics = 0;
     bool has_bytecode = false;             // there are no errors
     std::optional<Error> definition_error; // a -D of no constant
 };

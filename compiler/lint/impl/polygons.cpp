@@ -44,19 +44,36 @@ private:
         return program_.symbol(program_.modules[index].symbol).kind;
     }
 
-    /// Calls visit(symbol) for the modules of a word that stand in a polygon of it.
+    /// Calls visit(symbol) for the modules of a word that stand in a polygon of it. A `{` that is
+    /// never closed has none: it is an error, and what follows it says nothing more.
     template <typename Visit>
-    void for_each_inside(const ProgramWord& word, bool all, Visit&& visit) const {
-        bool open = all;
+    void for_each_inside(const ProgramWord& word, Visit&& visit) const {
+        std::optional<std::size_t> open;
         for (std::size_t i = word.first_module;
              i < std::size_t{word.first_module} + word.module_count; ++i) {
             if (kind(i) == SymbolKind::PolygonOpen) {
-                open = true;
-            } else if (kind(i) == SymbolKind::PolygonClose) {
-                open = all;
-            } else if (open) {
-                visit(program_.modules[i].symbol);
+                open = open.value_or(i);
+            } else if (kind(i) == SymbolKind::PolygonClose && open) {
+                for (std::size_t inner = *open + 1; inner < i; ++inner) {
+                    visit_module(inner, visit);
+                }
+                open.reset();
             }
+        }
+    }
+
+    template <typename Visit>
+    void for_each(const ProgramWord& word, Visit&& visit) const {
+        for (std::size_t i = word.first_module;
+             i < std::size_t{word.first_module} + word.module_count; ++i) {
+            visit_module(i, visit);
+        }
+    }
+
+    template <typename Visit>
+    void visit_module(std::size_t index, Visit&& visit) const {
+        if (kind(index) != SymbolKind::PolygonOpen && kind(index) != SymbolKind::PolygonClose) {
+            visit(program_.modules[index].symbol);
         }
     }
 
@@ -76,22 +93,23 @@ private:
                 work.push_back(symbol);
             }
         };
-        for_each_inside(program_.axiom, false, mark);
+        for_each_inside(program_.axiom, mark);
         for (const Production& production : program_.productions) {
-            for_each_inside(production.successor, false, mark);
+            for_each_inside(production.successor, mark);
         }
         while (!work.empty()) {
             const SymbolId symbol = work.back();
             work.pop_back();
             for (const std::uint32_t p : productions[static_cast<std::size_t>(symbol)]) {
-                for_each_inside(program_.productions[p].successor, true, mark);
+                for_each(program_.productions[p].successor, mark);
             }
         }
     }
 
     void check_word(const ProgramWord& word, const char* where, bool may_be_inside) {
         std::optional<std::size_t> open;
-        bool broken = false;        // one message a word
+        bool broken = false;        // one error per word
+        bool may_nest = false;      // one warning per word; hides no error
         std::uint32_t vertices = 0; // of the open polygon
         std::uint32_t moves = 0;
         bool may_grow = false; // what stands in it may become more
@@ -108,8 +126,8 @@ private:
                         {module_name_span(input_, word, *open), "this one is still open"});
                     diagnostic.help.emplace_back(
                         "close the first with `}` before the second begins");
-                } else if (!open && may_be_inside && !broken) {
-                    broken = true;
+                } else if (!open && may_be_inside && !broken && !may_nest) {
+                    may_nest = true;
                     Diagnostic diagnostic = make_diagnostic(
                         DiagnosticCode::NestedPolygon, module_name_span(input_, word, i),
                         "this polygon can begin within another one: the module that becomes it "
@@ -128,7 +146,7 @@ private:
                             fmt::format("`}}` ends no polygon of this {}", where));
                     diagnostic.help.push_back(
                         fmt::format("`{{` and `}}` balance in every {}", where));
-                } else if (open && !broken && !may_grow) {
+                } else if (open && !broken && !may_nest && !may_grow) {
                     check_size(word, *open, i, vertices, moves);
                 }
                 open.reset();

@@ -38,7 +38,10 @@ bool DeclarationResolver::check_bare(const ModuleView& module, const char* state
     Diagnostic& error = resolution_.diagnostics.add(
         DiagnosticCode::BadDeclaration, parentheses,
         fmt::format("`{}` is about modules with any number of parameters", statement));
-    error.fixes.push_back({"leave the parentheses out", {{parentheses, ""}}, true});
+    // Formals say nothing that is lost; a number does.
+    const bool has_formals =
+        resolution_.sources.text(parentheses).find_first_of("0123456789") == std::string_view::npos;
+    error.fixes.push_back({"leave the parentheses out", {{parentheses, ""}}, has_formals});
     return false;
 }
 

@@ -2,6 +2,8 @@
 
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
+#include "grammar/lsys/impl/bracket_search.h"
+#include "grammar/lsys/impl/lookahead.h"
 #include "grammar/lsys/impl/statement_tokens.h"
 
 #include <string>
@@ -23,6 +25,35 @@ void add_fix(Diagnostic& diagnostic, std::string title, SourceSpan span, std::st
 
 bool is_word_character(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');
+}
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+/// `1_000`: digits in groups, as other languages allow them.
+bool has_digit_groups(std::string_view text) {
+    const std::size_t group = text.find('_');
+    return group != std::string_view::npos && group > 0 && group + 1 < text.size() &&
+           is_digit(text[group - 1]) && is_digit(text[group + 1]);
+}
+
+/// Whether all groups have three digits, but for the first, which has no more.
+bool has_groups_of_three(std::string_view text) {
+    std::size_t digit_count = 0;
+    bool is_first = true;
+    for (std::size_t i = 0; i <= text.size(); ++i) {
+        if (i < text.size() && is_digit(text[i])) {
+            ++digit_count;
+        } else if (digit_count == 0 || digit_count > 3 || (!is_first && digit_count != 3) ||
+                   (i < text.size() && text[i] != '_')) {
+            return false;
+        } else {
+            is_first = false;
+            digit_count = 0;
+        }
+    }
+    return true;
 }
 
 } // namespace
@@ -49,6 +80,16 @@ void report_malformed_number(ParseSession& session, std::string_view text, Sourc
     if (rest == "f" || rest == "F") {
         add_fix(diagnostic, "numbers have no suffix; remove it",
                 {span.file, span.end - 1, span.end}, "");
+        // `2f` may be a product, `2.0f` is a number of C.
+        diagnostic.fixes.back().machine_applicable =
+            text.substr(0, length).find('.') != std::string_view::npos;
+    } else if (has_digit_groups(text)) {
+        std::string digits(text);
+        std::erase(digits, '_');
+        if (literal_length(digits) == digits.size()) {
+            add_fix(diagnostic, "digits stand without `_`", span, digits);
+            diagnostic.fixes.back().machine_applicable = has_groups_of_three(text);
+        }
     } else if (text.starts_with("0x") || text.starts_with("0X")) {
         diagnostic.help.emplace_back("there are no hexadecimal numbers");
     }
@@ -66,19 +107,67 @@ std::size_t number_before_name(std::string_view text) {
     const bool is_suffix = name == "f" || name == "F" || name == "e" || name == "E";
     const bool is_hexadecimal =
         text.substr(0, length) == "0" && (name[0] == 'x' || name[0] == 'X') && name.size() > 1;
+    const bool has_group = name.size() > 1 && name[0] == '_' && is_digit(name[1]);
     const bool has_exponent = text.substr(0, length).find_first_of("eE") != std::string_view::npos;
-    return is_suffix || is_hexadecimal || has_exponent ? 0 : length;
+    return is_suffix || is_hexadecimal || has_group || has_exponent ? 0 : length;
 }
 
 namespace {
 
+/// The word that ends at `end`, if it is one of a conditional expression of other languages.
+std::optional<TextRange> conditional_word(std::string_view text, std::uint32_t end) {
+    std::uint32_t begin = end;
+    while (begin > 0 && is_word_character(text[begin - 1])) {
+        --begin;
+    }
+    const std::string_view word = text.substr(begin, end - begin);
+    return word == "if" || word == "then" || word == "else" ? std::optional(TextRange{begin, end})
+                                                            : std::nullopt;
+}
+
+void report_conditional(ParseSession& session, TextRange word) {
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        Diagnostic& diagnostic = session.context.diagnostics.add(
+            DiagnosticCode::SyntaxError, session.scanned.span(word.begin, word.end),
+            "there is no conditional expression");
+        diagnostic.help.emplace_back("a comparison is 1 or 0 and can be a factor: "
+                                     "`(x > 2)*a + (x <= 2)*b`");
+    }
+}
+
+/// Whether only a comma can be missing between two values. Where more than one blank is left, an
+/// operator may have stood between two, and where the value is the same, it may stand there twice.
+bool lacks_comma(std::string_view text,
+                 std::uint32_t before_end,
+                 std::uint32_t begin,
+                 std::uint32_t end) {
+    const std::string_view gap = text.substr(before_end, begin - before_end);
+    const std::string_view value = text.substr(begin, end - begin);
+    const std::string_view before = text.substr(0, before_end);
+    return (gap == " " || gap.find('\n') != std::string_view::npos) &&
+           !(before.ends_with(value) &&
+             (before.size() == value.size() ||
+              !is_word_character(before[before.size() - value.size() - 1])));
+}
+
+bool is_number_end(char c) {
+    return is_digit(c) || c == '.';
+}
+
 Token between_values(ParseSession& session) {
     ScanState& scan = session.scan;
+    const bool had_name = scan.name_before;
     scan.after_operator();
     const SourceSpan place = session.supplied();
     const bool in_list = !scan.open.empty() && scan.open.back().kind != OpenBracket::Kind::Group;
     const std::string_view text = session.scanned.text;
     const bool adjacent = scan.begin == scan.last_end;
+    for (const std::uint32_t word_end : {scan.last_end, scan.end}) {
+        if (const std::optional<TextRange> word = conditional_word(text, word_end)) {
+            report_conditional(session, *word);
+            return lose_statement(session);
+        }
+    }
     if (!in_list && lacks_colon(session, "")) {
         return lose_statement(session);
     }
@@ -87,6 +176,8 @@ Token between_values(ParseSession& session) {
             Diagnostic& diagnostic = session.context.diagnostics.add(
                 DiagnosticCode::MissingComma, place, "two values without a `,` between them");
             add_fix(diagnostic, "add `,`", place, ",");
+            diagnostic.fixes.back().machine_applicable =
+                lacks_comma(text, scan.last_end, scan.begin, scan.end);
         }
         return Token(Parser::token::TOK_COMMA, place).as_supplied();
     }
@@ -95,7 +186,11 @@ Token between_values(ParseSession& session) {
         Diagnostic& diagnostic = session.context.diagnostics.add(
             DiagnosticCode::MissingOperator, place, "two values without an operator between them");
         if (adjacent) {
+            // `2x` and `2(x + 1)` are products; elsewhere any operator may be missing.
+            const bool is_product = !had_name && is_number_end(text[scan.last_end - 1]) &&
+                                    !is_digit(text[scan.begin]) && text[scan.begin] != '{';
             add_fix(diagnostic, "a product is written with `*`", place, "*");
+            diagnostic.fixes.back().machine_applicable = is_product;
         } else {
             std::uint32_t end = scan.end;
             while (end < text.size() && is_word_character(text[end])) {
@@ -129,17 +224,48 @@ bool begins_bounds(const ScanState& scan) {
            scan.open.empty();
 }
 
+namespace {
+
+/// A `)` or `}` that closes nothing, or that stands for the `)` of the innermost `(`.
+void report_closing(ParseSession& session, char character, bool is_doubled, bool for_parenthesis) {
+    const bool is_brace = character == '}';
+    const auto code = is_brace ? DiagnosticCode::BadRange : DiagnosticCode::ExtraParenthesis;
+    if (!session.wants(code)) {
+        return;
+    }
+    Diagnostic& diagnostic =
+        report(session, code, is_brace ? "`}` closes no `{`" : "`)` closes no `(`");
+    if (for_parenthesis) {
+        const std::uint32_t open = session.scan.open.back().begin;
+        diagnostic.labels.push_back(
+            {session.scanned.span(open, open + 1), "this `(` is still open"});
+        add_fix(diagnostic, "write `)`", diagnostic.span, ")");
+    } else if (is_doubled) {
+        add_fix(diagnostic, "remove it", diagnostic.span, "");
+    } else {
+        diagnostic.help.emplace_back(is_brace ? "write the `{` that it closes, or remove it"
+                                              : "write the `(` that it closes, or remove it");
+    }
+}
+
+} // namespace
+
 std::optional<Token> closing(ParseSession& session, char character) {
     ScanState& scan = session.scan;
     const bool is_brace = character == '}';
     if (scan.open.empty() || (is_brace && scan.open_braces == 0)) {
-        const auto code = is_brace ? DiagnosticCode::BadRange : DiagnosticCode::ExtraParenthesis;
-        if (session.wants(code)) {
-            Diagnostic& diagnostic =
-                report(session, code, is_brace ? "`}` closes no `{`" : "`)` closes no `(`");
-            add_fix(diagnostic, "remove it", diagnostic.span, "");
+        const std::string_view text = session.scanned.text;
+        const bool is_doubled = character_before(text, scan.begin) == character;
+        const bool for_parenthesis =
+            !scan.open.empty() && !is_doubled && next_character(text, scan.end) != ')';
+        report_closing(session, character, is_doubled, for_parenthesis);
+        if (!for_parenthesis) {
+            return std::nullopt;
         }
-        return std::nullopt;
+        const SourceSpan span = session.token();
+        return Token(scan.pop() == OpenBracket::Kind::Module ? Parser::token::TOK_CLOSE
+                                                             : Parser::token::TOK_RPAREN,
+                     span);
     }
     if (is_brace == (scan.open.back().kind == OpenBracket::Kind::Brace)) {
         const SourceSpan span = session.token();
@@ -219,14 +345,6 @@ void report_assignment(ParseSession& session) {
         Diagnostic& diagnostic = report(session, DiagnosticCode::AssignmentInExpression,
                                         "`=` compares nothing: it only stands in `#n = ...;`");
         add_fix(diagnostic, "compare with `==`", diagnostic.span, "==");
-    }
-}
-
-void report_comment_in_expression(ParseSession& session) {
-    if (session.wants(DiagnosticCode::SyntaxError)) {
-        Diagnostic& diagnostic = report(session, DiagnosticCode::SyntaxError,
-                                        "a comment with `//` stands between statements only");
-        diagnostic.help.emplace_back("write `/* ... */` here, or put the comment after the `;`");
     }
 }
 

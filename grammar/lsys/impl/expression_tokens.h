@@ -18,7 +18,7 @@ void report_malformed_number(ParseSession& session, std::string_view text, Sourc
 [[nodiscard]] std::size_t number_before_name(std::string_view text);
 
 /// A `,` or an operator before the value at hand, which follows another one; reported. The value is
-/// still to be read.
+/// still to be read, unless the statement is lost.
 Token supply_before_value(ParseSession& session);
 /// Whether a `{` here is that of the bounds of #param.
 [[nodiscard]] bool begins_bounds(const ScanState& scan);
@@ -35,7 +35,6 @@ void report_split_operator(ParseSession& session, std::string_view text);
 void report_wrong_operator(ParseSession& session, std::string_view right);
 void report_remainder_operator(ParseSession& session);
 void report_assignment(ParseSession& session);
-void report_comment_in_expression(ParseSession& session);
 /// A `#` in an expression or setting that begins no statement.
 void report_stray_hash(ParseSession& session);
 

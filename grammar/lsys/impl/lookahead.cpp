@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace lsys {
@@ -88,6 +89,13 @@ bool is_first_on_line(std::string_view text, std::uint32_t at) {
     return at == 0 || text[at - 1] == '\n';
 }
 
+bool is_commented_out(std::string_view text, std::uint32_t at) {
+    const std::size_t newline = at == 0 ? std::string_view::npos : text.rfind('\n', at - 1);
+    const std::size_t line = newline == std::string_view::npos ? 0 : newline + 1;
+    const std::size_t first = text.find_first_not_of(" \t", line);
+    return first != std::string_view::npos && first < at && text.substr(first, 2) == "//";
+}
+
 bool begins_statement(std::string_view text, std::uint32_t at) {
     const std::string_view word = leading_word(text.substr(at + 1));
     if (word.empty()) {
@@ -97,10 +105,12 @@ bool begins_statement(std::string_view text, std::uint32_t at) {
            next_character(text, at + 1 + static_cast<std::uint32_t>(word.size())) == ':';
 }
 
-std::uint32_t count_colons(std::string_view text, std::uint32_t begin) {
+namespace {
+
+std::uint32_t count_colons_up_to(std::string_view text, std::uint32_t begin, std::uint32_t most) {
     std::uint32_t colons = 0;
     std::size_t at = begin;
-    while (at < text.size() && text[at] != ';') {
+    while (at < text.size() && text[at] != ';' && colons < most) {
         if (text[at] == '`') {
             const std::size_t close = text.find_first_of("`\n", at + 1);
             at = close == std::string_view::npos ? text.size() : close + 1;
@@ -118,6 +128,16 @@ std::uint32_t count_colons(std::string_view text, std::uint32_t begin) {
         ++at;
     }
     return colons;
+}
+
+} // namespace
+
+std::uint32_t count_colons(std::string_view text, std::uint32_t begin) {
+    return count_colons_up_to(text, begin, std::numeric_limits<std::uint32_t>::max());
+}
+
+bool has_more_colons(std::string_view text, std::uint32_t begin, std::uint32_t count) {
+    return count_colons_up_to(text, begin, count + 1) > count;
 }
 
 std::string_view spelling(Keyword keyword) {

@@ -17,11 +17,16 @@ namespace lsys {
 [[nodiscard]] char next_character(std::string_view text, std::uint32_t at);
 /// Whether only blanks stand before `at` on its line.
 [[nodiscard]] bool is_first_on_line(std::string_view text, std::uint32_t at);
+/// Whether the line of `at` begins with `//`: what stands there is read only because the statement
+/// before has no end.
+[[nodiscard]] bool is_commented_out(std::string_view text, std::uint32_t at);
 /// Whether the `#` at `at` is likely to begin a statement: its word is a keyword or followed by
 /// `:`, or it is the first thing on its line.
 [[nodiscard]] bool begins_statement(std::string_view text, std::uint32_t at);
 /// The `:` between `at` and the end of the statement.
 [[nodiscard]] std::uint32_t count_colons(std::string_view text, std::uint32_t at);
+/// Whether there are more of them than `count`; looks no further than it must.
+[[nodiscard]] bool has_more_colons(std::string_view text, std::uint32_t at, std::uint32_t count);
 
 [[nodiscard]] std::string_view spelling(Keyword keyword); // without `#`; empty for a label
 /// `#decompose` and `#interpret`, which the name of a production follows.

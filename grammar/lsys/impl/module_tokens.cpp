@@ -2,6 +2,7 @@
 
 #include "grammar/ast/reports.h"
 #include "grammar/base/utf8.h"
+#include "grammar/lsys/impl/bracket_search.h"
 #include "grammar/lsys/impl/lookahead.h"
 #include "grammar/lsys/impl/statement_tokens.h"
 
@@ -53,6 +54,54 @@ constexpr std::array<ForeignSymbol, 9> kForeignSymbols{{
      "the angle"},
 }};
 
+/// Whether another search of the text for brackets may be made.
+bool may_search(ParseSession& session) {
+    return session.scan.bracket_searches++ < kMaxBracketSearches;
+}
+
+/// A `)` that closes nothing. Its `(` is missing somewhere before it, or a `[` stands for it.
+void report_missing_open(ParseSession& session,
+                         std::uint32_t at,
+                         std::optional<std::uint32_t> branch) {
+    if (!session.wants(DiagnosticCode::ExtraParenthesis)) {
+        return;
+    }
+    const SourceSpan place = session.scanned.span(at, at + 1);
+    Diagnostic& diagnostic = session.context.diagnostics.add(DiagnosticCode::ExtraParenthesis,
+                                                             place, "`)` closes no `(`");
+    if (!branch) {
+        diagnostic.help.emplace_back("write the `(` that it closes, or remove it");
+        return;
+    }
+    const SourceSpan open = session.scanned.span(*branch, *branch + 1);
+    diagnostic.labels.push_back({open, "this branch is still open"});
+    const std::string_view text = session.scanned.text;
+    const char before = *branch == 0 ? '\0' : text[*branch - 1];
+    const char inside = next_character(text, *branch + 1);
+    const bool may_be_call = std::string_view(" \t\r\n[]):").find(before) == std::string_view::npos;
+    const bool has_value = (inside >= 'a' && inside <= 'z') || (inside >= '0' && inside <= '9') ||
+                           inside == '{' || inside == '.';
+    if (may_be_call && has_value) {
+        diagnostic.fixes.push_back({"open the arguments with `(`", {{open, "("}}, false});
+    }
+    diagnostic.fixes.push_back({"close the branch with `]`", {{place, "]"}}, false});
+}
+
+/// For what cannot stand among modules: whether it is an argument whose `(` is missing. Reports
+/// that.
+bool is_argument_without_open(ParseSession& session) {
+    const ScanState& scan = session.scan;
+    if (!may_search(session)) {
+        return false;
+    }
+    const std::string_view text = session.scanned.text;
+    const std::optional<std::uint32_t> close = unmatched_parenthesis(text, scan.end);
+    if (close) {
+        report_missing_open(session, *close, unmatched_branch(text, scan.part_begin, *close));
+    }
+    return close.has_value();
+}
+
 Stray stray_number(ParseSession& session, std::string_view text) {
     const ScanState& scan = session.scan;
     const std::string_view all = session.scanned.text;
@@ -65,6 +114,9 @@ Stray stray_number(ParseSession& session, std::string_view text) {
                 "outside of them `{` and `}` are modules that make a polygon");
         }
         return Stray::Range;
+    }
+    if (is_argument_without_open(session)) {
+        return Stray::Lost;
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =
@@ -97,6 +149,9 @@ Stray stray_in_modules(ParseSession& session, std::string_view text) {
         return stray_number(session, text);
     }
     if (first == ',') {
+        if (is_argument_without_open(session)) {
+            return Stray::Lost;
+        }
         if (session.wants(DiagnosticCode::SyntaxError)) {
             Diagnostic& diagnostic = report(session, DiagnosticCode::SyntaxError,
                                             "modules stand side by side, without commas");
@@ -129,12 +184,26 @@ void report_foreign_symbol(ParseSession& session, char symbol) {
                                 false});
 }
 
-void report_extra_parenthesis(ParseSession& session) {
-    if (session.wants(DiagnosticCode::ExtraParenthesis)) {
-        Diagnostic& diagnostic =
-            report(session, DiagnosticCode::ExtraParenthesis, "`)` closes no `(`");
-        add_fix(diagnostic, "remove it", diagnostic.span, "");
+Stray extra_parenthesis(ParseSession& session) {
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    const std::optional<std::uint32_t> branch =
+        may_search(session) ? unmatched_branch(text, scan.part_begin, scan.begin) : std::nullopt;
+    if (branch) {
+        report_missing_open(session, scan.begin, branch);
+        return Stray::Module;
     }
+    if (character_before(text, scan.begin) != ')') {
+        report_missing_open(session, scan.begin, std::nullopt);
+        return Stray::Lost;
+    }
+    if (session.wants(DiagnosticCode::ExtraParenthesis)) {
+        const bool is_one = scan.end - scan.begin == 1;
+        Diagnostic& diagnostic = report(session, DiagnosticCode::ExtraParenthesis,
+                                        is_one ? "`)` closes no `(`" : "these `)` close no `(`");
+        add_fix(diagnostic, is_one ? "remove it" : "remove them", diagnostic.span, "");
+    }
+    return Stray::Skip;
 }
 
 bool is_colour_symbol(ParseSession& session) {
@@ -149,6 +218,7 @@ bool is_colour_symbol(ParseSession& session) {
         diagnostic.help.emplace_back("in cpfg `;` sets the colour, which is `'(index)` here; in "
                                      "Houdini it multiplies the angle");
         add_fix(diagnostic, "as a module, write it in back quotes", diagnostic.span, "`;`");
+        diagnostic.fixes.back().machine_applicable = false;
     }
     return true;
 }

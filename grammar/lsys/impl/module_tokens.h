@@ -13,7 +13,7 @@ namespace lsys::lsys_grammar {
 /// How a character that is no module is read on.
 enum class Stray : std::uint8_t {
     Skip,
-    Module, // as if it stood in back quotes
+    Module, // as if it stood in back quotes; a `)` as `]`
     Range,  // the text up to `}` is skipped: a random range outside of parentheses
     Colon,  // a `:` is supplied before it, and the condition begins
     Lost,   // the statement is dropped
@@ -24,7 +24,8 @@ Stray stray_in_modules(ParseSession& session, std::string_view text);
 /// The text as the name of a module.
 NameId read_as_module(ParseSession& session, std::string_view text);
 void report_foreign_symbol(ParseSession& session, char symbol);
-void report_extra_parenthesis(ParseSession& session);
+/// Reports one or more `)` that close nothing.
+Stray extra_parenthesis(ParseSession& session);
 /// Whether the `;` at hand is a module of other programs, `;(0.9)`; reported.
 bool is_colour_symbol(ParseSession& session);
 

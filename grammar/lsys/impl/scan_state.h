@@ -9,6 +9,7 @@
 
 #include "grammar/ast/ast_builder.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -79,6 +80,7 @@ struct ScanState {
     bool name_before = false;  // the last token is a name in an expression
     std::uint32_t statement_begin = 0;
     std::optional<std::uint32_t> colons; // of the statement, once counted
+    std::size_t first_diagnostic = 0;    // of the statement, as a number of the sink's
     std::uint32_t part_begin = 0;
     std::uint32_t comment_begin = 0;
     std::uint32_t next_statement = 0; // where a supplied `;` was found missing
@@ -92,8 +94,9 @@ struct ScanState {
     std::uint32_t depth = 0; // open brackets and chains of all levels
 
     Drain draining = Drain::Nothing;
-    SourceSpan drained;            // the `:` or `;` itself
-    std::uint32_t control_end = 0; // end of the last control character
+    SourceSpan drained;                 // the `:` or `;` itself
+    std::uint32_t control_end = 0;      // end of the last control character
+    std::uint32_t bracket_searches = 0; // of the text, see bracket_search.h
 
     void enter(Part next) {
         part = next;

@@ -1,8 +1,10 @@
 #include "grammar/lsys/impl/statement_tokens.h"
 
 #include "grammar/ast/reports.h"
+#include "grammar/lsys/impl/bracket_search.h"
 #include "grammar/lsys/impl/lookahead.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -150,7 +152,30 @@ Token start(ParseSession& session, std::string_view word) {
 
 } // namespace
 
+bool is_hash_comment(ParseSession& session, std::string_view text) {
+    const ScanState& scan = session.scan;
+    const std::size_t name = text.find_first_not_of(" \t", 1);
+    const std::string_view word = text.substr(name);
+    const std::string_view all = session.scanned.text;
+    const char next = next_character(all, scan.end);
+    if (name == 1 || find_keyword(word) != Keyword::Label || next == ':' || next == '=') {
+        return false;
+    }
+    const std::string_view line = all.substr(scan.begin, all.find('\n', scan.begin) - scan.begin);
+    if (line.find_first_of(":;") != std::string_view::npos) {
+        return false; // more likely a statement
+    }
+    if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::UnknownStatement)) {
+        const SourceSpan hash = session.scanned.span(scan.begin, scan.begin + 1);
+        Diagnostic& diagnostic = session.context.diagnostics.add(
+            DiagnosticCode::UnknownStatement, hash, "`#` begins a statement, not a comment");
+        diagnostic.fixes.push_back({"a comment begins with `//`", {{hash, "//"}}, false});
+    }
+    return true;
+}
+
 Token start_statement(ParseSession& session, std::string_view text) {
+    session.scan.first_diagnostic = session.context.diagnostics.all().size();
     const std::size_t name = text.find_first_not_of(" \t", 1);
     if (name > 1) {
         const ScanState& scan = session.scan;
@@ -178,11 +203,15 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
                              keyword == Keyword::Decompose || keyword == Keyword::Interpret;
     const bool is_statement = !word.empty() && (next == ':' || takes_words ||
                                                 (keyword == Keyword::Generations && next == '='));
-    const bool after_modules = // of a statement that a `;` has ended on this line
-        (scan.part == Part::Between && scan.last_end != 0 &&
-         text.substr(scan.last_end, scan.begin - scan.last_end).find('\n') ==
-             std::string_view::npos &&
-         (scan.keyword == Keyword::Label || scan.keyword == Keyword::Axiom));
+    const bool after_statement = // that a `;` has ended on this line
+        scan.part == Part::Between && scan.last_end != 0 &&
+        text.substr(scan.last_end, scan.begin - scan.last_end).find('\n') == std::string_view::npos;
+    const bool after_modules =
+        after_statement && (scan.keyword == Keyword::Label || scan.keyword == Keyword::Axiom);
+    // What follows a statement may belong to it: then its `;` is wrong, and so are its fixes.
+    if (is_statement || !after_statement) {
+        scan.first_diagnostic = session.context.diagnostics.all().size();
+    }
     if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::MissingHash)) {
         const SourceSpan span = session.scanned.span(scan.begin, scan.end);
         Diagnostic& diagnostic = session.context.diagnostics.add(DiagnosticCode::MissingHash, span,
@@ -227,9 +256,10 @@ bool opens_with_colon(const ScanState& scan) {
 
 } // namespace
 
-Token opening_equals(ParseSession& session) {
+Token opening_sign(ParseSession& session) {
     ScanState& scan = session.scan;
-    if (scan.keyword == Keyword::Generations) {
+    const char sign = session.scanned.text[scan.begin];
+    if (scan.keyword == Keyword::Generations && sign == '=') {
         const SourceSpan span = session.token();
         scan.enter(Part::Value);
         return Token(Parser::token::TOK_ASSIGN, span);
@@ -238,7 +268,8 @@ Token opening_equals(ParseSession& session) {
         if (session.wants(DiagnosticCode::MissingColon)) {
             const SourceSpan span = session.scanned.span(scan.begin, scan.end);
             Diagnostic& diagnostic = session.context.diagnostics.add(
-                DiagnosticCode::MissingColon, span, "a `:` stands here, not a `=`");
+                DiagnosticCode::MissingColon, span,
+                std::string("a `:` stands here, not a `") + sign + "`");
             add_fix(diagnostic, "write `:`", span, ":");
         }
         const SourceSpan span = session.token();
@@ -291,6 +322,24 @@ bool is_needless_sign(ParseSession& session) {
     return true;
 }
 
+bool is_doubled_colon(ParseSession& session) {
+    ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    const std::uint32_t wanted = scan.part == Part::Axiom || scan.part == Part::Ignored ? 1u : 3u;
+    if (!scan.part_empty || !scan.open.empty() || character_before(text, scan.begin) != ':' ||
+        scan.bracket_searches++ >= kMaxBracketSearches ||
+        !has_more_colons(text, scan.statement_begin, wanted)) {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::ExtraColon)) {
+        const SourceSpan span = session.scanned.span(scan.begin, scan.end);
+        Diagnostic& diagnostic =
+            session.context.diagnostics.add(DiagnosticCode::ExtraColon, span, "a `:` stands twice");
+        add_fix(diagnostic, "remove it", span, "");
+    }
+    return true;
+}
+
 Token colon_after_modules(ParseSession& session) {
     ScanState& scan = session.scan;
     if (scan.part == Part::Head) {
@@ -335,6 +384,8 @@ std::optional<Token> semicolon(ParseSession& session) {
         Diagnostic& diagnostic = session.context.diagnostics.add(
             DiagnosticCode::StraySemicolon, span, "this `;` ends no statement");
         add_fix(diagnostic, "remove it", span, "");
+        // It may be that of a statement which another `;` has ended too early.
+        diagnostic.fixes.back().machine_applicable = session.wants_reports();
     }
     return std::nullopt;
 }
@@ -365,6 +416,21 @@ void report_unclosed(ParseSession& session) {
     if (closing.size() == scan.open.size()) {
         add_fix(diagnostic, "add `" + closing + "`", session.supplied(), closing);
     }
+}
+
+/// Whether the predecessor of the production at hand is one module without contexts: then no `:` is
+/// missing within it.
+bool has_plain_head(const ParseSession& session) {
+    const std::string_view text = session.scanned.text;
+    const std::size_t first = text.find(':', session.scan.statement_begin);
+    std::size_t at = text.find_first_not_of(" \t\r\n", first + 1);
+    const std::string_view word = leading_word(text.substr(std::min(at, text.size())));
+    at = text.find_first_not_of(" \t\r\n", at + std::max<std::size_t>(word.size(), 1));
+    if (at != std::string_view::npos && text[at] == '(') {
+        at = text.find(')', at);
+        at = at == std::string_view::npos ? at : text.find_first_not_of(" \t\r\n", at + 1);
+    }
+    return at != std::string_view::npos && (text[at] == ':' || text[at] == '~');
 }
 
 /// The production ends, but its successor, or more, has not come.
@@ -404,6 +470,7 @@ void report_missing_parts(ParseSession& session) {
     const std::uint32_t at = session.scanned.source_begin(first);
     add_fix(diagnostic, "if this is the successor, add the condition `*`",
             {session.scanned.file, at, at}, "* : ");
+    diagnostic.fixes.back().machine_applicable = has_plain_head(session);
 }
 
 } // namespace
@@ -497,6 +564,9 @@ bool lacks_colon(ParseSession& session, std::string_view inserted) {
         if (!inserted.empty()) {
             add_fix(diagnostic, "add `:`", {place.file, place.begin, place.begin},
                     std::string(inserted));
+            // A condition before the `~` may be read as a part of the head.
+            diagnostic.fixes.back().machine_applicable =
+                session.scanned.text[scan.begin] == '*' || has_plain_head(session);
         }
         diagnostic.help.emplace_back(kFourParts);
     }

@@ -11,18 +11,24 @@
 
 namespace lsys::lsys_grammar {
 
+/// Whether the `# word` at hand begins a comment, as `#` does in other languages; reported.
+bool is_hash_comment(ParseSession& session, std::string_view text);
 /// `#word`, between statements.
 Token start_statement(ParseSession& session, std::string_view text);
 /// A word or, if `word` is empty, any other character where a `#` should stand.
 Token start_without_hash(ParseSession& session, std::string_view word);
 
-/// After `#word`: a `:`, a `=`, and what stands there instead of them (nothing if neither is due).
+/// After `#word`: a `:`, a `=` or `,`, and what stands there instead of them (nothing if neither is
+/// due).
 void after_opening_colon(ParseSession& session);
-Token opening_equals(ParseSession& session);
+Token opening_sign(ParseSession& session);
 std::optional<Token> missing_opening(ParseSession& session);
 /// A `=` or `:` after the name in `#define NAME = 3;`: reported, to be skipped.
 bool is_needless_sign(ParseSession& session);
 
+/// A `:` directly behind another one, where the statement has one too many: reported, to be
+/// skipped.
+bool is_doubled_colon(ParseSession& session);
 Token colon_after_modules(ParseSession& session);
 Token colon_in_expression(ParseSession& session);
 /// Nothing for a `;` between statements.

@@ -171,8 +171,13 @@ bool report_unary_plus(ParseSession& session, const Unexpected& error) {
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic = report(session, DiagnosticCode::SyntaxError, error.place,
                                         "expected a value, found `+`");
+        // Before a blank it is more likely an operator whose first operand is missing.
+        const std::string_view text = session.scanned.text;
+        const bool is_sign =
+            session.scan.end < text.size() &&
+            std::string_view(" \t\r\n/").find(text[session.scan.end]) == std::string_view::npos;
         diagnostic.fixes.push_back(
-            {"a positive number has no sign; remove the `+`", {{error.place, ""}}, true});
+            {"a positive number has no sign; remove the `+`", {{error.place, ""}}, is_sign});
     }
     return true;
 }

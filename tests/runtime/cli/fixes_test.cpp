@@ -1,7 +1,11 @@
+#include "runtime/cli/chosen_fixes.h"
 #include "runtime/cli/fixes.h"
+#include "runtime/program/host.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -10,11 +14,13 @@ using namespace lsys::lsc;
 
 namespace {
 
+constexpr std::uint64_t kManyModules = std::uint64_t{1} << 32;
+
 struct Fixture {
     SourceMap sources;
     FileId file;
     Diagnostics diagnostics;
-    FixedGrammar fixed;
+    std::size_t fix_count = 0;
 
     explicit Fixture(std::string text) : file(sources.add("a.lsys", std::move(text))) {}
 
@@ -28,10 +34,13 @@ struct Fixture {
         return {{file, begin, end}, std::move(replacement)};
     }
     std::string apply() {
-        const FileEdits edits = choose_edits(diagnostics, sources, FixScope("a.lsys", {}), fixed);
-        const auto found = edits.find("a.lsys");
-        return apply_edits(sources.file(file).text(),
-                           found == edits.end() ? std::vector<const Edit*>() : found->second);
+        const ChosenFixes chosen =
+            choose_fixes(diagnostics, sources, [](const Diagnostic&, const Fix&) { return true; });
+        fix_count += chosen.fixes.size();
+        const auto found = chosen.edits.find("a.lsys");
+        return apply_edits(sources.file(file).text(), found == chosen.edits.end()
+                                                          ? std::vector<const Edit*>()
+                                                          : found->second);
     }
 };
 
@@ -42,8 +51,7 @@ TEST_CASE("fixes are applied in any order of discovery") {
     f.add({f.edit(7, 8, "seven")});
     f.add({f.edit(2, 4, ""), f.edit(0, 0, "<")});
     CHECK(f.apply() == "<01456seven89");
-    CHECK(f.fixed.fix_count == 2);
-    CHECK(f.fixed.lines.front() == "a.lsys:1:8: fixed: mend [look-alike]");
+    CHECK(f.fix_count == 2);
 }
 
 TEST_CASE("of fixes that touch each other the first wins") {
@@ -70,7 +78,7 @@ TEST_CASE("fixes that are not certain are left alone") {
     Fixture f("0123");
     f.add({f.edit(0, 1, "A")}, false);
     CHECK(f.apply() == "0123");
-    CHECK(f.fixed.fix_count == 0);
+    CHECK(f.fix_count == 0);
 }
 
 TEST_CASE("a text with CRLF keeps it") {
@@ -82,12 +90,48 @@ TEST_CASE("a text with CRLF keeps it") {
     CHECK(plain.apply() == "a\nb\n");
 }
 
+TEST_CASE("a fix that is not allowed leaves its place to others") {
+    Fixture f("0123");
+    f.add({f.edit(0, 2, "A")});
+    f.add({f.edit(1, 3, "B")});
+    const ChosenFixes chosen =
+        choose_fixes(f.diagnostics, f.sources, [](const Diagnostic& diagnostic, const Fix&) {
+            return diagnostic.span.begin != 0;
+        });
+    REQUIRE(chosen.fixes.size() == 1);
+    CHECK(apply_edits("0123", chosen.edits.at("a.lsys")) == "0B3");
+}
+
 TEST_CASE("only the first fifty fixes are told one by one") {
-    Fixture f(std::string(1000, 'x'));
-    for (std::uint32_t i = 0; i < 1000; ++i) {
-        f.add({f.edit(i, i + 1, "y")});
+    GrammarText text{"#n = 1;\n#w : F;\n", Dialect::Lsys};
+    for (int i = 0; i < 60; ++i) {
+        text.bytes += "p" + std::to_string(i) + " : F(x) : x > " + std::to_string(i) + " : F;\n";
     }
-    CHECK(f.apply() == std::string(1000, 'y'));
-    CHECK(f.fixed.fix_count == 1000);
-    CHECK(f.fixed.lines.size() == kMaxFixLines);
+    const Project project{make_file_host(nullptr), {}, 1, false};
+    const FixScope scope("a.lsys", {});
+    FixedGrammar fixed;
+    REQUIRE(fix_text("a.lsys", text, {}, scope, project, fixed));
+    CHECK(fixed.fix_count == 60);
+    CHECK(fixed.lines.size() == kMaxFixLines);
+    CHECK(fixed.lines.front() == "a.lsys:3:1: fixed: write `#p0` [missing-hash]");
+    CHECK(fixed.changed.at("a.lsys").find("\n#p59 : F(x)") != std::string::npos);
+    CHECK(!fixed.compiled.diagnostics.has_errors());
+}
+
+TEST_CASE("no fix of what was repaired is certain") {
+    const GrammarText text{"#n = 1;\n#w : F(1))\n#p : F(x) : x = 1 : F(0x1);\n", Dialect::Lsys};
+    const Project project{make_file_host(nullptr), {}, 1, false};
+    const FixScope scope("a.lsys", {});
+    FixedGrammar fixed;
+    REQUIRE(fix_text("a.lsys", text, {}, scope, project, fixed));
+    for (const Diagnostic& diagnostic : fixed.compiled.diagnostics.all()) {
+        CHECK(!has_certain_fix(diagnostic));
+    }
+    Result<CompiledText> compiled =
+        compile_text("a.lsys", text, {}, kManyModules, make_loader(project, kMaxSourceBytes));
+    REQUIRE(compiled);
+    REQUIRE(offer_doubtful_fixes("a.lsys", text, {}, scope, project, compiled.value()));
+    const std::vector<Diagnostic>& all = compiled.value().diagnostics.all();
+    CHECK(std::count_if(all.begin(), all.end(), has_certain_fix) ==
+          static_cast<std::ptrdiff_t>(fixed.fix_count));
 }

@@ -1,0 +1,275 @@
+#include "grammar/lsys/impl/statement_ends.h"
+
+#include "grammar/lsys/impl/lookahead.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace lsys::lsys_grammar {
+
+namespace {
+
+/// Texts larger than this are not searched for words, nor statements longer than the second for
+/// comments; their repairs are offered.
+constexpr std::size_t kMaxSearchedText = std::size_t{1} << 17;
+constexpr std::size_t kMaxSearchedStatement = 4096;
+constexpr std::size_t kMaxWords = 16;
+
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+std::size_t line_end(std::string_view text, std::size_t at) {
+    std::size_t end = std::min(text.find('\n', at), text.size());
+    return end > at && text[end - 1] == '\r' ? end - 1 : end;
+}
+
+/// Whether `word` stands in `text` outside of [begin, end) and of what `//` begins on its line.
+bool occurs_elsewhere(std::string_view text,
+                      std::string_view word,
+                      std::size_t begin,
+                      std::size_t end) {
+    const auto continues_word = [&](std::size_t at) {
+        return at < text.size() && (is_letter(text[at]) || is_digit(text[at]));
+    };
+    for (std::size_t at = text.find(word); at != std::string_view::npos;
+         at = text.find(word, at + word.size())) {
+        if ((at >= begin && at < end) || (at > 0 && continues_word(at - 1)) ||
+            continues_word(at + word.size())) {
+            continue;
+        }
+        const std::size_t newline = at == 0 ? std::string_view::npos : text.rfind('\n', at - 1);
+        const std::size_t line = newline == std::string_view::npos ? 0 : newline + 1;
+        if (text.substr(line, at - line).find("//") == std::string_view::npos) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Whether a word of `text`[begin, end) can be no module: it stands nowhere else.
+bool has_foreign_word(std::string_view text, std::size_t begin, std::size_t end, bool letters) {
+    if (text.size() > kMaxSearchedText) {
+        return false;
+    }
+    // Where letters are modules, a short row of them may be meant as such.
+    const std::size_t shortest = letters ? 3 : 2;
+    std::size_t word_count = 0;
+    for (std::size_t at = begin; at < end && word_count < kMaxWords;) {
+        const std::size_t first = at;
+        while (at < end && is_letter(text[at])) {
+            ++at;
+        }
+        const std::string_view word = text.substr(first, at - first);
+        at += word.empty() ? 1u : 0u;
+        if (word.size() < shortest ||
+            (letters &&
+             std::none_of(word.begin(), word.end(), [](char c) { return c >= 'a' && c <= 'z'; }))) {
+            continue;
+        }
+        ++word_count;
+        if (!occurs_elsewhere(text, word, begin, end)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// The `//` among the modules [begin, end) that may begin comments: with a blank before them, and a
+/// blank or, where words are modules, a letter behind them.
+std::vector<std::uint32_t>
+likely_comments(std::string_view text, std::uint32_t begin, std::uint32_t end, bool letters) {
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t at = begin; at + 1 < end;) {
+        if (text[at] == '`') {
+            const std::size_t close = text.find_first_of("`\n", at + 1);
+            at = static_cast<std::uint32_t>(std::min<std::size_t>(close, end - 1)) + 1;
+        } else if (text.substr(at, 2) == "/*") {
+            const std::size_t close = text.find("*/", at + 2);
+            at = static_cast<std::uint32_t>(std::min<std::size_t>(close, end - 2)) + 2;
+        } else if (text.substr(at, 2) == "//") {
+            const bool is_apart = at == begin || is_blank(text[at - 1]) || text[at - 1] == '\n';
+            const char next = at + 2 < text.size() ? text[at + 2] : '\n';
+            if (is_apart && (is_blank(next) || next == '\n' || (!letters && is_letter(next)))) {
+                found.push_back(at);
+                at = static_cast<std::uint32_t>(line_end(text, at));
+            } else {
+                while (at < end && text[at] == '/') {
+                    ++at;
+                }
+            }
+        } else {
+            ++at;
+        }
+    }
+    return found;
+}
+
+bool is_number_part(char c) {
+    return is_digit(c) || c == '.';
+}
+
+/// What follows `at` behind blanks, comments, lines of comments and line ends.
+std::size_t after_comments(std::string_view text, std::size_t at) {
+    while (at < text.size()) {
+        if (is_blank(text[at]) || text[at] == '\n') {
+            ++at;
+        } else if (text.substr(at, 2) == "//") {
+            at = line_end(text, at);
+        } else if (text.substr(at, 2) == "/*") {
+            const std::size_t close = text.find("*/", at + 2);
+            at = close == std::string_view::npos ? text.size() : close + 2;
+        } else {
+            break;
+        }
+    }
+    return at;
+}
+
+/// Whether the statement may end before the `//` at hand, and the next one or the end of the file
+/// follows the comment.
+bool lacks_only_semicolon(const ParseSession& session) {
+    const ScanState& scan = session.scan;
+    const bool is_whole = scan.part == Part::Value
+                              ? scan.value_before
+                              : scan.part != Part::Condition && !scan.part_empty;
+    if (!is_whole || !scan.open.empty()) {
+        return false;
+    }
+    const std::string_view text = session.scanned.text;
+    const std::size_t next = after_comments(text, scan.begin);
+    return next == text.size() ||
+           (text[next] == '#' && begins_statement(text, static_cast<std::uint32_t>(next)));
+}
+
+} // namespace
+
+std::optional<LikelyComment> comment_behind_modules(std::string_view text,
+                                                    std::uint32_t begin,
+                                                    std::uint32_t end,
+                                                    bool letters) {
+    if (end - begin > kMaxSearchedStatement) {
+        begin = static_cast<std::uint32_t>(end - kMaxSearchedStatement);
+    }
+    const std::vector<std::uint32_t> comments = likely_comments(text, begin, end, letters);
+    if (comments.empty() || line_end(text, comments.back()) < end) {
+        return std::nullopt;
+    }
+    // Lines that are nothing but comments belong to the comment before them.
+    std::size_t first = comments.size() - 1;
+    while (first > 0 && is_first_on_line(text, comments[first])) {
+        const std::size_t previous_end = line_end(text, comments[first - 1]);
+        if (text.find_first_not_of(" \t\r\n", previous_end) != comments[first]) {
+            break;
+        }
+        --first;
+    }
+    const std::uint32_t comment = comments[first];
+    const std::size_t before =
+        comment == 0 ? std::string_view::npos : text.find_last_not_of(" \t\r\n", comment - 1);
+    if (before == std::string_view::npos || before + 1 < begin) {
+        return std::nullopt;
+    }
+    return LikelyComment{comment, first == 0 && has_foreign_word(text, comment, end, letters)};
+}
+
+void report_missing_semicolon(ParseSession& session) {
+    if (!session.wants(DiagnosticCode::MissingSemicolon)) {
+        return;
+    }
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    std::optional<LikelyComment> comment;
+    if (scan.ended_part == Part::Successor || scan.ended_part == Part::Axiom) {
+        comment = comment_behind_modules(text, scan.part_begin, scan.last_end,
+                                         session.builder.module_names() != ModuleNames::Words);
+    }
+    SourceSpan place = session.supplied();
+    if (comment) {
+        const std::size_t last = text.find_last_not_of(" \t\r\n", comment->begin - 1);
+        place = session.scanned.after(static_cast<std::uint32_t>(last) + 1);
+    }
+    Diagnostic& diagnostic = session.context.diagnostics.add(
+        DiagnosticCode::MissingSemicolon, place, "`;` is missing at the end of a statement");
+    if (scan.draining != Drain::EndOfFile) {
+        diagnostic.labels.push_back(
+            {session.scanned.span(scan.next_statement, scan.next_statement + 1),
+             "the next statement begins here"});
+    }
+    if (!comment) {
+        diagnostic.fixes.push_back({"add `;`", {{place, ";"}}, true});
+        return;
+    }
+    diagnostic.labels.push_back(
+        {session.scanned.span(comment->begin, comment->begin + 2),
+         comment->certain ? "a comment begins here" : "a comment may begin here"});
+    diagnostic.fixes.push_back({"add `;` before the comment", {{place, ";"}}, comment->certain});
+    if (!comment->certain) {
+        diagnostic.fixes.push_back(
+            {"if no comment is meant, add `;` at the end", {{session.supplied(), ";"}}, false});
+    }
+}
+
+bool is_quotient(std::string_view text, std::uint32_t at) {
+    const auto skip_blanks = [&](std::size_t from) {
+        while (from < text.size() && is_blank(text[from])) {
+            ++from;
+        }
+        return from;
+    };
+    const std::size_t begin = skip_blanks(at);
+    std::size_t end = begin;
+    while (end < text.size() && (is_letter(text[end]) || is_number_part(text[end]))) {
+        ++end;
+    }
+    if (begin == end) {
+        return false;
+    }
+    const std::size_t next = skip_blanks(end);
+    const bool is_last = next == text.size() || text[next] == '\n';
+    return is_digit(text[begin]) ? is_last || !is_letter(text[next])
+                                 : !is_last && std::string_view(")};:*/^+<>=&|").find(text[next]) !=
+                                                   std::string_view::npos;
+}
+
+void report_quotient(ParseSession& session) {
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        const ScanState& scan = session.scan;
+        Diagnostic& diagnostic = session.context.diagnostics.add(
+            DiagnosticCode::SyntaxError, session.scanned.span(scan.begin, scan.end),
+            "there is no operator `//`");
+        diagnostic.help.emplace_back("a quotient is `a / b`, its whole part is `floor(a / b)`");
+        diagnostic.help.emplace_back("a comment inside a statement is `/* ... */`");
+    }
+}
+
+void report_comment_in_statement(ParseSession& session) {
+    if (lacks_only_semicolon(session) || !session.wants(DiagnosticCode::SyntaxError)) {
+        return;
+    }
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    const SourceSpan slashes = session.scanned.span(scan.begin, scan.end);
+    Diagnostic& diagnostic = session.context.diagnostics.add(
+        DiagnosticCode::SyntaxError, slashes, "a comment with `//` stands between statements only");
+    const std::size_t end = line_end(text, scan.begin);
+    if (text.substr(scan.begin, end - scan.begin).find("*/") != std::string_view::npos) {
+        diagnostic.help.emplace_back("write `/* ... */` here, or put the comment after the `;`");
+        return;
+    }
+    diagnostic.fixes.push_back(
+        {"write `/* ... */`",
+         {{slashes, "/*"}, {session.scanned.after(static_cast<std::uint32_t>(end)), " */"}},
+         true});
+}
+
+} // namespace lsys::lsys_grammar

@@ -1,0 +1,190 @@
+#include "runtime/cli/other_repairs.h"
+
+#include "grammar/ast/ast_dump.h"
+#include "grammar/lsys/parse.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace lsys::lsc {
+
+namespace {
+
+/// A statement as it is understood.
+struct Reading {
+    std::string tree; // without its parentheses
+    std::size_t needless_groups = 0;
+};
+
+/// `#set names` of a file, as a statement; empty without one.
+std::string names_setting(std::string_view text) {
+    constexpr std::string_view kBlanks = " \t\r\n";
+    for (std::size_t at = text.find("#set"); at != std::string_view::npos;
+         at = text.find("#set", at + 1)) {
+        const std::string_view rest = text.substr(at, std::min<std::size_t>(text.size() - at, 200));
+        const std::size_t key = rest.find_first_not_of(kBlanks, 4);
+        if (key != std::string_view::npos && rest.substr(key, 5) == "names") {
+            const std::string_view setting = rest.substr(0, rest.find(';'));
+            return std::string(setting) + ";\n";
+        }
+    }
+    return {};
+}
+
+/// Parentheses around one value alone, which nobody writes.
+std::size_t count_needless_groups(const Ast& ast) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < ast.expressions.size(); ++i) {
+        const Expression& group = ast.expressions[i];
+        if (group.kind == ExpressionKind::Grouping) {
+            const ExpressionKind inner = ast.expression(group.left).kind;
+            count += inner == ExpressionKind::Number || inner == ExpressionKind::Name ||
+                             inner == ExpressionKind::Call || inner == ExpressionKind::Grouping ||
+                             inner == ExpressionKind::Range
+                         ? 1u
+                         : 0u;
+        }
+    }
+    return count;
+}
+
+std::optional<Reading> read(const std::string& setting, std::string_view statement) {
+    SourceMap sources;
+    Names names;
+    Diagnostics diagnostics;
+    const FileLoader load = [](const std::string& path) -> Result<std::string> {
+        return Error{"`" + path + "` is not read here"};
+    };
+    const FileId file = sources.add("statement", setting + std::string(statement));
+    const Ast ast = parse_lsys(file, {sources, names, diagnostics, load});
+    if (diagnostics.has_errors()) {
+        return std::nullopt;
+    }
+    return Reading{dump_ast(ast, names, sources), count_needless_groups(ast)};
+}
+
+bool is_word(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/// Spares the parser what cannot be right: parentheses that do not balance, or two pairs of them
+/// side by side.
+bool may_parse(std::string_view text) {
+    std::int64_t open = 0;
+    char before = '\0';
+    for (const char c : text) {
+        if (c == ' ' || c == '\t' || c == '\r' || c == '\n') {
+            continue;
+        }
+        open += c == '(' ? 1 : c == ')' ? -1 : 0;
+        if (open < 0 || (c == '(' && before == ')')) {
+            return false;
+        }
+        before = c;
+    }
+    return open == 0;
+}
+
+/// Whether as many branches and polygons begin as end.
+bool has_balanced_modules(std::string_view text) {
+    return std::count(text.begin(), text.end(), '[') == std::count(text.begin(), text.end(), ']') &&
+           std::count(text.begin(), text.end(), '{') == std::count(text.begin(), text.end(), '}');
+}
+
+/// Whether the value behind the comma that was added at `place` is a number: no product is written
+/// so, and a sum has its sign.
+bool is_before_number(std::string_view text, std::size_t place) {
+    const std::size_t next = text.find_first_not_of(" \t\r\n", place);
+    return next != std::string_view::npos &&
+           ((text[next] >= '0' && text[next] <= '9') || text[next] == '.');
+}
+
+std::vector<std::string> bracket_repairs(std::string_view broken) {
+    constexpr std::string_view kOpening = "([{";
+    constexpr std::string_view kClosing = ")]}";
+    std::vector<std::string> texts;
+    const auto add = [&](std::size_t at, std::size_t length, std::string_view replacement) {
+        std::string text(broken);
+        text.replace(at, length, replacement);
+        if (may_parse(text)) {
+            texts.push_back(std::move(text));
+        }
+    };
+    for (std::size_t at = 0; at <= broken.size(); ++at) {
+        // A name and the function behind it may have grown together, `Fsin(x))`.
+        add(at, 0, "(");
+        const bool is_in_word =
+            at > 0 && at < broken.size() && is_word(broken[at - 1]) && is_word(broken[at]);
+        for (const std::string_view inserted : {")", "{", "}"}) {
+            if (!is_in_word) {
+                add(at, 0, inserted);
+            }
+        }
+        if (at == broken.size()) {
+            break;
+        }
+        // An opening bracket too many stands beside another one; a closing one is forgotten sooner.
+        const bool is_doubled = at > 0 && broken[at - 1] == broken[at];
+        if (broken[at] == ')' || broken[at] == '}' ||
+            ((broken[at] == '(' || broken[at] == '{') && is_doubled)) {
+            add(at, 1, "");
+        }
+        for (const std::string_view direction : {kOpening, kClosing}) {
+            if (direction.find(broken[at]) != std::string_view::npos) {
+                for (std::size_t i = 0; i < direction.size(); ++i) {
+                    add(at, 1, direction.substr(i, 1));
+                }
+            }
+        }
+    }
+    return texts;
+}
+
+} // namespace
+
+bool may_have_rivals(DiagnosticCode code) {
+    return code == DiagnosticCode::UnclosedParenthesis ||
+           code == DiagnosticCode::ExtraParenthesis || code == DiagnosticCode::BadRange ||
+           code == DiagnosticCode::MissingComma;
+}
+
+std::vector<std::string> other_repairs(const StatementRepair& repair) {
+    if (repair.broken.size() > kMaxComparedStatement) {
+        return {};
+    }
+    const std::string setting = names_setting(repair.file_text);
+    const std::optional<Reading> proposed = read(setting, repair.repaired);
+    std::vector<std::string> texts;
+    if (repair.code == DiagnosticCode::MissingComma) {
+        // A product may be meant.
+        if (!is_before_number(repair.broken, repair.place)) {
+            texts.emplace_back(repair.broken);
+            texts.back().insert(repair.place, " * ");
+        }
+    } else {
+        texts = bracket_repairs(repair.broken);
+    }
+    const bool is_balanced = has_balanced_modules(repair.repaired);
+    std::set<std::string> trees;
+    std::vector<std::string> others;
+    for (std::string& text : texts) {
+        if (is_balanced && !has_balanced_modules(text)) {
+            continue;
+        }
+        std::optional<Reading> reading = read(setting, text);
+        if (reading && proposed &&
+            (reading->tree == proposed->tree ||
+             reading->needless_groups > proposed->needless_groups)) {
+            continue;
+        }
+        if (reading && trees.insert(std::move(reading->tree)).second) {
+            others.push_back(std::move(text));
+        }
+    }
+    return others;
+}
+
+} // namespace lsys::lsc

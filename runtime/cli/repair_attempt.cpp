@@ -1,0 +1,258 @@
+#include "runtime/cli/repair_attempt.h"
+
+#include "runtime/cli/other_repairs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lsys::lsc {
+
+namespace {
+
+/// A mistake may hide another, so the text is compiled again after each round; a grammar that needs
+/// more rounds than this keeps its last diagnostics.
+constexpr int kMaxRounds = 100;
+
+std::string describe(const Diagnostic& diagnostic, const Fix& fix, const SourceMap& sources) {
+    const SourceSpan span = fix.edits.front().span;
+    const SourceFile& file = sources.file(span.file);
+    const LineColumn place = file.line_column(span.begin);
+    return fmt::format("{}:{}:{}: fixed: {} [{}]", file.path(), place.line, place.column, fix.title,
+                       info(diagnostic.code).name);
+}
+
+/// Whether the repair holds whatever else is wrong with its statement.
+bool stands_alone(DiagnosticCode code) {
+    return code == DiagnosticCode::LookAlike;
+}
+
+} // namespace
+
+Result<Done> compile_changed(const RepairSubject& subject,
+                             const std::map<std::string, std::string>& changed,
+                             CompiledText& compiled) {
+    const FileLoader from_disk = make_loader(subject.project, subject.project.limits.max_bytes);
+    const FileLoader load = [&](const std::string& wanted) -> Result<std::string> {
+        const auto known = changed.find(wanted);
+        return known != changed.end() ? Result<std::string>(known->second) : from_disk(wanted);
+    };
+    const auto mended = changed.find(shown_path(subject.path));
+    const std::string& bytes = mended != changed.end() ? mended->second : subject.text.bytes;
+    Result<CompiledText> made =
+        compile_text(subject.path, {bytes, subject.text.dialect}, subject.options,
+                     subject.project.limits.max_modules, load);
+    if (!made) {
+        return made.error();
+    }
+    compiled = std::move(made.value());
+    if (compiled.definition_error) {
+        return *compiled.definition_error;
+    }
+    return Done{};
+}
+
+Result<Done> RepairAttempt::run() {
+    for (int round = 0;; ++round) {
+        CompiledText& compiled = fixed_.compiled;
+        if (Result<Done> done = compile_changed(subject_, fixed_.changed, compiled); !done) {
+            return done;
+        }
+        fixed_.left.clear();
+        read_files();
+        read_syntax_errors();
+        if (round == 0) {
+            read_first_errors();
+        }
+        compiled.diagnostics.sort_by_place();
+        if (round == kMaxRounds || keeps_all_ || subject_.project.is_cancelled()) {
+            return Done{};
+        }
+        const ChosenFixes chosen = choose_fixes(compiled.diagnostics, *compiled.grammar.sources,
+                                                [&](const Diagnostic& diagnostic, const Fix& fix) {
+                                                    return may_apply(diagnostic, fix);
+                                                });
+        if (chosen.fixes.empty()) {
+            return Done{};
+        }
+        apply(chosen);
+    }
+}
+
+/// Takes up the files that are new in this round.
+void RepairAttempt::read_files() {
+    const SourceMap& sources = *fixed_.compiled.grammar.sources;
+    std::map<std::string, std::vector<TextPlace>> statements;
+    for (const SourceSpan& span : fixed_.compiled.statements) {
+        const std::string& path = sources.file(span.file).path();
+        if (files_.find(path) == files_.end()) {
+            statements[path].push_back({span.begin, span.end});
+        }
+    }
+    for (std::uint32_t i = 0; i < sources.file_count(); ++i) {
+        const SourceFile& file = sources.file(static_cast<FileId>(i));
+        if (files_.find(file.path()) == files_.end()) {
+            files_.emplace(file.path(),
+                           EditedFile(file.text(), std::move(statements[file.path()])));
+        }
+    }
+}
+
+/// Precondition: the diagnostics are not sorted yet.
+void RepairAttempt::read_syntax_errors() {
+    with_syntax_errors_.clear();
+    const std::vector<Diagnostic>& all = fixed_.compiled.diagnostics.all();
+    for (std::size_t i = 0; i < std::min(fixed_.compiled.syntax_diagnostics, all.size()); ++i) {
+        if (all[i].severity == Severity::Error) {
+            for (StatementKey& key : statements_at(all[i].span)) {
+                with_syntax_errors_.insert(std::move(key));
+            }
+        }
+    }
+}
+
+void RepairAttempt::read_first_errors() {
+    for (const Diagnostic& diagnostic : fixed_.compiled.diagnostics.all()) {
+        if (diagnostic.severity == Severity::Error) {
+            for (const StatementKey& key : statements_at(diagnostic.span)) {
+                first_errors_[key].emplace(diagnostic.code, diagnostic.message);
+            }
+        }
+    }
+}
+
+bool RepairAttempt::may_apply(const Diagnostic& diagnostic, const Fix& fix) {
+    if (diagnostic.severity != Severity::Error && fixed_.compiled.diagnostics.has_errors()) {
+        return false;
+    }
+    const SourceMap& sources = *fixed_.compiled.grammar.sources;
+    for (const Edit& edit : fix.edits) {
+        const std::string& path = sources.file(edit.span.file).path();
+        if (!subject_.scope.contains(path)) {
+            fixed_.left.insert(path);
+            return false;
+        }
+    }
+    if (stands_alone(diagnostic.code)) {
+        return true;
+    }
+    const std::vector<StatementKey> keys = statements_of(fix);
+    return std::none_of(keys.begin(), keys.end(),
+                        [&](const StatementKey& key) { return kept_.count(key) != 0; });
+}
+
+void RepairAttempt::apply(const ChosenFixes& chosen) {
+    const SourceMap& sources = *fixed_.compiled.grammar.sources;
+    for (std::size_t i = 0; i < chosen.fixes.size(); ++i) {
+        const Fix& fix = *chosen.fixes[i];
+        ++fixed_.fix_count;
+        if (fixed_.lines.size() < kMaxFixLines) {
+            fixed_.lines.push_back(describe(*chosen.diagnostics[i], fix, sources));
+        }
+        const SourceSpan first = fix.edits.front().span;
+        const std::string& path = sources.file(first.file).path();
+        const AppliedFix applied{chosen.diagnostics[i]->code, path,
+                                 files_.at(path).original_place(first.begin)};
+        for (const StatementKey& key : statements_of(fix)) {
+            applied_[key].push_back(applied);
+        }
+    }
+    std::set<std::string> done; // a file that is included twice is one text
+    for (std::uint32_t i = 0; i < sources.file_count(); ++i) {
+        const SourceFile& file = sources.file(static_cast<FileId>(i));
+        const auto found = chosen.edits.find(file.path());
+        if (found != chosen.edits.end() && done.insert(file.path()).second) {
+            std::string text(file.has_byte_order_mark() ? kByteOrderMark : "");
+            text += apply_edits(file.text(), found->second);
+            fixed_.changed[file.path()] = std::move(text);
+            files_.at(file.path()).add_round(file.text(), found->second);
+        }
+    }
+}
+
+std::vector<StatementKey> RepairAttempt::statements_at(SourceSpan span) const {
+    std::vector<StatementKey> keys;
+    if (span.file == kNoFile) {
+        return keys;
+    }
+    const std::string& path = (*fixed_.compiled.grammar.sources).file(span.file).path();
+    for (const std::size_t number : files_.at(path).statements_at({span.begin, span.end})) {
+        keys.emplace_back(path, number);
+    }
+    return keys;
+}
+
+std::vector<StatementKey> RepairAttempt::statements_of(const Fix& fix) const {
+    std::set<StatementKey> keys;
+    for (const Edit& edit : fix.edits) {
+        for (StatementKey& key : statements_at(edit.span)) {
+            keys.insert(std::move(key));
+        }
+    }
+    return {keys.begin(), keys.end()};
+}
+
+std::set<StatementKey> RepairAttempt::wrong() const {
+    const auto has_bracket_repair = [&](const StatementKey& key) {
+        const auto applied = applied_.find(key);
+        return applied != applied_.end() &&
+               std::any_of(applied->second.begin(), applied->second.end(),
+                           [](const AppliedFix& fix) { return may_have_rivals(fix.code); });
+    };
+    const auto is_repaired = [&](const StatementKey& key) {
+        const auto applied = applied_.find(key);
+        return applied != applied_.end() &&
+               std::any_of(applied->second.begin(), applied->second.end(),
+                           [](const AppliedFix& fix) { return !stands_alone(fix.code); });
+    };
+    std::set<StatementKey> keys;
+    for (const StatementKey& key : with_syntax_errors_) {
+        if (is_repaired(key)) {
+            keys.insert(key);
+        }
+    }
+    for (const Diagnostic& diagnostic : fixed_.compiled.diagnostics.all()) {
+        if (diagnostic.severity != Severity::Error) {
+            continue;
+        }
+        for (const StatementKey& key : statements_at(diagnostic.span)) {
+            const auto before = first_errors_.find(key);
+            const bool is_new = before == first_errors_.end() ||
+                                before->second.count({diagnostic.code, diagnostic.message}) == 0;
+            // The first text was read as if its brackets had been repaired, so that an error which
+            // a bracket causes is in both.
+            if ((is_new || has_bracket_repair(key)) && is_repaired(key)) {
+                keys.insert(key);
+            }
+        }
+    }
+    return keys;
+}
+
+void RepairAttempt::offer_doubtful(Diagnostics& diagnostics, const SourceMap& sources) const {
+    const bool are_errors_left = fixed_.compiled.diagnostics.has_errors();
+    diagnostics.offer_fixes_where([&](const Diagnostic& diagnostic) {
+        if (stands_alone(diagnostic.code)) {
+            return false;
+        }
+        if (keeps_all_ || (diagnostic.severity != Severity::Error && are_errors_left)) {
+            return true;
+        }
+        return std::any_of(diagnostic.fixes.begin(), diagnostic.fixes.end(), [&](const Fix& fix) {
+            return std::any_of(fix.edits.begin(), fix.edits.end(), [&](const Edit& edit) {
+                const std::string& path = sources.file(edit.span.file).path();
+                const auto file = files_.find(path);
+                if (file == files_.end()) {
+                    return false;
+                }
+                const std::vector<std::size_t> touched =
+                    file->second.original_statements_at({edit.span.begin, edit.span.end});
+                return std::any_of(touched.begin(), touched.end(), [&](std::size_t number) {
+                    return kept_.count({path, number}) != 0;
+                });
+            });
+        });
+    });
+}
+
+} // namespace lsys::lsc

@@ -1,0 +1,127 @@
+// The part of RepairAttempt that compares a repair with others.
+#include "compiler/program/program_dump.h"
+#include "runtime/cli/other_repairs.h"
+#include "runtime/cli/repair_attempt.h"
+
+#include <algorithm>
+
+namespace lsys::lsc {
+
+namespace {
+
+/// Repairs that may have rivals, in larger numbers or files, are offered: each is compared with
+/// others, by compiling the file.
+constexpr std::size_t kMaxCompared = 100;
+constexpr std::size_t kMaxComparedFile = std::size_t{1} << 20;
+
+/// Name and number of parameters.
+using ModuleName = std::pair<std::string, std::uint32_t>;
+
+std::set<ModuleName> modules_of(const Grammar& grammar) {
+    std::set<ModuleName> modules;
+    for (const Symbol& symbol : grammar.program->symbols) {
+        modules.emplace(grammar.names.text(symbol.name), symbol.parameter_count);
+    }
+    return modules;
+}
+
+} // namespace
+
+std::set<StatementKey> RepairAttempt::ambiguous() const {
+    std::set<StatementKey> keys;
+    std::size_t compared = 0;
+    for (const auto& [key, fixes] : applied_) {
+        const auto rival = std::find_if(fixes.begin(), fixes.end(), [](const AppliedFix& fix) {
+            return may_have_rivals(fix.code);
+        });
+        if (rival == fixes.end() || subject_.project.is_cancelled()) {
+            continue;
+        }
+        // Of several repairs of one statement each would have to be compared with all of the
+        // others.
+        if (fixes.size() > 1 || ++compared > kMaxCompared || has_rival(key, *rival)) {
+            keys.insert(key);
+        }
+    }
+    return keys;
+}
+
+/// Whether another repair of the statement is as good as the fix that was applied.
+bool RepairAttempt::has_rival(const StatementKey& key, const AppliedFix& fix) const {
+    const EditedFile& file = files_.at(key.first);
+    const TextPlace before = file.statements()[key.second];
+    const std::optional<TextPlace> now = present_place(key);
+    const SourceFile* const source = find_source(key.first);
+    if (!now || source == nullptr || fix.path != key.first || fix.place < before.begin ||
+        source->text().size() > kMaxComparedFile ||
+        before.end - before.begin > kMaxComparedStatement) {
+        return true;
+    }
+    const std::string_view text = source->text();
+    StatementRepair repair;
+    repair.code = fix.code;
+    repair.broken =
+        std::string_view(file.original()).substr(before.begin, before.end - before.begin);
+    repair.repaired = text.substr(now->begin, now->end - now->begin);
+    repair.place = fix.place - before.begin;
+    repair.file_text = text;
+    const std::vector<std::string> others = other_repairs(repair);
+    const CompiledText& fixed = fixed_.compiled;
+    if (others.empty() || !fixed.grammar.program) {
+        return !others.empty();
+    }
+    const std::string program = dump_program(*fixed.grammar.program, fixed.grammar.names);
+    const std::set<ModuleName> modules = modules_of(fixed.grammar);
+    return std::any_of(others.begin(), others.end(), [&](const std::string& other) {
+        std::map<std::string, std::string> changed = fixed_.changed;
+        std::string& mended = changed[key.first];
+        mended = std::string(source->has_byte_order_mark() ? kByteOrderMark : "");
+        mended += text.substr(0, now->begin);
+        mended += other;
+        mended += text.substr(now->end);
+        CompiledText rival_text;
+        if (!compile_changed(subject_, changed, rival_text) || !rival_text.grammar.program ||
+            rival_text.diagnostics.has_errors() ||
+            rival_text.diagnostics.count(Severity::Warning) >
+                fixed.diagnostics.count(Severity::Warning) ||
+            dump_program(*rival_text.grammar.program, rival_text.grammar.names) == program) {
+            return false;
+        }
+        // Without the comma a module has a number of parameters that it has nowhere else.
+        const std::set<ModuleName> others_modules = modules_of(rival_text.grammar);
+        return fix.code != DiagnosticCode::MissingComma ||
+               others_modules.size() <= modules.size() ||
+               !std::includes(others_modules.begin(), others_modules.end(), modules.begin(),
+                              modules.end());
+    });
+}
+
+/// Where the statement lies after all fixes; nothing if it has become several or none.
+std::optional<TextPlace> RepairAttempt::present_place(const StatementKey& key) const {
+    const EditedFile& file = files_.at(key.first);
+    std::optional<TextPlace> found;
+    for (const SourceSpan& span : fixed_.compiled.statements) {
+        if ((*fixed_.compiled.grammar.sources).file(span.file).path() != key.first ||
+            file.original_place(span.begin) != file.statements()[key.second].begin) {
+            continue;
+        }
+        const TextPlace place{span.begin, span.end};
+        if (found && *found != place) {
+            return std::nullopt;
+        }
+        found = place;
+    }
+    return found;
+}
+
+const SourceFile* RepairAttempt::find_source(const std::string& path) const {
+    const SourceMap& sources = *fixed_.compiled.grammar.sources;
+    for (std::uint32_t i = 0; i < sources.file_count(); ++i) {
+        if (sources.file(static_cast<FileId>(i)).path() == path) {
+            return &sources.file(static_cast<FileId>(i));
+        }
+    }
+    return nullptr;
+}
+
+} // namespace lsys::lsc

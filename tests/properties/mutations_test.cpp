@@ -1,0 +1,312 @@
+// What `lsc check --fix` may do to a wrong grammar: right grammars are made wrong by one token, as
+// hasty fingers do it, and repaired. Where the repaired text compiles, it must be the grammar that
+// was right; where more than one repair is possible, nothing may be applied.
+#include "compiler/program/program_dump.h"
+#include "grammar/format/impl/lexemes.h"
+#include "runtime/cli/fixes.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/program/host.h"
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+using namespace lsys;
+namespace fs = std::filesystem;
+
+/// Larger files are slow, and none of them shows another kind of statement.
+constexpr std::uintmax_t kMaxFileBytes = 4000;
+
+struct Compiled {
+    bool has_errors = true;
+    bool has_certain_fix = false;
+    std::string program; // of a grammar without errors
+};
+
+/// A project that reads files of the disk.
+Project disk_project() {
+    return {make_file_host(nullptr), {}, 1, false};
+}
+
+std::string program_text(const Grammar& grammar) {
+    return grammar.program ? dump_program(*grammar.program, grammar.names) : std::string();
+}
+
+Compiled compile(const std::string& path, const std::string& text) {
+    const Project project = disk_project();
+    const Result<CompiledText> made =
+        compile_text(path, {text, Dialect::Lsys}, {}, project.limits.max_modules,
+                     make_loader(project, project.limits.max_bytes));
+    REQUIRE(made);
+    const Diagnostics& diagnostics = made.value().diagnostics;
+    Compiled compiled;
+    compiled.has_errors = diagnostics.has_errors();
+    for (const Diagnostic& diagnostic : diagnostics.all()) {
+        for (const Fix& fix : diagnostic.fixes) {
+            compiled.has_certain_fix = compiled.has_certain_fix || fix.machine_applicable;
+        }
+    }
+    compiled.program = compiled.has_errors ? std::string() : program_text(made.value().grammar);
+    return compiled;
+}
+
+struct RightGrammar {
+    std::string path;
+    std::string text;
+    std::string program;
+};
+
+/// Samples and golden cases without errors.
+std::vector<RightGrammar> right_grammars() {
+    std::vector<std::string> paths;
+    for (const char* folder : {LSYS_SOURCE_DIR "/samples", LSYS_SOURCE_DIR "/tests/ui"}) {
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+            const std::string path = entry.path().string();
+            if (entry.is_regular_file() && path.ends_with(".lsys") &&
+                path.find("/runner/") == path.npos && entry.file_size() <= kMaxFileBytes) {
+                paths.push_back(path);
+            }
+        }
+    }
+    std::sort(paths.begin(), paths.end());
+    std::vector<RightGrammar> grammars;
+    for (const std::string& path : paths) {
+        std::string text = tests::read_text(path);
+        Compiled compiled = compile(path, text);
+        if (!compiled.has_errors) {
+            grammars.push_back({path, std::move(text), std::move(compiled.program)});
+        }
+    }
+    return grammars;
+}
+
+/// A right grammar with one token changed.
+struct Mutant {
+    std::string kind;
+    std::string text;
+};
+
+class Mutants {
+public:
+    explicit Mutants(const std::string& text) : text_(text), lexemes_(lexemes_of(text)) {}
+
+    std::vector<Mutant> all() {
+        for (const Lexeme& lexeme : lexemes_) {
+            const bool is_ascii = std::none_of(lexeme.text.begin(), lexeme.text.end(), [](char c) {
+                return (static_cast<unsigned char>(c) & 0x80u) != 0;
+            });
+            if (!is_comment(lexeme) && is_ascii) {
+                one(lexeme);
+            }
+        }
+        return std::move(mutants_);
+    }
+
+private:
+    void replace(std::string kind, const Lexeme& lexeme, const std::string& replacement) {
+        std::string mutant = text_;
+        const auto at = static_cast<std::size_t>(lexeme.text.data() - text_.data());
+        mutant.replace(at, lexeme.text.size(), replacement);
+        mutants_.push_back({std::move(kind), std::move(mutant)});
+    }
+
+    void exchange(const Lexeme& lexeme, const char* signs) {
+        for (const char* sign = signs; *sign != '\0'; ++sign) {
+            replace("`" + std::string(lexeme.text) + "` typed as `" + *sign + "`", lexeme,
+                    std::string(1, *sign));
+        }
+    }
+
+    void one(const Lexeme& lexeme) {
+        const std::string token(lexeme.text);
+        if (token.size() == 1 && std::string_view(";:()[],{}").find(token) != token.npos) {
+            replace("`" + token + "` removed", lexeme, "");
+            replace("`" + token + "` doubled", lexeme, token + token);
+        }
+        const std::map<std::string, const char*> exchanged{{";", ":,"}, {":", ";,"}, {"(", "[{"},
+                                                           {")", "]}"}, {"[", "("},  {"]", ")"},
+                                                           {",", ";:."}};
+        if (const auto found = exchanged.find(token); found != exchanged.end()) {
+            exchange(lexeme, found->second);
+        }
+        if (token == "==") {
+            replace("`==` typed as `=`", lexeme, "=");
+        }
+        if (lexeme.kind == LexemeKind::Keyword) {
+            replace("`#` removed", lexeme, token.substr(1));
+            replace("blank after `#`", lexeme, "# " + token.substr(1));
+        }
+        if (lexeme.kind == LexemeKind::Operator || lexeme.kind == LexemeKind::Number) {
+            replace("operator or number doubled", lexeme, token + " " + token);
+            replace("operator or number removed", lexeme, "");
+        }
+        for (std::size_t i = 0; i + 1 < token.size(); ++i) {
+            const auto is_letter = [](char c) {
+                return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+            };
+            if (is_letter(token[i]) && is_letter(token[i + 1]) && token[i] != token[i + 1]) {
+                std::string swapped = token;
+                std::swap(swapped[i], swapped[i + 1]);
+                replace("letters swapped", lexeme, swapped);
+            }
+        }
+    }
+
+    const std::string& text_;
+    std::vector<Lexeme> lexemes_;
+    std::vector<Mutant> mutants_;
+};
+
+struct Count {
+    std::uint32_t tried = 0;
+    std::uint32_t right = 0;      // repaired to the grammar that it was
+    std::uint32_t wrong = 0;      // repaired to another one
+    std::uint32_t unfinished = 0; // some fixes were applied, errors are left
+};
+
+class Census {
+public:
+    explicit Census(bool keeps_all) : keeps_all_(keeps_all) {}
+
+    void run(const RightGrammar& grammar, const Mutant& mutant) {
+        const Compiled broken = compile(grammar.path, mutant.text);
+        if (!broken.has_errors) {
+            return; // another right grammar
+        }
+        Count& count = counts_[mutant.kind];
+        ++count.tried;
+        if (!broken.has_certain_fix) {
+            return;
+        }
+        lsc::FixedGrammar fixed;
+        const Result<Done> done =
+            lsc::fix_text(grammar.path, {mutant.text, Dialect::Lsys}, {},
+                          lsc::FixScope(grammar.path, {}), disk_project(), fixed);
+        REQUIRE(done);
+        if (fixed.fix_count == 0) {
+            keep("lost", grammar, mutant, fixed);
+            return;
+        }
+        if (fixed.compiled.diagnostics.has_errors()) {
+            ++count.unfinished;
+            keep("unfinished", grammar, mutant, fixed);
+        } else if (program_text(fixed.compiled.grammar) == grammar.program) {
+            ++count.right;
+        } else {
+            ++count.wrong;
+            keep("wrong", grammar, mutant, fixed);
+        }
+    }
+
+    [[nodiscard]] Count count(const std::string& kind) const {
+        const auto found = counts_.find(kind);
+        return found == counts_.end() ? Count() : found->second;
+    }
+    [[nodiscard]] Count total() const {
+        Count sum;
+        for (const auto& [kind, count] : counts_) {
+            sum.tried += count.tried;
+            sum.right += count.right;
+            sum.wrong += count.wrong;
+            sum.unfinished += count.unfinished;
+        }
+        return sum;
+    }
+
+    [[nodiscard]] std::string table() const {
+        std::string out;
+        const auto row = [&](const std::string& kind, const Count& count) {
+            char line[128];
+            std::snprintf(line, sizeof line, "%-28s %6u %6u %6u %6u\n", kind.c_str(), count.tried,
+                          count.right, count.wrong, count.unfinished);
+            out += line;
+        };
+        out += "mutation                      tried  right  wrong  errors left\n";
+        for (const auto& [kind, count] : counts_) {
+            row(kind, count);
+        }
+        row("all", total());
+        return out;
+    }
+    [[nodiscard]] const std::string& kept() const { return kept_; }
+
+private:
+    void keep(const char* what,
+              const RightGrammar& grammar,
+              const Mutant& mutant,
+              const lsc::FixedGrammar& fixed) {
+        if (!keeps_all_ && (kept_.size() > 4000 || std::string_view(what) == "lost")) {
+            return;
+        }
+        kept_ += std::string(what) + ", " + mutant.kind + ", " + grammar.path + "\n";
+        const auto first_line = [&](const std::string& a, const std::string& b) {
+            std::istringstream left(a);
+            std::istringstream right(b);
+            std::string line;
+            for (std::string other; std::getline(left, line);) {
+                if (!std::getline(right, other) || other != line) {
+                    break;
+                }
+            }
+            return line;
+        };
+        kept_ += "    was  " + first_line(grammar.text, mutant.text) + "\n";
+        kept_ += "    made " + first_line(mutant.text, grammar.text) + "\n";
+        for (const std::string& line : fixed.lines) {
+            kept_ += "    " + line.substr(line.rfind('/') + 1) + "\n";
+        }
+    }
+
+    bool keeps_all_;
+    std::map<std::string, Count> counts_;
+    std::string kept_;
+};
+
+} // namespace
+
+TEST_CASE("a repaired grammar is the one that was meant") {
+    // A part of all mutants, the same in every run.
+    constexpr std::uint64_t kOneOf = 16;
+    Census census(false);
+    std::uint64_t number = 0;
+    for (const RightGrammar& grammar : right_grammars()) {
+        for (const Mutant& mutant : Mutants(grammar.text).all()) {
+            if (++number % kOneOf == 0) {
+                census.run(grammar, mutant);
+            }
+        }
+    }
+    INFO(census.table() << census.kept());
+    CHECK(census.total().wrong == 0);
+    CHECK(census.total().unfinished == 0);
+    // What can only have been meant in one way is repaired.
+    for (const char* kind : {"`;` removed", "`;` doubled", "`#` removed", "blank after `#`",
+                             "`:` doubled", "`)` doubled"}) {
+        const Count count = census.count(kind);
+        INFO(kind);
+        CHECK(count.tried > 0);
+        CHECK(10 * count.right >= 9 * count.tried);
+    }
+}
+
+TEST_CASE("all mutants", "[.]") {
+    Census census(true);
+    for (const RightGrammar& grammar : right_grammars()) {
+        for (const Mutant& mutant : Mutants(grammar.text).all()) {
+            census.run(grammar, mutant);
+        }
+    }
+    std::printf("%s%s", census.kept().c_str(), census.table().c_str());
+}

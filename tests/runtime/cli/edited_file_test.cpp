@@ -1,0 +1,71 @@
+#include "runtime/cli/chosen_fixes.h"
+#include "runtime/cli/edited_file.h"
+
+#include <catch2/catch.hpp>
+
+#include <string>
+#include <vector>
+
+using namespace lsys;
+using namespace lsys::lsc;
+
+namespace {
+
+struct Rounds {
+    std::string text;
+    EditedFile file;
+
+    Rounds(std::string original, std::vector<TextPlace> statements)
+        : text(std::move(original)), file(text, std::move(statements)) {}
+
+    void round(const std::vector<Edit>& edits) {
+        std::vector<const Edit*> all;
+        for (const Edit& edit : edits) {
+            all.push_back(&edit);
+        }
+        file.add_round(text, all);
+        text = apply_edits(text, all);
+    }
+};
+
+Edit edit(std::uint32_t begin, std::uint32_t end, std::string replacement) {
+    return {{kNoFile, begin, end}, std::move(replacement)};
+}
+
+} // namespace
+
+TEST_CASE("places of an edited text are found in the text as it was") {
+    Rounds r("abcdefgh", {});
+    r.round({edit(1, 1, "123"), edit(4, 6, "")});
+    CHECK(r.text == "a123bcdgh");
+    CHECK(r.file.original_place(0) == 0);
+    CHECK(r.file.original_place(1) == 1); // the edit begins
+    CHECK(r.file.original_place(3) == 1); // within it
+    CHECK(r.file.original_place(4) == 1); // b
+    CHECK(r.file.original_place(6) == 3); // d
+    CHECK(r.file.original_place(7) == 6); // g
+    r.round({edit(0, 1, ""), edit(8, 9, "HHH")});
+    CHECK(r.text == "123bcdgHHH");
+    CHECK(r.file.original_place(3) == 1); // b
+    CHECK(r.file.original_place(6) == 6); // g
+    CHECK(r.file.original_place(9) == 7); // H
+    CHECK(r.file.original_place(10) == 8);
+}
+
+TEST_CASE("a line feed that is inserted counts as the file's line ends do") {
+    Rounds r("a\r\nb\r\n", {});
+    r.round({edit(1, 1, "\n")});
+    CHECK(r.text == "a\r\n\r\nb\r\n");
+    CHECK(r.file.original_place(5) == 3); // b
+}
+
+TEST_CASE("statements are found by any place that touches them") {
+    //        0123456789
+    Rounds r("#w:F;#p;#q", {{5, 8}, {0, 5}, {8, 10}, {0, 5}});
+    REQUIRE(r.file.statements().size() == 3);
+    CHECK(r.file.statements_at({2, 3}) == std::vector<std::size_t>{0});
+    CHECK(r.file.statements_at({5, 5}) == std::vector<std::size_t>{0, 1});
+    CHECK(r.file.statements_at({6, 7}) == std::vector<std::size_t>{1});
+    r.round({edit(0, 0, "////")});
+    CHECK(r.file.statements_at({11, 11}) == std::vector<std::size_t>{1});
+}

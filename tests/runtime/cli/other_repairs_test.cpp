@@ -1,0 +1,74 @@
+#include "runtime/cli/other_repairs.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+using namespace lsys;
+using namespace lsys::lsc;
+
+namespace {
+
+std::vector<std::string> others(DiagnosticCode code,
+                                std::string_view broken,
+                                std::string_view repaired,
+                                std::string_view file_text = {}) {
+    const auto place =
+        std::mismatch(broken.begin(), broken.end(), repaired.begin(), repaired.end()).first -
+        broken.begin();
+    return other_repairs({code, broken, repaired, static_cast<std::uint32_t>(place), file_text});
+}
+
+bool has(const std::vector<std::string>& texts, std::string_view text) {
+    return std::find(texts.begin(), texts.end(), text) != texts.end();
+}
+
+} // namespace
+
+TEST_CASE("a bracket that reads the same elsewhere has no rival") {
+    using Code = DiagnosticCode;
+    CHECK(others(Code::ExtraParenthesis, "#w : F(2));", "#w : F(2);").empty());
+    CHECK(others(Code::ExtraParenthesis, "#w : F(2*(k + 1)));", "#w : F(2*(k + 1));").empty());
+    CHECK(others(Code::UnclosedParenthesis, "#w : F(k + 1;", "#w : F(k + 1);").empty());
+    CHECK(others(Code::UnclosedParenthesis, "#w : F((k + 1)*2;", "#w : F((k + 1)*2);").empty());
+}
+
+TEST_CASE("every other place of a bracket that reads otherwise is a rival") {
+    using Code = DiagnosticCode;
+    CHECK(has(others(Code::ExtraParenthesis, "#w : F(k/2*(k + 1)));", "#w : F(k/2*(k + 1));"),
+              "#w : F(k/(2*(k + 1)));"));
+    CHECK(has(others(Code::ExtraParenthesis, "#w : Fsin(90));", "#w : Fsin(90);"),
+              "#w : F(sin(90));"));
+    CHECK(has(others(Code::UnclosedParenthesis, "#w : F(k+(30);", "#w : F(k+(30));"),
+              "#w : F(k)+(30);"));
+    CHECK(has(others(Code::BadRange, "#w : &(0, 9});", "#w : &(0, 9);"), "#w : &({0, 9});"));
+    CHECK(others(Code::UnclosedParenthesis, "#w : F({1, k*2);", "#w : F({1, k*2});") ==
+          std::vector<std::string>{"#w : F({1, k}*2);"});
+}
+
+TEST_CASE("a comma may be a product unless a number follows") {
+    using Code = DiagnosticCode;
+    CHECK(others(Code::MissingComma, "#w : F(k 2);", "#w : F(k, 2);").empty());
+    CHECK(has(others(Code::MissingComma, "#w : F(2 k);", "#w : F(2, k);"), "#w : F(2 *  k);"));
+    CHECK(others(Code::MissingComma, "#w : F({1 k});", "#w : F({1, k});").empty());
+}
+
+TEST_CASE("the statement is read as its file's names say") {
+    // Only where they are characters may the text in back quotes be as long.
+    const std::string_view broken = "#w : `seventeen modules`(2));";
+    const std::string_view repaired = "#w : `seventeen modules`(2);";
+    CHECK(others(DiagnosticCode::ExtraParenthesis, broken, repaired,
+                 "#n = 1;\n#set names characters;\n")
+              .empty());
+    CHECK(others(DiagnosticCode::ExtraParenthesis, broken, broken, "#n = 1;\n").empty());
+}
+
+TEST_CASE("a long statement is not compared") {
+    const std::string modules(kMaxComparedStatement, 'F');
+    CHECK(others(DiagnosticCode::ExtraParenthesis, "#w : " + modules + "k/2*(k + 1)));",
+                 "#w : " + modules + "k/2*(k + 1));")
+              .empty());
+}
