@@ -86,8 +86,8 @@ Forces forces_of(const PhysicsOptions& options) {
     return forces;
 }
 
-Plant plant_of(const Skeleton& rest, double surface_mass) {
-    Plant plant;
+PlantBodies plant_of(const Skeleton& rest, double surface_mass) {
+    PlantBodies plant;
     plant.rest = make_bodies(rest, surface_mass);
     const std::vector<std::uint32_t>& ends = plant.rest.level_ends;
     plant.schedule = Schedule(ends);
@@ -117,7 +117,7 @@ struct PlantPhysics::State {
     PhysicsOptions options;
     Forces forces;
     Workers workers;
-    Plant plant;
+    PlantBodies plant;
     double time = 0.0;
     double energy = 0.0; // never less than that of the plant, and equal but for rounding
 

@@ -198,7 +198,7 @@ void eliminate(const Own& own,
 
 } // namespace
 
-void solve_spins(Plant& plant, const Forces& forces, Workers& workers) {
+void solve_spins(PlantBodies& plant, const Forces& forces, Workers& workers) {
     const std::vector<Body>& bodies = plant.rest.bodies;
     plant.schedule.inward(workers, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t) {
         for (std::uint32_t b = end; b-- > begin;) {

@@ -25,7 +25,7 @@ double hold_of_wind(const Body& body,
 
 namespace {
 
-void move_body(Plant& plant,
+void move_body(PlantBodies& plant,
                const Forces& forces,
                double duration,
                double speed,
@@ -76,8 +76,8 @@ void move_body(Plant& plant,
 
 } // namespace
 
-Energies
-move_bodies(Plant& plant, const Forces& forces, double duration, double speed, Workers& workers) {
+Energies move_bodies(
+    PlantBodies& plant, const Forces& forces, double duration, double speed, Workers& workers) {
     std::vector<Energies> sums(plant.schedule.piece_count());
     plant.schedule.outward(workers,
                            [&](std::uint32_t begin, std::uint32_t end, std::uint32_t piece) {
@@ -98,7 +98,7 @@ move_bodies(Plant& plant, const Forces& forces, double duration, double speed, W
     return total;
 }
 
-void scale_velocities(Plant& plant, double factor, Workers& workers) {
+void scale_velocities(PlantBodies& plant, double factor, Workers& workers) {
     plant.schedule.outward(workers, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t) {
         for (std::uint32_t b = begin; b < end; ++b) {
             BodyMotion& motion = plant.motion[b];

@@ -60,7 +60,7 @@ struct Reduced {
     glm::dvec3 wind{0.0}; // N, on all of it
 };
 
-struct Plant {
+struct PlantBodies {
     Bodies rest;
     Schedule schedule;
     std::vector<BodyPose> poses;
@@ -79,7 +79,7 @@ struct Plant {
 
 /// Solution::spin of all bodies: the velocities at the end of an implicit step, if the plant kept
 /// its shape. Spoils Motion's velocity.
-void solve_spins(Plant& plant, const Forces& forces, Workers& workers);
+void solve_spins(PlantBodies& plant, const Forces& forces, Workers& workers);
 
 struct Energies {
     double motion = 0.0;
@@ -90,10 +90,10 @@ struct Energies {
 };
 /// Turns each body by `duration` seconds of the solved spins, into next_poses, and fills Motion for
 /// that place and `speed` times these spins.
-[[nodiscard]] Energies
-move_bodies(Plant& plant, const Forces& forces, double duration, double speed, Workers& workers);
+[[nodiscard]] Energies move_bodies(
+    PlantBodies& plant, const Forces& forces, double duration, double speed, Workers& workers);
 /// All velocities times `factor`.
-void scale_velocities(Plant& plant, double factor, Workers& workers);
+void scale_velocities(PlantBodies& plant, double factor, Workers& workers);
 
 /// What is left of accelerations v^2 / r where a body turns so far in a step that they say nothing.
 [[nodiscard]] inline double share_of_pull(const glm::dvec3& spin, double step) {
