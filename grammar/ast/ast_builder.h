@@ -6,10 +6,10 @@
 #pragma once
 
 #include "grammar/ast/ast.h"
+#include "grammar/ast/parse_context.h"
 #include "grammar/ast/text_map.h"
 #include "grammar/base/diagnostic.h"
 #include "grammar/base/names.h"
-#include "grammar/ast/parse_context.h"
 
 #include <array>
 #include <cstdint>

@@ -4,8 +4,8 @@
 // `lsc import` writes the text itself: what it writes derives what the original derives.
 #pragma once
 
-#include "grammar/base/source.h"
 #include "grammar/base/diagnostic.h"
+#include "grammar/base/source.h"
 
 #include <cstdint>
 #include <map>

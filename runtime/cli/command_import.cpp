@@ -116,14 +116,15 @@ std::string new_path(const std::string& stem, FolderImport& import) {
 }
 
 /// Writes a file whose name nobody has given, so one that is there stays unless --force is given.
-ExitStatus write_named(const std::string& path, const std::string& text, const FolderImport& import) {
+ExitStatus
+write_named(const std::string& path, const std::string& text, const FolderImport& import) {
     if (import.command.force) {
         return write_imported(path, text, import.console);
     }
     std::error_code ignored;
     if (fs::exists(fs::symlink_status(path, ignored))) {
         return report_error(Error{fmt::format("`{}` is there already; --force replaces it", path)},
-                    import.console);
+                            import.console);
     }
     Result<Output> output = Output::create(path, import.console);
     if (!output) {
