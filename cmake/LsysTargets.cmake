@@ -37,7 +37,7 @@ endif()
 
 # Standard headers that most sources include, compiled once for all libraries of ours and once for all
 # tests. A source still includes what it uses: the preset `clang` builds without this.
-option(LSYS_PRECOMPILED "Precompile common headers" ON)
+option(LSYS_PRECOMPILED "Precompile common headers; g++ 12 warns of std::string in optimised code then" OFF)
 add_library(lsys_precompiled STATIC "${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp")
 target_link_libraries(lsys_precompiled PRIVATE lsys_options lsys_warnings)
 target_precompile_headers(lsys_precompiled PRIVATE
