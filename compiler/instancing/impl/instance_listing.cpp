@@ -106,8 +106,10 @@ private:
                 out_ += ' ';
             }
             const std::string_view name = names_.text(program_.symbol(module.symbol).name);
-            const bool quoted = text[module.begin] == '`' && name != "`";
-            end = module.begin + static_cast<std::uint32_t>(name.size()) + (quoted ? 2U : 0U);
+            const SourceSpan written =
+                module_name_span(sources_, word.file, module.begin, name, program_.foreign_names);
+            const bool quoted = sources_.text(written).starts_with('`') && name != "`";
+            end = written.end;
             if (program_.symbol(module.symbol).parameter_count != 0) {
                 end = static_cast<std::uint32_t>(end_of_arguments(text, end));
             }
