@@ -1,11 +1,14 @@
 // Text of every other dialect to word. What `lsc import` would write is right .lsys and derives the
 // same word, or there is an error.
+#include "grammar/cpfg/curves.h"
 #include "grammar/format/format.h"
 #include "tests/fuzz/compiled.h"
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
@@ -25,12 +28,29 @@ void try_system(const std::string& text, lsys::Dialect dialect, const std::strin
     }
 }
 
+/// A view file of cpfg, and every file that it names.
+void try_view(const std::string& text) {
+    const lsys::CpfgView view =
+        lsys::read_view(text, [&](std::string_view) { return std::optional<std::string>(text); });
+    std::string grammar = "#n = 1;\n#w : A(0.5);\n#p : A(x) : * : F(0";
+    for (const lsys::CpfgCurve& curve : view.curves) {
+        if (!curve.points.empty() && grammar.size() < 100'000) {
+            grammar += " + " + lsys::curve_at(curve, "x");
+        }
+    }
+    const CompiledText made = compile_text(grammar + ");\n", lsys::Dialect::Lsys, "");
+    if (made.bytecode) {
+        static_cast<void>(derived_text(*made.bytecode));
+    }
+}
+
 } // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     constexpr std::size_t kMostSystems = 4;
     const std::string text(data, data + size);
     static_cast<void>(lsys::detect_dialect("fuzz", text));
+    try_view(text);
     for (const lsys::DialectRow& row : lsys::dialects()) {
         if (row.dialect == lsys::Dialect::Lsys) {
             continue;
