@@ -50,7 +50,6 @@ private:
 /// else.
 struct ScannedText {
     FileId file = kNoFile;
-    std::string_view source;      // the file's text
     std::string_view text;        // what is scanned
     const TextMap* map = nullptr; // null where the text is the file's own
     // Of a file of another dialect: where the scanned text comes from; then there is no map.

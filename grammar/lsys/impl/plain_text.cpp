@@ -183,7 +183,7 @@ ModuleNames names_of(const ScannedText& scanned, const ParseContext& context) {
 PlainText make_plain(FileId file, const ParseContext& context) {
     PlainText plain;
     const std::string_view source = context.sources.file(file).text();
-    plain.scanned = {file, source, source, nullptr, nullptr};
+    plain.scanned = {file, source, nullptr, nullptr};
     if (!is_ascii(source)) {
         plain.own = std::make_unique<std::string>();
         const Validity validity = check_utf8(file, source, context.diagnostics, *plain.own);
@@ -200,8 +200,7 @@ PlainText make_plain(FileId file, const ParseContext& context) {
 
 PlainText make_plain(const Translation& translation, const ParseContext& context) {
     PlainText plain;
-    plain.scanned = {translation.file(), context.sources.file(translation.file()).text(),
-                     translation.text(), nullptr, &translation};
+    plain.scanned = {translation.file(), translation.text(), nullptr, &translation};
     plain.names = names_of(plain.scanned, context);
     return plain;
 }
