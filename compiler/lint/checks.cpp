@@ -46,7 +46,7 @@ SourceSpan module_name_span(const CheckInput& input, const ProgramWord& word, st
     const ProgramModule module = input.program.modules[index];
     return module_name_span(input.sources, word.file, module.begin,
                             input.names.text(input.program.symbol(module.symbol).name),
-                            input.program.foreign_names);
+                            input.program.written_names);
 }
 
 } // namespace lsys

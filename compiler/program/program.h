@@ -161,7 +161,7 @@ struct Program {
     std::optional<std::uint32_t> generations;
     SourceSpan generations_span;    // of the number
     std::vector<std::string> files; // paths by FileId
-    std::vector<ForeignName> foreign_names;
+    std::vector<WrittenName> written_names;
 
     std::vector<Symbol> symbols;
     std::vector<ModuleDeclaration> declarations;

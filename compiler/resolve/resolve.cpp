@@ -192,7 +192,7 @@ ResolveOutcome resolve(Ast ast,
     ResolveOutcome outcome;
     Resolution resolution{ast, names, sources, options, diagnostics, outcome.program, {}};
     outcome.program.files = paths_of(resolution);
-    outcome.program.foreign_names = ast.foreign_names;
+    outcome.program.written_names = ast.written_names;
     outcome.program.has_all_statements = !ast.incomplete;
     SetResolver settings(resolution);
     settings.read_modes();

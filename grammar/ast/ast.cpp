@@ -1,7 +1,6 @@
 #include "grammar/ast/ast.h"
 
 #include "grammar/base/contract.h"
-#include "grammar/base/utf8.h"
 
 #include <algorithm>
 #include <array>
@@ -22,23 +21,17 @@ const char* spelling(BinaryOperation operation) {
 
 namespace {
 
-/// One past the name `name` that begins at `begin` of the source. It may have been written with
-/// typographic characters, and then is longer there.
-std::uint32_t name_end(std::string_view source, std::uint32_t begin, std::string_view name) {
-    const std::string_view rest = source.substr(begin);
-    if (rest.starts_with(name)) {
-        return begin + static_cast<std::uint32_t>(name.size());
-    }
-    if (rest.starts_with('`')) {
-        const std::size_t close = rest.find_first_of("`\n", 1);
-        return begin + static_cast<std::uint32_t>(close == std::string_view::npos ? rest.size()
-                                                                                  : close + 1);
-    }
-    std::size_t at = 0;
-    for (std::size_t taken = 0; taken < name.size() && at < rest.size(); ++taken) {
-        at += decode_utf8(rest.substr(at)).length;
-    }
-    return begin + static_cast<std::uint32_t>(at);
+/// One past the name that begins at `begin` of a text, with its back quotes.
+std::uint32_t name_end(std::string_view text, std::uint32_t begin, std::string_view name) {
+    const std::size_t quotes = text.substr(begin).starts_with('`') && name != "`" ? 2 : 0;
+    return static_cast<std::uint32_t>(std::min(begin + name.size() + quotes, text.size()));
+}
+
+/// The entry of the name at a place, or null.
+const WrittenName*
+find_written(std::span<const WrittenName> names, FileId file, std::uint32_t begin) {
+    const auto found = std::lower_bound(names.begin(), names.end(), WrittenName{file, begin, 0});
+    return found != names.end() && found->file == file && found->begin == begin ? &*found : nullptr;
 }
 
 } // namespace
@@ -47,11 +40,9 @@ SourceSpan module_name_span(const SourceMap& sources,
                             FileId file,
                             std::uint32_t begin,
                             std::string_view name,
-                            std::span<const ForeignName> foreign_names) {
-    const auto found =
-        std::lower_bound(foreign_names.begin(), foreign_names.end(), ForeignName{file, begin, 0});
-    if (found != foreign_names.end() && found->file == file && found->begin == begin) {
-        return {file, begin, found->end};
+                            std::span<const WrittenName> written_names) {
+    if (const WrittenName* const written = find_written(written_names, file, begin)) {
+        return {file, begin, written->end};
     }
     return {file, begin, name_end(sources.file(file).text(), begin, name)};
 }
@@ -83,8 +74,8 @@ ModuleView ModuleCursor::view() const {
     view.name = name();
     const std::string_view text = names_->text(view.name);
     view.has_parentheses = node.has_call();
-    view.name_span = module_name_span(*sources_, file_, node.begin, text, ast_->foreign_names);
-    view.quoted = sources_->text(view.name_span).starts_with('`') && text != "`";
+    view.name_span = module_name_span(*sources_, file_, node.begin, text, ast_->written_names);
+    view.is_whole = sources_->text(view.name_span) != text;
     view.span = view.name_span;
     if (view.has_parentheses) {
         const CallNode& call = ast_->calls[call_];

@@ -133,9 +133,9 @@ struct ModuleList {
 /// A module of a list, unpacked.
 struct ModuleView {
     NameId name = kNoName;
-    SourceSpan name_span; // with the back quotes, if any
-    SourceSpan span;      // with the arguments
-    bool quoted = false;  // written in back quotes
+    SourceSpan name_span;  // with the back quotes, if any
+    SourceSpan span;       // with the arguments
+    bool is_whole = false; // no row of names: in back quotes, or spelt otherwise in its file
     bool has_parentheses = false;
     ListRange arguments;
 };
@@ -254,22 +254,23 @@ struct AstFile {
     SourceSpan included_at; // the path in the #include; of kNoFile for the root
 };
 
-/// The bytes of a module's name in a file of another dialect.
-struct ForeignName {
+/// The bytes of a module's name that its file spells otherwise: with typographic characters, or as
+/// another dialect does.
+struct WrittenName {
     FileId file = kNoFile;
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
 
-    friend auto operator<=>(const ForeignName&, const ForeignName&) = default;
+    friend auto operator<=>(const WrittenName&, const WrittenName&) = default;
 };
 
 /// The bytes of the name of a module that begins at `begin` of a file, with its back quotes. Among
-/// `foreign_names` (ascending), or as the file's text reads.
+/// `written_names` (ascending), or as the file's text reads.
 [[nodiscard]] SourceSpan module_name_span(const SourceMap& sources,
                                           FileId file,
                                           std::uint32_t begin,
                                           std::string_view name,
-                                          std::span<const ForeignName> foreign_names);
+                                          std::span<const WrittenName> written_names);
 
 struct Ast {
     std::vector<AstFile> files;
@@ -293,9 +294,8 @@ struct Ast {
     ChunkedVector<ModuleNode> modules;
     ChunkedVector<CallNode> calls;
 
-    /// Of a file of another dialect: names of modules that do not read there as they are named
-    /// here. Ascending.
-    std::vector<ForeignName> foreign_names;
+    /// Ascending.
+    std::vector<WrittenName> written_names;
 
     /// Statements that failed to parse were left out; later checks keep quiet about what may be
     /// missing.

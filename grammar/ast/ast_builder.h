@@ -142,7 +142,7 @@ private:
     void take_back_node();
     void begin_node(StatementKind kind, std::size_t index);
     void push_module(NameId name, TextRange text);
-    void push_translated(NameId name, SourceSpan span);
+    void push_written(NameId name, SourceSpan span);
     [[nodiscard]] SourceSpan of_list(SourceSpan span);
     void extend_list(ModuleList& list, SourceSpan span);
     [[nodiscard]] bool begin_call(SourceSpan parentheses, CallNode& call);

@@ -138,11 +138,11 @@ private:
             const ModuleView module = cursor.view();
             out_ += separator;
             separator = " ";
-            if (module.quoted) {
+            if (module.is_whole) {
                 out_ += '`';
             }
             name(module.name);
-            if (module.quoted) {
+            if (module.is_whole) {
                 out_ += '`';
             }
             if (!module.has_parentheses) {

@@ -67,18 +67,23 @@ void AstBuilder::extend_list(ModuleList& list, SourceSpan span) {
 
 /// `text`: the name in the scanned text, with its back quotes.
 void AstBuilder::push_module(NameId name, TextRange text) {
-    if (scanned_.translation != nullptr) {
-        push_translated(name, of_list(scanned_.span(text.begin, text.end)));
+    if (scanned_.translation != nullptr || scanned_.map != nullptr) {
+        push_written(name, of_list(scanned_.span(text.begin, text.end)));
     } else {
         ast_.modules.push_back({name, scanned_.source_begin(text.begin)});
     }
     last_name_ = LastName::Bare;
 }
 
-void AstBuilder::push_translated(NameId name, SourceSpan span) {
+/// Keeps where the name ends, if its file does not tell.
+void AstBuilder::push_written(NameId name, SourceSpan span) {
     ast_.modules.push_back({name, span.begin});
-    if (sources_.text(span) != names_.text(name)) {
-        ast_.foreign_names.push_back({span.file, span.begin, span.end});
+    const std::string_view text = names_.text(name);
+    const std::string_view written = sources_.text(span);
+    const bool is_quoted = written.size() == text.size() + 2 && written.starts_with('`') &&
+                           written.substr(1).starts_with(text);
+    if (written != text && !is_quoted) {
+        ast_.written_names.push_back({span.file, span.begin, span.end});
     }
 }
 
@@ -171,11 +176,7 @@ ModuleList AstBuilder::quoted_module(ModuleList list, NameId name, SourceSpan sp
         count_bracket(text[0], span);
     }
     span = of_list(span);
-    if (scanned_.translation != nullptr) {
-        push_translated(name, span);
-    } else {
-        ast_.modules.push_back({name, span.begin});
-    }
+    push_written(name, span);
     last_name_ = LastName::Bare;
     extend_list(list, span);
     return list;

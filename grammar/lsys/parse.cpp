@@ -69,6 +69,7 @@ Ast parse_lsys(FileId root, const ParseContext& context) {
     ast.files.push_back({root, {}});
     IncludeChain includes(context, root);
     parse_file(root, context, ast, includes);
+    std::sort(ast.written_names.begin(), ast.written_names.end());
     return ast;
 }
 
@@ -79,7 +80,7 @@ Ast parse_translation(const Translation& translation, const ParseContext& contex
     }
     IncludeChain includes(context, translation.file());
     parse_text(make_plain(translation, context), context, ast, includes);
-    std::sort(ast.foreign_names.begin(), ast.foreign_names.end());
+    std::sort(ast.written_names.begin(), ast.written_names.end());
     for (const auto& [name, original] : translation.replaced_names()) {
         context.names.set_written(context.names.intern(name), original);
     }

@@ -1,6 +1,6 @@
 // Text of every other dialect to word. What `lsc import` would write is right .lsys and derives the
 // same word, or there is an error.
-#include "grammar/cpfg/curves.h"
+#include "grammar/dialects/cpfg/curves.h"
 #include "grammar/format/format.h"
 #include "tests/fuzz/compiled.h"
 

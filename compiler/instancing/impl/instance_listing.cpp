@@ -107,7 +107,7 @@ private:
             }
             const std::string_view name = names_.text(program_.symbol(module.symbol).name);
             const SourceSpan written =
-                module_name_span(sources_, word.file, module.begin, name, program_.foreign_names);
+                module_name_span(sources_, word.file, module.begin, name, program_.written_names);
             const bool quoted = sources_.text(written).starts_with('`') && name != "`";
             end = written.end;
             if (program_.symbol(module.symbol).parameter_count != 0) {

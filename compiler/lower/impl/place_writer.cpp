@@ -52,10 +52,10 @@ std::uint32_t PlaceWriter::length_of(const ProgramWord& word, const ProgramModul
     constexpr std::uint32_t kQuotes = 2;
     const Spelling& spelling = spellings_[static_cast<std::size_t>(module.symbol)];
     std::uint32_t name = spelling.length;
-    if (!program_.foreign_names.empty()) {
+    if (!program_.written_names.empty()) {
         const SourceSpan span = module_name_span(sources_, word.file, module.begin,
                                                  names_.text(program_.symbol(module.symbol).name),
-                                                 program_.foreign_names);
+                                                 program_.written_names);
         name = span.end - span.begin;
     } else if (spelling.may_be_quoted && text_[module.begin] == '`') {
         name += kQuotes;
