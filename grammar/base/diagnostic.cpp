@@ -134,14 +134,11 @@ void Diagnostics::sort_by_place() {
     all_.erase(kept, all_.end());
 }
 
-void Diagnostics::offer_partial_fixes(std::size_t first) {
+bool Diagnostics::has_doubtful_error_from(std::size_t first) const {
     const auto begin = all_.begin() + static_cast<std::ptrdiff_t>(std::min(first, all_.size()));
-    const bool is_partial = std::any_of(begin, all_.end(), [](const Diagnostic& diagnostic) {
+    return std::any_of(begin, all_.end(), [](const Diagnostic& diagnostic) {
         return diagnostic.severity == Severity::Error && !has_certain_fix(diagnostic);
     });
-    if (is_partial) {
-        offer_fixes_from(first);
-    }
 }
 
 void Diagnostics::offer_fixes_from(std::size_t first) {

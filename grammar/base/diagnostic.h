@@ -101,10 +101,9 @@ public:
     /// Sorts by file (in order of ids), place, then severity, keeping discovery order among equals,
     /// and drops exact repetitions.
     void sort_by_place();
-    /// Offers the fixes of all diagnostics stored from number `first` on if one of these is an
-    /// error without a certain fix: what is repaired in part is still wrong.
-    void offer_partial_fixes(std::size_t first);
-    /// Offers them in any case.
+    /// Whether an error stored from number `first` on has no certain fix.
+    [[nodiscard]] bool has_doubtful_error_from(std::size_t first) const;
+    /// Offers the fixes of all diagnostics stored from number `first` on.
     void offer_fixes_from(std::size_t first);
     /// Offers the fixes of the diagnostics that `is_doubtful` holds for.
     template <typename Predicate>

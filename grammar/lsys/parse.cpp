@@ -1,6 +1,5 @@
 #include "grammar/lsys/parse.h"
 
-#include "grammar/lsys/impl/lookahead.h"
 #include "grammar/lsys/impl/parse_session.h"
 #include "grammar/lsys/impl/plain_text.h"
 #include "grammar/lsys/impl/scanning.h"
@@ -32,16 +31,41 @@ void parse_file(FileId file, const ParseContext& context, Ast& ast, IncludeChain
 
 } // namespace
 
+bool ParseSession::is_commented_out(std::size_t at) {
+    const std::string_view text = scanned.text;
+    const std::size_t newline = text.substr(0, at).substr(line_sought_to_).rfind('\n');
+    if (newline != std::string_view::npos || line_sought_to_ == 0) {
+        const std::size_t line =
+            newline == std::string_view::npos ? 0 : line_sought_to_ + newline + 1;
+        line_first_ = text.find_first_not_of(" \t", line);
+    }
+    line_sought_to_ = at;
+    return line_first_ < at && text.substr(line_first_, 2) == "//";
+}
+
+void ParseSession::judge_fixes() {
+    Diagnostics& diagnostics = context.diagnostics;
+    if (judged_.first != scan.first_diagnostic) {
+        judged_ = {scan.first_diagnostic, scan.first_diagnostic, false};
+    }
+    if (is_commented_out(scan.statement_begin)) {
+        diagnostics.offer_fixes_from(judged_.end);
+    }
+    if (judged_.is_partial) {
+        diagnostics.offer_fixes_from(judged_.end);
+    } else if (diagnostics.has_doubtful_error_from(judged_.end)) {
+        judged_.is_partial = true;
+        diagnostics.offer_fixes_from(judged_.first);
+    }
+    judged_.end = diagnostics.all().size();
+}
+
 void ParseSession::end_statement(SourceSpan span, bool whole) {
     const bool is_kept = builder.finish_statement(span, whole);
     if (is_kept && scan.semicolon_supplied) {
         lsys_grammar::report_missing_semicolon(*this);
     }
-    if (is_commented_out(scanned.text, scan.statement_begin)) {
-        context.diagnostics.offer_fixes_from(scan.first_diagnostic);
-    } else {
-        context.diagnostics.offer_partial_fixes(scan.first_diagnostic);
-    }
+    judge_fixes();
     if (context.statements != nullptr) {
         const std::uint32_t begin = scanned.source_begin(scan.statement_begin);
         context.statements->push_back({scanned.file, begin, std::max(begin, span.end)});

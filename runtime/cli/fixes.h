@@ -3,7 +3,7 @@
 //
 // 1. A fix is certain (Fix::machine_applicable) where its diagnostic knows of no other repair.
 // 2. A statement with a syntax error that has no certain fix keeps all its errors
-//    (Diagnostics::offer_partial_fixes).
+//    (ParseSession::judge_fixes).
 // 3. Warnings wait until no error is left, since an error may be their cause.
 // 4. The fixes of a statement hold together: if it still has a syntax error after them, or an error
 //    that it had not before, all are taken back; where a bracket or comma is repaired, because of

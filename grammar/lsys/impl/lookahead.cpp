@@ -89,13 +89,6 @@ bool is_first_on_line(std::string_view text, std::uint32_t at) {
     return at == 0 || text[at - 1] == '\n';
 }
 
-bool is_commented_out(std::string_view text, std::uint32_t at) {
-    const std::size_t newline = at == 0 ? std::string_view::npos : text.rfind('\n', at - 1);
-    const std::size_t line = newline == std::string_view::npos ? 0 : newline + 1;
-    const std::size_t first = text.find_first_not_of(" \t", line);
-    return first != std::string_view::npos && first < at && text.substr(first, 2) == "//";
-}
-
 bool begins_statement(std::string_view text, std::uint32_t at) {
     const std::string_view word = leading_word(text.substr(at + 1));
     if (word.empty()) {

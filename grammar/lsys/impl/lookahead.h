@@ -17,9 +17,6 @@ namespace lsys {
 [[nodiscard]] char next_character(std::string_view text, std::uint32_t at);
 /// Whether only blanks stand before `at` on its line.
 [[nodiscard]] bool is_first_on_line(std::string_view text, std::uint32_t at);
-/// Whether the line of `at` begins with `//`: what stands there is read only because the statement
-/// before has no end.
-[[nodiscard]] bool is_commented_out(std::string_view text, std::uint32_t at);
 /// Whether the `#` at `at` is likely to begin a statement: its word is a keyword or followed by
 /// `:`, or it is the first thing on its line.
 [[nodiscard]] bool begins_statement(std::string_view text, std::uint32_t at);

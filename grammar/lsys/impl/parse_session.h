@@ -9,6 +9,7 @@
 #include "grammar/lsys/impl/scan_state.h"
 #include "grammar/lsys/parse.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -69,7 +70,24 @@ public:
     }
 
 private:
+    /// Whether the line of `at` begins with `//`, so that it is read only because the statement
+    /// before has no end. `at` never falls between calls: each reads on where the last one ended.
+    [[nodiscard]] bool is_commented_out(std::size_t at);
+    /// Offers, rather than applies, the fixes of a statement that stays wrong in part or stands
+    /// behind `//`. Statements that may belong together are judged together.
+    void judge_fixes();
+
+    /// The diagnostics of statements that may belong together, by their numbers in the sink.
+    struct JudgedDiagnostics {
+        std::size_t first = 0;
+        std::size_t end = 0;     // those before are judged
+        bool is_partial = false; // an error without a certain fix is among them
+    };
+
     Ast& ast_;
+    JudgedDiagnostics judged_;
+    std::size_t line_sought_to_ = 0;
+    std::size_t line_first_ = std::string_view::npos; // first character that is not blank
 };
 
 } // namespace lsys
