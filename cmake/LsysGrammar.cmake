@@ -1,3 +1,5 @@
+add_custom_target(generated_sources COMMENT "Scanners and parsers") # what clang-tidy needs to have built
+
 # lsys_add_grammar(TARGET FOLDER): runs Bison and Flex on parser.yy and scanner.ll of FOLDER and adds the
 # results to TARGET, as `NAME/parser.h` of the last part of FOLDER. Nothing is written beside the sources.
 function(lsys_add_grammar target folder)
@@ -11,6 +13,9 @@ function(lsys_add_grammar target folder)
   flex_target(${dialect}_scanner "${source}/scanner.ll" "${out}/scanner.cpp"
     DEFINES_FILE "${out}/scanner.h")
   add_flex_bison_dependency(${dialect}_scanner ${dialect}_parser)
+  add_custom_target(${dialect}_sources
+    DEPENDS ${BISON_${dialect}_parser_OUTPUTS} ${FLEX_${dialect}_scanner_OUTPUTS})
+  add_dependencies(generated_sources ${dialect}_sources)
   target_sources(${target} PRIVATE
     ${BISON_${dialect}_parser_OUTPUTS} ${FLEX_${dialect}_scanner_OUTPUTS})
   target_include_directories(${target} PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
