@@ -241,20 +241,9 @@ TurtleStatus Turtle::reserve(const Word& word) {
             ++census[code];
         }
         for (Code code = 0; code < census.size(); ++code) {
-            switch (state.table.by_code[code].operation) {
-            case TurtleOperation::Forward:
-            case TurtleOperation::Branch:
-            case TurtleOperation::HalfForward:
-            case TurtleOperation::TaperedForward:
-                segments += census[code];
-                break;
-            default:
-                objects +=
-                    draws(state.table.by_code[code].operation) &&
-                            state.table.by_code[code].operation != TurtleOperation::PolygonEnd
-                        ? census[code]
-                        : 0;
-            }
+            const Drawn drawn = info(state.table.by_code[code].operation).drawn;
+            segments += drawn == Drawn::Segment ? census[code] : 0;
+            objects += drawn == Drawn::Object ? census[code] : 0;
         }
     };
     switch (word.code_width()) {

@@ -17,41 +17,21 @@ bool leaves_stay(TurtleProfile profile) {
            is_of_program(profile) || profile == TurtleProfile::Sidefx;
 }
 
-/// Rotations against the sense of yaw(), pitch() and roll().
-bool turns_back(TurtleOperation operation) {
-    return operation == TurtleOperation::YawRight || operation == TurtleOperation::PitchDown ||
-           operation == TurtleOperation::RollLeft;
+constexpr bool fits_walk(TurtleOperation operation) {
+    const TurtleInfo& row = info(operation);
+    return (row.quick != QuickAction::Forward || row.drawn == Drawn::Segment) &&
+           (row.quick != QuickAction::Nothing || row.drawn == Drawn::Nothing) &&
+           (!row.has(TurtleInfo::Inverse) || turns(operation)) &&
+           (!row.has(TurtleInfo::HasNoLength) || row.drawn == Drawn::Object);
 }
+static_assert(std::ranges::all_of(enumerators_of<TurtleOperation>(), fits_walk),
+              "a row of turtle_operations.def contradicts itself");
 
-/// What the walk does itself, if the module's arguments are constant.
+/// What the walk does itself: a turn only where its angle is constant.
 QuickAction quick_action(const Action& action, bool angle_is_constant) {
     const bool turn_is_constant = action.stored == 0 && (action.given != 0 || angle_is_constant);
-    const auto if_constant = [&](QuickAction quick) {
-        return turn_is_constant ? quick : QuickAction::None;
-    };
-    switch (action.operation) {
-    case TurtleOperation::Nothing:
-    case TurtleOperation::Text:
-        return QuickAction::Nothing;
-    case TurtleOperation::YawRight:
-    case TurtleOperation::YawLeft:
-        return if_constant(QuickAction::Yaw);
-    case TurtleOperation::PitchDown:
-    case TurtleOperation::PitchUp:
-        return if_constant(QuickAction::Pitch);
-    case TurtleOperation::RollLeft:
-    case TurtleOperation::RollRight:
-        return if_constant(QuickAction::Roll);
-    case TurtleOperation::Forward:
-    case TurtleOperation::Branch:
-        return QuickAction::Forward;
-    case TurtleOperation::Save:
-        return QuickAction::Save;
-    case TurtleOperation::Restore:
-        return QuickAction::Restore;
-    default:
-        return QuickAction::None;
-    }
+    return turns(action.operation) && !turn_is_constant ? QuickAction::None
+                                                        : info(action.operation).quick;
 }
 
 Action action_of(const BytecodeSymbol& symbol, TurtleProfile profile, float step_scale) {
@@ -61,9 +41,9 @@ Action action_of(const BytecodeSymbol& symbol, TurtleProfile profile, float step
     // What Houdini places is bound to its leaf inputs.
     action.advances = profile != TurtleProfile::Sidefx &&
                       !(symbol.turtle == TurtleOperation::Leaf && leaves_stay(profile));
-    action.usual_size = profile == TurtleProfile::Sidefx ? step_scale : 1.0F;
+    action.default_size = profile == TurtleProfile::Sidefx ? step_scale : 1.0F;
     action.character = symbol.name.size() == 1 ? symbol.name[0] : '\0';
-    action.unit_length = symbol.turtle == TurtleOperation::Disk ? 0.0F : 1.0F;
+    action.unit_length = info(symbol.turtle).has(TurtleInfo::HasNoLength) ? 0.0F : 1.0F;
     return action;
 }
 
@@ -81,23 +61,17 @@ HalfAngle half_angle(double degrees) {
     return {std::cos(turn * kHalfDegree), std::sin(turn * kHalfDegree)};
 }
 
-bool uses_aside(const Bytecode& bytecode) {
-    return std::any_of(bytecode.symbols.begin(), bytecode.symbols.end(), [](const auto& symbol) {
-        return symbol.turtle == TurtleOperation::AsideForward ||
-               symbol.turtle == TurtleOperation::AsideMove;
-    });
+bool any_has(const Bytecode& bytecode, TurtleInfo::Trait trait) {
+    return std::any_of(bytecode.symbols.begin(), bytecode.symbols.end(),
+                       [&](const auto& symbol) { return info(symbol.turtle).has(trait); });
 }
 
 ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options) {
     ActionTable table;
     const std::size_t symbol_count = bytecode.symbols.size();
-    // Where a second heading is drawn along, turns of the first do not move it.
-    const bool angle_is_constant =
-        !uses_aside(bytecode) &&
-        std::none_of(bytecode.symbols.begin(), bytecode.symbols.end(), [](const auto& symbol) {
-            return symbol.turtle == TurtleOperation::ScaleAngle ||
-                   symbol.turtle == TurtleOperation::DivideAngle;
-        });
+    // Turns of the first heading also move the second one, if any module follows it.
+    const bool angle_is_constant = !any_has(bytecode, TurtleInfo::SecondHeading) &&
+                                   !any_has(bytecode, TurtleInfo::ChangesAngle);
     std::vector<Action> of_symbol;
     of_symbol.reserve(symbol_count);
     for (std::size_t i = 0; i < symbol_count; ++i) {
@@ -124,7 +98,7 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
         const bool has_argument = code >= symbol_count && action.given != 0;
         action.turn = half_angle(
             static_cast<double>(has_argument ? action.arguments[0] : bytecode.settings.angle));
-        if (turns_back(action.operation)) {
+        if (info(action.operation).has(TurtleInfo::Inverse)) {
             action.turn.sine = -action.turn.sine;
         }
         action.quick = quick_action(action, angle_is_constant);

@@ -85,7 +85,7 @@ bool Turtle::State::place(const Action& action, const float* arguments) {
     if (!has_room(skeleton.objects)) {
         return false;
     }
-    const float size = action.given > 0 ? arguments[0] : action.usual_size;
+    const float size = action.given > 0 ? arguments[0] : action.default_size;
     PlacedObject object;
     object.kind = action.operation;
     object.mesh_file = action.mesh_file;
@@ -273,7 +273,7 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
         now.moved = true;
         return is_fine_place();
     }
-    case TurtleOperation::QuietMove:
+    case TurtleOperation::MoveWithoutVertex:
         advance(now.pose, static_cast<double>(argument(now.step)));
         now.moved = true;
         return is_fine_place();
@@ -283,7 +283,7 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
     case TurtleOperation::TurnBy:
         turn_by(action, arguments);
         return true;
-    case TurtleOperation::Aim:
+    case TurtleOperation::PointAt:
         if (action.given == 3) {
             aim(now.pose, {arguments[0], arguments[1], arguments[2]});
         }
@@ -317,19 +317,19 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
     case TurtleOperation::RollAround:
         roll(now.pose, {0.0, 1.0});
         return true;
-    case TurtleOperation::TurnMost:
+    case TurtleOperation::HalfTurnSnapped:
         turn_most();
         return true;
     case TurtleOperation::Mirror:
         mirror();
         return true;
-    case TurtleOperation::AsideForward:
-    case TurtleOperation::AsideMove:
+    case TurtleOperation::SecondaryForward:
+    case TurtleOperation::SecondaryMove:
         return aside_forward(action, arguments);
-    case TurtleOperation::AsideLeft:
+    case TurtleOperation::SecondaryLeft:
         now.aside += static_cast<double>(argument(0.0F));
         return true;
-    case TurtleOperation::AsideRight:
+    case TurtleOperation::SecondaryRight:
         now.aside -= static_cast<double>(argument(0.0F));
         return true;
     case TurtleOperation::AddColour:

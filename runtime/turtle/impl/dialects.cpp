@@ -59,7 +59,7 @@ bool Turtle::State::aside_forward(const Action& action, const float* arguments) 
     const Pose pose = now.pose;
     yaw(now.pose, half_angle(now.aside));
     bool fine = true;
-    if (action.operation == TurtleOperation::AsideForward) {
+    if (action.operation == TurtleOperation::SecondaryForward) {
         fine = forward(action, arguments, 1.0F);
     } else {
         polygons.path(now.pose);

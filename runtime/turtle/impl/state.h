@@ -82,7 +82,7 @@ struct Turtle::State {
         has_tropism = settings.has_tropism;
         of_program = is_of_program(settings.turtle);
         skeleton.of_program = of_program;
-        has_aside = uses_aside(bytecode);
+        has_aside = any_has(bytecode, TurtleInfo::SecondHeading);
         wide = settings.turtle == TurtleProfile::Sidefx;
         begin();
     }
