@@ -1,11 +1,12 @@
-// What `#set` decides, resolved: the attributes of a whole system. Shared by Program and Bytecode;
-// after the front end no character and no keyword carries a meaning of its own.
+// Attributes of a whole system, as `#set` decides them: the table settings.def as a struct. Shared
+// by Program and Bytecode; after the front end no character and no keyword carries a meaning.
 #pragma once
 
 #include "grammar/base/counted_enum.h"
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 namespace lsys {
@@ -41,40 +42,42 @@ LSYS_COUNTED_ENUM(TurtleProfile,
     return profile == TurtleProfile::L3dProgram || profile == TurtleProfile::LplusProgram;
 }
 
+/// A direction x y z and the susceptibility e.
+using Tropism = std::array<float, 4>;
+
+/// The largest of both depths.
+inline constexpr std::uint32_t kMaxDepth = 100'000;
+/// The minimum of settings without one.
+inline constexpr float kAnyNumber = std::numeric_limits<float>::lowest();
+
 struct Settings {
-    TurtleProfile turtle = TurtleProfile::Lsys;
-    RewritingMode rewriting = RewritingMode::Parallel;
-    ChoiceScope choice = ChoiceScope::Module;
-    WeightRule weights = WeightRule::One;
-    RandomSource random = RandomSource::Philox;
-    /// `names letters` or `names characters` in the root file: how a word is printed.
-    bool print_letters = false;
-    bool print_characters = false;
-    float angle = 90.0F;      // degrees
-    float step = 1.0F;        // metres
-    float width = 0.1F;       // metres, diameter
-    float angle_scale = 0.9F; // factors
-    float step_scale = 0.9F;
-    float width_scale = 0.7F;
-    std::uint32_t sides = 8;
-    bool has_tropism = false;
-    std::array<float, 4> tropism{}; // x y z e
-    bool has_seed = false;
-    std::uint64_t seed = 0;
-    AtDepth at_depth = AtDepth::Error;
-    std::uint32_t decompose_depth = 100; // passes after a generation
-    std::uint32_t interpret_depth = 100; // passes before a word is drawn
-    float spring = 30.0F;                // N m / rad
-    float density = 500.0F;              // kg / m^3
-    float damping = 1.0F;                // N m s / rad
+#define LSYS_SETTING(type, field, initial, use, group) type field = initial;
+#include "compiler/bytecode/settings.def"
 };
+
+/// Whether the derived word depends on a setting.
+enum class SettingUse : std::uint8_t { Word, Beside };
+/// Settings that are one line of the dump of a program; None: not shown there by the table.
+LSYS_COUNTED_ENUM(SettingGroup, None, Modes, Random, Drawing, Scales, Physics, Stages);
+
+struct SettingRow {
+    std::string_view name; // of the field, which is the key's where it has one
+    SettingUse use;
+    SettingGroup group;
+};
+
+/// Calls function(row, field) for each field of `settings`, which may be const, in the order of
+/// .lsb files.
+template <typename Values, typename Function>
+constexpr void for_each_setting(Values& settings, Function function) {
+#define LSYS_SETTING(type, field, initial, use, group)                                             \
+    function(SettingRow{#field, SettingUse::use, SettingGroup::group}, settings.field);
+#include "compiler/bytecode/settings.def"
+}
 
 [[nodiscard]] std::string_view name_of(RewritingMode mode);
 [[nodiscard]] std::string_view name_of(ChoiceScope scope);
 [[nodiscard]] std::string_view name_of(RandomSource source);
-/// The largest of both depths.
-inline constexpr std::uint32_t kMaxDepth = 100'000;
-
 [[nodiscard]] std::string_view name_of(WeightRule rule);
 [[nodiscard]] std::string_view name_of(AtDepth at);
 [[nodiscard]] std::string_view name_of(TurtleProfile profile);

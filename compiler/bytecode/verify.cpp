@@ -68,13 +68,11 @@ private:
         if (!ranges.all_finite) {
             return fail("a setting is not finite");
         }
-        if (s.sides < 3 || s.sides > 64) {
-            return fail("a branch of {} sides", s.sides);
-        }
-        if (s.decompose_depth == 0 || s.decompose_depth > kMaxDepth || s.interpret_depth == 0 ||
-            s.interpret_depth > kMaxDepth) {
-            return fail("a depth that cannot be");
-        }
+#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit)                           \
+    if (s.field < (min) || s.field > (max)) {                                                      \
+        return fail(misfit, s.field);                                                              \
+    }
+#include "compiler/bytecode/settings.def"
         if (bytecode_.generations && *bytecode_.generations == kNone) {
             return fail("more generations than there can be");
         }
