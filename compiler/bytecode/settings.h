@@ -22,25 +22,36 @@ LSYS_COUNTED_ENUM(WeightRule, One, Any);
 /// What becomes of a module that `#decompose` or `#interpret` still matches at the greatest depth:
 /// it ends the run, or it stays what it is.
 LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
-/// Which table of section 7 gives modules their meaning for the turtle.
-/// L3dProgram and LplusProgram are L3d and Lplus as the program L3D has them.
-LSYS_COUNTED_ENUM(TurtleProfile,
-                  Lsys,
-                  Thesis,
-                  Abop,
-                  Houdini,
-                  L3d,
-                  Lplus,
-                  Sys,
-                  Carey,
-                  L3dProgram,
-                  LplusProgram,
-                  Fractint,
-                  Sidefx);
+/// The table of docs/language.md section 7 that gives modules their meaning for the turtle. It has
+/// been applied once the resolver is done: nothing behind it may ask for the profile but by name.
+enum class TurtleProfile : std::uint8_t {
+#define LSYS_TURTLE_PROFILE(identifier, ...) identifier,
+#include "compiler/bytecode/turtle_profiles.def"
+#undef LSYS_TURTLE_PROFILE
+};
+template <>
+struct EnumCount<TurtleProfile> {
+    enum Enumerator : std::size_t {
+#define LSYS_TURTLE_PROFILE(identifier, ...) identifier,
+#include "compiler/bytecode/turtle_profiles.def"
+#undef LSYS_TURTLE_PROFILE
+        kCount
+    };
+};
 
-[[nodiscard]] constexpr bool is_of_program(TurtleProfile profile) {
-    return profile == TurtleProfile::L3dProgram || profile == TurtleProfile::LplusProgram;
-}
+/// What the turtle of a profile does beside its commands; the resolver copies the profile's row.
+struct TurtleTraits {
+    bool leaf_moves = true;             // a leaf moves the turtle by its length
+    bool object_moves = true;           // so do all other objects
+    bool object_has_step_scale = false; // size of an object without a parameter: step_scale, not 1
+    bool forward_has_width = false;     // F(length, width, sections, sides), not (.., spring, mass)
+    bool width_is_relative = false;     // the width is radius / length of a segment
+    bool l3d_compatible_surface = false; // sides, defaults and surfaces of the program L3D
+    float taper = 1.0F;                  // initial tip radius / base radius
+    float first_turn = 0.0F;             // degrees to the left of +Y, of the first heading
+    std::uint16_t first_colour = 0;      // index, where a word begins
+};
+[[nodiscard]] const TurtleTraits& traits_of(TurtleProfile profile);
 
 /// A direction x y z and the susceptibility e.
 using Tropism = std::array<float, 4>;

@@ -35,15 +35,15 @@ enum class QuickAction : std::uint8_t { None, Nothing, Yaw, Pitch, Roll, Forward
 
 struct TurtleInfo {
     enum Trait : std::uint16_t {
-        Inverse = 1,             // turns against yaw(), pitch() and roll() of the turtle's pose.h
-        ChangesAngle = 2,        // the angle of turns without a parameter is not a constant
-        SecondHeading = 4,       // moves along the second heading, which turns of the first keep
-        DependsOnVertical = 8,   // another drawing where the branch is turned
-        DependsOnPlace = 16,     // another drawing where the branch is moved
-        AddsCorners = 32,        // its ends are corners of a polygon without vertices
-        PreparesDrawing = 64,    // has a purpose only beside modules that draw
-        OneIsDefault = 128,      // the program L3D takes a parameter of 1 for none
-        HasNoLength = 256,       // an object that the turtle does not pass
+        Inverse = 1,           // turns against yaw(), pitch() and roll() of the turtle's pose.h
+        ChangesAngle = 2,      // the angle of turns without a parameter is not a constant
+        SecondHeading = 4,     // moves along the second heading, which turns of the first keep
+        DependsOnVertical = 8, // another drawing where the branch is turned
+        DependsOnPlace = 16,   // another drawing where the branch is moved
+        AddsCorners = 32,      // its ends are corners of a polygon without vertices
+        PreparesDrawing = 64,  // has a purpose only beside modules that draw
+        OneIsDefault = 128,    // the program L3D takes a parameter of 1 for none
+        HasNoLength = 256,     // an object that the turtle does not pass
     };
 
     std::string_view name; // in dumps

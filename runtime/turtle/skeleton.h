@@ -64,7 +64,7 @@ struct Skeleton {
     LargeVector<Polygon> polygons;
     LargeVector<glm::vec3> corners;
     std::vector<std::string> mesh_files; // as written in the grammar
-    bool of_program = false; // its surface is that of the program L3D (meshing/program_shapes.h)
+    bool l3d_compatible_surface = false; // drawn by meshing/impl/l3d_shapes.h
     // Of the modules that drew them, a polygon's being its `{`; empty unless the turtle was fed
     // with origins.
     LargeVector<Origin> segment_origins;

@@ -49,7 +49,7 @@ Turtle::State::run_some(std::span<const C> codes, const float*& parameters, cons
     const Action* const actions = table.by_code.data();
     const std::uint64_t first = position;
     const C* const begin = codes.data();
-    const bool plain = !has_tropism && !relative;
+    const bool plain = !has_tropism && !traits.width_is_relative;
     Pose pose = now.pose; // in registers; now.pose is kept for all that is not quick
     for (const C* at = begin; at != begin + codes.size(); ++at) {
         const Action& action = actions[*at];

@@ -8,9 +8,10 @@
 //   beside_word() the stream for fields on which no derived word depends: itself, or one that
 //                 ignores them
 // The settings follow their table, settings.def. Every other struct is taken apart by a structured
-// binding, so that a field added to it does not compile before it has a name here. Hand it to the stream: then it is written, read and digested. Only a
-// field that decides drawing, printing or messages goes to beside_word(). Either way the format of
-// .lsb files changes: raise kModuleFileVersion.
+// binding, so that a field added to it does not compile before it has a name here. Hand it to the
+// stream: then it is written, read and digested. Only a field that decides drawing, printing or
+// messages goes to beside_word(). Either way the format of .lsb files changes: raise
+// kModuleFileVersion.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -20,6 +21,21 @@
 namespace lsys {
 
 // `Value` is const for a stream that only looks at it.
+
+template <typename Stream, typename Value>
+void describe_traits(Stream& stream, Value& traits) {
+    auto& [leaf_moves, object_moves, object_has_step_scale, forward_has_width, width_is_relative,
+           l3d_compatible_surface, taper, first_turn, first_colour] = traits;
+    stream.truth(leaf_moves);
+    stream.truth(object_moves);
+    stream.truth(object_has_step_scale);
+    stream.truth(forward_has_width);
+    stream.truth(width_is_relative);
+    stream.truth(l3d_compatible_surface);
+    stream.real(taper);
+    stream.real(first_turn);
+    stream.number(first_colour);
+}
 
 template <typename Stream, typename Value>
 void describe_value(Stream& stream, Value& value) {
@@ -32,6 +48,8 @@ void describe_value(Stream& stream, Value& value) {
         stream.real(value);
     } else if constexpr (std::is_unsigned_v<Type>) {
         stream.number(value);
+    } else if constexpr (std::is_same_v<Type, TurtleTraits>) {
+        describe_traits(stream, value);
     } else {
         for (auto& component : value) {
             describe_value(stream, component);

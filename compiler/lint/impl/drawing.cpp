@@ -26,8 +26,8 @@ void check_drawing(const CheckInput& input, Diagnostics& diagnostics) {
                 drawn = symbol;
             }
         }
-        prepared = prepared || (reachable.occurs(symbol) &&
-                                info(operation).has(TurtleInfo::PreparesDrawing));
+        prepared = prepared ||
+                   (reachable.occurs(symbol) && info(operation).has(TurtleInfo::PreparesDrawing));
     }
     if (drawn == kNoSymbol) {
         // Why a module never occurs is said where its production is; and words may be all that is

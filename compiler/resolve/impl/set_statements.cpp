@@ -42,6 +42,8 @@ void SetResolver::read_modes() {
             }
         }
     }
+    Settings& settings = resolution_.program.settings;
+    settings.traits = traits_of(settings.turtle);
 }
 
 /// What may be set once: `names` for each file, other keys for all.

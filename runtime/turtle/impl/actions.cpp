@@ -10,13 +10,6 @@ namespace {
 
 constexpr double kHalfDegree = std::numbers::pi / 360.0;
 
-/// Profiles whose leaves are copied to the place of the turtle, which stays there.
-bool leaves_stay(TurtleProfile profile) {
-    return profile == TurtleProfile::Houdini || profile == TurtleProfile::L3d ||
-           profile == TurtleProfile::Lplus || profile == TurtleProfile::Carey ||
-           is_of_program(profile) || profile == TurtleProfile::Sidefx;
-}
-
 constexpr bool fits_walk(TurtleOperation operation) {
     const TurtleInfo& row = info(operation);
     return (row.quick != QuickAction::Forward || row.drawn == Drawn::Segment) &&
@@ -34,14 +27,14 @@ QuickAction quick_action(const Action& action, bool angle_is_constant) {
                                                         : info(action.operation).quick;
 }
 
-Action action_of(const BytecodeSymbol& symbol, TurtleProfile profile, float step_scale) {
+Action action_of(const BytecodeSymbol& symbol, const Settings& settings) {
+    const TurtleTraits& traits = settings.traits;
     Action action;
     action.operation = symbol.turtle;
     action.given = static_cast<std::uint8_t>(std::min(symbol.parameter_count, kTurtleArguments));
-    // What Houdini places is bound to its leaf inputs.
-    action.advances = profile != TurtleProfile::Sidefx &&
-                      !(symbol.turtle == TurtleOperation::Leaf && leaves_stay(profile));
-    action.default_size = profile == TurtleProfile::Sidefx ? step_scale : 1.0F;
+    action.advances =
+        symbol.turtle == TurtleOperation::Leaf ? traits.leaf_moves : traits.object_moves;
+    action.default_size = traits.object_has_step_scale ? settings.step_scale : 1.0F;
     action.character = symbol.name.size() == 1 ? symbol.name[0] : '\0';
     action.unit_length = info(symbol.turtle).has(TurtleInfo::HasNoLength) ? 0.0F : 1.0F;
     return action;
@@ -76,7 +69,7 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
     of_symbol.reserve(symbol_count);
     for (std::size_t i = 0; i < symbol_count; ++i) {
         const BytecodeSymbol& symbol = bytecode.symbols[i];
-        Action action = action_of(symbol, bytecode.settings.turtle, bytecode.settings.step_scale);
+        Action action = action_of(symbol, bytecode.settings);
         if (symbol.turtle == TurtleOperation::MeshFile) {
             action.mesh_file = static_cast<std::uint32_t>(table.mesh_files.size());
             action.unit_length = i < options.mesh_lengths.size() ? options.mesh_lengths[i] : 1.0F;
@@ -103,11 +96,11 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
         }
         action.quick = quick_action(action, angle_is_constant);
         if (action.quick == QuickAction::Forward && action.given > 1 &&
-            bytecode.settings.turtle == TurtleProfile::Sidefx) {
+            bytecode.settings.traits.forward_has_width) {
             action.quick = QuickAction::None; // the width is a parameter
         }
         if (action.quick == QuickAction::Restore && options.branches != nullptr) {
-            action.quick = QuickAction::None; // the watcher is told
+            action.quick = QuickAction::None; // the watcher sees its end
         }
         table.by_code.push_back(action);
     }

@@ -44,8 +44,8 @@ bool Turtle::State::take_character(const Action& action, Code character, const f
         }
         pending.in_parameter = false;
         const float value = leading_number(pending.text);
-        const bool one_is_default =
-            of_program && info(pending.action.operation).has(TurtleInfo::OneIsDefault);
+        const bool one_is_default = traits.l3d_compatible_surface &&
+                                    info(pending.action.operation).has(TurtleInfo::OneIsDefault);
         if (!(one_is_default && value == 1.0F)) {
             pending.action.given = 1;
             pending.action.arguments[0] = value;

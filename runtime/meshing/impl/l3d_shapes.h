@@ -1,4 +1,4 @@
-// Surfaces as the program L3D makes them, for Skeleton::of_program: each segment a cylinder of its
+// Surfaces of the program L3D, for Skeleton::l3d_compatible_surface: each segment a cylinder of its
 // own whose caps share the vertices of its rings, 2 * sides of them, and each leaf a flat outline
 // of 8 vertices.
 #pragma once
@@ -9,6 +9,6 @@
 namespace lsys {
 
 /// Appends all segments, then all leaves. Colours, levels and droop are not of the program.
-void append_program_shapes(const Skeleton& skeleton, MeshBuilder& builder);
+void append_l3d_shapes(const Skeleton& skeleton, MeshBuilder& builder);
 
 } // namespace lsys
