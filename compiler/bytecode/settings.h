@@ -50,6 +50,8 @@ struct TurtleTraits {
     float taper = 1.0F;                  // initial tip radius / base radius
     float first_turn = 0.0F;             // degrees to the left of +Y, of the first heading
     std::uint16_t first_colour = 0;      // index, where a word begins
+
+    friend bool operator==(const TurtleTraits&, const TurtleTraits&) = default;
 };
 [[nodiscard]] const TurtleTraits& traits_of(TurtleProfile profile);
 

@@ -62,6 +62,20 @@ TEST_CASE("every setting of the table is read within its range") {
 #include "compiler/bytecode/settings.def"
 }
 
+TEST_CASE("a turtle profile gives the program its traits") {
+    CHECK(test::compile_text("#w : F;\n").outcome.program->settings.traits == TurtleTraits{});
+    for (const TurtleProfile profile : enumerators_of<TurtleProfile>()) {
+        const test::Compiled c = set("turtle", std::string(name_of(profile)));
+        CAPTURE(std::string(name_of(profile)));
+        CHECK(c.outcome.program->settings.traits == traits_of(profile));
+    }
+    CHECK_FALSE(traits_of(TurtleProfile::Houdini).leaf_moves);
+    CHECK(traits_of(TurtleProfile::Lplus).width_is_relative);
+    CHECK(traits_of(TurtleProfile::L3dBugCompatible).l3d_compatible_surface);
+    CHECK(traits_of(TurtleProfile::Fractint).first_colour == 15);
+    CHECK_FALSE(traits_of(TurtleProfile::Sidefx).object_moves);
+}
+
 TEST_CASE("the help for an unknown key lists every setting") {
     const test::Compiled c = set("no_such_setting_at_all", "1");
     const Diagnostic* error = c.find(DiagnosticCode::UnknownKey);
