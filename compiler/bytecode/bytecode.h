@@ -15,7 +15,7 @@
 //   template_codes  of the axiom, then of each production's successor
 //   instructions    of each global, of the axiom's arguments, then of each production its condition
 //                   and its successor's arguments
-//   template_places of the modules of template_codes, or empty: then nobody knows where they stand
+//   template_places of the modules of template_codes, or empty: the places are unknown
 #pragma once
 
 #include "compiler/bytecode/settings.h"

@@ -15,12 +15,12 @@ namespace lsys {
 LSYS_COUNTED_ENUM(RewritingMode, Parallel, Sequential, Cyclic, Leftmost);
 /// Whether each module draws its production, or all modules of a rule share one draw a generation.
 LSYS_COUNTED_ENUM(ChoiceScope, Module, Generation);
-/// Where the draws of `choice generation` come from: section 6, or the rand() of glibc.
+/// Source of the draws of `choice generation`: docs/language.md section 6, or rand() of glibc.
 LSYS_COUNTED_ENUM(RandomSource, Philox, Glibc);
 /// Whether unconditional groups must sum to 1.
 LSYS_COUNTED_ENUM(WeightRule, One, Any);
-/// What becomes of a module that `#decompose` or `#interpret` still matches at the greatest depth:
-/// it ends the run, or it stays what it is.
+/// Treatment of a module that `#decompose` or `#interpret` still matches at the greatest depth: it
+/// ends the run, or it stays as it is.
 LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
 /// The table of docs/language.md section 7 that gives modules their meaning for the turtle. It has
 /// been applied once the resolver is done: nothing behind it may ask for the profile but by name.
@@ -39,7 +39,8 @@ struct EnumCount<TurtleProfile> {
     };
 };
 
-/// What the turtle of a profile does beside its commands; the resolver copies the profile's row.
+/// Properties of the turtle of a profile beside its commands; the resolver copies the profile's
+/// row.
 struct TurtleTraits {
     bool leaf_moves = true;             // a leaf moves the turtle by its length
     bool object_moves = true;           // so do all other objects
@@ -74,7 +75,7 @@ enum class SettingUse : std::uint8_t { Word, Beside };
 LSYS_COUNTED_ENUM(SettingGroup, None, Modes, Random, Drawing, Scales, Physics, Stages);
 
 struct SettingRow {
-    std::string_view name; // of the field, which is the key's where it has one
+    std::string_view name; // the field, and its key where it has one
     SettingUse use;
     SettingGroup group;
 };

@@ -26,11 +26,11 @@ struct EnumCount<TurtleOperation> {
 };
 inline constexpr std::uint32_t kTurtleOperationCount = kCountOf<TurtleOperation>;
 
-/// What a module of the operation adds to a skeleton, where nothing is in the way.
+/// Addition of a module with the operation to the skeleton, if it can be drawn.
 enum class Drawn : std::uint8_t { Nothing, Segment, Object, Polygon };
 
-/// What the turtle's walk over a word does itself, without a call. Yaw, Pitch and Roll are the
-/// turns by an angle, quick where the angle is a constant.
+/// Actions that the turtle's walk over a word does itself, without a call. Yaw, Pitch and Roll are
+/// the turns by an angle, quick where the angle is a constant.
 enum class QuickAction : std::uint8_t { None, Nothing, Yaw, Pitch, Roll, Forward, Save, Restore };
 
 struct TurtleInfo {

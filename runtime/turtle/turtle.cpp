@@ -231,7 +231,7 @@ Turtle::~Turtle() = default;
 TurtleStatus Turtle::reserve(const Word& word) {
     State& state = *state_;
     if (state.interprets) {
-        return TurtleStatus::Ok; // nobody knows how much will be drawn
+        return TurtleStatus::Ok; // productions of #interpret decide how much is drawn
     }
     std::uint64_t segments = 0;
     std::uint64_t objects = 0;

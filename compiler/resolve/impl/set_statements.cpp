@@ -46,7 +46,7 @@ void SetResolver::read_modes() {
     settings.traits = traits_of(settings.turtle);
 }
 
-/// What may be set once: `names` for each file, other keys for all.
+/// The scope in which a key may be set once: the file for `names`, the program for other keys.
 std::uint64_t SetResolver::scope_of(const SetNode& node) const {
     const bool of_file = resolution_.text(node.key) == "names";
     const FileId file = of_file ? node.key_span.file : kNoFile;

@@ -8,7 +8,7 @@
 
 namespace lsys {
 
-/// Appends all segments, then all leaves. Colours, levels and droop are not of the program.
+/// Appends all segments, then all leaves. The program has no colours, levels or droop.
 void append_l3d_shapes(const Skeleton& skeleton, MeshBuilder& builder);
 
 } // namespace lsys

@@ -20,7 +20,7 @@ constexpr bool fits_walk(TurtleOperation operation) {
 static_assert(std::ranges::all_of(enumerators_of<TurtleOperation>(), fits_walk),
               "a row of turtle_operations.def contradicts itself");
 
-/// What the walk does itself: a turn only where its angle is constant.
+/// The quick action of the operation; of a turn only where its angle is constant.
 QuickAction quick_action(const Action& action, bool angle_is_constant) {
     const bool turn_is_constant = action.stored == 0 && (action.given != 0 || angle_is_constant);
     return turns(action.operation) && !turn_is_constant ? QuickAction::None

@@ -1,4 +1,4 @@
-// What the turtle does for each code of a word, with all that is constant worked out once.
+// Actions of the turtle: what each code of a word does, with all constants worked out once.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

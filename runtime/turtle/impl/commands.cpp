@@ -139,7 +139,7 @@ TurtlePlace Turtle::State::place_now() const {
     place.taper = now.taper;
     place.step = now.step;
     place.angle = now.angle;
-    place.aside = static_cast<float>(now.aside);
+    place.second_heading = static_cast<float>(now.second_heading);
     place.sides = now.sides;
     place.colour = now.colour;
     place.order = order();
@@ -290,11 +290,11 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
         return true;
     case TurtleOperation::YawRight:
         yaw(now.pose, inverse(turn()));
-        now.aside += has_second_heading ? static_cast<double>(now.angle) : 0.0;
+        now.second_heading += has_second_heading ? static_cast<double>(now.angle) : 0.0;
         return true;
     case TurtleOperation::YawLeft:
         yaw(now.pose, turn());
-        now.aside -= has_second_heading ? static_cast<double>(now.angle) : 0.0;
+        now.second_heading -= has_second_heading ? static_cast<double>(now.angle) : 0.0;
         return true;
     case TurtleOperation::PitchDown:
         pitch(now.pose, inverse(turn()));
@@ -327,10 +327,10 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
     case TurtleOperation::SecondaryMove:
         return secondary_forward(action, arguments);
     case TurtleOperation::SecondaryLeft:
-        now.aside += static_cast<double>(argument(0.0F));
+        now.second_heading += static_cast<double>(argument(0.0F));
         return true;
     case TurtleOperation::SecondaryRight:
-        now.aside -= static_cast<double>(argument(0.0F));
+        now.second_heading -= static_cast<double>(argument(0.0F));
         return true;
     case TurtleOperation::AddColour:
         add_colour(argument(0.0F), 1.0);

@@ -5,7 +5,7 @@ namespace lsys {
 
 /// Forward with the parameters of Houdini: length, width, sections (which do not show), sides.
 bool Turtle::State::wide_forward(const Action& action, const float* arguments, float part) {
-    constexpr std::uint8_t kSides = 3; // which argument
+    constexpr std::uint8_t kSides = 3; // index of the argument
     const float length = (action.given > 0 ? arguments[0] : now.step) * part;
     const float width = action.given > 1 ? arguments[1] : now.width;
     const std::uint8_t sides = now.sides;
@@ -37,7 +37,7 @@ void Turtle::State::turn_by(const Action& action, const float* arguments) {
 /// The first heading; the second stays.
 void Turtle::State::turn_left(double degrees) {
     yaw(now.pose, half_angle(degrees));
-    now.aside = std::remainder(now.aside - degrees, kFullTurn);
+    now.second_heading = std::remainder(now.second_heading - degrees, kFullTurn);
 }
 
 /// To the right by half of the angles of a full turn, rounded down; mirrored or not.
@@ -52,12 +52,12 @@ void Turtle::State::half_turn_snapped() {
 /// Half a roll changes left and right, for the second heading too.
 void Turtle::State::mirror() {
     roll(now.pose, {0.0, 1.0});
-    now.aside = -now.aside;
+    now.second_heading = -now.second_heading;
 }
 
 bool Turtle::State::secondary_forward(const Action& action, const float* arguments) {
     const Pose pose = now.pose;
-    yaw(now.pose, half_angle(now.aside));
+    yaw(now.pose, half_angle(now.second_heading));
     bool is_finite = true;
     if (action.operation == TurtleOperation::SecondaryForward) {
         is_finite = forward(action, arguments, 1.0F);

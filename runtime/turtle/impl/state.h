@@ -1,5 +1,5 @@
-// What a turtle is while it draws: the state of Turtle. The walk over a word is in turtle.cpp, what
-// each command does in commands.cpp.
+// The state of a Turtle while it draws. The walk over a word is in turtle.cpp, the commands are in
+// commands.cpp.
 #pragma once
 
 #include "runtime/derive/interpretation.h"
@@ -31,14 +31,14 @@ inline constexpr double kColours = 256.0;
     return value < 0.2 ? 20 : value < 0.4 ? 40 : value < 0.6 ? 60 : value < 0.8 ? 80 : 100;
 }
 
-/// What `[` saves beside the pose.
+/// The part of the state that `[` saves beside the pose.
 struct Brush {
-    float width = 0.0F; // m, diameter; or radius / length (width_is_relative)
-    float taper = 1.0F; // tip radius / base radius
-    float step = 0.0F;  // m
-    float angle = 0.0F; // degrees
-    HalfAngle turn;     // of `angle`
-    double aside = 0.0; // degrees from the first heading to the left, of the second one
+    float width = 0.0F;          // m, diameter; or radius / length (width_is_relative)
+    float taper = 1.0F;          // tip radius / base radius
+    float step = 0.0F;           // m
+    float angle = 0.0F;          // degrees
+    HalfAngle turn;              // the same as `angle`
+    double second_heading = 0.0; // degrees from the first heading to the left
     std::uint32_t segment = kNoSegment;
     std::uint16_t colour = 0;
     std::uint8_t sides = 0;
@@ -175,17 +175,17 @@ struct Turtle::State {
     std::vector<std::size_t> watched; // sizes of the stack within the branches a watcher sees
     OpenPolygons polygons;
     std::array<TurtleFault, kTurtleFaultKinds> faults{};
-    std::uint64_t position = 0; // of the module at hand
-    Code code = 0;              // of that module
-    Origin origin;              // of that module, where origins are known
-    Origin polygon_origin;      // of the `{` of the polygon closed last
+    std::uint64_t position = 0; // number of the module at hand
+    Code code = 0;              // its code
+    Origin origin;              // its origin, where origins are known
+    Origin polygon_origin;      // origin of the `{` of the polygon closed last
     std::uint64_t cut = 0;      // open brackets within a part that is cut off, and 1
     TurtleStatus status = TurtleStatus::Ok;
     bool interprets = false;
     std::unique_ptr<Interpretation> interpretation; // made with the first piece
-    std::vector<Code> piece;                        // of a word of narrow codes
+    std::vector<Code> piece;                        // codes of a narrower word, widened
     PendingCommand pending;
-    bool keeps_origins = false; // of words that are texts
+    bool keeps_origins = false; // only for words that are texts
     TurtleTraits traits;
     bool has_tropism = false;
     bool has_second_heading = false; // some module moves along it
