@@ -25,12 +25,10 @@ constexpr EnumNames<RandomSource> kRandomSources{"philox", "glibc"};
 constexpr EnumNames<TurtleProfile> kTurtleProfiles{
 #define LSYS_TURTLE_PROFILE(identifier, name, ...) name,
 #include "compiler/bytecode/turtle_profiles.def"
-#undef LSYS_TURTLE_PROFILE
 };
 constexpr std::array<TurtleTraits, kCountOf<TurtleProfile>> kTurtleTraits{{
 #define LSYS_TURTLE_PROFILE(identifier, name, ...) TurtleTraits{__VA_ARGS__},
 #include "compiler/bytecode/turtle_profiles.def"
-#undef LSYS_TURTLE_PROFILE
 }};
 // Names that are missing are empty and come last.
 static_assert(!kRewritingModes.back().empty() && !kChoiceScopes.back().empty() &&

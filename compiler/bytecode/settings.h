@@ -27,14 +27,12 @@ LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
 enum class TurtleProfile : std::uint8_t {
 #define LSYS_TURTLE_PROFILE(identifier, ...) identifier,
 #include "compiler/bytecode/turtle_profiles.def"
-#undef LSYS_TURTLE_PROFILE
 };
 template <>
 struct EnumCount<TurtleProfile> {
     enum Enumerator : std::size_t {
 #define LSYS_TURTLE_PROFILE(identifier, ...) identifier,
 #include "compiler/bytecode/turtle_profiles.def"
-#undef LSYS_TURTLE_PROFILE
         kCount
     };
 };

@@ -13,14 +13,12 @@ namespace lsys {
 enum class TurtleOperation : std::uint8_t {
 #define LSYS_TURTLE(identifier, name, drawn, quick, traits, count, parameters) identifier,
 #include "compiler/bytecode/turtle_operations.def"
-#undef LSYS_TURTLE
 };
 template <>
 struct EnumCount<TurtleOperation> {
     enum Enumerator : std::size_t {
 #define LSYS_TURTLE(identifier, name, drawn, quick, traits, count, parameters) identifier,
 #include "compiler/bytecode/turtle_operations.def"
-#undef LSYS_TURTLE
         kCount
     };
 };
@@ -62,7 +60,6 @@ inline constexpr std::array<TurtleInfo, kTurtleOperationCount> TurtleInfo::kRows
 #define LSYS_TURTLE(identifier, name, drawn, quick, traits, count, parameters)                     \
     {name, Drawn::drawn, QuickAction::quick, traits, count, parameters},
 #include "compiler/bytecode/turtle_operations.def"
-#undef LSYS_TURTLE
 }};
 
 /// Precondition: an enumerator.

@@ -174,7 +174,6 @@ constexpr Commands kSidefx = joined(
 constexpr std::array<std::span<const TurtleCommand>, kCountOf<TurtleProfile>> kProfiles{
 #define LSYS_TURTLE_PROFILE(identifier, ...) std::span<const TurtleCommand>(k##identifier),
 #include "compiler/bytecode/turtle_profiles.def"
-#undef LSYS_TURTLE_PROFILE
 };
 
 constexpr std::array<TurtleObject, 9> kObjects{{
