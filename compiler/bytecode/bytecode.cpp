@@ -20,17 +20,6 @@ constexpr std::array<OpcodeInfo, kOpcodeCount> kOpcodes{{
 }};
 static_assert(kOpcodeCount <= 256, "an opcode is eight bits of an instruction");
 
-struct TurtleInfo {
-    std::string_view name;
-    bool draws;
-};
-
-constexpr std::array<TurtleInfo, kTurtleOperationCount> kTurtleOperations{{
-#define LSYS_TURTLE(identifier, name, draws) {name, draws != 0},
-#include "compiler/bytecode/turtle_operations.def"
-#undef LSYS_TURTLE
-}};
-
 /// The hash of an empty sequence, before finish().
 constexpr std::uint64_t kStart = 0x6C73797374656D73; // "lsystems"
 
@@ -95,32 +84,6 @@ const OpcodeInfo& info(Opcode opcode) {
     return kOpcodes[index];
 }
 
-std::string_view name_of(TurtleOperation operation) {
-    const auto index = static_cast<std::size_t>(operation);
-    LSYS_CHECK(index < kTurtleOperationCount, index);
-    return kTurtleOperations[index].name;
-}
-
-bool draws(TurtleOperation operation) {
-    const auto index = static_cast<std::size_t>(operation);
-    LSYS_CHECK(index < kTurtleOperationCount, index);
-    return kTurtleOperations[index].draws;
-}
-
-bool turns(TurtleOperation operation) {
-    switch (operation) {
-    case TurtleOperation::YawRight:
-    case TurtleOperation::YawLeft:
-    case TurtleOperation::PitchDown:
-    case TurtleOperation::PitchUp:
-    case TurtleOperation::RollRight:
-    case TurtleOperation::RollLeft:
-        return true;
-    default:
-        return false;
-    }
-}
-
 TableRange Bytecode::of(Stage stage) const {
     const auto before = [](const BytecodeProduction& p, Stage value) { return p.stage < value; };
     const auto after = [](Stage value, const BytecodeProduction& p) { return value < p.stage; };
@@ -153,7 +116,7 @@ ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index) {
     if (index - bytecode.axiom.codes.first < bytecode.axiom.codes.count) {
         return kNoProduction;
     }
-    // of several that begin there only the last is not empty
+    // Of several productions that begin there only the last has a successor with modules.
     const auto after = std::upper_bound(
         bytecode.productions.begin(), bytecode.productions.end(), index,
         [](std::uint32_t at, const BytecodeProduction& p) { return at < p.successor.codes.first; });

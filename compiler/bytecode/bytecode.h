@@ -15,10 +15,11 @@
 //   template_codes  of the axiom, then of each production's successor
 //   instructions    of each global, of the axiom's arguments, then of each production its condition
 //                   and its successor's arguments
-//   template_places of the modules of template_codes, or empty: then nobody knows where they stand
+//   template_places of the modules of template_codes, or empty: the places are unknown
 #pragma once
 
 #include "compiler/bytecode/settings.h"
+#include "compiler/bytecode/turtle_operation.h"
 #include "grammar/base/counted_enum.h"
 #include "grammar/base/source.h"
 #include "grammar/base/stage.h"
@@ -65,28 +66,9 @@ inline constexpr std::uint32_t kMaxSequentialDraws = 4095;
     return static_cast<std::uint32_t>(opcode) | (operand << 8);
 }
 
-enum class TurtleOperation : std::uint8_t {
-#define LSYS_TURTLE(identifier, name, draws) identifier,
-#include "compiler/bytecode/turtle_operations.def"
-#undef LSYS_TURTLE
-};
-template <>
-struct EnumCount<TurtleOperation> {
-    enum Enumerator : std::size_t {
-#define LSYS_TURTLE(identifier, name, draws) identifier,
-#include "compiler/bytecode/turtle_operations.def"
-#undef LSYS_TURTLE
-        kCount
-    };
-};
-inline constexpr std::uint32_t kTurtleOperationCount = kCountOf<TurtleOperation>;
-[[nodiscard]] std::string_view name_of(TurtleOperation operation);
-/// Parameters of a SaveBranch before the formals that its branch uses: whether an instance is to be
-/// taken, the age of the word that holds it, its id.
+/// Parameters of a SaveBranch before the formals that its branch uses: whether to take an instance,
+/// the age of the word that holds it, its id.
 inline constexpr std::uint32_t kBranchArguments = 3;
-[[nodiscard]] bool draws(TurtleOperation operation);
-/// Whether it turns the turtle by an angle.
-[[nodiscard]] bool turns(TurtleOperation operation);
 
 enum class SymbolId : std::uint32_t {};
 inline constexpr SymbolId kNoSymbol{0xFFFFFFFFu};

@@ -16,11 +16,12 @@ namespace lsys {
 //      without a new version.
 //   2  Places of the modules in the text (template_places).
 //   3  Stages of productions, depths of #decompose and #interpret, what happens at the greatest.
-//   4  Source of random numbers, names of single characters; profiles L3dProgram and LplusProgram;
+//   4  Source of random numbers, names of single characters; profiles l3d_program and
+//   lplus_program;
 //      operations TurnByPi, ParameterBegin, ParameterEnd and Text, in the middle of the others.
-//      Rewriting mode Leftmost, profiles Fractint and Sidefx and their operations, TurnMost to
-//      DivideAngle, were added without a new version.
-//   5  The contents of version 4, with all of these.
+//      Rewriting mode Leftmost, profiles Fractint and Sidefx and their operations, HalfTurnSnapped
+//      to DivideAngle, were added without a new version.
+//   5  The contents of version 4, with all of these; traits of the turtle.
 inline constexpr std::uint32_t kModuleFileVersion = 5;
 
 #define LSYS_VERSION_MATTERS                                                                       \
@@ -37,7 +38,8 @@ static_assert(kCountOf<AtDepth> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<SymbolKind> == 5, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<PatternKind> == 3, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<Stage> == 3, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<Settings> == 24, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<Settings> == 25, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<TurtleTraits> == 9, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeSymbol> == 6, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<FoldedModule> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeGlobal> == 8, LSYS_VERSION_MATTERS);

@@ -23,12 +23,17 @@ constexpr EnumNames<WeightRule> kWeightRules{"one", "any"};
 constexpr EnumNames<AtDepth> kAtDepths{"error", "stop"};
 constexpr EnumNames<RandomSource> kRandomSources{"philox", "glibc"};
 constexpr EnumNames<TurtleProfile> kTurtleProfiles{
-    "lsys", "thesis", "abop",        "houdini",       "l3d",      "lplus",
-    "sys",  "carey",  "l3d_program", "lplus_program", "fractint", "sidefx"};
+#define LSYS_TURTLE_PROFILE(identifier, name, ...) name,
+#include "compiler/bytecode/turtle_profiles.def"
+};
+constexpr std::array<TurtleTraits, kCountOf<TurtleProfile>> kTurtleTraits{{
+#define LSYS_TURTLE_PROFILE(identifier, name, ...) TurtleTraits{__VA_ARGS__},
+#include "compiler/bytecode/turtle_profiles.def"
+}};
 // Names that are missing are empty and come last.
 static_assert(!kRewritingModes.back().empty() && !kChoiceScopes.back().empty() &&
                   !kWeightRules.back().empty() && !kAtDepths.back().empty() &&
-                  !kRandomSources.back().empty() && !kTurtleProfiles.back().empty(),
+                  !kRandomSources.back().empty(),
               "an enumerator has no name");
 
 } // namespace
@@ -50,6 +55,12 @@ std::string_view name_of(AtDepth at) {
 }
 std::string_view name_of(TurtleProfile profile) {
     return name_in(kTurtleProfiles, profile);
+}
+
+const TurtleTraits& traits_of(TurtleProfile profile) {
+    const auto index = static_cast<std::size_t>(profile);
+    LSYS_CHECK(index < kTurtleTraits.size(), index);
+    return kTurtleTraits[index];
 }
 
 } // namespace lsys

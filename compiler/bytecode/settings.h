@@ -1,11 +1,12 @@
-// What `#set` decides, resolved: the attributes of a whole system. Shared by Program and Bytecode;
-// after the front end no character and no keyword carries a meaning of its own.
+// Attributes of a whole system, as `#set` decides them: the table settings.def as a struct. Shared
+// by Program and Bytecode; after the front end no character and no keyword carries a meaning.
 #pragma once
 
 #include "grammar/base/counted_enum.h"
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 namespace lsys {
@@ -14,67 +15,81 @@ namespace lsys {
 LSYS_COUNTED_ENUM(RewritingMode, Parallel, Sequential, Cyclic, Leftmost);
 /// Whether each module draws its production, or all modules of a rule share one draw a generation.
 LSYS_COUNTED_ENUM(ChoiceScope, Module, Generation);
-/// Where the draws of `choice generation` come from: section 6, or the rand() of glibc.
+/// Source of the draws of `choice generation`: docs/language.md section 6, or rand() of glibc.
 LSYS_COUNTED_ENUM(RandomSource, Philox, Glibc);
 /// Whether unconditional groups must sum to 1.
 LSYS_COUNTED_ENUM(WeightRule, One, Any);
-/// What becomes of a module that `#decompose` or `#interpret` still matches at the greatest depth:
-/// it ends the run, or it stays what it is.
+/// Treatment of a module that `#decompose` or `#interpret` still matches at the greatest depth: it
+/// ends the run, or it stays as it is.
 LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
-/// Which table of section 7 gives modules their meaning for the turtle.
-/// L3dProgram and LplusProgram are L3d and Lplus as the program L3D has them.
-LSYS_COUNTED_ENUM(TurtleProfile,
-                  Lsys,
-                  Thesis,
-                  Abop,
-                  Houdini,
-                  L3d,
-                  Lplus,
-                  Sys,
-                  Carey,
-                  L3dProgram,
-                  LplusProgram,
-                  Fractint,
-                  Sidefx);
+/// The table of docs/language.md section 7 that gives modules their meaning for the turtle. It has
+/// been applied once the resolver is done: nothing behind it may ask for the profile but by name.
+enum class TurtleProfile : std::uint8_t {
+#define LSYS_TURTLE_PROFILE(identifier, ...) identifier,
+#include "compiler/bytecode/turtle_profiles.def"
+};
+template <>
+struct EnumCount<TurtleProfile> {
+    enum Enumerator : std::size_t {
+#define LSYS_TURTLE_PROFILE(identifier, ...) identifier,
+#include "compiler/bytecode/turtle_profiles.def"
+        kCount
+    };
+};
 
-[[nodiscard]] constexpr bool is_of_program(TurtleProfile profile) {
-    return profile == TurtleProfile::L3dProgram || profile == TurtleProfile::LplusProgram;
-}
+/// Properties of the turtle of a profile beside its commands; the resolver copies the profile's
+/// row.
+struct TurtleTraits {
+    bool leaf_moves = true;             // a leaf moves the turtle by its length
+    bool object_moves = true;           // so do all other objects
+    bool object_has_step_scale = false; // size of an object without a parameter: step_scale, not 1
+    bool forward_has_width = false;     // F(length, width, sections, sides), not (.., spring, mass)
+    bool width_is_relative = false;     // the width is radius / length of a segment
+    bool l3d_compatible_surface = false; // sides, defaults and surfaces of the program L3D
+    float taper = 1.0F;                  // initial tip radius / base radius
+    float first_turn = 0.0F;             // degrees to the left of +Y, of the first heading
+    std::uint16_t first_colour = 0;      // index, where a word begins
+
+    friend bool operator==(const TurtleTraits&, const TurtleTraits&) = default;
+};
+[[nodiscard]] const TurtleTraits& traits_of(TurtleProfile profile);
+
+/// A direction x y z and the susceptibility e.
+using Tropism = std::array<float, 4>;
+
+/// The largest of both depths.
+inline constexpr std::uint32_t kMaxDepth = 100'000;
+/// The minimum of settings without one.
+inline constexpr float kAnyNumber = std::numeric_limits<float>::lowest();
 
 struct Settings {
-    TurtleProfile turtle = TurtleProfile::Lsys;
-    RewritingMode rewriting = RewritingMode::Parallel;
-    ChoiceScope choice = ChoiceScope::Module;
-    WeightRule weights = WeightRule::One;
-    RandomSource random = RandomSource::Philox;
-    /// `names letters` or `names characters` in the root file: how a word is printed.
-    bool print_letters = false;
-    bool print_characters = false;
-    float angle = 90.0F;      // degrees
-    float step = 1.0F;        // metres
-    float width = 0.1F;       // metres, diameter
-    float angle_scale = 0.9F; // factors
-    float step_scale = 0.9F;
-    float width_scale = 0.7F;
-    std::uint32_t sides = 8;
-    bool has_tropism = false;
-    std::array<float, 4> tropism{}; // x y z e
-    bool has_seed = false;
-    std::uint64_t seed = 0;
-    AtDepth at_depth = AtDepth::Error;
-    std::uint32_t decompose_depth = 100; // passes after a generation
-    std::uint32_t interpret_depth = 100; // passes before a word is drawn
-    float spring = 30.0F;                // N m / rad
-    float density = 500.0F;              // kg / m^3
-    float damping = 1.0F;                // N m s / rad
+#define LSYS_SETTING(type, field, initial, use, group) type field = initial;
+#include "compiler/bytecode/settings.def"
 };
+
+/// Whether the derived word depends on a setting.
+enum class SettingUse : std::uint8_t { Word, Beside };
+/// Settings that are one line of the dump of a program; None: not shown there by the table.
+LSYS_COUNTED_ENUM(SettingGroup, None, Modes, Random, Drawing, Scales, Physics, Stages);
+
+struct SettingRow {
+    std::string_view name; // the field, and its key where it has one
+    SettingUse use;
+    SettingGroup group;
+};
+
+/// Calls function(row, field) for each field of `settings`, which may be const, in the order of
+/// .lsb files.
+template <typename Values, typename Function>
+constexpr void for_each_setting(Values& settings, Function function) {
+#define LSYS_SETTING(type, field, initial, use, group)                                             \
+    function(SettingRow{#field, SettingUse::use, SettingGroup::group}, settings.field);
+#include "compiler/bytecode/settings.def"
+}
 
 [[nodiscard]] std::string_view name_of(RewritingMode mode);
 [[nodiscard]] std::string_view name_of(ChoiceScope scope);
 [[nodiscard]] std::string_view name_of(RandomSource source);
-/// The largest of both depths.
-inline constexpr std::uint32_t kMaxDepth = 100'000;
-
 [[nodiscard]] std::string_view name_of(WeightRule rule);
 [[nodiscard]] std::string_view name_of(AtDepth at);
 [[nodiscard]] std::string_view name_of(TurtleProfile profile);

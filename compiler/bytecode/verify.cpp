@@ -34,7 +34,7 @@ std::uint32_t number(SymbolId id) {
     return static_cast<std::uint32_t>(id);
 }
 
-/// What code may use where it stands.
+/// Place of code, which decides what it may use.
 enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Successor };
 
 /// One walk over the tables in the order that bytecode.h promises. Every function returns false
@@ -68,13 +68,11 @@ private:
         if (!ranges.all_finite) {
             return fail("a setting is not finite");
         }
-        if (s.sides < 3 || s.sides > 64) {
-            return fail("a branch of {} sides", s.sides);
-        }
-        if (s.decompose_depth == 0 || s.decompose_depth > kMaxDepth || s.interpret_depth == 0 ||
-            s.interpret_depth > kMaxDepth) {
-            return fail("a depth that cannot be");
-        }
+#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit)                           \
+    if (s.field < (min) || s.field > (max)) {                                                      \
+        return fail(misfit, s.field);                                                              \
+    }
+#include "compiler/bytecode/settings.def"
         if (bytecode_.generations && *bytecode_.generations == kNone) {
             return fail("more generations than there can be");
         }
@@ -402,7 +400,7 @@ private:
                     {.formals = formals, .draws = word.draw_count, .emits = word.parameter_count});
     }
 
-    /// What a piece of code may refer to, and what it has to produce.
+    /// Limits of the operands of a piece of code, and the values it has to produce.
     struct CodeBounds {
         std::uint32_t formals = 0;
         std::uint32_t globals = kNone; // kNone: all

@@ -15,7 +15,7 @@ namespace lsys {
 /// size.
 inline constexpr std::uint32_t kMaxStack = 256;
 
-/// What is wrong, or nothing.
+/// The first problem, or nothing.
 [[nodiscard]] std::optional<std::string> verify(const Bytecode& bytecode);
 
 } // namespace lsys

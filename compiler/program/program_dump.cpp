@@ -6,7 +6,9 @@
 
 #include <charconv>
 #include <cstddef>
+#include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace lsys {
@@ -41,21 +43,15 @@ public:
 private:
     void settings() {
         const Settings& s = program_.settings;
-        out_ += fmt::format("settings\n  turtle {}, rewriting {}, choice {}, weights {}\n",
-                            name_of(s.turtle), name_of(s.rewriting), name_of(s.choice),
-                            name_of(s.weights));
-        if (s.random != RandomSource::Philox) {
-            out_ += fmt::format("  random {}\n", name_of(s.random));
-        }
-        out_ += fmt::format("  angle {}, step {}, width {}, sides {}\n", s.angle, s.step, s.width,
-                            s.sides);
-        out_ += fmt::format("  angle_scale {}, step_scale {}, width_scale {}\n", s.angle_scale,
-                            s.step_scale, s.width_scale);
-        out_ +=
-            fmt::format("  spring {}, density {}, damping {}\n", s.spring, s.density, s.damping);
-        if (!program_.productions.empty() && program_.productions.back().stage != Stage::Rewrite) {
-            out_ += fmt::format("  decompose_depth {}, interpret_depth {}, at_depth {}\n",
-                                s.decompose_depth, s.interpret_depth, name_of(s.at_depth));
+        const bool has_stages =
+            !program_.productions.empty() && program_.productions.back().stage != Stage::Rewrite;
+        out_ += "settings\n";
+        for (const SettingGroup group : enumerators_of<SettingGroup>()) {
+            if (group != SettingGroup::None &&
+                (group != SettingGroup::Random || s.random != RandomSource::Philox) &&
+                (group != SettingGroup::Stages || has_stages)) {
+                setting_line(group);
+            }
         }
         if (s.has_tropism) {
             out_ += fmt::format("  tropism {} {} {} {}\n", s.tropism[0], s.tropism[1], s.tropism[2],
@@ -67,6 +63,25 @@ private:
         if (program_.generations) {
             out_ += fmt::format("generations {}\n", *program_.generations);
         }
+    }
+
+    /// Numbers, then modes.
+    void setting_line(SettingGroup group) {
+        std::vector<std::string> numbers;
+        std::vector<std::string> modes;
+        for_each_setting(program_.settings, [&](const SettingRow& row, const auto& value) {
+            if constexpr (requires { name_of(value); }) {
+                if (row.group == group) {
+                    modes.push_back(fmt::format("{} {}", row.name, name_of(value)));
+                }
+            } else if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) {
+                if (row.group == group) {
+                    numbers.push_back(fmt::format("{} {}", row.name, value));
+                }
+            }
+        });
+        numbers.insert(numbers.end(), modes.begin(), modes.end());
+        out_ += fmt::format("  {}\n", fmt::join(numbers, ", "));
     }
 
     void symbols() {

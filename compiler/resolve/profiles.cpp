@@ -2,6 +2,7 @@
 
 #include "grammar/base/contract.h"
 
+#include <algorithm>
 #include <array>
 
 namespace lsys {
@@ -10,279 +11,170 @@ namespace {
 
 using enum TurtleOperation;
 
-constexpr TurtleCommand kSave{"[", Save, 0, ""};
-constexpr TurtleCommand kRestore{"]", Restore, 0, ""};
-constexpr TurtleCommand kPolygonBegin{"{", PolygonBegin, 0, ""};
-constexpr TurtleCommand kPolygonVertex{".", PolygonVertex, 0, ""};
-constexpr TurtleCommand kPolygonEnd{"}", PolygonEnd, 0, ""};
-constexpr TurtleCommand kTurnAround{"|", TurnAround, 0, ""};
-constexpr TurtleCommand kUpright{"$", RollUpright, 0, ""};
-constexpr TurtleCommand kCut{"%", Cut, 0, ""};
-constexpr TurtleCommand kForward{"F", Forward, 3, "length, spring constant, mass"};
-constexpr TurtleCommand kMove{"f", Move, 2, "length, spring constant"};
-constexpr TurtleCommand kSetWidth{"!", SetWidth, 2, "width, sides"};
-constexpr TurtleCommand kScaleStep{"\"", ScaleStep, 1, "factor of the step"};
-constexpr TurtleCommand kSetColour{"'", SetColour, 1, "index of a colour"};
+template <std::size_t size>
+using Commands = std::array<TurtleCommand, size>;
 
-constexpr TurtleCommand kParameterBegin{"(", ParameterBegin, 0, ""};
-constexpr TurtleCommand kParameterEnd{")", ParameterEnd, 0, ""};
-constexpr TurtleCommand text(std::string_view name) {
-    return {name, Text, 0, ""};
+template <std::size_t size>
+constexpr Commands<size> commands(const TurtleCommand (&rows)[size]) {
+    return std::to_array(rows);
 }
 
-constexpr TurtleCommand turn(std::string_view name, TurtleOperation operation) {
-    return {name, operation, 1, "angle"};
+/// The rows of tables, one after the other.
+template <std::size_t... sizes>
+constexpr Commands<(sizes + ...)> joined(const Commands<sizes>&... tables) {
+    Commands<(sizes + ...)> rows{};
+    auto next = rows.begin();
+    ((next = std::copy(tables.begin(), tables.end(), next)), ...);
+    return rows;
+}
+
+/// The rows with other operations, or other parameters than turtle_operations.def has for theirs.
+constexpr TurtleCommand bare(std::string_view name, TurtleOperation operation) {
+    return {name, operation, 0, ""};
 }
 constexpr TurtleCommand length(std::string_view name, TurtleOperation operation) {
     return {name, operation, 1, "length"};
 }
+constexpr TurtleCommand segment(std::string_view name, TurtleOperation operation) {
+    return {name, operation, 4, "length, width, sections, sides"};
+}
+constexpr TurtleCommand leaf(std::string_view name) {
+    return {name, Leaf, 5, "size, nothing, three values"};
+}
 
-constexpr std::array kLsys{
-    kForward,
-    kMove,
-    turn("+", YawRight),
-    turn("-", YawLeft),
-    turn("&", PitchDown),
-    turn("^", PitchUp),
-    turn("\\", RollLeft),
-    turn("/", RollRight),
-    kTurnAround,
-    kUpright,
-    kSetWidth,
-    kScaleStep,
-    kSetColour,
-    kSave,
-    kRestore,
-    kPolygonBegin,
-    kPolygonVertex,
-    kPolygonEnd,
-    kCut,
-};
-
-// Crankshaw 2019, table 5.1.
-constexpr std::array kThesis{
-    kForward,
-    kMove,
-    turn("+", YawRight),
-    turn("-", YawLeft),
-    turn("/", PitchUp),
-    turn("\\", PitchDown),
-    turn("^", RollRight),
-    turn("&", RollLeft),
-    kSetWidth,
-    kSave,
-    kRestore,
-    kPolygonBegin,
-    kPolygonVertex,
-    kPolygonEnd,
-    kCut,
-};
-
-constexpr std::array kAbop{
-    kForward,
-    kMove,
-    turn("+", YawLeft),
-    turn("-", YawRight),
-    turn("&", PitchDown),
-    turn("^", PitchUp),
-    turn("\\", RollLeft),
-    turn("/", RollRight),
-    kTurnAround,
-    kUpright,
-    kSetWidth,
-    kScaleStep,
-    kSetColour,
-    kSave,
-    kRestore,
-    kPolygonBegin,
-    kPolygonVertex,
-    kPolygonEnd,
-    kCut,
-};
-
-// Carey 2019, appendix, and what else Houdini has of the same kind.
-constexpr std::array kHoudini{
-    length("F", Forward),
-    length("f", Move),
-    length("H", HalfForward),
-    length("h", HalfMove),
-    length("G", Move),
-    turn("+", YawRight),
-    turn("-", YawLeft),
-    turn("&", PitchUp),
-    turn("^", PitchDown),
-    turn("\\", RollLeft),
-    turn("/", RollRight),
-    kTurnAround,
-    TurtleCommand{"*", RollAround, 0, ""},
-    kUpright,
-    TurtleCommand{"!", ScaleWidth, 1, "factor of the width"},
-    kScaleStep,
-    TurtleCommand{";", ScaleAngle, 1, "factor of the angle"},
-    kSetColour,
-    TurtleCommand{"J", Leaf, 1, "size"},
-    TurtleCommand{"K", Leaf, 1, "size"},
-    TurtleCommand{"M", Leaf, 1, "size"},
-    kSave,
-    kRestore,
-    kPolygonBegin,
-    kPolygonVertex,
-    kPolygonEnd,
-    kCut,
-};
-
-/// The rows of tables, one after the other.
-template <std::size_t... sizes>
-constexpr auto joined(const std::array<TurtleCommand, sizes>&... tables) {
-    std::array<TurtleCommand, (sizes + ...)> rows{};
-    std::size_t count = 0;
-    const auto append = [&](const auto& table) {
-        for (const TurtleCommand& row : table) {
-            rows[count++] = row;
-        }
-    };
-    (append(tables), ...);
+/// A row for each character of `names`.
+template <std::size_t size>
+constexpr Commands<size> characters(std::string_view names,
+                                    const std::array<TurtleOperation, size>& operations) {
+    Commands<size> rows{};
+    for (std::size_t i = 0; i < size; ++i) {
+        rows[i] = {names.substr(i, 1), operations[i]};
+    }
     return rows;
 }
+constexpr Commands<6> turns(const std::array<TurtleOperation, 6>& operations) {
+    return characters("+-&^\\/", operations);
+}
+constexpr Commands kTurnsLeft = turns({YawLeft, YawRight, PitchDown, PitchUp, RollLeft, RollRight});
+
+constexpr Commands kBranches = commands({{"[", Save}, {"]", Restore}});
+constexpr Commands kPolygons =
+    joined(kBranches, commands({{"{", PolygonBegin}, {".", PolygonVertex}, {"}", PolygonEnd}}));
+constexpr Commands kPolygonsAndCut = joined(kPolygons, commands({{"%", Cut}}));
+
+constexpr Commands kPaths = commands({{"F", Forward}, {"f", Move}});
+constexpr Commands kPens = joined(commands({{"|", TurnAround},
+                                            {"$", RollUpright},
+                                            {"!", SetWidth},
+                                            {"\"", ScaleStep},
+                                            {"'", SetColour}}),
+                                  kPolygonsAndCut);
+
+constexpr Commands kLsys =
+    joined(kPaths, turns({YawRight, YawLeft, PitchDown, PitchUp, RollLeft, RollRight}), kPens);
+constexpr Commands kAbop = joined(kPaths, kTurnsLeft, kPens);
+
+// Crankshaw 2019, table 5.1.
+constexpr Commands kThesis =
+    joined(kPaths,
+           turns({YawRight, YawLeft, RollLeft, RollRight, PitchDown, PitchUp}),
+           commands({{"!", SetWidth}}),
+           kPolygonsAndCut);
+
+// Carey 2019: the symbols of Houdini that his forest generator has, then those of the appendix and
+// others of Houdini of the same kind.
+constexpr Commands kCarey =
+    joined(commands({length("F", Forward), length("f", Move)}),
+           turns({YawRight, YawLeft, PitchUp, PitchDown, RollLeft, RollRight}),
+           commands({{"!", ScaleWidth}, {"\"", ScaleStep}, {";", ScaleAngle}, {"J", Leaf}}),
+           kPolygons);
+constexpr Commands kHoudini = joined(kCarey,
+                                     commands({length("H", HalfForward),
+                                               length("h", HalfMove),
+                                               length("G", Move),
+                                               {"|", TurnAround},
+                                               {"*", RollAround},
+                                               {"$", RollUpright},
+                                               {"'", SetColour},
+                                               {"K", Leaf},
+                                               {"M", Leaf},
+                                               {"%", Cut}}));
 
 // A word of L3D is a text: a parenthesis behind a command holds its parameter, character by
 // character.
-constexpr std::array kTextTurns{
-    turn("+", YawLeft), turn("-", YawRight),  turn("&", PitchDown),
-    turn("^", PitchUp), turn("\\", RollLeft), turn("/", RollRight),
-};
-constexpr std::array kTextOthers{
-    kTurnAround, kSave,     kRestore,  kParameterBegin, kParameterEnd, text(" "),
-    text("."),   text("0"), text("1"), text("2"),       text("3"),     text("4"),
-    text("5"),   text("6"), text("7"), text("8"),       text("9"),
-};
+constexpr std::array<TurtleOperation, 12> kTexts{Text, Text, Text, Text, Text, Text,
+                                                 Text, Text, Text, Text, Text, Text};
+constexpr Commands kText = joined(kBranches,
+                                  commands({{"(", ParameterBegin}, {")", ParameterEnd}}),
+                                  characters(" .0123456789", kTexts));
+constexpr Commands kL3dTurtle = joined(
+    commands({length("F", Forward), length("f", Forward), length("g", Move)}), kTurnsLeft, kText);
+constexpr Commands kL3dTurns = commands({{"<", RollLeft}, {">", RollRight}});
+constexpr Commands kLplusWidths = commands({length("G", Move),
+                                            {"<", ThickenWidth},
+                                            {">", ThinWidth},
+                                            {"=", SetRelativeWidth},
+                                            {"%", SetTaper},
+                                            {"*", Leaf}});
+// The program takes pi for degrees.
+constexpr Commands kTurn = commands({{"|", TurnAround}});
+constexpr Commands kBuggyTurn = commands({{"|", TurnByPi}});
+constexpr Commands kL3d = joined(kL3dTurtle, kL3dTurns, kTurn);
+constexpr Commands kLplus = joined(kL3dTurtle, kLplusWidths, kTurn);
+constexpr Commands kL3dBugCompatible = joined(kL3dTurtle, kL3dTurns, kBuggyTurn);
+constexpr Commands kLplusBugCompatible = joined(kL3dTurtle, kLplusWidths, kBuggyTurn);
 
-constexpr std::array kL3d =
-    joined(std::array{length("F", Forward), length("f", Forward), length("g", Move)},
-           kTextTurns,
-           std::array{turn("<", RollLeft), turn(">", RollRight)},
-           kTextOthers);
-
-constexpr std::array kLplus = joined(
-    std::array{length("F", Forward), length("f", Forward), length("g", Move), length("G", Move)},
-    kTextTurns,
-    std::array{
-        TurtleCommand{"<", ThickenWidth, 1, "percent"},
-        TurtleCommand{">", ThinWidth, 1, "percent"},
-        TurtleCommand{"=", SetRelativeWidth, 1, "percent of the length"},
-        TurtleCommand{"%", SetTaper, 1, "percent"},
-        TurtleCommand{"*", Leaf, 1, "size"},
-    },
-    kTextOthers);
-
-/// The same as the program has it, which takes pi for degrees.
-template <std::size_t size>
-constexpr std::array<TurtleCommand, size> of_program(std::array<TurtleCommand, size> commands) {
-    for (TurtleCommand& command : commands) {
-        command.operation = command.operation == TurnAround ? TurnByPi : command.operation;
-    }
-    return commands;
-}
-constexpr std::array kL3dProgram = of_program(kL3d);
-constexpr std::array kLplusProgram = of_program(kLplus);
-
-constexpr std::array kSys{
-    TurtleCommand{"F", TaperedForward, 3, "length, base width, tip width"},
-    turn("<", YawRight),
-    turn(">", YawLeft),
-    turn("&", PitchDown),
-    turn("@", PitchUp),
-    turn("%", RollRight),
-    turn("#", RollLeft),
-    kTurnAround,
-    kSave,
-    kRestore,
-    kPolygonBegin,
-    kPolygonVertex,
-    kPolygonEnd,
-};
-
-// What of Houdini's symbols Carey's forest generator has.
-constexpr std::array kCarey{
-    length("F", Forward),
-    length("f", Move),
-    turn("+", YawRight),
-    turn("-", YawLeft),
-    turn("&", PitchUp),
-    turn("^", PitchDown),
-    turn("\\", RollLeft),
-    turn("/", RollRight),
-    TurtleCommand{"!", ScaleWidth, 1, "factor of the width"},
-    kScaleStep,
-    TurtleCommand{";", ScaleAngle, 1, "factor of the angle"},
-    TurtleCommand{"J", Leaf, 1, "size"},
-    kSave,
-    kRestore,
-    kPolygonBegin,
-    kPolygonVertex,
-    kPolygonEnd,
-};
+constexpr Commands kSys = joined(commands({{"F", TaperedForward},
+                                           {"<", YawRight},
+                                           {">", YawLeft},
+                                           {"&", PitchDown},
+                                           {"@", PitchUp},
+                                           {"%", RollRight},
+                                           {"#", RollLeft},
+                                           {"|", TurnAround}}),
+                                 kPolygons);
 
 // Fractint's turtle in the plane: `F G + - |` have a heading of whole angles, `D M \\ /` another
 // one.
-constexpr std::array kFractint{
-    TurtleCommand{"F", Forward, 0, ""},
-    TurtleCommand{"G", Move, 0, ""},
-    TurtleCommand{"D", AsideForward, 0, ""},
-    TurtleCommand{"M", AsideMove, 0, ""},
-    TurtleCommand{"+", YawLeft, 0, ""},
-    TurtleCommand{"-", YawRight, 0, ""},
-    TurtleCommand{"|", TurnMost, 0, ""},
-    turn("\\", AsideLeft),
-    turn("/", AsideRight),
-    TurtleCommand{"!", Mirror, 0, ""},
-    TurtleCommand{"@", ScaleStep, 1, "factor of the step"},
-    TurtleCommand{"C", SetColour, 1, "index of a colour"},
-    TurtleCommand{"<", AddColour, 1, "number of colours"},
-    TurtleCommand{">", SubtractColour, 1, "number of colours"},
-    kSave,
-    kRestore,
-};
+constexpr Commands kFractint = joined(commands({bare("F", Forward),
+                                                bare("G", Move),
+                                                {"D", SecondaryForward},
+                                                {"M", SecondaryMove},
+                                                bare("+", YawLeft),
+                                                bare("-", YawRight),
+                                                {"|", HalfTurnSnapped},
+                                                {"\\", SecondaryLeft},
+                                                {"/", SecondaryRight},
+                                                {"!", Mirror},
+                                                {"@", ScaleStep},
+                                                {"C", SetColour},
+                                                {"<", AddColour},
+                                                {">", SubtractColour}}),
+                                      kBranches);
 
 // Houdini's own turtle. All its turns are those of ABOP the other way round.
-constexpr std::array kSidefx{
-    TurtleCommand{"F", Forward, 4, "length, width, sections, sides"},
-    TurtleCommand{"H", HalfForward, 4, "length, width, sections, sides"},
-    TurtleCommand{"G", QuietMove, 4, "length, width, sections, sides"},
-    TurtleCommand{"f", Move, 4, "length, width, sections, sides"},
-    TurtleCommand{"h", HalfMove, 4, "length, width, sections, sides"},
-    TurtleCommand{"J", Leaf, 5, "size, nothing, three values"},
-    TurtleCommand{"K", Leaf, 5, "size, nothing, three values"},
-    TurtleCommand{"M", Leaf, 5, "size, nothing, three values"},
-    TurtleCommand{"T", Bend, 1, "susceptibility"},
-    turn("+", YawRight),
-    turn("-", YawLeft),
-    turn("&", PitchUp),
-    turn("^", PitchDown),
-    turn("\\", RollRight),
-    turn("/", RollLeft),
-    kTurnAround,
-    TurtleCommand{"*", RollAround, 0, ""},
-    TurtleCommand{"~", TurnBy, 3, "angles of pitch, roll and yaw"},
-    kUpright,
-    TurtleCommand{"aim", Aim, 3, "a point"},
-    kScaleStep,
-    TurtleCommand{"!", ScaleWidth, 1, "factor of the width"},
-    TurtleCommand{";", ScaleAngle, 1, "factor of the angle"},
-    TurtleCommand{"_", DivideStep, 1, "divisor of the step"},
-    TurtleCommand{"?", DivideWidth, 1, "divisor of the width"},
-    TurtleCommand{"@", DivideAngle, 1, "divisor of the angle"},
-    kSave,
-    kRestore,
-    kPolygonBegin,
-    kPolygonVertex,
-    kPolygonEnd,
-    kCut,
-};
+constexpr Commands kSidefx = joined(
+    commands({segment("F", Forward), segment("H", HalfForward), segment("G", MoveWithoutVertex),
+              segment("f", Move), segment("h", HalfMove), leaf("J"), leaf("K"), leaf("M")}),
+    turns({YawRight, YawLeft, PitchUp, PitchDown, RollRight, RollLeft}),
+    commands({{"T", Bend},
+              {"|", TurnAround},
+              {"*", RollAround},
+              {"~", TurnBy},
+              {"$", RollUpright},
+              {"aim", PointAt},
+              {"\"", ScaleStep},
+              {"!", ScaleWidth},
+              {";", ScaleAngle},
+              {"_", DivideStep},
+              {"?", DivideWidth},
+              {"@", DivideAngle}}),
+    kPolygonsAndCut);
 
-bool has_polygons(TurtleProfile profile) {
-    return find_turtle_command(profile, "{") != nullptr;
-}
+constexpr std::array<std::span<const TurtleCommand>, kCountOf<TurtleProfile>> kProfiles{
+#define LSYS_TURTLE_PROFILE(identifier, ...) std::span<const TurtleCommand>(k##identifier),
+#include "compiler/bytecode/turtle_profiles.def"
+};
 
 constexpr std::array<TurtleObject, 9> kObjects{{
     {"BRANCH", Branch},
@@ -295,38 +187,24 @@ constexpr std::array<TurtleObject, 9> kObjects{{
     {"CUBE", Cube},
     {"DISK", Disk},
 }};
+/// Objects without a name are files.
+constexpr bool is_bound(TurtleOperation operation) {
+    return info(operation).drawn != Drawn::Object || operation == MeshFile ||
+           std::ranges::find(kObjects, operation, &TurtleObject::operation) != kObjects.end();
+}
+static_assert(std::ranges::all_of(enumerators_of<TurtleOperation>(), is_bound),
+              "an operation that places an object has no name for #object");
+
+bool has_polygons(TurtleProfile profile) {
+    return find_turtle_command(profile, "{") != nullptr;
+}
 
 } // namespace
 
 std::span<const TurtleCommand> turtle_commands(TurtleProfile profile) {
-    switch (profile) {
-    case TurtleProfile::Lsys:
-        return kLsys;
-    case TurtleProfile::Thesis:
-        return kThesis;
-    case TurtleProfile::Abop:
-        return kAbop;
-    case TurtleProfile::Houdini:
-        return kHoudini;
-    case TurtleProfile::L3d:
-        return kL3d;
-    case TurtleProfile::Lplus:
-        return kLplus;
-    case TurtleProfile::Sys:
-        return kSys;
-    case TurtleProfile::Carey:
-        return kCarey;
-    case TurtleProfile::L3dProgram:
-        return kL3dProgram;
-    case TurtleProfile::LplusProgram:
-        return kLplusProgram;
-    case TurtleProfile::Fractint:
-        return kFractint;
-    case TurtleProfile::Sidefx:
-        return kSidefx;
-    }
-    LSYS_CHECK(false, static_cast<int>(profile));
-    return {};
+    const auto index = static_cast<std::size_t>(profile);
+    LSYS_CHECK(index < kProfiles.size(), index);
+    return kProfiles[index];
 }
 
 const TurtleCommand* find_turtle_command(TurtleProfile profile, std::string_view name) {
@@ -348,22 +226,14 @@ bool takes_no_parameters(std::string_view name) {
 }
 
 SymbolKind kind_of(TurtleProfile profile, std::string_view name) {
-    if (name == "[") {
-        return SymbolKind::BranchOpen;
-    }
-    if (name == "]") {
-        return SymbolKind::BranchClose;
-    }
-    if (!has_polygons(profile)) {
+    if (!is_structural(profile, name)) {
         return SymbolKind::Plain;
     }
-    if (name == "{") {
-        return SymbolKind::PolygonOpen;
-    }
-    if (name == "}") {
-        return SymbolKind::PolygonClose;
-    }
-    return SymbolKind::Plain;
+    return name == "["   ? SymbolKind::BranchOpen
+           : name == "]" ? SymbolKind::BranchClose
+           : name == "{" ? SymbolKind::PolygonOpen
+           : name == "}" ? SymbolKind::PolygonClose
+                         : SymbolKind::Plain;
 }
 
 std::span<const TurtleObject> turtle_objects() {

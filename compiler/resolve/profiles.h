@@ -1,5 +1,6 @@
-// The turtle profiles of docs/language.md section 7 as data: which module does what. Read where
-// symbols are made and by the checks; the runtime sees operations only.
+// The turtle profiles of docs/language.md section 7 as data: the commands of each profile, whose
+// names are in turtle_profiles.def. Read where symbols are made and by the checks; the runtime sees
+// operations only.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -14,10 +15,20 @@ namespace lsys {
 
 /// A module that the turtle of a profile obeys, with up to `max_parameters` parameters.
 struct TurtleCommand {
+    constexpr TurtleCommand() = default;
+    /// With the parameters of turtle_operations.def.
+    constexpr TurtleCommand(std::string_view own_name, TurtleOperation does)
+        : TurtleCommand(own_name, does, info(does).parameter_count, info(does).parameters) {}
+    constexpr TurtleCommand(std::string_view own_name,
+                            TurtleOperation does,
+                            std::uint8_t parameter_count,
+                            std::string_view meanings)
+        : name(own_name), operation(does), max_parameters(parameter_count), parameters(meanings) {}
+
     std::string_view name;
-    TurtleOperation operation;
-    std::uint8_t max_parameters;
-    std::string_view parameters; // what they mean: "length, spring, mass"
+    TurtleOperation operation = TurtleOperation::Nothing;
+    std::uint8_t max_parameters = 0;
+    std::string_view parameters; // their meaning: "length, spring constant, mass"
 };
 
 /// The commands of a profile; of two rows with one name the first counts.
@@ -29,7 +40,7 @@ struct TurtleCommand {
 /// `[ ]` mean the same in every profile, `{ } .` in all but those of L3D, which has no polygons;
 /// they take no parameters and no #object binds them.
 [[nodiscard]] bool is_structural(TurtleProfile profile, std::string_view name);
-/// Those of which docs/language.md section 3 says that they take no parameters.
+/// Whether docs/language.md section 3 has it among the modules that take no parameters.
 [[nodiscard]] bool takes_no_parameters(std::string_view name);
 [[nodiscard]] SymbolKind kind_of(TurtleProfile profile, std::string_view name);
 

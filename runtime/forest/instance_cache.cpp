@@ -167,7 +167,8 @@ private:
             add_real(branch.id, formal);
         }
         const TurtlePlace& place = branch.place;
-        for (const float value : {place.width, place.taper, place.step, place.angle, place.aside}) {
+        for (const float value :
+             {place.width, place.taper, place.step, place.angle, place.second_heading}) {
             add_real(branch.id, value);
         }
         add(place.sides);

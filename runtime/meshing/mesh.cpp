@@ -2,10 +2,10 @@
 
 #include "runtime/meshing/impl/boxes.h"
 #include "runtime/meshing/impl/cylinders.h"
+#include "runtime/meshing/impl/l3d_shapes.h"
 #include "runtime/meshing/impl/mesh_builder.h"
 #include "runtime/meshing/impl/objects.h"
 #include "runtime/meshing/impl/polygons.h"
-#include "runtime/meshing/impl/program_shapes.h"
 #include "runtime/meshing/impl/ring_segments.h"
 #include "runtime/meshing/impl/tubes.h"
 
@@ -21,8 +21,8 @@ MeshStatus build(const Skeleton& skeleton,
                  const MeshOptions& options,
                  Mesh& mesh) {
     MeshBuilder builder(options, mesh);
-    if (skeleton.of_program && options.method == MeshMethod::Tubes) {
-        append_program_shapes(skeleton, builder);
+    if (skeleton.l3d_compatible_surface && options.method == MeshMethod::Tubes) {
+        append_l3d_shapes(skeleton, builder);
         append_objects(skeleton, user_meshes, options, builder); // the others
         return builder.finish();
     }

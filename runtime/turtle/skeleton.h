@@ -31,7 +31,7 @@ struct Segment {
     std::uint32_t parent = kNoSegment; // the last one drawn before it on its path
     std::uint16_t order = 0;           // open brackets around it: 0 is the trunk
     std::uint16_t colour = 0;          // index into the palette
-    std::uint8_t sides = 0;            // of its cross-section, as the author asked for
+    std::uint8_t sides = 0;            // corners of its cross-section, as the author asked for
     bool linked = false;               // it begins where its parent ends
     bool forked = false;               // branches that are drawn elsewhere begin at its end
 };
@@ -64,9 +64,9 @@ struct Skeleton {
     LargeVector<Polygon> polygons;
     LargeVector<glm::vec3> corners;
     std::vector<std::string> mesh_files; // as written in the grammar
-    bool of_program = false; // its surface is that of the program L3D (meshing/program_shapes.h)
-    // Of the modules that drew them, a polygon's being its `{`; empty unless the turtle was fed
-    // with origins.
+    bool l3d_compatible_surface = false; // drawn by meshing/impl/l3d_shapes.h
+    // Origins of the modules that drew them, a polygon's of its `{`; empty unless the turtle was
+    // fed with origins.
     LargeVector<Origin> segment_origins;
     LargeVector<Origin> object_origins;
     LargeVector<Origin> polygon_origins;
@@ -99,7 +99,7 @@ struct Bounds {
 };
 
 struct SkeletonStats {
-    Bounds bounds;            // of axes, object positions and corners, without radii
+    Bounds bounds;            // bounds of axes, object positions and corners, without radii
     double height = 0.0;      // m, from the lowest to the highest point
     double crown_width = 0.0; // m, the greatest horizontal distance from the start, twice
     double length = 0.0;      // m, of all segments

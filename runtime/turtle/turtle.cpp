@@ -49,7 +49,7 @@ Turtle::State::run_some(std::span<const C> codes, const float*& parameters, cons
     const Action* const actions = table.by_code.data();
     const std::uint64_t first = position;
     const C* const begin = codes.data();
-    const bool plain = !has_tropism && !relative;
+    const bool plain = !has_tropism && !traits.width_is_relative;
     Pose pose = now.pose; // in registers; now.pose is kept for all that is not quick
     for (const C* at = begin; at != begin + codes.size(); ++at) {
         const Action& action = actions[*at];
@@ -231,7 +231,7 @@ Turtle::~Turtle() = default;
 TurtleStatus Turtle::reserve(const Word& word) {
     State& state = *state_;
     if (state.interprets) {
-        return TurtleStatus::Ok; // nobody knows how much will be drawn
+        return TurtleStatus::Ok; // productions of #interpret decide how much is drawn
     }
     std::uint64_t segments = 0;
     std::uint64_t objects = 0;
@@ -241,20 +241,9 @@ TurtleStatus Turtle::reserve(const Word& word) {
             ++census[code];
         }
         for (Code code = 0; code < census.size(); ++code) {
-            switch (state.table.by_code[code].operation) {
-            case TurtleOperation::Forward:
-            case TurtleOperation::Branch:
-            case TurtleOperation::HalfForward:
-            case TurtleOperation::TaperedForward:
-                segments += census[code];
-                break;
-            default:
-                objects +=
-                    draws(state.table.by_code[code].operation) &&
-                            state.table.by_code[code].operation != TurtleOperation::PolygonEnd
-                        ? census[code]
-                        : 0;
-            }
+            const Drawn drawn = info(state.table.by_code[code].operation).drawn;
+            segments += drawn == Drawn::Segment ? census[code] : 0;
+            objects += drawn == Drawn::Object ? census[code] : 0;
         }
     };
     switch (word.code_width()) {

@@ -1,7 +1,7 @@
 // The turtle: reads modules of a derived word in order and draws the skeleton (docs/language.md
-// section 7). Characters mean nothing here: which operation a symbol has was decided by the profile
-// when the grammar was compiled. State is in double precision, so that ten million rotations leave
-// the frame orthonormal and a far-off plant as exact as a near one.
+// section 7). Characters mean nothing here: the compiler gave each symbol its operation. State is
+// in double precision, so that ten million rotations leave the frame orthonormal and a far-off
+// plant as exact as a near one.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -21,7 +21,7 @@
 
 namespace lsys {
 
-/// What a word may do that a turtle cannot, or only in part. The first three end the drawing.
+/// Faults of a word, which a turtle cannot draw or only in part. The first three end the drawing.
 enum class TurtleFaultKind : std::uint8_t {
     Unbalanced,       // a `]` without its `[`
     NotFinite,        // position, length or width is infinite or not a number
@@ -41,15 +41,15 @@ inline constexpr std::uint32_t kMinSides = 3;
 inline constexpr std::uint32_t kMaxSides = 64;
 
 struct TurtleFault {
-    std::uint64_t count = 0;    // times it happened
-    std::uint64_t position = 0; // of the module where it first did
-    Code code = 0;              // of that module
+    std::uint64_t count = 0;    // occurrences
+    std::uint64_t position = 0; // number of the first module with the fault
+    Code code = 0;              // code of that module
 };
 
-/// NotInterpreted: a production of `#interpret` cannot be applied, error() tells.
+/// NotInterpreted: a production of `#interpret` cannot be applied; error() names it.
 enum class TurtleStatus : std::uint8_t { Ok, Fault, Limit, OutOfMemory, Cancelled, NotInterpreted };
 
-/// Where the turtle is and how it would draw.
+/// Position and state of the turtle between two modules.
 struct TurtlePlace {
     glm::dvec3 position{}; // m
     glm::dquat frame{1.0, 0.0, 0.0, 0.0};
@@ -57,7 +57,7 @@ struct TurtlePlace {
     float taper = 1.0F;
     float step = 0.0F;
     float angle = 0.0F;
-    float aside = 0.0F; // degrees, of the second heading of the profile `fractint`
+    float second_heading = 0.0F; // degrees from the first heading to the left
     std::uint32_t sides = 0;
     std::uint32_t colour = 0;
     std::uint32_t order = 0; // open brackets
@@ -100,9 +100,9 @@ protected:
 struct TurtleOptions {
     /// Lengths along +Y of the files of MeshFile symbols, by symbol; empty: 1 each.
     std::vector<float> mesh_lengths;
-    std::uint64_t max_bytes = ~std::uint64_t{0}; // of the skeleton
+    std::uint64_t max_bytes = ~std::uint64_t{0}; // limit of the skeleton
     const std::atomic<bool>* cancelled = nullptr;
-    /// Of the derivation whose last word is drawn: what the productions of `#interpret` read.
+    /// Options of the derivation of the word, which productions of `#interpret` read.
     std::uint64_t seed = 0;
     std::uint32_t generations = 0;
     BranchWatcher* branches = nullptr; // outlives the turtle; none: every branch is drawn

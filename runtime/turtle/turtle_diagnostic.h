@@ -1,4 +1,4 @@
-// What a turtle could not draw, as messages to the grammar's author.
+// Faults of a drawing as messages to the grammar's author.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -19,7 +19,7 @@ turtle_diagnostics(const std::array<TurtleFault, kTurtleFaultKinds>& faults,
 
 /// A plant that does not fit into `max_bytes`, of which `what` ("the skeleton") needs more.
 [[nodiscard]] Diagnostic plant_limit_diagnostic(std::string_view what, std::uint64_t max_bytes);
-/// The same of another limit, in words, with what helps.
+/// The same for another limit, in words, with a help.
 [[nodiscard]] Diagnostic
 plant_limit_diagnostic(std::string_view what, std::string_view limit, std::string help);
 

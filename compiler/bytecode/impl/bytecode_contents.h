@@ -7,50 +7,66 @@
 //   implied       a truth that follows from a field beside the word, and that the word depends on
 //   beside_word() the stream for fields on which no derived word depends: itself, or one that
 //                 ignores them
-// Every struct is taken apart by a structured binding, so that a field added to it does not compile
-// before it has a name here. Hand it to the stream: then it is written, read and digested. Only a
-// field that decides drawing, printing or messages goes to beside_word(). Either way the format of
-// .lsb files changes: raise kModuleFileVersion.
+// The settings follow their table, settings.def. Every other struct is taken apart by a structured
+// binding, so that a field added to it does not compile before it has a name here. Hand it to the
+// stream: then it is written, read and digested. Only a field that decides drawing, printing or
+// messages goes to beside_word(). Either way the format of .lsb files changes: raise
+// kModuleFileVersion.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
+
+#include <type_traits>
 
 namespace lsys {
 
 // `Value` is const for a stream that only looks at it.
 
 template <typename Stream, typename Value>
-void describe_settings(Stream& stream, Value& settings) {
-    auto& [turtle, rewriting, choice, weights, random, print_letters, print_characters, angle, step,
-           width, angle_scale, step_scale, width_scale, sides, has_tropism, tropism, has_seed, seed,
-           at_depth, decompose_depth, interpret_depth, spring, density, damping] = settings;
-    auto&& beside = stream.beside_word();
-    beside.tag(turtle);
-    stream.tag(rewriting);
-    stream.tag(choice);
-    beside.tag(weights); // a check of the probabilities, no more
-    stream.tag(random);
-    beside.truth(print_letters);
-    beside.truth(print_characters);
-    beside.real(angle);
-    beside.real(step);
-    beside.real(width);
-    beside.real(angle_scale);
-    beside.real(step_scale);
-    beside.real(width_scale);
-    beside.number(sides);
-    beside.truth(has_tropism);
-    for (auto& component : tropism) {
-        beside.real(component);
+void describe_traits(Stream& stream, Value& traits) {
+    auto& [leaf_moves, object_moves, object_has_step_scale, forward_has_width, width_is_relative,
+           l3d_compatible_surface, taper, first_turn, first_colour] = traits;
+    stream.truth(leaf_moves);
+    stream.truth(object_moves);
+    stream.truth(object_has_step_scale);
+    stream.truth(forward_has_width);
+    stream.truth(width_is_relative);
+    stream.truth(l3d_compatible_surface);
+    stream.real(taper);
+    stream.real(first_turn);
+    stream.number(first_colour);
+}
+
+template <typename Stream, typename Value>
+void describe_value(Stream& stream, Value& value) {
+    using Type = std::remove_const_t<Value>;
+    if constexpr (std::is_same_v<Type, bool>) {
+        stream.truth(value);
+    } else if constexpr (std::is_enum_v<Type>) {
+        stream.tag(value);
+    } else if constexpr (std::is_floating_point_v<Type>) {
+        stream.real(value);
+    } else if constexpr (std::is_unsigned_v<Type>) {
+        stream.number(value);
+    } else if constexpr (std::is_same_v<Type, TurtleTraits>) {
+        describe_traits(stream, value);
+    } else {
+        for (auto& component : value) {
+            describe_value(stream, component);
+        }
     }
-    beside.truth(has_seed); // a default: a derivation is told its seed
-    beside.number(seed);
-    beside.real(spring);
-    beside.real(density);
-    beside.real(damping);
-    stream.tag(at_depth);
-    stream.number(decompose_depth);
-    beside.number(interpret_depth);
+}
+
+template <typename Stream, typename Value>
+void describe_settings(Stream& stream, Value& settings) {
+    auto&& beside = stream.beside_word();
+    for_each_setting(settings, [&](const SettingRow& row, auto& value) {
+        if (row.use == SettingUse::Word) {
+            describe_value(stream, value);
+        } else {
+            describe_value(beside, value);
+        }
+    });
 }
 
 template <typename Stream, typename Value>

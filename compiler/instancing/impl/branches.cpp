@@ -93,8 +93,9 @@ private:
                 .notes.emplace_back("the branches of one generation all choose alike, which "
                                     "branches that are put together from others would not");
         }
-        if (std::any_of(program_.symbols.begin(), program_.symbols.end(),
-                        [](const auto& symbol) { return symbol.turtle == TurtleOperation::Aim; })) {
+        if (std::any_of(program_.symbols.begin(), program_.symbols.end(), [](const auto& symbol) {
+                return info(symbol.turtle).has(TurtleInfo::DependsOnPlace);
+            })) {
             refuse(program_.axiom.span, "a system that aims at points cannot be instanced")
                 .notes.emplace_back("where a branch is put elsewhere, it would aim at another "
                                     "point");
@@ -154,9 +155,8 @@ private:
     void find_reach() {
         for (std::size_t i = 0; i < program_.symbols.size(); ++i) {
             const TurtleOperation turtle = program_.symbols[i].turtle;
-            reach_[i].knows_up =
-                turtle == TurtleOperation::RollUpright || turtle == TurtleOperation::TurnMost ||
-                turtle == TurtleOperation::Bend || (program_.settings.has_tropism && draws(turtle));
+            reach_[i].knows_up = info(turtle).has(TurtleInfo::DependsOnVertical) ||
+                                 (program_.settings.has_tropism && draws(turtle));
         }
         std::vector<std::uint32_t> rule_sizes(program_.rule_count, 0);
         for (const Production& production : program_.productions) {

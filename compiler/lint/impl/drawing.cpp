@@ -9,27 +9,6 @@
 
 namespace lsys {
 
-namespace {
-
-/// Commands that have a purpose only beside a drawing.
-bool prepares_drawing(TurtleOperation operation) {
-    switch (operation) {
-    case TurtleOperation::Move:
-    case TurtleOperation::HalfMove:
-    case TurtleOperation::SetWidth:
-    case TurtleOperation::ScaleWidth:
-    case TurtleOperation::ScaleStep:
-    case TurtleOperation::SetColour:
-    case TurtleOperation::PolygonBegin:
-    case TurtleOperation::PolygonVertex:
-        return true;
-    default:
-        return false;
-    }
-}
-
-} // namespace
-
 void check_drawing(const CheckInput& input, Diagnostics& diagnostics) {
     const Program& program = input.program;
     const Reachable reachable = find_reachable(program);
@@ -47,7 +26,8 @@ void check_drawing(const CheckInput& input, Diagnostics& diagnostics) {
                 drawn = symbol;
             }
         }
-        prepared = prepared || (reachable.occurs(symbol) && prepares_drawing(operation));
+        prepared = prepared ||
+                   (reachable.occurs(symbol) && info(operation).has(TurtleInfo::PreparesDrawing));
     }
     if (drawn == kNoSymbol) {
         // Why a module never occurs is said where its production is; and words may be all that is

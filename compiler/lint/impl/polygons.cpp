@@ -152,13 +152,7 @@ private:
                 open.reset();
             } else if (open) {
                 vertices += symbol.turtle == TurtleOperation::PolygonVertex ? 1U : 0U;
-                moves += symbol.turtle == TurtleOperation::Forward ||
-                                 symbol.turtle == TurtleOperation::Move ||
-                                 symbol.turtle == TurtleOperation::HalfForward ||
-                                 symbol.turtle == TurtleOperation::HalfMove ||
-                                 symbol.turtle == TurtleOperation::TaperedForward
-                             ? 1U
-                             : 0U;
+                moves += info(symbol.turtle).has(TurtleInfo::AddsCorners) ? 1U : 0U;
                 may_grow = may_grow || rewritten_[static_cast<std::size_t>(id)];
             } else if (symbol.turtle == TurtleOperation::PolygonVertex && !may_be_inside &&
                        !std::exchange(stray_reported_, true)) {

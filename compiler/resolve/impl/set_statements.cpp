@@ -4,57 +4,26 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace lsys {
 
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+/// The keys, in the order in which messages list them.
+constexpr auto kKeys = std::to_array<std::string_view>({
+#define LSYS_CHOICE(type, field, initial, use, group) #field,
+#define LSYS_STATEMENT(key) #key,
+#include "compiler/bytecode/settings.def"
+#define LSYS_NUMBER(field, initial, use, group, min, wanted) #field,
+#include "compiler/bytecode/settings.def"
+#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit) #field,
+#include "compiler/bytecode/settings.def"
+});
 
-/// A key whose value is one number.
-struct NumberKey {
-    std::string_view key;
-    float Settings::*field;
-    float minimum;
-    const char* wanted;
-};
-
-constexpr std::array kNumberKeys{
-    NumberKey{"angle", &Settings::angle, -kInfinity, "an angle in degrees"},
-    NumberKey{"step", &Settings::step, -kInfinity, "a length"},
-    NumberKey{"width", &Settings::width, 0.0F, "a diameter from 0 on"},
-    NumberKey{"angle_scale", &Settings::angle_scale, -kInfinity, "a factor"},
-    NumberKey{"step_scale", &Settings::step_scale, -kInfinity, "a factor"},
-    NumberKey{"width_scale", &Settings::width_scale, 0.0F, "a factor from 0 on"},
-    NumberKey{"spring", &Settings::spring, 0.0F, "a stiffness from 0 on"},
-    NumberKey{"density", &Settings::density, 0.0F, "a density from 0 on"},
-    NumberKey{"damping", &Settings::damping, 0.0F, "a damping from 0 on"},
-};
-
-/// A key whose value is one whole number.
-struct CountKey {
-    std::string_view key;
-    std::uint32_t Settings::*field;
-    float minimum;
-    float maximum;
-    const char* wanted;
-};
-
-constexpr std::array kCountKeys{
-    CountKey{"sides", &Settings::sides, 3.0F, 64.0F, "a whole number from 3 to 64"},
-    CountKey{"decompose_depth", &Settings::decompose_depth, 1.0F, static_cast<float>(kMaxDepth),
-             "a whole number from 1 to 100,000"},
-    CountKey{"interpret_depth", &Settings::interpret_depth, 1.0F, static_cast<float>(kMaxDepth),
-             "a whole number from 1 to 100,000"},
-};
-
-constexpr std::array<std::string_view, 9> kOtherKeys{
-    "turtle", "names", "rewriting", "choice", "weights", "random", "tropism", "seed", "at_depth"};
-
-/// What the front end reads.
+/// How the front end reads names.
 enum class NameReading : std::uint8_t { Words, Letters, Characters };
 constexpr std::array kReadings{NameReading::Words, NameReading::Letters, NameReading::Characters};
 std::string_view name_of(NameReading reading) {
@@ -73,9 +42,11 @@ void SetResolver::read_modes() {
             }
         }
     }
+    Settings& settings = resolution_.program.settings;
+    settings.traits = traits_of(settings.turtle);
 }
 
-/// What may be set once: `names` for each file, other keys for all.
+/// The scope in which a key may be set once: the file for `names`, the program for other keys.
 std::uint64_t SetResolver::scope_of(const SetNode& node) const {
     const bool of_file = resolution_.text(node.key) == "names";
     const FileId file = of_file ? node.key_span.file : kNoFile;
@@ -94,19 +65,13 @@ bool SetResolver::is_first(const SetNode& node) {
 
 void SetResolver::read_mode(const SetNode& node, std::string_view key) {
     Settings& settings = resolution_.program.settings;
-    if (key == "turtle") {
-        choose(node, enumerators_of<TurtleProfile>(), settings.turtle);
-    } else if (key == "rewriting") {
-        choose(node, enumerators_of<RewritingMode>(), settings.rewriting);
-    } else if (key == "choice") {
-        choose(node, enumerators_of<ChoiceScope>(), settings.choice);
-    } else if (key == "random") {
-        choose(node, enumerators_of<RandomSource>(), settings.random);
-    } else if (key == "weights") {
-        choose(node, enumerators_of<WeightRule>(), settings.weights);
-    } else if (key == "at_depth") {
-        choose(node, enumerators_of<AtDepth>(), settings.at_depth);
-    } else if (key == "names") {
+#define LSYS_CHOICE(type, field, initial, use, group)                                              \
+    if (key == #field) {                                                                           \
+        choose(node, enumerators_of<type>(), settings.field);                                      \
+        return;                                                                                    \
+    }
+#include "compiler/bytecode/settings.def"
+    if (key == "names") {
         auto reading = NameReading::Words;
         choose(node, kReadings, reading);
         if (reading != NameReading::Words) {
@@ -116,35 +81,14 @@ void SetResolver::read_mode(const SetNode& node, std::string_view key) {
             settings.print_letters = reading != NameReading::Words;
             settings.print_characters = reading == NameReading::Characters;
         }
-    } else {
-        for (const std::string_view other : kOtherKeys) {
-            if (key == other) {
-                return;
-            }
-        }
-        for (const NumberKey& row : kNumberKeys) {
-            if (key == row.key) {
-                return;
-            }
-        }
-        for (const CountKey& row : kCountKeys) {
-            if (key == row.key) {
-                return;
-            }
-        }
+    } else if (std::ranges::find(kKeys, key) == kKeys.end()) {
         report_unknown_key(node);
     }
 }
 
 void SetResolver::report_unknown_key(const SetNode& node) {
     const std::string_view key = resolution_.text(node.key);
-    std::vector<std::string_view> keys(kOtherKeys.begin(), kOtherKeys.end());
-    for (const NumberKey& row : kNumberKeys) {
-        keys.push_back(row.key);
-    }
-    for (const CountKey& row : kCountKeys) {
-        keys.push_back(row.key);
-    }
+    const std::vector<std::string_view> keys(kKeys.begin(), kKeys.end());
     Diagnostic& error = resolution_.diagnostics.add(DiagnosticCode::UnknownKey, node.key_span,
                                                     fmt::format("there is no setting `{}`", key));
     const std::string nearest = suggestions_.nearest(key, keys);
@@ -229,59 +173,58 @@ void SetResolver::read_number(const SetNode& node, ExpressionResolver& expressio
     Settings& settings = resolution_.program.settings;
     if (key == "seed") {
         read_seed(node, expressions);
-        return;
+    } else if (key == "tropism") {
+        read_tropism(node, expressions);
     }
-    if (key == "tropism") {
-        if (node.values.count != 4) {
-            bad_value(node, node.key_span, "takes four numbers: x, y, z and the susceptibility");
-            return;
-        }
-        for (std::uint32_t i = 0; i < 4; ++i) {
-            const std::optional<float> number = number_of(node, i, expressions);
-            settings.tropism[i] = number.value_or(0.0F);
-            if (number && !std::isfinite(*number)) {
-                bad_value(node, node.key_span, "takes finite numbers");
-                settings.tropism[i] = 0.0F;
-            }
-        }
-        settings.has_tropism = true;
-        return;
+    // Modes have been read, and unknown keys reported.
+#define LSYS_NUMBER(field, initial, use, group, min, wanted)                                       \
+    else if (key == #field) {                                                                      \
+        const NumberRange range{min, -kAnyNumber, false, wanted};                                  \
+        settings.field = read_one(node, range, expressions).value_or(settings.field);              \
     }
-    const NumberKey* row = nullptr;
-    for (const NumberKey& each : kNumberKeys) {
-        row = each.key == key ? &each : row;
+#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit)                           \
+    else if (key == #field) {                                                                      \
+        const NumberRange range{min, max, true, wanted};                                           \
+        if (const std::optional<float> number = read_one(node, range, expressions)) {              \
+            settings.field = static_cast<std::uint32_t>(*number);                                  \
+        }                                                                                          \
     }
-    const CountKey* count = nullptr;
-    for (const CountKey& each : kCountKeys) {
-        count = each.key == key ? &each : count;
-    }
-    if (row == nullptr && count == nullptr) {
-        return; // a mode, or an unknown key
-    }
-    const char* wanted = row == nullptr ? count->wanted : row->wanted;
+#include "compiler/bytecode/settings.def"
+}
+
+/// The only number of the statement, if it is within the range.
+std::optional<float> SetResolver::read_one(const SetNode& node,
+                                           const NumberRange& range,
+                                           ExpressionResolver& expressions) {
     if (node.values.count != 1) {
-        bad_value(node, node.key_span, fmt::format("takes {}", wanted));
-        return;
+        bad_value(node, node.key_span, fmt::format("takes {}", range.wanted));
+        return std::nullopt;
     }
     const SourceSpan span = resolution_.ast.set_values[node.values.first].span;
     const std::optional<float> number = number_of(node, 0, expressions);
-    if (!number) {
+    if (number && (!(*number >= range.min && *number <= range.max) ||
+                   (range.is_whole && *number != std::floor(*number)))) {
+        bad_value(node, span, fmt::format("is {}, not {}", range.wanted, *number));
+        return std::nullopt;
+    }
+    return number;
+}
+
+void SetResolver::read_tropism(const SetNode& node, ExpressionResolver& expressions) {
+    Settings& settings = resolution_.program.settings;
+    if (node.values.count != settings.tropism.size()) {
+        bad_value(node, node.key_span, "takes four numbers: x, y, z and the susceptibility");
         return;
     }
-    if (row == nullptr) {
-        if (!(*number >= count->minimum && *number <= count->maximum) ||
-            *number != std::floor(*number)) {
-            bad_value(node, span, fmt::format("is {}, not {}", wanted, *number));
-            return;
+    for (std::uint32_t i = 0; i < settings.tropism.size(); ++i) {
+        const std::optional<float> number = number_of(node, i, expressions);
+        settings.tropism[i] = number.value_or(0.0F);
+        if (number && !std::isfinite(*number)) {
+            bad_value(node, node.key_span, "takes finite numbers");
+            settings.tropism[i] = 0.0F;
         }
-        settings.*(count->field) = static_cast<std::uint32_t>(*number);
-        return;
     }
-    if (!std::isfinite(*number) || *number < row->minimum) {
-        bad_value(node, span, fmt::format("is {}, not {}", wanted, *number));
-        return;
-    }
-    settings.*(row->field) = *number;
+    settings.has_tropism = true;
 }
 
 void SetResolver::read_seed(const SetNode& node, ExpressionResolver& expressions) {

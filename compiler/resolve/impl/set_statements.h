@@ -33,6 +33,16 @@ private:
     void choose(const SetNode& node, const std::array<Enum, size>& values, Enum& chosen);
     [[nodiscard]] std::optional<float>
     number_of(const SetNode& node, std::uint32_t index, ExpressionResolver& expressions);
+    /// Numbers that a setting takes.
+    struct NumberRange {
+        float min;
+        float max;
+        bool is_whole;
+        const char* wanted; // "an angle in degrees"
+    };
+    [[nodiscard]] std::optional<float>
+    read_one(const SetNode& node, const NumberRange& range, ExpressionResolver& expressions);
+    void read_tropism(const SetNode& node, ExpressionResolver& expressions);
     void read_seed(const SetNode& node, ExpressionResolver& expressions);
 
     Resolution& resolution_;

@@ -130,9 +130,9 @@ void append_objects(const Skeleton& skeleton,
                     const std::vector<UserMesh>& user_meshes,
                     const MeshOptions& options,
                     MeshBuilder& builder) {
-    // Leaves of the program L3D are drawn with its segments.
+    // append_l3d_shapes() draws the leaves with the segments.
     const auto is_drawn = [&](const PlacedObject& object) {
-        return !(skeleton.of_program && options.method == MeshMethod::Tubes &&
+        return !(skeleton.l3d_compatible_surface && options.method == MeshMethod::Tubes &&
                  object.kind == TurtleOperation::Leaf);
     };
     const Groups groups = group_items(skeleton.objects.size(), [&](std::uint64_t i) {

@@ -10,60 +10,33 @@ namespace {
 
 constexpr double kHalfDegree = std::numbers::pi / 360.0;
 
-/// Profiles whose leaves are copied to the place of the turtle, which stays there.
-bool leaves_stay(TurtleProfile profile) {
-    return profile == TurtleProfile::Houdini || profile == TurtleProfile::L3d ||
-           profile == TurtleProfile::Lplus || profile == TurtleProfile::Carey ||
-           is_of_program(profile) || profile == TurtleProfile::Sidefx;
+constexpr bool fits_walk(TurtleOperation operation) {
+    const TurtleInfo& row = info(operation);
+    return (row.quick != QuickAction::Forward || row.drawn == Drawn::Segment) &&
+           (row.quick != QuickAction::Nothing || row.drawn == Drawn::Nothing) &&
+           (!row.has(TurtleInfo::Inverse) || turns(operation)) &&
+           (!row.has(TurtleInfo::HasNoLength) || row.drawn == Drawn::Object);
 }
+static_assert(std::ranges::all_of(enumerators_of<TurtleOperation>(), fits_walk),
+              "a row of turtle_operations.def contradicts itself");
 
-/// Rotations against the sense of yaw(), pitch() and roll().
-bool turns_back(TurtleOperation operation) {
-    return operation == TurtleOperation::YawRight || operation == TurtleOperation::PitchDown ||
-           operation == TurtleOperation::RollLeft;
-}
-
-/// What the walk does itself, if the module's arguments are constant.
+/// The quick action of the operation; of a turn only where its angle is constant.
 QuickAction quick_action(const Action& action, bool angle_is_constant) {
     const bool turn_is_constant = action.stored == 0 && (action.given != 0 || angle_is_constant);
-    const auto if_constant = [&](QuickAction quick) {
-        return turn_is_constant ? quick : QuickAction::None;
-    };
-    switch (action.operation) {
-    case TurtleOperation::Nothing:
-    case TurtleOperation::Text:
-        return QuickAction::Nothing;
-    case TurtleOperation::YawRight:
-    case TurtleOperation::YawLeft:
-        return if_constant(QuickAction::Yaw);
-    case TurtleOperation::PitchDown:
-    case TurtleOperation::PitchUp:
-        return if_constant(QuickAction::Pitch);
-    case TurtleOperation::RollLeft:
-    case TurtleOperation::RollRight:
-        return if_constant(QuickAction::Roll);
-    case TurtleOperation::Forward:
-    case TurtleOperation::Branch:
-        return QuickAction::Forward;
-    case TurtleOperation::Save:
-        return QuickAction::Save;
-    case TurtleOperation::Restore:
-        return QuickAction::Restore;
-    default:
-        return QuickAction::None;
-    }
+    return turns(action.operation) && !turn_is_constant ? QuickAction::None
+                                                        : info(action.operation).quick;
 }
 
-Action action_of(const BytecodeSymbol& symbol, TurtleProfile profile, float step_scale) {
+Action action_of(const BytecodeSymbol& symbol, const Settings& settings) {
+    const TurtleTraits& traits = settings.traits;
     Action action;
     action.operation = symbol.turtle;
     action.given = static_cast<std::uint8_t>(std::min(symbol.parameter_count, kTurtleArguments));
-    // What Houdini places is bound to its leaf inputs.
-    action.advances = profile != TurtleProfile::Sidefx &&
-                      !(symbol.turtle == TurtleOperation::Leaf && leaves_stay(profile));
-    action.usual_size = profile == TurtleProfile::Sidefx ? step_scale : 1.0F;
+    action.advances =
+        symbol.turtle == TurtleOperation::Leaf ? traits.leaf_moves : traits.object_moves;
+    action.default_size = traits.object_has_step_scale ? settings.step_scale : 1.0F;
     action.character = symbol.name.size() == 1 ? symbol.name[0] : '\0';
-    action.unit_length = symbol.turtle == TurtleOperation::Disk ? 0.0F : 1.0F;
+    action.unit_length = info(symbol.turtle).has(TurtleInfo::HasNoLength) ? 0.0F : 1.0F;
     return action;
 }
 
@@ -81,28 +54,22 @@ HalfAngle half_angle(double degrees) {
     return {std::cos(turn * kHalfDegree), std::sin(turn * kHalfDegree)};
 }
 
-bool uses_aside(const Bytecode& bytecode) {
-    return std::any_of(bytecode.symbols.begin(), bytecode.symbols.end(), [](const auto& symbol) {
-        return symbol.turtle == TurtleOperation::AsideForward ||
-               symbol.turtle == TurtleOperation::AsideMove;
-    });
+bool any_has(const Bytecode& bytecode, TurtleInfo::Trait trait) {
+    return std::any_of(bytecode.symbols.begin(), bytecode.symbols.end(),
+                       [&](const auto& symbol) { return info(symbol.turtle).has(trait); });
 }
 
 ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options) {
     ActionTable table;
     const std::size_t symbol_count = bytecode.symbols.size();
-    // Where a second heading is drawn along, turns of the first do not move it.
-    const bool angle_is_constant =
-        !uses_aside(bytecode) &&
-        std::none_of(bytecode.symbols.begin(), bytecode.symbols.end(), [](const auto& symbol) {
-            return symbol.turtle == TurtleOperation::ScaleAngle ||
-                   symbol.turtle == TurtleOperation::DivideAngle;
-        });
+    // Turns of the first heading also move the second one, if any module follows it.
+    const bool angle_is_constant = !any_has(bytecode, TurtleInfo::SecondHeading) &&
+                                   !any_has(bytecode, TurtleInfo::ChangesAngle);
     std::vector<Action> of_symbol;
     of_symbol.reserve(symbol_count);
     for (std::size_t i = 0; i < symbol_count; ++i) {
         const BytecodeSymbol& symbol = bytecode.symbols[i];
-        Action action = action_of(symbol, bytecode.settings.turtle, bytecode.settings.step_scale);
+        Action action = action_of(symbol, bytecode.settings);
         if (symbol.turtle == TurtleOperation::MeshFile) {
             action.mesh_file = static_cast<std::uint32_t>(table.mesh_files.size());
             action.unit_length = i < options.mesh_lengths.size() ? options.mesh_lengths[i] : 1.0F;
@@ -124,16 +91,16 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
         const bool has_argument = code >= symbol_count && action.given != 0;
         action.turn = half_angle(
             static_cast<double>(has_argument ? action.arguments[0] : bytecode.settings.angle));
-        if (turns_back(action.operation)) {
+        if (info(action.operation).has(TurtleInfo::Inverse)) {
             action.turn.sine = -action.turn.sine;
         }
         action.quick = quick_action(action, angle_is_constant);
         if (action.quick == QuickAction::Forward && action.given > 1 &&
-            bytecode.settings.turtle == TurtleProfile::Sidefx) {
+            bytecode.settings.traits.forward_has_width) {
             action.quick = QuickAction::None; // the width is a parameter
         }
         if (action.quick == QuickAction::Restore && options.branches != nullptr) {
-            action.quick = QuickAction::None; // the watcher is told
+            action.quick = QuickAction::None; // the watcher sees its end
         }
         table.by_code.push_back(action);
     }

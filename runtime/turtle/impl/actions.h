@@ -1,4 +1,4 @@
-// What the turtle does for each code of a word, with all that is constant worked out once.
+// Actions of the turtle: what each code of a word does, with all constants worked out once.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -11,6 +11,7 @@
 
 namespace lsys {
 
+/// Arguments of a module that the turtle reads.
 inline constexpr std::uint32_t kTurtleArguments = 4;
 
 /// Cosine and sine of half an angle: what a rotation of a quaternion needs.
@@ -20,31 +21,28 @@ struct HalfAngle {
 };
 [[nodiscard]] HalfAngle half_angle(double degrees);
 
-/// The few things that most modules ask for, which the walk does itself.
-enum class QuickAction : std::uint8_t { None, Nothing, Yaw, Pitch, Roll, Forward, Save, Restore };
-
 struct Action {
     QuickAction quick = QuickAction::None;
     TurtleOperation operation = TurtleOperation::Nothing;
-    std::uint8_t given = 0;                          // arguments, of the first three
+    std::uint8_t given = 0;                          // arguments, kTurtleArguments at most
     bool advances = false;                           // objects: by their length
     std::uint32_t stored = 0;                        // parameters in the word, all of them
     std::array<float, kTurtleArguments> arguments{}; // if none is stored
     HalfAngle turn;                                  // rotations by a constant angle, signed
     float unit_length = 1.0F;                        // objects
-    float usual_size = 1.0F;                         // of objects without a parameter
+    float default_size = 1.0F;                       // objects without a parameter
     std::uint32_t mesh_file = 0;                     // in Skeleton::mesh_files
-    char character = '\0';                           // of a module whose name is one
+    char character = '\0';                           // the name, where it is one character
 };
 
 struct ActionTable {
     std::vector<Action> by_code;
     std::vector<std::string> mesh_files;
-    bool reads_text = false; // a parenthesis may hold a parameter
+    bool reads_text = false; // parentheses may hold a parameter as text
 };
 
-/// Whether any module moves along the second heading.
-[[nodiscard]] bool uses_aside(const Bytecode& bytecode);
+/// Whether any module of the bytecode has the trait.
+[[nodiscard]] bool any_has(const Bytecode& bytecode, TurtleInfo::Trait trait);
 
 /// Precondition: verified bytecode.
 [[nodiscard]] ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options);

@@ -11,7 +11,7 @@ void Turtle::State::note(TurtleFaultKind kind) {
     }
 }
 
-bool Turtle::State::is_fine_place() {
+bool Turtle::State::is_finite_pose() {
     const Pose& p = now.pose;
     // The comparison is false for what is not a number, too.
     if (std::abs(p.x) <= kMaxFloat && std::abs(p.y) <= kMaxFloat && std::abs(p.z) <= kMaxFloat) {
@@ -31,7 +31,7 @@ bool Turtle::State::draw(
     }
     const Pose base = now.pose;
     advance(now.pose, length);
-    if (!is_fine_place()) {
+    if (!is_finite_pose()) {
         return false;
     }
     if (!(base_width <= std::numeric_limits<float>::max())) {
@@ -48,13 +48,13 @@ bool Turtle::State::draw(
 
 /// F and H: a whole or half of the length, and the physics' spring and mass.
 bool Turtle::State::forward(const Action& action, const float* arguments, float part) {
-    if (wide) {
+    if (traits.forward_has_width) {
         return wide_forward(action, arguments, part);
     }
     const float length = (action.given > 0 ? arguments[0] : now.step) * part;
     const float spring = action.given > 1 ? arguments[1] : bytecode.settings.spring;
-    const float width = relative ? 2.0F * std::abs(length) * now.width : now.width;
-    now.sides = of_program ? program_sides(now.width) : now.sides;
+    const float width = traits.width_is_relative ? 2.0F * std::abs(length) * now.width : now.width;
+    now.sides = traits.l3d_compatible_surface ? l3d_sides(now.width) : now.sides;
     polygons.path(now.pose);
     if (!draw(static_cast<double>(length), width, width * now.taper, spring,
               action.given > 2 ? arguments + 2 : nullptr)) {
@@ -64,7 +64,7 @@ bool Turtle::State::forward(const Action& action, const float* arguments, float 
     return true;
 }
 
-/// F of the .sys profile: length, base width, tip width.
+/// A segment that tapers: length, base width, tip width.
 bool Turtle::State::tapered(const Action& action, const float* arguments) {
     const float length = action.given > 0 ? arguments[0] : now.step;
     const float base = action.given > 1 ? arguments[1] : now.width;
@@ -85,7 +85,7 @@ bool Turtle::State::place(const Action& action, const float* arguments) {
     if (!has_room(skeleton.objects)) {
         return false;
     }
-    const float size = action.given > 0 ? arguments[0] : action.usual_size;
+    const float size = action.given > 0 ? arguments[0] : action.default_size;
     PlacedObject object;
     object.kind = action.operation;
     object.mesh_file = action.mesh_file;
@@ -99,7 +99,7 @@ bool Turtle::State::place(const Action& action, const float* arguments) {
     if (action.advances) {
         advance(now.pose, static_cast<double>(size) * static_cast<double>(action.unit_length));
         now.moved = true;
-        return is_fine_place();
+        return is_finite_pose();
     }
     return true;
 }
@@ -139,7 +139,7 @@ TurtlePlace Turtle::State::place_now() const {
     place.taper = now.taper;
     place.step = now.step;
     place.angle = now.angle;
-    place.aside = static_cast<float>(now.aside);
+    place.second_heading = static_cast<float>(now.second_heading);
     place.sides = now.sides;
     place.colour = now.colour;
     place.order = order();
@@ -271,30 +271,30 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
         advance(now.pose, static_cast<double>(argument(now.step) * part));
         polygons.path(now.pose);
         now.moved = true;
-        return is_fine_place();
+        return is_finite_pose();
     }
-    case TurtleOperation::QuietMove:
+    case TurtleOperation::MoveWithoutVertex:
         advance(now.pose, static_cast<double>(argument(now.step)));
         now.moved = true;
-        return is_fine_place();
+        return is_finite_pose();
     case TurtleOperation::Bend:
         bend(now.pose, {0.0F, -1.0F, 0.0F, argument(0.0F)});
         return true;
     case TurtleOperation::TurnBy:
         turn_by(action, arguments);
         return true;
-    case TurtleOperation::Aim:
+    case TurtleOperation::PointAt:
         if (action.given == 3) {
             aim(now.pose, {arguments[0], arguments[1], arguments[2]});
         }
         return true;
     case TurtleOperation::YawRight:
         yaw(now.pose, inverse(turn()));
-        now.aside += has_aside ? static_cast<double>(now.angle) : 0.0;
+        now.second_heading += has_second_heading ? static_cast<double>(now.angle) : 0.0;
         return true;
     case TurtleOperation::YawLeft:
         yaw(now.pose, turn());
-        now.aside -= has_aside ? static_cast<double>(now.angle) : 0.0;
+        now.second_heading -= has_second_heading ? static_cast<double>(now.angle) : 0.0;
         return true;
     case TurtleOperation::PitchDown:
         pitch(now.pose, inverse(turn()));
@@ -317,20 +317,20 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
     case TurtleOperation::RollAround:
         roll(now.pose, {0.0, 1.0});
         return true;
-    case TurtleOperation::TurnMost:
-        turn_most();
+    case TurtleOperation::HalfTurnSnapped:
+        half_turn_snapped();
         return true;
     case TurtleOperation::Mirror:
         mirror();
         return true;
-    case TurtleOperation::AsideForward:
-    case TurtleOperation::AsideMove:
-        return aside_forward(action, arguments);
-    case TurtleOperation::AsideLeft:
-        now.aside += static_cast<double>(argument(0.0F));
+    case TurtleOperation::SecondaryForward:
+    case TurtleOperation::SecondaryMove:
+        return secondary_forward(action, arguments);
+    case TurtleOperation::SecondaryLeft:
+        now.second_heading += static_cast<double>(argument(0.0F));
         return true;
-    case TurtleOperation::AsideRight:
-        now.aside -= static_cast<double>(argument(0.0F));
+    case TurtleOperation::SecondaryRight:
+        now.second_heading -= static_cast<double>(argument(0.0F));
         return true;
     case TurtleOperation::AddColour:
         add_colour(argument(0.0F), 1.0);

@@ -1,11 +1,11 @@
-// What only the turtles of other programs do: the profiles `fractint` and `sidefx`.
+// Operations that only the turtles of other programs have: Fractint and Houdini.
 #include "runtime/turtle/impl/state.h"
 
 namespace lsys {
 
-/// F and H of the profile `sidefx`: length, width, sections (which do not show), sides.
+/// Forward with the parameters of Houdini: length, width, sections (which do not show), sides.
 bool Turtle::State::wide_forward(const Action& action, const float* arguments, float part) {
-    constexpr std::uint8_t kSides = 3; // which argument
+    constexpr std::uint8_t kSides = 3; // index of the argument
     const float length = (action.given > 0 ? arguments[0] : now.step) * part;
     const float width = action.given > 1 ? arguments[1] : now.width;
     const std::uint8_t sides = now.sides;
@@ -37,11 +37,11 @@ void Turtle::State::turn_by(const Action& action, const float* arguments) {
 /// The first heading; the second stays.
 void Turtle::State::turn_left(double degrees) {
     yaw(now.pose, half_angle(degrees));
-    now.aside = std::remainder(now.aside - degrees, kFullTurn);
+    now.second_heading = std::remainder(now.second_heading - degrees, kFullTurn);
 }
 
 /// To the right by half of the angles of a full turn, rounded down; mirrored or not.
-void Turtle::State::turn_most() {
+void Turtle::State::half_turn_snapped() {
     const double parts = std::round(kFullTurn / static_cast<double>(now.angle));
     const double degrees = std::floor(parts / 2.0) * kFullTurn / parts;
     const Pose& p = now.pose;
@@ -52,27 +52,27 @@ void Turtle::State::turn_most() {
 /// Half a roll changes left and right, for the second heading too.
 void Turtle::State::mirror() {
     roll(now.pose, {0.0, 1.0});
-    now.aside = -now.aside;
+    now.second_heading = -now.second_heading;
 }
 
-bool Turtle::State::aside_forward(const Action& action, const float* arguments) {
+bool Turtle::State::secondary_forward(const Action& action, const float* arguments) {
     const Pose pose = now.pose;
-    yaw(now.pose, half_angle(now.aside));
-    bool fine = true;
-    if (action.operation == TurtleOperation::AsideForward) {
-        fine = forward(action, arguments, 1.0F);
+    yaw(now.pose, half_angle(now.second_heading));
+    bool is_finite = true;
+    if (action.operation == TurtleOperation::SecondaryForward) {
+        is_finite = forward(action, arguments, 1.0F);
     } else {
         polygons.path(now.pose);
         advance(now.pose, static_cast<double>(now.step));
         polygons.path(now.pose);
         now.moved = true;
-        fine = is_fine_place();
+        is_finite = is_finite_pose();
     }
     now.pose.qw = pose.qw;
     now.pose.qx = pose.qx;
     now.pose.qy = pose.qy;
     now.pose.qz = pose.qz;
-    return fine;
+    return is_finite;
 }
 
 /// The ground is passed over.

@@ -13,10 +13,10 @@
 namespace lsys {
 
 struct OpenPolygon {
-    std::size_t first_vertex = 0; // of `.`
+    std::size_t first_vertex = 0; // in the positions of `.`
     std::size_t first_on_path = 0;
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
-    Origin origin; // of its `{`
+    Origin origin; // origin of its `{`
 };
 
 class OpenPolygons {
@@ -35,7 +35,7 @@ public:
             add_to_path(position_of(pose));
         }
     }
-    /// Of the polygon begun last: its vertices, or without any the ends of its steps. Valid until
+    /// Corners of the polygon begun last: its vertices, or else the ends of its steps. Valid until
     /// the next change.
     [[nodiscard]] std::span<const glm::vec3> corners();
     void close() {

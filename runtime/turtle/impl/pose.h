@@ -1,4 +1,4 @@
-// Where the turtle is and how it is turned, in double precision. The frame is the quaternion that
+// Position and frame of the turtle, in double precision. The frame is the quaternion that
 // takes right (+X), heading (+Y) and up (+Z) of the start to the turtle's own axes; a turn about an
 // own axis multiplies it from the right.
 #pragma once

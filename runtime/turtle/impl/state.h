@@ -1,5 +1,5 @@
-// What a turtle is while it draws: the state of Turtle. The walk over a word is in turtle.cpp, what
-// each command does in commands.cpp.
+// The state of a Turtle while it draws. The walk over a word is in turtle.cpp, the commands are in
+// commands.cpp.
 #pragma once
 
 #include "runtime/derive/interpretation.h"
@@ -20,34 +20,25 @@ namespace lsys {
 
 inline constexpr std::size_t kModulesBetweenLooks = std::size_t{1} << 16;
 inline constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
-/// Reduction of a segment's radius along it where the profile has one: docs/dialects/l3d.md
-/// section 4.
-inline constexpr float kRelativeTaper = 0.95F;
 inline constexpr float kPercent = 0.01F;
 inline constexpr double kFullTurn = 360.0;
-/// Colours of Fractint: 256, of which 0 is the ground and 15 where it begins.
-inline constexpr std::uint16_t kFirstColour = 15;
+/// Colours of Fractint: 256, of which 0 is the ground.
 inline constexpr double kColours = 256.0;
 
-[[nodiscard]] inline bool is_relative(TurtleProfile profile) {
-    return profile == TurtleProfile::L3d || profile == TurtleProfile::Lplus ||
-           is_of_program(profile);
-}
-
-/// Sides of a segment as the program L3D has them: by the radius as a part of the length.
-[[nodiscard]] inline std::uint8_t program_sides(float thickness) {
+/// Sides of a segment in the program L3D: by the radius as a part of the length.
+[[nodiscard]] inline std::uint8_t l3d_sides(float thickness) {
     const auto value = static_cast<double>(thickness);
     return value < 0.2 ? 20 : value < 0.4 ? 40 : value < 0.6 ? 60 : value < 0.8 ? 80 : 100;
 }
 
-/// What `[` saves beside the pose.
+/// The part of the state that `[` saves beside the pose.
 struct Brush {
-    float width = 0.0F; // m, diameter; of relative profiles radius / length
-    float taper = 1.0F; // tip radius / base radius
-    float step = 0.0F;  // m
-    float angle = 0.0F; // degrees
-    HalfAngle turn;     // of `angle`
-    double aside = 0.0; // degrees, of the second heading to the left of the first
+    float width = 0.0F;          // m, diameter; or radius / length (width_is_relative)
+    float taper = 1.0F;          // tip radius / base radius
+    float step = 0.0F;           // m
+    float angle = 0.0F;          // degrees
+    HalfAngle turn;              // the same as `angle`
+    double second_heading = 0.0; // degrees from the first heading to the left
     std::uint32_t segment = kNoSegment;
     std::uint16_t colour = 0;
     std::uint8_t sides = 0;
@@ -78,12 +69,10 @@ struct Turtle::State {
         const Settings& settings = bytecode.settings;
         skeleton.mesh_files = table.mesh_files;
         interprets = program.has(Stage::Interpret);
-        relative = is_relative(settings.turtle);
+        traits = settings.traits;
         has_tropism = settings.has_tropism;
-        of_program = is_of_program(settings.turtle);
-        skeleton.of_program = of_program;
-        has_aside = uses_aside(bytecode);
-        wide = settings.turtle == TurtleProfile::Sidefx;
+        skeleton.l3d_compatible_surface = traits.l3d_compatible_surface;
+        has_second_heading = any_has(bytecode, TurtleInfo::SecondHeading);
         begin();
     }
 
@@ -92,14 +81,14 @@ struct Turtle::State {
         const Settings& settings = bytecode.settings;
         now = {};
         now.width = settings.width;
-        now.taper = relative ? kRelativeTaper : 1.0F;
+        now.taper = traits.taper;
         now.step = settings.step;
         now.angle = settings.angle;
         now.turn = half_angle(static_cast<double>(settings.angle));
         now.sides = static_cast<std::uint8_t>(std::clamp(settings.sides, kMinSides, kMaxSides));
-        if (settings.turtle == TurtleProfile::Fractint) {
-            yaw(now.pose, half_angle(-90.0)); // to the right of the picture
-            now.colour = kFirstColour;
+        now.colour = traits.first_colour;
+        if (traits.first_turn != 0.0F) {
+            yaw(now.pose, half_angle(static_cast<double>(traits.first_turn)));
         }
     }
 
@@ -152,11 +141,11 @@ struct Turtle::State {
     void set_colour(double index);
     void scale_angle(float factor);
     void turn_left(double degrees);
-    void turn_most();
+    void half_turn_snapped();
     void mirror();
     bool wide_forward(const Action& action, const float* arguments, float part);
     void turn_by(const Action& action, const float* arguments);
-    bool aside_forward(const Action& action, const float* arguments);
+    bool secondary_forward(const Action& action, const float* arguments);
     void add_colour(float number, double sign);
 
     void note(TurtleFaultKind kind);
@@ -171,7 +160,7 @@ struct Turtle::State {
     /// Makes room in `items` for one more; false: the drawing has ended.
     template <typename Items>
     bool has_room(Items& items);
-    bool is_fine_place();
+    bool is_finite_pose();
     [[nodiscard]] std::uint16_t order() const {
         constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
         return static_cast<std::uint16_t>(std::min(stack.size(), kMost));
@@ -186,22 +175,20 @@ struct Turtle::State {
     std::vector<std::size_t> watched; // sizes of the stack within the branches a watcher sees
     OpenPolygons polygons;
     std::array<TurtleFault, kTurtleFaultKinds> faults{};
-    std::uint64_t position = 0; // of the module at hand
-    Code code = 0;              // of that module
-    Origin origin;              // of that module, where origins are known
-    Origin polygon_origin;      // of the `{` of the polygon closed last
+    std::uint64_t position = 0; // number of the module at hand
+    Code code = 0;              // its code
+    Origin origin;              // its origin, where origins are known
+    Origin polygon_origin;      // origin of the `{` of the polygon closed last
     std::uint64_t cut = 0;      // open brackets within a part that is cut off, and 1
     TurtleStatus status = TurtleStatus::Ok;
     bool interprets = false;
     std::unique_ptr<Interpretation> interpretation; // made with the first piece
-    std::vector<Code> piece;                        // of a word of narrow codes
+    std::vector<Code> piece;                        // codes of a narrower word, widened
     PendingCommand pending;
-    bool keeps_origins = false; // of words that are texts
-    bool relative = false;      // widths are factors of the length
-    bool of_program = false;    // what the program L3D has of its own is done
+    bool keeps_origins = false; // only for words that are texts
+    TurtleTraits traits;
     bool has_tropism = false;
-    bool wide = false;      // segments have their width as a parameter, as in Houdini
-    bool has_aside = false; // something is drawn along the second heading
+    bool has_second_heading = false; // some module moves along it
     // The last segment whose mass was worked out.
     double massed_length = -1.0;
     float massed_base = -1.0F;

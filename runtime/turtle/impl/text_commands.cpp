@@ -10,16 +10,6 @@
 
 namespace lsys {
 
-namespace {
-
-/// Angles and percents, of which the program L3D takes a parameter of 1 for none.
-bool takes_default_for_one(TurtleOperation operation) {
-    return turns(operation) || operation == TurtleOperation::ThickenWidth ||
-           operation == TurtleOperation::ThinWidth;
-}
-
-} // namespace
-
 float leading_number(std::string_view text) {
     while (!text.empty() && (text[0] == ' ' || text[0] == '\t')) {
         text.remove_prefix(1);
@@ -54,8 +44,9 @@ bool Turtle::State::take_character(const Action& action, Code character, const f
         }
         pending.in_parameter = false;
         const float value = leading_number(pending.text);
-        const TurtleOperation operation = pending.action.operation;
-        if (!(of_program && value == 1.0F && takes_default_for_one(operation))) {
+        const bool one_is_default = traits.l3d_compatible_surface &&
+                                    info(pending.action.operation).has(TurtleInfo::OneIsDefault);
+        if (!(one_is_default && value == 1.0F)) {
             pending.action.given = 1;
             pending.action.arguments[0] = value;
         }

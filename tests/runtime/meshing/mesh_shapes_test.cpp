@@ -218,3 +218,12 @@ TEST_CASE("tangents follow u and tell mirrored texture coordinates") {
     CHECK(without.texture_coordinates.size() == 3);
     CHECK(glm::length(glm::vec3(without.tangents[0])) == Approx(1.0F));
 }
+
+TEST_CASE("every operation that places an object has a shape") {
+    for (const TurtleOperation operation : enumerators_of<TurtleOperation>()) {
+        const bool is_shape =
+            info(operation).drawn == Drawn::Object && operation != TurtleOperation::MeshFile;
+        CAPTURE(std::string(name_of(operation)));
+        CHECK(make_shape(operation, 0).parts.empty() == !is_shape);
+    }
+}

@@ -255,3 +255,47 @@ TEST_CASE("statistics of a skeleton are closed forms") {
     CHECK(stats.segments_by_order == std::vector<std::uint64_t>{2, 1});
     CHECK(glm::length(skeleton.segments[2].frame - skeleton.segments[0].frame) < 1e-6F);
 }
+
+TEST_CASE("traits of the program decide what its turtle does, not the profile") {
+    const auto draw_with = [](const std::string& word, const TurtleTraits& traits) {
+        Bytecode bytecode = BytecodeBuilder().axiom(word).build();
+        bytecode.settings.traits = traits;
+        bytecode.settings.step_scale = 0.5F;
+        return draw(std::move(bytecode), 0).skeleton;
+    };
+    const auto second = [&](const std::string& word, const TurtleTraits& traits) {
+        const Skeleton skeleton = draw_with(word, traits);
+        REQUIRE(skeleton.objects.size() == 2);
+        return skeleton.objects[1].position.y;
+    };
+    CHECK(second("L(2)S", {}) == 2.0F);
+    CHECK(second("L(2)S", {.leaf_moves = false}) == 0.0F);
+    CHECK(second("S(2)L", {.leaf_moves = false}) == 2.0F);
+    CHECK(second("S(2)L", {.object_moves = false}) == 0.0F);
+    CHECK(draw_with("L", {.object_has_step_scale = true}).objects[0].size == 0.5F);
+    CHECK(draw_with("L", {}).objects[0].size == 1.0F);
+
+    const Skeleton wide = draw_with("F(2,3,9,5)", {.forward_has_width = true});
+    CHECK(wide.segments[0].base_radius == 1.5F);
+    CHECK(wide.segments[0].sides == 5);
+    const Skeleton relative = draw_with("R(25)F(2)", {.width_is_relative = true, .taper = 0.5F});
+    CHECK(relative.segments[0].base_radius == 0.5F);
+    CHECK(relative.segments[0].tip_radius == 0.25F);
+    const Skeleton l3d = draw_with("R(25)F(2)", {.l3d_compatible_surface = true});
+    CHECK(l3d.l3d_compatible_surface);
+    CHECK(l3d.segments[0].sides == 40);
+    const Skeleton turned = draw_with("F(2)F", {.first_turn = -90.0F, .first_colour = 15});
+    CHECK(turned.segments[1].base == glm::vec3(2.0F, 0.0F, 0.0F));
+    CHECK(turned.segments[1].colour == 15);
+}
+
+TEST_CASE("room is made for exactly what the operations of a word draw") {
+    Bytecode bytecode = BytecodeBuilder().axiom("FFTf+[L]S{.F.f.}").build();
+    give_operations(bytecode);
+    Derivation derivation(bytecode, {});
+    REQUIRE(derivation.start() == DeriveStatus::Ok);
+    Turtle turtle(bytecode, {});
+    REQUIRE(turtle.reserve(derivation.word()) == TurtleStatus::Ok);
+    CHECK(turtle.skeleton().segments.capacity() == 4);
+    CHECK(turtle.skeleton().objects.capacity() == 2);
+}

@@ -1,4 +1,4 @@
-#include "runtime/meshing/impl/program_shapes.h"
+#include "runtime/meshing/impl/l3d_shapes.h"
 
 #include "runtime/base/glibc_random.h"
 
@@ -134,7 +134,7 @@ void ShapeWriter::leaf(const PlacedObject& object, double bend) {
 
 } // namespace
 
-void append_program_shapes(const Skeleton& skeleton, MeshBuilder& builder) {
+void append_l3d_shapes(const Skeleton& skeleton, MeshBuilder& builder) {
     std::uint64_t vertices = 0;
     std::uint64_t indices = 0;
     for (const Segment& segment : skeleton.segments) {

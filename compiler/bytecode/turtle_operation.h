@@ -1,0 +1,81 @@
+// The operations of the turtle: turtle_operations.def as an enum and a table. Whoever treats
+// operations differently reads a column of the table: no list of operations stands elsewhere.
+#pragma once
+
+#include "grammar/base/counted_enum.h"
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace lsys {
+
+enum class TurtleOperation : std::uint8_t {
+#define LSYS_TURTLE(identifier, name, drawn, quick, traits, count, parameters) identifier,
+#include "compiler/bytecode/turtle_operations.def"
+};
+template <>
+struct EnumCount<TurtleOperation> {
+    enum Enumerator : std::size_t {
+#define LSYS_TURTLE(identifier, name, drawn, quick, traits, count, parameters) identifier,
+#include "compiler/bytecode/turtle_operations.def"
+        kCount
+    };
+};
+inline constexpr std::uint32_t kTurtleOperationCount = kCountOf<TurtleOperation>;
+
+/// Addition of a module with the operation to the skeleton, if it can be drawn.
+enum class Drawn : std::uint8_t { Nothing, Segment, Object, Polygon };
+
+/// Actions that the turtle's walk over a word does itself, without a call. Yaw, Pitch and Roll are
+/// the turns by an angle, quick where the angle is a constant.
+enum class QuickAction : std::uint8_t { None, Nothing, Yaw, Pitch, Roll, Forward, Save, Restore };
+
+struct TurtleInfo {
+    enum Trait : std::uint16_t {
+        Inverse = 1,           // turns against yaw(), pitch() and roll() of the turtle's pose.h
+        ChangesAngle = 2,      // the angle of turns without a parameter is not a constant
+        SecondHeading = 4,     // moves along the second heading, which turns of the first keep
+        DependsOnVertical = 8, // another drawing where the branch is turned
+        DependsOnPlace = 16,   // another drawing where the branch is moved
+        AddsCorners = 32,      // its ends are corners of a polygon without vertices
+        PreparesDrawing = 64,  // has a purpose only beside modules that draw
+        OneIsDefault = 128,    // the program L3D takes a parameter of 1 for none
+        HasNoLength = 256,     // an object that the turtle does not pass
+    };
+
+    std::string_view name; // in dumps
+    Drawn drawn = Drawn::Nothing;
+    QuickAction quick = QuickAction::None;
+    std::uint16_t traits = 0;
+    std::uint8_t parameter_count = 0; // at most
+    std::string_view parameters;      // their meaning: "length, spring constant, mass"
+
+    [[nodiscard]] constexpr bool has(Trait trait) const { return (traits & trait) != 0; }
+
+    static const std::array<TurtleInfo, kTurtleOperationCount> kRows;
+};
+
+inline constexpr std::array<TurtleInfo, kTurtleOperationCount> TurtleInfo::kRows{{
+#define LSYS_TURTLE(identifier, name, drawn, quick, traits, count, parameters)                     \
+    {name, Drawn::drawn, QuickAction::quick, traits, count, parameters},
+#include "compiler/bytecode/turtle_operations.def"
+}};
+
+/// Precondition: an enumerator.
+[[nodiscard]] constexpr const TurtleInfo& info(TurtleOperation operation) {
+    return TurtleInfo::kRows[static_cast<std::size_t>(operation)];
+}
+[[nodiscard]] constexpr std::string_view name_of(TurtleOperation operation) {
+    return info(operation).name;
+}
+[[nodiscard]] constexpr bool draws(TurtleOperation operation) {
+    return info(operation).drawn != Drawn::Nothing;
+}
+/// Whether it turns the turtle by an angle.
+[[nodiscard]] constexpr bool turns(TurtleOperation operation) {
+    const QuickAction quick = info(operation).quick;
+    return quick == QuickAction::Yaw || quick == QuickAction::Pitch || quick == QuickAction::Roll;
+}
+
+} // namespace lsys

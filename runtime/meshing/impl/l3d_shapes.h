@@ -1,0 +1,14 @@
+// Surfaces of the program L3D, for Skeleton::l3d_compatible_surface: each segment a cylinder of its
+// own whose caps share the vertices of its rings, 2 * sides of them, and each leaf a flat outline
+// of 8 vertices.
+#pragma once
+
+#include "runtime/meshing/impl/mesh_builder.h"
+#include "runtime/meshing/mesh.h"
+
+namespace lsys {
+
+/// Appends all segments, then all leaves. The program has no colours, levels or droop.
+void append_l3d_shapes(const Skeleton& skeleton, MeshBuilder& builder);
+
+} // namespace lsys

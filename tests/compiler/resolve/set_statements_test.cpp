@@ -1,0 +1,89 @@
+#include "compiler/bytecode/settings.h"
+#include "tests/compiler/compile_text.h"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using namespace lsys;
+
+/// Compiles `#set KEY VALUE;` with an axiom.
+test::Compiled set(std::string_view key, const std::string& value) {
+    return test::compile_text(fmt::format("#set {} {};\n#w : F;\n", key, value));
+}
+
+bool is_refused(std::string_view key, const std::string& value) {
+    return set(key, value).find(DiagnosticCode::BadSetting) != nullptr;
+}
+
+template <typename Value>
+void check_number(std::string_view key, Value Settings::*field, float min, float max) {
+    CAPTURE(std::string(key), min, max);
+    const test::Compiled c = set(key, "7");
+    CHECK(c.errors().empty());
+    CHECK(c.outcome.program->settings.*field == static_cast<Value>(7));
+    if (min > kAnyNumber) {
+        CHECK_FALSE(is_refused(key, fmt::format("{}", min)));
+        CHECK(is_refused(key, fmt::format("{}", min - 1.0F)));
+    }
+    if (max < -kAnyNumber) {
+        CHECK_FALSE(is_refused(key, fmt::format("{}", max)));
+        CHECK(is_refused(key, fmt::format("{}", max + 1.0F)));
+        CHECK(is_refused(key, "7.5"));
+    }
+    CHECK(is_refused(key, "7 8"));
+}
+
+template <typename Enum>
+void check_choice(std::string_view key, Enum Settings::*field, Enum initial) {
+    CAPTURE(std::string(key));
+    CHECK(Settings{}.*field == initial);
+    for (const Enum value : enumerators_of<Enum>()) {
+        const test::Compiled c = set(key, std::string(name_of(value)));
+        CHECK(c.errors().empty());
+        CHECK(c.outcome.program->settings.*field == value);
+    }
+    CHECK(is_refused(key, "7"));
+}
+
+} // namespace
+
+TEST_CASE("every setting of the table is read within its range") {
+#define LSYS_CHOICE(type, field, initial, use, group)                                              \
+    check_choice(#field, &Settings::field, type::initial);
+#define LSYS_NUMBER(field, initial, use, group, min, wanted)                                       \
+    check_number(#field, &Settings::field, min, -kAnyNumber);
+#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit)                           \
+    check_number(#field, &Settings::field, min, max);
+#include "compiler/bytecode/settings.def"
+}
+
+TEST_CASE("a turtle profile gives the program its traits") {
+    CHECK(test::compile_text("#w : F;\n").outcome.program->settings.traits == TurtleTraits{});
+    for (const TurtleProfile profile : enumerators_of<TurtleProfile>()) {
+        const test::Compiled c = set("turtle", std::string(name_of(profile)));
+        CAPTURE(std::string(name_of(profile)));
+        CHECK(c.outcome.program->settings.traits == traits_of(profile));
+    }
+    CHECK_FALSE(traits_of(TurtleProfile::Houdini).leaf_moves);
+    CHECK(traits_of(TurtleProfile::Lplus).width_is_relative);
+    CHECK(traits_of(TurtleProfile::L3dBugCompatible).l3d_compatible_surface);
+    CHECK(traits_of(TurtleProfile::Fractint).first_colour == 15);
+    CHECK_FALSE(traits_of(TurtleProfile::Sidefx).object_moves);
+}
+
+TEST_CASE("the help for an unknown key lists every setting") {
+    const test::Compiled c = set("no_such_setting_at_all", "1");
+    const Diagnostic* error = c.find(DiagnosticCode::UnknownKey);
+    REQUIRE(error != nullptr);
+    REQUIRE(error->help.size() == 1);
+    CHECK(error->help[0] ==
+          "the settings are `turtle`, `names`, `rewriting`, `choice`, `weights`, `random`, "
+          "`tropism`, `seed`, `at_depth`, `angle`, `step`, `width`, `angle_scale`, `step_scale`, "
+          "`width_scale`, `spring`, `density`, `damping`, `sides`, `decompose_depth`, "
+          "`interpret_depth`");
+}
