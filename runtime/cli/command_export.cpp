@@ -163,7 +163,7 @@ add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info,
             return status;
         }
     }
-    if (run.format != ExportFormat::Obj) {
+    if (!traits_of(run.format).has_mtl) {
         return ExitStatus::Ok;
     }
     const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
@@ -188,7 +188,7 @@ ExitStatus write_plant(Export& run,
                        const PlantAnimation* animation = nullptr) {
     const ExportCommand& command = run.command;
     SteadyClock::time_point start = SteadyClock::now();
-    if (uses_mesh(run.format)) {
+    if (traits_of(run.format).uses_mesh) {
         MeshOptions options = command.mesh;
         options.segments = animation != nullptr;
         run.mesh = {};
@@ -223,11 +223,6 @@ ExitStatus write_plant(Export& run,
     }
     run.timing.write_seconds += seconds_since(start);
     return status;
-}
-
-/// The formats that can hold a plant in motion as one file.
-bool holds_motion(ExportFormat format) {
-    return format == ExportFormat::Gltf || format == ExportFormat::Glb;
 }
 
 /// One file with all frames.
@@ -272,7 +267,7 @@ ExitStatus write_bent(Export& run) {
         physics.pose(bent);
         return write_plant(run, bent, command.output);
     }
-    if (holds_motion(run.format)) {
+    if (traits_of(run.format).motion) {
         return write_animation(run, physics);
     }
     for (std::uint32_t frame = 1; frame <= command.frames; ++frame) {
@@ -306,10 +301,12 @@ ExitStatus run_export(const ExportCommand& command, const Console& console) {
         return report_error(Error{"--settle and --frames need a force: --gravity or --wind"},
                             console);
     }
-    if (command.frames != 0 && command.output == "-" && !holds_motion(*format)) {
+    if (command.frames != 0 && command.output == "-" && !traits_of(*format).motion) {
         return report_error(
-            Error{"--frames writes several files of this format, which do not go to "
-                  "standard output; glb and gltf hold all frames in one"},
+            Error{fmt::format(
+                "--frames writes several files of this format, which do not go to standard "
+                "output; {} hold all frames in one",
+                format_names("and", [](const FormatTraits& each) { return each.motion; }))},
             console);
     }
     Grammar grammar;

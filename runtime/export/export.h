@@ -1,7 +1,7 @@
-// Export: a mesh, or for drawings the skeleton, as a file of somebody else's. Bytes go to a sink in
-// pieces and in order, large arrays straight from memory; the file as a whole exists nowhere. Made
-// from the results of make_mesh() and the turtle; read by the command line, which owns the files.
-// Units are metres and +Y is up in every format that has a say in it. Same input, same bytes.
+// Export: a mesh, or for drawings the skeleton, as a file of a common format. Bytes go to a sink in
+// pieces and in order, large arrays straight from memory; no file is held as a whole. Made from the
+// results of make_mesh() and the turtle; used by the command line, which owns the files. Metres and
+// +Y up in every format that can state them. Same input, same bytes.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,12 +19,50 @@ namespace lsys {
 
 struct PlantAnimation;
 
-enum class ExportFormat : std::uint8_t { Obj, Ply, Off, OffPlus, Stl, Gltf, Glb, Svg, Usda };
+enum class ExportFormat : std::uint8_t {
+#define LSYS_EXPORT_FORMAT(enumerator, ...) enumerator,
+#include "runtime/export/formats.def"
+#undef LSYS_EXPORT_FORMAT
+};
 
-/// By the extension, in capitals or not.
+/// Where a format has the textures of its materials.
+enum class ExportPictures : std::uint8_t {
+    None,
+    Inside,           // the file; multiplied by the colour of the material
+    FilesWithOpacity, // beside it, with the colour in them; the opacity of leaves also on its own
+    FilesWithRelief,  // beside it, with the colour in them; the relief of bark as normals
+};
+
+struct ExportJob;
+struct ForestExportJob;
+class PieceWriter;
+enum class ExportStatus : std::uint8_t;
+enum class ForestExportStatus : std::uint8_t;
+
+/// A row of formats.def.
+struct FormatTraits {
+    std::string_view name;    // of `--format`; behind a dot the extension of its files
+    std::string_view content; // for README.md
+    bool uses_mesh = true;    // false: drawn from the skeleton, without the mesh
+    /// The most of a mesh that the format can count.
+    std::uint64_t max_vertices = ~std::uint64_t{0};
+    std::uint64_t max_triangles = ~std::uint64_t{0};
+    ExportPictures pictures = ExportPictures::None;
+    bool has_mtl = false; // materials are a file of their own, see write_mtl()
+    bool motion = false;  // one file holds all frames of an animation
+    /// Writes trees as instances; null: the format has none, and forests are baked.
+    ForestExportStatus (*write_forest)(const ForestExportJob& job, PieceWriter& out) = nullptr;
+    bool expands_forest = false; // write_forest can write nodes in place of instances
+    ExportStatus (*write)(const ExportJob& job, PieceWriter& out) = nullptr;
+};
+[[nodiscard]] const FormatTraits& traits_of(ExportFormat format);
+/// All formats, in the order of formats.def.
+[[nodiscard]] std::span<const ExportFormat> export_formats();
+/// The format of the path's extension, in any case of letters.
 [[nodiscard]] std::optional<ExportFormat> format_of_path(std::string_view path);
-/// Svg is drawn from the skeleton; all others are made from the mesh, which it does not look at.
-[[nodiscard]] bool uses_mesh(ExportFormat format);
+/// Names of the formats for which `is_listed`, in alphabetical order: "glb, gltf or usda".
+[[nodiscard]] std::string format_names(std::string_view conjunction,
+                                       const std::function<bool(const FormatTraits&)>& is_listed);
 
 /// Takes the next bytes; false stops the export.
 using ByteSink = std::function<bool(std::string_view)>;

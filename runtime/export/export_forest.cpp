@@ -1,5 +1,6 @@
 #include "runtime/export/export_forest.h"
 
+#include "grammar/base/contract.h"
 #include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/pictures.h"
@@ -12,19 +13,18 @@ namespace lsys {
 namespace {
 
 ForestExportStatus write(const ForestScene& scene,
-                         ForestFormat format,
+                         ExportFormat format,
                          ForestForm form,
                          const ForestExportInfo& info,
                          const ByteSink& sink) {
+    LSYS_CHECK(traits_of(format).write_forest != nullptr, static_cast<int>(format));
     const ForestPlan plan(scene, info.cell, info.threads);
     if (plan.branches() == 0 && (scene.ground == nullptr || triangle_count(*scene.ground) == 0)) {
         return ForestExportStatus::Nothing;
     }
     PieceWriter out(sink);
     const ForestExportStatus status =
-        format == ForestFormat::Usda
-            ? write_forest_usda(scene, plan, info, out)
-            : write_forest_gltf(scene, plan, form, format == ForestFormat::Glb, info, out);
+        traits_of(format).write_forest({scene, plan, form, info}, out);
     if (status == ForestExportStatus::Ok && !out.finish()) {
         return ForestExportStatus::Stopped;
     }
@@ -34,7 +34,7 @@ ForestExportStatus write(const ForestScene& scene,
 } // namespace
 
 ForestExportStatus export_forest(const ForestScene& scene,
-                                 ForestFormat format,
+                                 ExportFormat format,
                                  ForestForm form,
                                  const ForestExportInfo& info,
                                  const ByteSink& sink) {

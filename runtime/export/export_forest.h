@@ -21,10 +21,9 @@ struct ForestScene {
     const Mesh* ground = nullptr; // may be null
 };
 
-enum class ForestFormat : std::uint8_t { Gltf, Glb, Usda };
 enum class ForestForm : std::uint8_t {
     Instanced, // EXT_mesh_gpu_instancing, which readers must know; 40 bytes a branch instance
-    Expanded,  // a node for each branch instance; of glTF only
+    Expanded,  // a node for each branch instance; for FormatTraits::expands_forest
 };
 /// More branch instances are no nodes of a file. Each takes about 200 bytes there.
 inline constexpr std::uint64_t kMostForestNodes = 1'000'000;
@@ -50,11 +49,12 @@ enum class ForestExportStatus : std::uint8_t {
     OutOfMemory,
 };
 
-/// Beside the scene it takes 8 bytes a tree, 24 bytes for each pair of a cell and an instance that
+/// Writes the trees as instances, in a format with FormatTraits::write_forest. Beside the scene it
+/// takes 8 bytes a tree, 24 bytes for each pair of a cell and an instance that
 /// stands there, 16 bytes for each pair of 512 trees of a cell and an instance that stands in them,
 /// and ForestExportInfo::window_bytes. Precondition: trees' species have meshes.
 [[nodiscard]] ForestExportStatus export_forest(const ForestScene& scene,
-                                               ForestFormat format,
+                                               ExportFormat format,
                                                ForestForm form,
                                                const ForestExportInfo& info,
                                                const ByteSink& sink);

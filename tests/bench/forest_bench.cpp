@@ -175,7 +175,7 @@ void measure_files(const Kind& kind) {
         ForestExportInfo info;
         info.cell = cell;
         const double writing = seconds([&] {
-            if (export_forest(scene, ForestFormat::Glb, ForestForm::Instanced, info,
+            if (export_forest(scene, ExportFormat::Glb, ForestForm::Instanced, info,
                               [&bytes](std::string_view piece) {
                                   bytes += piece.size();
                                   return true;

@@ -67,7 +67,7 @@ ByteSink into(std::ofstream& file) {
 
 bool write_forest(const fs::path& path,
                   const ForestScene& scene,
-                  ForestFormat format,
+                  ExportFormat format,
                   ForestForm form,
                   const ForestExportInfo& info) {
     std::ofstream file(path, std::ios::binary);
@@ -157,13 +157,19 @@ int main(int argument_count, char** arguments) {
     info.generator = "write_forest";
     info.cell = 50.0F;
     info.picture_prefix = "forest";
-    using Format = ForestFormat;
-    using Form = ForestForm;
-    bool all = write_forest(folder / "forest.glb", scene, Format::Glb, Form::Instanced, info);
-    all = write_forest(folder / "forest.gltf", scene, Format::Gltf, Form::Instanced, info) && all;
-    all = write_forest(folder / "expanded.glb", scene, Format::Glb, Form::Expanded, info) && all;
-    all = write_forest(folder / "expanded.gltf", scene, Format::Gltf, Form::Expanded, info) && all;
-    all = write_forest(folder / "forest.usda", scene, Format::Usda, Form::Instanced, info) && all;
+    bool all = true;
+    for (const ExportFormat format : export_formats()) {
+        const FormatTraits& traits = traits_of(format);
+        const auto path = [&](const char* name) {
+            return folder / fmt::format("{}.{}", name, traits.name);
+        };
+        if (traits.write_forest != nullptr) {
+            all = write_forest(path("forest"), scene, format, ForestForm::Instanced, info) && all;
+        }
+        if (traits.expands_forest) {
+            all = write_forest(path("expanded"), scene, format, ForestForm::Expanded, info) && all;
+        }
+    }
     std::vector<PictureFile> pictures;
     all = make_forest_picture_files(scene, info, pictures) == ForestExportStatus::Ok && all;
     for (const PictureFile& picture : pictures) {

@@ -3,6 +3,8 @@
 #include "runtime/export/export.h"
 #include "tests/support/meshes.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -13,9 +15,6 @@
 using namespace lsys;
 
 namespace {
-
-constexpr std::array<const char*, 8> kExtensions{"obj", "ply",  "off", "off+",
-                                                 "stl", "gltf", "glb", "usda"};
 
 bool write_file(const std::filesystem::path& path,
                 const Mesh& mesh,
@@ -42,7 +41,7 @@ bool write_file(const std::filesystem::path& path,
     return true;
 }
 
-/// The pictures that an OBJ and its MTL, or a USDA name.
+/// Pictures that lie beside a file of the format.
 bool write_pictures(const std::filesystem::path& folder,
                     const Mesh& mesh,
                     ExportFormat format,
@@ -121,13 +120,14 @@ int main(int argument_count, char** arguments) {
     for (const auto& [name, mesh] : meshes) {
         info.mtl_name = std::string(name) + ".mtl";
         info.picture_prefix = name;
-        for (const ExportFormat format : {ExportFormat::Obj, ExportFormat::Usda}) {
-            fine = write_pictures(folder, mesh, format, info) && fine;
-        }
         fine = write_file(folder / info.mtl_name, mesh, {}, info) && fine;
-        for (const char* extension : kExtensions) {
-            fine =
-                write_file(folder / (std::string(name) + '.' + extension), mesh, {}, info) && fine;
+        for (const ExportFormat format : export_formats()) {
+            const FormatTraits& traits = traits_of(format);
+            if (traits.uses_mesh) {
+                const std::string file = fmt::format("{}.{}", name, traits.name);
+                fine = write_pictures(folder, mesh, format, info) && fine;
+                fine = write_file(folder / file, mesh, {}, info) && fine;
+            }
         }
         counts << name << ' ' << mesh.positions.size() << ' ' << mesh.indices.size() / 3 << ' '
                << mesh.parts.size() << '\n';

@@ -1,4 +1,4 @@
-// The writers of forests. Each writes one whole file and may stop early once the writer has
+// The writers of forests. Each writes one whole file and may stop early once the PieceWriter has
 // stopped.
 #pragma once
 
@@ -11,16 +11,17 @@
 
 namespace lsys {
 
-[[nodiscard]] ForestExportStatus write_forest_gltf(const ForestScene& scene,
-                                                   const ForestPlan& plan,
-                                                   ForestForm form,
-                                                   bool binary,
-                                                   const ForestExportInfo& info,
-                                                   PieceWriter& out);
-[[nodiscard]] ForestExportStatus write_forest_usda(const ForestScene& scene,
-                                                   const ForestPlan& plan,
-                                                   const ForestExportInfo& info,
-                                                   PieceWriter& out);
+/// A file of instances to be written.
+struct ForestExportJob {
+    const ForestScene& scene;
+    const ForestPlan& plan;
+    ForestForm form;
+    const ForestExportInfo& info;
+};
+
+[[nodiscard]] ForestExportStatus write_forest_gltf(const ForestExportJob& job, PieceWriter& out);
+[[nodiscard]] ForestExportStatus write_forest_glb(const ForestExportJob& job, PieceWriter& out);
+[[nodiscard]] ForestExportStatus write_forest_usda(const ForestExportJob& job, PieceWriter& out);
 
 /// Bytes of the transforms of a group: all translations, then all rotations, then all scales.
 inline constexpr std::uint64_t kTranslationBytes = 12;

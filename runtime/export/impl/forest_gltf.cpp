@@ -20,7 +20,7 @@ ForestDocument::ForestDocument(const ForestScene& scene,
       materials_(find_forest_materials(scene, plan)) {
     ExportInfo pictures;
     pictures.textures = info.textures;
-    pictures_ = find_pictures(materials_.samples, ExportFormat::Gltf, pictures);
+    pictures_ = find_pictures(materials_.samples, ExportPictures::Inside, pictures);
     images_ = encode_pictures(pictures_.list, info.threads);
     if (scene.ground != nullptr && triangle_count(*scene.ground) > 0) {
         ground_block_ = 0;
@@ -98,12 +98,10 @@ void ForestDocument::put_data(const std::function<bool(std::span<const std::byte
     }
 }
 
-ForestExportStatus write_forest_gltf(const ForestScene& scene,
-                                     const ForestPlan& plan,
-                                     ForestForm form,
-                                     bool binary,
-                                     const ForestExportInfo& info,
-                                     PieceWriter& out) {
+namespace {
+
+ForestExportStatus write(const ForestExportJob& job, bool binary, PieceWriter& out) {
+    const auto& [scene, plan, form, info] = job;
     if (form == ForestForm::Expanded && plan.branches() > kMostForestNodes) {
         return ForestExportStatus::TooManyNodes;
     }
@@ -147,6 +145,16 @@ ForestExportStatus write_forest_gltf(const ForestScene& scene,
         return !out.stopped();
     });
     return ForestExportStatus::Ok;
+}
+
+} // namespace
+
+ForestExportStatus write_forest_gltf(const ForestExportJob& job, PieceWriter& out) {
+    return write(job, false, out);
+}
+
+ForestExportStatus write_forest_glb(const ForestExportJob& job, PieceWriter& out) {
+    return write(job, true, out);
 }
 
 } // namespace lsys

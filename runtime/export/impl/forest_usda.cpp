@@ -258,10 +258,8 @@ private:
 
 } // namespace
 
-ForestExportStatus write_forest_usda(const ForestScene& scene,
-                                     const ForestPlan& plan,
-                                     const ForestExportInfo& info,
-                                     PieceWriter& out) {
+ForestExportStatus write_forest_usda(const ForestExportJob& job, PieceWriter& out) {
+    const ForestPlan& plan = job.plan;
     // Integers of USD are signed.
     constexpr std::uint64_t kMost = 0x7FFFFFFF;
     for (const ForestKind& kind : plan.kinds()) {
@@ -272,7 +270,7 @@ ForestExportStatus write_forest_usda(const ForestScene& scene,
     if (plan.branches() > kMost) {
         return ForestExportStatus::TooLarge;
     }
-    UsdaForest(scene, plan, info, out).write();
+    UsdaForest(job.scene, plan, job.info, out).write();
     return ForestExportStatus::Ok;
 }
 

@@ -254,13 +254,8 @@ std::string Document::text() {
     return std::move(text_);
 }
 
-} // namespace
-
-ExportStatus write_gltf(const Mesh& mesh,
-                        const Skeleton& skeleton,
-                        bool binary,
-                        const ExportInfo& info,
-                        PieceWriter& out) {
+ExportStatus write(const ExportJob& job, bool binary, PieceWriter& out) {
+    const auto& [mesh, skeleton, info] = job;
     std::optional<GltfMotion> moving;
     if (info.animation != nullptr) {
         std::optional<Skin> skin = make_skin(mesh, skeleton, *info.animation);
@@ -270,7 +265,7 @@ ExportStatus write_gltf(const Mesh& mesh,
         moving.emplace(GltfMotion{std::move(*skin), *info.animation});
     }
     const GltfMotion* const motion = moving ? &*moving : nullptr;
-    const Pictures pictures = find_pictures(mesh, ExportFormat::Gltf, info);
+    const Pictures pictures = find_pictures(mesh, ExportPictures::Inside, info);
     const GltfData data =
         plan_gltf_data(mesh, motion, encode_pictures(pictures.list, info.threads));
     if (data.bytes > kMostGltfBytes) {
@@ -297,6 +292,16 @@ ExportStatus write_gltf(const Mesh& mesh,
     write_gltf_data(mesh, motion, data,
                     [&out](std::span<const std::byte> bytes) { out.put_bytes(bytes); });
     return ExportStatus::Ok;
+}
+
+} // namespace
+
+ExportStatus write_gltf(const ExportJob& job, PieceWriter& out) {
+    return write(job, false, out);
+}
+
+ExportStatus write_glb(const ExportJob& job, PieceWriter& out) {
+    return write(job, true, out);
 }
 
 } // namespace lsys

@@ -62,12 +62,13 @@ void put_faces(TriangleReader& indices, const MeshPart& part, bool textured, Pie
 
 } // namespace
 
-void write_obj(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
-    out.put(
-        fmt::format("# {}\n# {}\n# metres, +Y up\n", one_line(info.generator), origin_line(info)));
-    if (!info.mtl_name.empty()) {
+ExportStatus write_obj(const ExportJob& job, PieceWriter& out) {
+    const Mesh& mesh = job.mesh;
+    out.put(fmt::format("# {}\n# {}\n# metres, +Y up\n", one_line(job.info.generator),
+                        origin_line(job.info)));
+    if (!job.info.mtl_name.empty()) {
         // What follows the keyword is the name, blanks included.
-        out.put(fmt::format("mtllib {}\n", one_line(info.mtl_name)));
+        out.put(fmt::format("mtllib {}\n", one_line(job.info.mtl_name)));
     }
     out.put("o plant\n");
     for (std::size_t i = 0; i < mesh.positions.size() && !out.stopped(); ++i) {
@@ -89,6 +90,7 @@ void write_obj(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
         out.put(fmt::format("usemtl {}\n", words[part.material]));
         put_faces(indices, part, textured, out);
     }
+    return ExportStatus::Ok;
 }
 
 ExportStatus write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink) {
@@ -99,7 +101,7 @@ ExportStatus write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink&
         PieceWriter out(sink);
         out.put(fmt::format("# {}\n# {}\n", one_line(info.generator), origin_line(info)));
         const std::vector<std::string> words = material_words(mesh);
-        const Pictures pictures = find_pictures(mesh, ExportFormat::Obj, info);
+        const Pictures pictures = find_pictures(mesh, ExportPictures::FilesWithOpacity, info);
         const auto put_map = [&](const char* keyword, const std::optional<std::size_t>& number) {
             if (number) { // as with mtllib, blanks are part of the name
                 out.put(fmt::format("{} {}\n", keyword, pictures.list[*number].name));

@@ -12,9 +12,7 @@ namespace {
 
 constexpr std::size_t kLineBytes = 8 + 6 * (kNumberBytes + 1);
 
-} // namespace
-
-void write_off(const Mesh& mesh, bool plus, PieceWriter& out) {
+ExportStatus write(const Mesh& mesh, bool plus, PieceWriter& out) {
     out.put(fmt::format("OFF\n{} {} 0\n", mesh.positions.size(), triangle_count(mesh)));
     const bool textured = is_complete(mesh, mesh.texture_coordinates);
     for (std::size_t i = 0; i < mesh.positions.size() && !out.stopped(); ++i) {
@@ -51,6 +49,17 @@ void write_off(const Mesh& mesh, bool plus, PieceWriter& out) {
             out.used(at);
         }
     }
+    return ExportStatus::Ok;
+}
+
+} // namespace
+
+ExportStatus write_off(const ExportJob& job, PieceWriter& out) {
+    return write(job.mesh, false, out);
+}
+
+ExportStatus write_off_plus(const ExportJob& job, PieceWriter& out) {
+    return write(job.mesh, true, out);
 }
 
 } // namespace lsys

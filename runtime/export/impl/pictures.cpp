@@ -89,17 +89,16 @@ std::string encode_picture(const Picture& picture) {
 
 } // namespace
 
-Pictures find_pictures(const Mesh& mesh, ExportFormat format, const ExportInfo& info) {
+Pictures find_pictures(const Mesh& mesh, ExportPictures kind, const ExportInfo& info) {
     Pictures pictures;
     pictures.of_materials.resize(mesh.materials.size());
-    const bool is_gltf = format == ExportFormat::Gltf || format == ExportFormat::Glb;
-    const bool is_obj = format == ExportFormat::Obj;
-    if (!info.textures ||
-        (!is_gltf && (info.picture_prefix.empty() || (!is_obj && format != ExportFormat::Usda)))) {
+    const bool inside = kind == ExportPictures::Inside;
+    if (!info.textures || kind == ExportPictures::None ||
+        (!inside && info.picture_prefix.empty())) {
         return pictures;
     }
     const auto name = [&](const std::string& what) {
-        return is_gltf ? what : one_line(info.picture_prefix) + '.' + identifier(what) + ".png";
+        return inside ? what : one_line(info.picture_prefix) + '.' + identifier(what) + ".png";
     };
     for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
         const Material& material = mesh.materials[i];
@@ -112,16 +111,17 @@ Pictures find_pictures(const Mesh& mesh, ExportFormat format, const ExportInfo& 
         wanted.file = material.picture;
         const std::string what = wanted.file != nullptr ? material.name : bark ? "bark" : "leaf";
         MaterialPictures& shown = pictures.of_materials[i];
-        wanted.tint = is_gltf ? glm::vec3(1.0F) : glm::vec3(material.colour);
-        wanted.name = name(is_gltf ? what : material.name);
+        wanted.tint = inside ? glm::vec3(1.0F) : glm::vec3(material.colour);
+        wanted.name = name(inside ? what : material.name);
         shown.colour = number_of(pictures.list, wanted);
         wanted.tint = glm::vec3(1.0F);
-        if (is_obj && material.cut_out) {
+        if (kind == ExportPictures::FilesWithOpacity && material.cut_out) {
             wanted.kind = PictureKind::Opacity;
             wanted.name = name(what + " opacity");
             shown.opacity = number_of(pictures.list, wanted);
         }
-        if (!is_obj && bark && (!is_gltf || is_complete(mesh, mesh.tangents))) {
+        if (bark && (kind == ExportPictures::FilesWithRelief ||
+                     (inside && is_complete(mesh, mesh.tangents)))) {
             wanted.kind = PictureKind::Relief;
             wanted.name = name("bark normals");
             shown.relief = number_of(pictures.list, wanted);
@@ -150,10 +150,11 @@ ExportStatus make_picture_files(const Mesh& mesh,
                                 std::vector<PictureFile>& files) {
     try {
         files.clear();
-        if (format == ExportFormat::Gltf || format == ExportFormat::Glb) {
-            return ExportStatus::Ok; // which has them in it
+        const ExportPictures kind = traits_of(format).pictures;
+        if (kind == ExportPictures::Inside) {
+            return ExportStatus::Ok;
         }
-        const Pictures pictures = find_pictures(mesh, format, info);
+        const Pictures pictures = find_pictures(mesh, kind, info);
         std::vector<std::string> encoded = encode_pictures(pictures.list, info.threads);
         for (std::size_t i = 0; i < encoded.size(); ++i) {
             files.push_back({pictures.list[i].name, std::move(encoded[i])});

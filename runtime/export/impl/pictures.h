@@ -40,8 +40,8 @@ struct Pictures {
     std::vector<MaterialPictures> of_materials; // of the mesh
 };
 
-/// None where the format or `info` wants none.
-[[nodiscard]] Pictures find_pictures(const Mesh& mesh, ExportFormat format, const ExportInfo& info);
+/// Empty for ExportPictures::None, and without ExportInfo::textures or a name for files.
+[[nodiscard]] Pictures find_pictures(const Mesh& mesh, ExportPictures kind, const ExportInfo& info);
 
 /// PNG files. Throws std::bad_alloc.
 [[nodiscard]] std::vector<std::string> encode_pictures(const std::vector<Picture>& pictures,

@@ -39,7 +39,8 @@ char* put_bytes(char* at, const T& value) {
 
 } // namespace
 
-void write_ply(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
+ExportStatus write_ply(const ExportJob& job, PieceWriter& out) {
+    const Mesh& mesh = job.mesh;
     const bool textured = is_complete(mesh, mesh.texture_coordinates);
     const bool coloured = is_complete(mesh, mesh.colours);
     // `int` is what every reader knows.
@@ -49,7 +50,7 @@ void write_ply(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
                         "property float x\nproperty float y\nproperty float z\n"
                         "property float nx\nproperty float ny\nproperty float nz\n{}{}"
                         "element face {}\nproperty list uchar {} vertex_indices\nend_header\n",
-                        one_line(info.generator), origin_line(info), mesh.positions.size(),
+                        one_line(job.info.generator), origin_line(job.info), mesh.positions.size(),
                         textured ? "property float s\nproperty float t\n" : "",
                         coloured ? "property uchar red\nproperty uchar green\nproperty uchar blue\n"
                                  : "",
@@ -81,6 +82,7 @@ void write_ply(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
             out.used(put_bytes(at + 1, corners));
         }
     }
+    return ExportStatus::Ok;
 }
 
 } // namespace lsys

@@ -19,10 +19,11 @@ constexpr std::size_t kTriangleBytes = 4 * sizeof(glm::vec3) + 2;
 
 } // namespace
 
-void write_stl(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
+ExportStatus write_stl(const ExportJob& job, PieceWriter& out) {
+    const Mesh& mesh = job.mesh;
     // Text STL begins with `solid`, and readers look no further.
-    std::string header =
-        fmt::format("STL in metres, +Y up. {}: {}", one_line(info.generator), origin_line(info));
+    std::string header = fmt::format("STL in metres, +Y up. {}: {}", one_line(job.info.generator),
+                                     origin_line(job.info));
     header.resize(kHeaderBytes, ' ');
     out.put(header);
     const auto count = static_cast<std::uint32_t>(triangle_count(mesh));
@@ -45,6 +46,7 @@ void write_stl(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
             out.used(at + kTriangleBytes);
         }
     }
+    return ExportStatus::Ok;
 }
 
 } // namespace lsys

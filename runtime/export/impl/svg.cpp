@@ -190,8 +190,9 @@ void Drawing::write() {
 
 } // namespace
 
-void write_svg(const Skeleton& skeleton, const ExportInfo& info, PieceWriter& out) {
-    Drawing(skeleton, info, out).write();
+ExportStatus write_svg(const ExportJob& job, PieceWriter& out) {
+    Drawing(job.skeleton, job.info, out).write();
+    return ExportStatus::Ok;
 }
 
 } // namespace lsys

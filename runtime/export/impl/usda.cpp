@@ -128,13 +128,15 @@ void put_mesh(const Mesh& mesh, const std::vector<std::string>& names, PieceWrit
 
 } // namespace
 
-void write_usda(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
+ExportStatus write_usda(const ExportJob& job, PieceWriter& out) {
+    const Mesh& mesh = job.mesh;
     const std::vector<std::string> names = usda_part_names(mesh);
-    put_header(info, out);
+    put_header(job.info, out);
     out.put("def Xform \"Plant\" (\n    kind = \"component\"\n)\n{\n");
     put_mesh(mesh, names, out);
-    put_usda_materials(mesh, names, info, "/Plant", out);
+    put_usda_materials(mesh, names, job.info, "/Plant", out);
     out.put("}\n");
+    return ExportStatus::Ok;
 }
 
 } // namespace lsys

@@ -112,7 +112,7 @@ void put_usda_materials(const Mesh& mesh,
                         const ExportInfo& info,
                         std::string_view root,
                         PieceWriter& out) {
-    const Pictures pictures = find_pictures(mesh, ExportFormat::Usda, info);
+    const Pictures pictures = find_pictures(mesh, ExportPictures::FilesWithRelief, info);
     out.put("\n    def Scope \"Materials\"\n    {\n");
     for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
         const std::uint32_t material = mesh.parts[i].material;

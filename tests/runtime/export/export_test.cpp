@@ -5,17 +5,13 @@
 
 #include <catch2/catch.hpp>
 
-#include <array>
+#include <set>
 #include <string>
 #include <vector>
 
 using namespace lsys;
 
 namespace {
-
-constexpr std::array kFormats{ExportFormat::Obj,     ExportFormat::Ply, ExportFormat::Off,
-                              ExportFormat::OffPlus, ExportFormat::Stl, ExportFormat::Gltf,
-                              ExportFormat::Glb,     ExportFormat::Svg, ExportFormat::Usda};
 
 ExportInfo info() {
     return {.grammar = "g.lsys",
@@ -66,15 +62,42 @@ TEST_CASE("formats go by the extension") {
     CHECK_FALSE(format_of_path("obj"));
     CHECK_FALSE(format_of_path(".obj"));
     CHECK_FALSE(format_of_path(""));
-    CHECK_FALSE(uses_mesh(ExportFormat::Svg));
-    CHECK(uses_mesh(ExportFormat::Obj));
+}
+
+TEST_CASE("every format is found by its own name alone") {
+    std::set<std::string_view> names;
+    for (const ExportFormat format : export_formats()) {
+        const FormatTraits& traits = traits_of(format);
+        CAPTURE(traits.name);
+        CHECK(names.insert(traits.name).second);
+        CHECK(format_of_path(std::string("a.") + std::string(traits.name)) == format);
+        CHECK_FALSE(traits.content.empty());
+        CHECK(traits.write != nullptr);
+        CHECK((!traits.expands_forest || traits.write_forest != nullptr));
+    }
+    CHECK_FALSE(traits_of(ExportFormat::Svg).uses_mesh);
+    CHECK(traits_of(ExportFormat::Obj).uses_mesh);
+}
+
+TEST_CASE("names of formats are listed in words") {
+    const auto names = [](const std::vector<ExportFormat>& wanted) {
+        return format_names("or", [&](const FormatTraits& traits) {
+            return std::any_of(wanted.begin(), wanted.end(),
+                               [&](ExportFormat format) { return &traits_of(format) == &traits; });
+        });
+    };
+    CHECK(names({}).empty());
+    CHECK(names({ExportFormat::Stl}) == "stl");
+    CHECK(names({ExportFormat::Gltf, ExportFormat::Glb}) == "glb or gltf");
+    CHECK(names({ExportFormat::Usda, ExportFormat::Gltf, ExportFormat::Glb}) ==
+          "glb, gltf or usda");
 }
 
 TEST_CASE("large files come in pieces, and the same ones again") {
     const Mesh mesh = test::large_mesh(20000);
     const Skeleton skeleton = long_skeleton();
-    for (const ExportFormat format : kFormats) {
-        CAPTURE(static_cast<int>(format));
+    for (const ExportFormat format : export_formats()) {
+        CAPTURE(traits_of(format).name);
         std::string first;
         std::size_t largest = 0;
         CHECK(export_mesh(mesh, skeleton, format, info(), [&](std::string_view piece) {
@@ -96,8 +119,8 @@ TEST_CASE("large files come in pieces, and the same ones again") {
 TEST_CASE("a sink that stops is left alone") {
     const Mesh mesh = test::large_mesh(20000);
     const Skeleton skeleton = long_skeleton();
-    for (const ExportFormat format : kFormats) {
-        CAPTURE(static_cast<int>(format));
+    for (const ExportFormat format : export_formats()) {
+        CAPTURE(traits_of(format).name);
         for (const int taken : {0, 1, 2}) {
             int pieces = 0;
             CHECK(export_mesh(mesh, skeleton, format, info(), [&](std::string_view) {
@@ -110,8 +133,8 @@ TEST_CASE("a sink that stops is left alone") {
 }
 
 TEST_CASE("where nothing is drawn nothing is written") {
-    for (const ExportFormat format : kFormats) {
-        CAPTURE(static_cast<int>(format));
+    for (const ExportFormat format : export_formats()) {
+        CAPTURE(traits_of(format).name);
         CHECK(without_bytes({}, format) == ExportStatus::Nothing);
     }
     CHECK(write_mtl({}, info(), [](std::string_view) { return true; }) == ExportStatus::Nothing);
