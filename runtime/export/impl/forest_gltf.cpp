@@ -2,7 +2,6 @@
 // an instance and a cell of the ground), or a node for each branch instance. The instances of a
 // species share arrays of vertices. The document is written twice: into nothing, to know its size,
 // which a GLB says first, and into the file.
-#include "runtime/export/impl/base64.h"
 #include "runtime/export/impl/forest_document.h"
 #include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/formats.h"
@@ -85,7 +84,7 @@ void ForestDocument::add_block(const Mesh& mesh, const std::vector<std::uint32_t
     }
 }
 
-void ForestDocument::put_data(const std::function<bool(std::span<const std::byte>)>& write) const {
+void ForestDocument::put_data(const GltfSink& write) const {
     for (const ForestBlock& block : blocks_) {
         write_gltf_data(*block.mesh, nullptr, block.data,
                         [&write](std::span<const std::byte> bytes) { write(bytes); });
@@ -101,50 +100,17 @@ void ForestDocument::put_data(const std::function<bool(std::span<const std::byte
 namespace {
 
 ForestExportStatus write(const ForestExportJob& job, bool binary, PieceWriter& out) {
-    const auto& [scene, plan, form, info] = job;
-    if (form == ForestForm::Expanded && plan.branches() > kMostForestNodes) {
+    if (job.form == ForestForm::Expanded && job.plan.branches() > kMostForestNodes) {
         return ForestExportStatus::TooManyNodes;
     }
-    ForestDocument document(scene, plan, form, info);
+    const ForestDocument document(job.scene, job.plan, job.form, job.info);
     if (document.data_bytes() > kMostGltfBytes) {
         return ForestExportStatus::TooLarge;
     }
-    if (!binary) {
-        document.put(out);
-        out.put(R"(,"uri":"data:application/octet-stream;base64,)");
-        Base64Writer base64(out);
-        document.put_data([&](std::span<const std::byte> bytes) {
-            base64.put(bytes);
-            return !out.stopped();
-        });
-        base64.finish();
-        out.put("\"}]}\n");
-        return ForestExportStatus::Ok;
-    }
-    constexpr std::string_view kEnd = "}]}";
-    std::uint64_t json_bytes = kEnd.size();
-    const ByteSink count = [&json_bytes](std::string_view bytes) {
-        json_bytes += bytes.size();
-        return true;
-    };
-    PieceWriter counter(count);
-    document.put(counter);
-    if (!counter.finish()) {
-        return ForestExportStatus::Stopped;
-    }
-    const std::uint64_t padding = (4 - json_bytes % 4) % 4;
-    if (!put_glb_header(json_bytes + padding, document.data_bytes(), out)) {
-        return ForestExportStatus::TooLarge;
-    }
-    document.put(out);
-    out.put(kEnd);
-    out.put(std::string_view("   ").substr(0, padding));
-    put_glb_data_header(document.data_bytes(), out);
-    document.put_data([&out](std::span<const std::byte> bytes) {
-        out.put_bytes(bytes);
-        return !out.stopped();
-    });
-    return ForestExportStatus::Ok;
+    const GltfFile file{binary, [&document](JsonWriter& json) { document.put_members(json); },
+                        document.data_bytes(),
+                        [&document](const GltfSink& write) { document.put_data(write); }};
+    return put_gltf_file(file, out) ? ForestExportStatus::Ok : ForestExportStatus::TooLarge;
 }
 
 } // namespace

@@ -108,6 +108,12 @@ void write_colours(const Mesh& mesh, const GltfBytes& write) {
 
 } // namespace
 
+std::size_t GltfData::first_view(GltfArray array) const {
+    const auto found = std::find_if(views.begin(), views.end(),
+                                    [array](const GltfView& view) { return view.array == array; });
+    return static_cast<std::size_t>(found - views.begin());
+}
+
 GltfData
 plan_gltf_data(const Mesh& mesh, const GltfMotion* motion, std::vector<std::string> images) {
     GltfData data;

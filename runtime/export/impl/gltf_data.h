@@ -41,6 +41,9 @@ struct GltfData {
     std::uint64_t bytes = 0;         // of the buffer, a multiple of 4
     /// For each part: its vertices have colours of their own, which differ from the material's.
     std::vector<bool> coloured;
+
+    /// The number of the first view of the array; views.size() without one.
+    [[nodiscard]] std::size_t first_view(GltfArray array) const;
 };
 
 /// Plans the buffer, images last. Without `motion` there is no skin.
