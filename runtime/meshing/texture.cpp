@@ -1,6 +1,7 @@
 #include "runtime/meshing/texture.h"
 
 #include "grammar/base/hash.h"
+#include "runtime/base/png_samples.h"
 #include "runtime/meshing/shapes.h"
 
 #include <algorithm>
@@ -241,6 +242,10 @@ Texture bark_normals() {
         return std::array{0.5F + 0.5F * x / length, 0.5F + 0.5F * y / length, 0.5F + 0.5F / length,
                           1.0F};
     });
+}
+
+std::string encode_png(const Texture& texture) {
+    return write_png(texture.width, texture.height, texture.texels);
 }
 
 } // namespace lsys
