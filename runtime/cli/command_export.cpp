@@ -57,62 +57,35 @@ private:
     std::optional<Error> failure_;
 };
 
-/// What the end of an export makes of the run.
-ExitStatus tell_exported(ExportStatus status,
-                         const Sink& sink,
-                         const Grammar& grammar,
-                         const Console& console) {
-    switch (status) {
-    case ExportStatus::Ok:
-        return ExitStatus::Ok;
-    case ExportStatus::Nothing:
-        return report_error(Error{"the plant has nothing to draw, so no file is written"}, console);
-    case ExportStatus::TooLarge:
-        return report_error(
-            Error{"the plant is larger than a file of this format can be; another format, "
-                  "fewer sides or a coarser --level may hold it"},
-            console);
-    case ExportStatus::TooManyJoints:
-        return show_diagnostic(
-            plant_limit_diagnostic(
-                "the skin", fmt::format("{} joints", grouped_digits(kMostJoints)),
-                "ask for fewer generations with `-n`, or for a numbered series in "
-                "another format, which is any but glTF: `-o tree.ply`"),
-            ExitStatus::Limit, grammar, console);
-    case ExportStatus::Stopped:
-        return sink.failure() ? report_error(*sink.failure(), console) : ExitStatus::Interrupted;
-    case ExportStatus::OutOfMemory:
-        return show_diagnostic(no_memory_diagnostic("the file"), ExitStatus::Limit, grammar,
-                               console);
-    }
-    return ExitStatus::Failure;
-}
-
 /// Files of one plant, all complete or all absent.
 class Files {
 public:
-    Files(const Grammar& grammar, const Console& console) : grammar_(grammar), console_(console) {}
+    explicit Files(const Console& console) : console_(console) {}
 
     /// Writes one, which is not to be seen yet.
     ExitStatus add(const std::string& path,
                    ExportTiming& timing,
-                   const std::function<ExportStatus(const ByteSink&)>& write) {
+                   const std::function<Outcome<Done>(const ByteSink&)>& write) {
         Result<Output> output = Output::open(path, console_);
         if (!output) {
             return report_error(output.error(), console_);
         }
         Sink sink(output.value(), console_);
-        const ExportStatus status = write([&sink](std::string_view bytes) { return sink(bytes); });
+        Outcome<Done> written = write([&sink](std::string_view bytes) { return sink(bytes); });
         timing.bytes += sink.written();
-        const ExitStatus told = tell_exported(status, sink, grammar_, console_);
-        if (told != ExitStatus::Ok) {
-            return told;
+        if (sink.failure()) {
+            return report_error(*sink.failure(), console_);
+        }
+        Done done;
+        const ExitStatus status = console_.take(std::move(written), done);
+        if (status != ExitStatus::Ok) {
+            return status;
         }
         if (const Result<Done> finished = output.value().finish(); !finished) {
             return report_error(finished.error(), console_);
         }
         outputs_.push_back(std::move(output.value()));
-        return told;
+        return status;
     }
     /// Lets all be seen.
     ExitStatus commit() {
@@ -121,7 +94,6 @@ public:
     }
 
 private:
-    const Grammar& grammar_;
     const Console& console_;
     std::vector<Output> outputs_;
 };
@@ -145,20 +117,16 @@ ExitStatus
 add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info, Files& files) {
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
     std::vector<PictureFile> pictures;
-    if (make_picture_files(run.mesh, run.format, info, pictures) != ExportStatus::Ok) {
-        return show_diagnostic(no_memory_diagnostic("the pictures"), ExitStatus::Limit, run.grammar,
-                               run.console);
+    ExitStatus status = run.console.take(make_picture_files(run.mesh, run.format, info), pictures);
+    if (status != ExitStatus::Ok) {
+        return status;
     }
-    const auto put = [](std::string_view bytes, const ByteSink& sink) {
-        return sink(bytes) ? ExportStatus::Ok : ExportStatus::Stopped;
-    };
     for (const PictureFile& picture : pictures) {
         if (!run.pictures.insert(picture.name).second) {
             continue;
         }
-        const ExitStatus status =
-            files.add(path.parent_path() / picture.name, run.timing,
-                      [&](const ByteSink& sink) { return put(picture.bytes, sink); });
+        status = files.add(path.parent_path() / picture.name, run.timing,
+                           [&](const ByteSink& sink) { return write_picture_file(picture, sink); });
         if (status != ExitStatus::Ok) {
             return status;
         }
@@ -208,7 +176,7 @@ ExitStatus write_plant(Export& run,
     info.user_meshes = &run.plant.user_meshes;
     info.animation = animation;
     info.threads = command.run.threads;
-    Files files(run.grammar, run.console);
+    Files files(run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
         status = add_side_files(run, path, info, files);

@@ -1,5 +1,6 @@
 #include "runtime/export/export.h"
 
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/formats.h"
 
@@ -7,8 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <new>
-#include <stdexcept>
 
 namespace lsys {
 
@@ -29,22 +28,6 @@ constexpr std::array<FormatTraits, kFormats.size()> kTraits{{
 
 char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-ExportStatus write(const FormatTraits& format, const ExportJob& job, const ByteSink& sink) {
-    const std::uint64_t triangles = triangle_count(job.mesh);
-    const Skeleton& drawn = job.skeleton;
-    if (format.uses_mesh
-            ? triangles == 0
-            : drawn.segments.empty() && drawn.objects.empty() && drawn.polygons.empty()) {
-        return ExportStatus::Nothing;
-    }
-    if (triangles > format.max_triangles || job.mesh.positions.size() > format.max_vertices) {
-        return ExportStatus::TooLarge;
-    }
-    PieceWriter out(sink);
-    const ExportStatus status = format.write(job, out);
-    return status == ExportStatus::Ok && !out.finish() ? ExportStatus::Stopped : status;
 }
 
 } // namespace
@@ -94,18 +77,31 @@ std::uint64_t triangle_count(const Mesh& mesh) {
     return count;
 }
 
-ExportStatus export_mesh(const Mesh& mesh,
-                         const Skeleton& skeleton,
-                         ExportFormat format,
-                         const ExportInfo& info,
-                         const ByteSink& sink) {
-    try {
-        return write(traits_of(format), {mesh, skeleton, info}, sink);
-    } catch (const std::bad_alloc&) {
-        return ExportStatus::OutOfMemory;
-    } catch (const std::length_error&) {
-        return ExportStatus::OutOfMemory;
-    }
+Outcome<Done> export_mesh(const Mesh& mesh,
+                          const Skeleton& skeleton,
+                          ExportFormat format,
+                          const ExportInfo& info,
+                          const ByteSink& sink) {
+    return catch_no_memory("the file", [&] {
+        const FormatTraits& traits = traits_of(format);
+        const std::uint64_t triangles = triangle_count(mesh);
+        if (traits.uses_mesh ? triangles == 0
+                             : skeleton.segments.empty() && skeleton.objects.empty() &&
+                                   skeleton.polygons.empty()) {
+            return nothing_to_draw(info.subject);
+        }
+        if (triangles > traits.max_triangles || mesh.positions.size() > traits.max_vertices) {
+            return too_large_for_format(info.subject);
+        }
+        PieceWriter out(sink);
+        return traits.write({mesh, skeleton, info}, out);
+    });
+}
+
+Outcome<Done> write_picture_file(const PictureFile& picture, const ByteSink& sink) {
+    PieceWriter out(sink);
+    out.put(picture.bytes);
+    return finish(out);
 }
 
 } // namespace lsys

@@ -4,6 +4,7 @@
 // +Y up in every format that can state them. Same input, same bytes.
 #pragma once
 
+#include "grammar/base/outcome.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/turtle/skeleton.h"
 
@@ -36,8 +37,6 @@ enum class ExportPictures : std::uint8_t {
 struct ExportJob;
 struct ForestExportJob;
 class PieceWriter;
-enum class ExportStatus : std::uint8_t;
-enum class ForestExportStatus : std::uint8_t;
 
 /// A row of formats.def.
 struct FormatTraits {
@@ -51,9 +50,9 @@ struct FormatTraits {
     bool has_mtl = false; // materials are a file of their own, see write_mtl()
     bool motion = false;  // one file holds all frames of an animation
     /// Writes trees as instances; null: the format has none, and forests are baked.
-    ForestExportStatus (*write_forest)(const ForestExportJob& job, PieceWriter& out) = nullptr;
+    Outcome<Done> (*write_forest)(const ForestExportJob& job, PieceWriter& out) = nullptr;
     bool expands_forest = false; // write_forest can write nodes in place of instances
-    ExportStatus (*write)(const ExportJob& job, PieceWriter& out) = nullptr;
+    Outcome<Done> (*write)(const ExportJob& job, PieceWriter& out) = nullptr;
 };
 [[nodiscard]] const FormatTraits& traits_of(ExportFormat format);
 /// All formats, in the order of formats.def.
@@ -70,8 +69,12 @@ using ByteSink = std::function<bool(std::string_view)>;
 /// Of a skin: glTF counts joints in 16 bits, and one of them is that of what stands still.
 inline constexpr std::uint32_t kMostJoints = 65'535;
 
+/// What a file shows, for messages.
+enum class ExportSubject : std::uint8_t { Plant, Forest };
+
 /// What a file says about where it comes from.
 struct ExportInfo {
+    ExportSubject subject = ExportSubject::Plant;
     std::string grammar; // its name
     std::uint64_t seed = 0;
     std::uint32_t generations = 0;
@@ -89,33 +92,24 @@ struct ExportInfo {
     const PlantAnimation* animation = nullptr;
 };
 
-enum class ExportStatus : std::uint8_t {
-    Ok,
-    Nothing,       // no triangle, or for Svg nothing drawn: no byte was written
-    TooLarge,      // more than the format can hold: no byte was written
-    TooManyJoints, // of a skin, more than kMostJoints: no byte was written
-    Stopped,       // the sink said so
-    OutOfMemory,
-};
-
-/// Writes one file to `sink`. Indices of the mesh must be below its number of vertices.
-[[nodiscard]] ExportStatus export_mesh(const Mesh& mesh,
-                                       const Skeleton& skeleton,
-                                       ExportFormat format,
-                                       const ExportInfo& info,
-                                       const ByteSink& sink);
+/// Writes one file to `sink`. Indices of the mesh must be below its number of vertices. Without its
+/// value no byte was written, unless the outcome is Cancelled (by the sink) or OutOfMemory. Failed:
+/// nothing to draw, or more than the format can hold. Limit: more than kMostJoints.
+Outcome<Done> export_mesh(const Mesh& mesh,
+                          const Skeleton& skeleton,
+                          ExportFormat format,
+                          const ExportInfo& info,
+                          const ByteSink& sink);
 /// A PNG that a file refers to.
 struct PictureFile {
     std::string name;
     std::string bytes;
 };
-/// Those of an OBJ and its MTL, or of a USDA.
-[[nodiscard]] ExportStatus make_picture_files(const Mesh& mesh,
-                                              ExportFormat format,
-                                              const ExportInfo& info,
-                                              std::vector<PictureFile>& files);
-/// The materials of an OBJ, whose colours are sRGB. Nothing where there is no OBJ.
-[[nodiscard]] ExportStatus
-write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink);
+/// The pictures that lie beside a file of the format. Stops: OutOfMemory.
+Outcome<std::vector<PictureFile>>
+make_picture_files(const Mesh& mesh, ExportFormat format, const ExportInfo& info);
+Outcome<Done> write_picture_file(const PictureFile& picture, const ByteSink& sink);
+/// Writes the materials of an OBJ, with colours in sRGB. Stops as export_mesh().
+Outcome<Done> write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink);
 
 } // namespace lsys

@@ -40,34 +40,26 @@ struct ForestExportInfo {
     std::uint64_t window_bytes = std::uint64_t{512} << 20;
 };
 
-enum class ForestExportStatus : std::uint8_t {
-    Ok,
-    Nothing,      // no triangle: no byte was written
-    TooLarge,     // more than the format can hold: no byte was written
-    TooManyNodes, // Expanded, more than kMostForestNodes: no byte was written
-    Stopped,      // the sink said so
-    OutOfMemory,
-};
-
 /// Writes the trees as instances, in a format with FormatTraits::write_forest. Beside the scene it
-/// takes 8 bytes a tree, 24 bytes for each pair of a cell and an instance that
-/// stands there, 16 bytes for each pair of 512 trees of a cell and an instance that stands in them,
-/// and ForestExportInfo::window_bytes. Precondition: trees' species have meshes.
-[[nodiscard]] ForestExportStatus export_forest(const ForestScene& scene,
-                                               ExportFormat format,
-                                               ForestForm form,
-                                               const ForestExportInfo& info,
-                                               const ByteSink& sink);
-/// Those that a USDA of the scene names.
-[[nodiscard]] ForestExportStatus make_forest_picture_files(const ForestScene& scene,
-                                                           const ForestExportInfo& info,
-                                                           std::vector<PictureFile>& files);
+/// takes 8 bytes a tree, 24 bytes for each pair of a cell and an instance that stands there, 16
+/// bytes for each pair of 512 trees of a cell and an instance that stands in them, and
+/// ForestExportInfo::window_bytes. Precondition: trees' species have meshes. Stops as
+/// export_mesh(); Limit: Expanded, more than kMostForestNodes.
+Outcome<Done> export_forest(const ForestScene& scene,
+                            ExportFormat format,
+                            ForestForm form,
+                            const ForestExportInfo& info,
+                            const ByteSink& sink);
+/// The pictures that lie beside such a file. Stops: OutOfMemory.
+Outcome<std::vector<PictureFile>> make_forest_picture_files(const ForestScene& scene,
+                                                            ExportFormat format,
+                                                            const ForestExportInfo& info);
 
 /// All triangles in world coordinates, parts by the order of materials in species and ground.
-/// Texture coordinates, tangents and colours are kept where every surface has them. Limit: more
-/// than `max_bytes`, found before memory is taken for it.
-[[nodiscard]] MeshStatus
-bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads, Mesh& mesh);
+/// Texture coordinates, tangents and colours are kept where every surface has them. Stops: Limit
+/// for more than `max_bytes`, found before memory is taken for it; Failed for more vertices than 32
+/// bits count; OutOfMemory.
+Outcome<Mesh> bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads);
 
 /// Trees that can be told apart by their segments, whatever instances they are made of: by number,
 /// lengths and places of the segments in the coordinates of the tree, up to second moments and one

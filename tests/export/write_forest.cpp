@@ -71,7 +71,7 @@ bool write_forest(const fs::path& path,
                   ForestForm form,
                   const ForestExportInfo& info) {
     std::ofstream file(path, std::ios::binary);
-    return export_forest(scene, format, form, info, into(file)) == ForestExportStatus::Ok ||
+    return export_forest(scene, format, form, info, into(file)).ok() ||
            complain(path.string() + ": not written");
 }
 
@@ -170,17 +170,16 @@ int main(int argument_count, char** arguments) {
             all = write_forest(path("expanded"), scene, format, ForestForm::Expanded, info) && all;
         }
     }
-    std::vector<PictureFile> pictures;
-    all = make_forest_picture_files(scene, info, pictures) == ForestExportStatus::Ok && all;
-    for (const PictureFile& picture : pictures) {
+    const auto pictures = make_forest_picture_files(scene, ExportFormat::Usda, info);
+    for (const PictureFile& picture : pictures.value()) {
         std::ofstream(folder / picture.name, std::ios::binary) << picture.bytes;
     }
-    Mesh baked;
-    all = bake_forest(scene, ~std::uint64_t{0}, 0, baked) == MeshStatus::Ok && all;
+    const Outcome<Mesh> bake = bake_forest(scene, ~std::uint64_t{0}, 0);
+    const Mesh& baked = bake.value();
     for (const char* extension : {"ply", "glb", "gltf"}) {
         std::ofstream file(folder / (std::string("baked.") + extension), std::ios::binary);
         const auto format = format_of_path(std::string("baked.") + extension);
-        all = export_mesh(baked, {}, *format, {}, into(file)) == ExportStatus::Ok && all;
+        all = export_mesh(baked, {}, *format, {}, into(file)).ok() && all;
     }
     const std::string facts = facts_of(scene, baked);
     std::ofstream(folder / "facts.json") << facts;

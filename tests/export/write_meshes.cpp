@@ -22,7 +22,7 @@ bool write_file(const std::filesystem::path& path,
                 const ExportInfo& info) {
     std::ofstream file(path, std::ios::binary);
     const auto format = format_of_path(path.string());
-    const ExportStatus status =
+    const Outcome<Done> written =
         format
             ? export_mesh(mesh, skeleton, *format, info,
                           [&file](std::string_view bytes) {
@@ -34,7 +34,7 @@ bool write_file(const std::filesystem::path& path,
                   return file.good();
               });
     file.close();
-    if (status != ExportStatus::Ok || !file) {
+    if (!written || !file) {
         std::fprintf(stderr, "%s: not written\n", path.c_str());
         return false;
     }
@@ -46,9 +46,9 @@ bool write_pictures(const std::filesystem::path& folder,
                     const Mesh& mesh,
                     ExportFormat format,
                     const ExportInfo& info) {
-    std::vector<PictureFile> files;
-    bool fine = make_picture_files(mesh, format, info, files) == ExportStatus::Ok;
-    for (const PictureFile& picture : files) {
+    const Outcome<std::vector<PictureFile>> files = make_picture_files(mesh, format, info);
+    bool fine = files.ok();
+    for (const PictureFile& picture : files.value()) {
         std::ofstream file(folder / picture.name, std::ios::binary);
         file << picture.bytes;
         fine = fine && file.good();

@@ -2,6 +2,8 @@
 // an instance and a cell of the ground), or a node for each branch instance. The instances of a
 // species share arrays of vertices. The document is written twice: into nothing, to know its size,
 // which a GLB says first, and into the file.
+#include "runtime/base/size_text.h"
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/forest_document.h"
 #include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/formats.h"
@@ -99,27 +101,30 @@ void ForestDocument::put_data(const GltfSink& write) const {
 
 namespace {
 
-ForestExportStatus write(const ForestExportJob& job, bool binary, PieceWriter& out) {
+Outcome<Done> write(const ForestExportJob& job, bool binary, PieceWriter& out) {
     if (job.form == ForestForm::Expanded && job.plan.branches() > kMostForestNodes) {
-        return ForestExportStatus::TooManyNodes;
+        return {Stop::Limit, messages_of(plant_limit_diagnostic(
+                                 "the expanded forest",
+                                 fmt::format("{} branches", grouped_digits(kMostForestNodes)),
+                                 "without --expand, branches are instances"))};
     }
     const ForestDocument document(job.scene, job.plan, job.form, job.info);
     if (document.data_bytes() > kMostGltfBytes) {
-        return ForestExportStatus::TooLarge;
+        return too_large_for_format(ExportSubject::Forest);
     }
     const GltfFile file{binary, [&document](JsonWriter& json) { document.put_members(json); },
                         document.data_bytes(),
                         [&document](const GltfSink& write) { document.put_data(write); }};
-    return put_gltf_file(file, out) ? ForestExportStatus::Ok : ForestExportStatus::TooLarge;
+    return put_gltf_file(file, out) ? finish(out) : too_large_for_format(ExportSubject::Forest);
 }
 
 } // namespace
 
-ForestExportStatus write_forest_gltf(const ForestExportJob& job, PieceWriter& out) {
+Outcome<Done> write_forest_gltf(const ForestExportJob& job, PieceWriter& out) {
     return write(job, false, out);
 }
 
-ForestExportStatus write_forest_glb(const ForestExportJob& job, PieceWriter& out) {
+Outcome<Done> write_forest_glb(const ForestExportJob& job, PieceWriter& out) {
     return write(job, true, out);
 }
 

@@ -2,6 +2,7 @@
 // "UsdGeomPointInstancer"). Prototypes are the instances, each with vertices of its own, seen from
 // its entry: orientations are half floats for older readers, and what is far from its origin would
 // be off. `orientationsf` says the same in floats.
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
@@ -258,20 +259,20 @@ private:
 
 } // namespace
 
-ForestExportStatus write_forest_usda(const ForestExportJob& job, PieceWriter& out) {
+Outcome<Done> write_forest_usda(const ForestExportJob& job, PieceWriter& out) {
     const ForestPlan& plan = job.plan;
     // Integers of USD are signed.
     constexpr std::uint64_t kMost = 0x7FFFFFFF;
     for (const ForestKind& kind : plan.kinds()) {
         if (kind.meshes->mesh.positions.size() > kMost) {
-            return ForestExportStatus::TooLarge;
+            return too_large_for_format(ExportSubject::Forest);
         }
     }
     if (plan.branches() > kMost) {
-        return ForestExportStatus::TooLarge;
+        return too_large_for_format(ExportSubject::Forest);
     }
     UsdaForest(job.scene, plan, job.info, out).write();
-    return ForestExportStatus::Ok;
+    return finish(out);
 }
 
 } // namespace lsys

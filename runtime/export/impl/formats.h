@@ -14,9 +14,9 @@ struct ExportJob {
     const ExportInfo& info;
 };
 
-// Ok, also for a writer that stopped; glTF: TooLarge for a buffer or GLB of 4 GiB, TooManyJoints.
+// Stops: Cancelled; glTF: Failed for a buffer or GLB of 4 GiB, Limit for too many joints.
 #define LSYS_EXPORT_FORMAT(enumerator, function, ...)                                              \
-    [[nodiscard]] ExportStatus function(const ExportJob& job, PieceWriter& out);
+    Outcome<Done> function(const ExportJob& job, PieceWriter& out);
 #include "runtime/export/formats.def"
 #undef LSYS_EXPORT_FORMAT
 

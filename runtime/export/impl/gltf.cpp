@@ -1,12 +1,15 @@
 // glTF 2.0 (Khronos, ISO/IEC 12113:2022): as GLB, and as JSON with the buffer in it as base64. One
 // mesh with a primitive for each part; all share the arrays of vertices. Metres and +Y up are the
 // format's own.
+#include "runtime/base/size_text.h"
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/gltf_parts.h"
 #include "runtime/export/impl/json_writer.h"
 #include "runtime/export/impl/pictures.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
 #include <utility>
@@ -130,13 +133,17 @@ private:
     JsonWriter& json_;
 };
 
-ExportStatus write(const ExportJob& job, bool binary, PieceWriter& out) {
+Outcome<Done> write(const ExportJob& job, bool binary, PieceWriter& out) {
     const ExportInfo& info = job.info;
     std::optional<GltfMotion> moving;
     if (info.animation != nullptr) {
         std::optional<Skin> skin = make_skin(job.mesh, job.skeleton, *info.animation);
         if (!skin) {
-            return ExportStatus::TooManyJoints;
+            return {Stop::Limit,
+                    messages_of(plant_limit_diagnostic(
+                        "the skin", fmt::format("{} joints", grouped_digits(kMostJoints)),
+                        "ask for fewer generations with `-n`, or for a numbered series in "
+                        "another format, which is any but glTF: `-o tree.ply`"))};
         }
         moving.emplace(GltfMotion{std::move(*skin), *info.animation});
     }
@@ -145,7 +152,7 @@ ExportStatus write(const ExportJob& job, bool binary, PieceWriter& out) {
     const GltfData data =
         plan_gltf_data(job.mesh, motion, encode_pictures(pictures.list, info.threads));
     if (data.bytes > kMostGltfBytes) {
-        return ExportStatus::TooLarge;
+        return too_large_for_format(info.subject);
     }
     // Written once: poses of many joints are long.
     const std::string members = json_document(
@@ -153,16 +160,16 @@ ExportStatus write(const ExportJob& job, bool binary, PieceWriter& out) {
     const GltfFile file{
         binary, [&members](JsonWriter& to) { to.literal(members); }, data.bytes,
         [&](const GltfSink& write) { write_gltf_data(job.mesh, motion, data, write); }};
-    return put_gltf_file(file, out) ? ExportStatus::Ok : ExportStatus::TooLarge;
+    return put_gltf_file(file, out) ? finish(out) : too_large_for_format(info.subject);
 }
 
 } // namespace
 
-ExportStatus write_gltf(const ExportJob& job, PieceWriter& out) {
+Outcome<Done> write_gltf(const ExportJob& job, PieceWriter& out) {
     return write(job, false, out);
 }
 
-ExportStatus write_glb(const ExportJob& job, PieceWriter& out) {
+Outcome<Done> write_glb(const ExportJob& job, PieceWriter& out) {
     return write(job, true, out);
 }
 

@@ -1,5 +1,6 @@
 // Wavefront OBJ and MTL (Wavefront Advanced Visualizer manual, appendix B1, as its readers have it:
 // https://paulbourke.net/dataformats/obj/). v of texture coordinates goes upwards there.
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/pictures.h"
 #include "runtime/export/impl/text.h"
@@ -7,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <new>
 #include <optional>
 #include <vector>
 
@@ -62,7 +62,7 @@ void put_faces(TriangleReader& indices, const MeshPart& part, bool textured, Pie
 
 } // namespace
 
-ExportStatus write_obj(const ExportJob& job, PieceWriter& out) {
+Outcome<Done> write_obj(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
     out.put(fmt::format("# {}\n# {}\n# metres, +Y up\n", one_line(job.info.generator),
                         origin_line(job.info)));
@@ -90,14 +90,14 @@ ExportStatus write_obj(const ExportJob& job, PieceWriter& out) {
         out.put(fmt::format("usemtl {}\n", words[part.material]));
         put_faces(indices, part, textured, out);
     }
-    return ExportStatus::Ok;
+    return finish(out);
 }
 
-ExportStatus write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink) {
+Outcome<Done> write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink) {
     if (triangle_count(mesh) == 0) {
-        return ExportStatus::Nothing;
+        return nothing_to_draw(info.subject);
     }
-    try {
+    return catch_no_memory("the file", [&] {
         PieceWriter out(sink);
         out.put(fmt::format("# {}\n# {}\n", one_line(info.generator), origin_line(info)));
         const std::vector<std::string> words = material_words(mesh);
@@ -120,10 +120,8 @@ ExportStatus write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink&
             put_map("map_Kd", shown.colour);
             put_map("map_d", shown.opacity);
         }
-        return out.finish() ? ExportStatus::Ok : ExportStatus::Stopped;
-    } catch (const std::bad_alloc&) {
-        return ExportStatus::OutOfMemory;
-    }
+        return finish(out);
+    });
 }
 
 } // namespace lsys

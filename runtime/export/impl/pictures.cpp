@@ -1,6 +1,7 @@
 #include "runtime/export/impl/pictures.h"
 
 #include "runtime/base/workers.h"
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
 
@@ -8,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <new>
-#include <stdexcept>
 
 namespace lsys {
 
@@ -144,26 +144,20 @@ std::vector<std::string> encode_pictures(const std::vector<Picture>& pictures,
     return files;
 }
 
-ExportStatus make_picture_files(const Mesh& mesh,
-                                ExportFormat format,
-                                const ExportInfo& info,
-                                std::vector<PictureFile>& files) {
-    try {
-        files.clear();
+Outcome<std::vector<PictureFile>>
+make_picture_files(const Mesh& mesh, ExportFormat format, const ExportInfo& info) {
+    return catch_no_memory("the pictures", [&]() -> Outcome<std::vector<PictureFile>> {
+        std::vector<PictureFile> files;
         const ExportPictures kind = traits_of(format).pictures;
-        if (kind == ExportPictures::Inside) {
-            return ExportStatus::Ok;
+        if (kind != ExportPictures::Inside) {
+            const Pictures pictures = find_pictures(mesh, kind, info);
+            std::vector<std::string> encoded = encode_pictures(pictures.list, info.threads);
+            for (std::size_t i = 0; i < encoded.size(); ++i) {
+                files.push_back({pictures.list[i].name, std::move(encoded[i])});
+            }
         }
-        const Pictures pictures = find_pictures(mesh, kind, info);
-        std::vector<std::string> encoded = encode_pictures(pictures.list, info.threads);
-        for (std::size_t i = 0; i < encoded.size(); ++i) {
-            files.push_back({pictures.list[i].name, std::move(encoded[i])});
-        }
-        return ExportStatus::Ok;
-    } catch (const std::bad_alloc&) {
-    } catch (const std::length_error&) {
-    }
-    return ExportStatus::OutOfMemory;
+        return {std::move(files), {}};
+    });
 }
 
 } // namespace lsys

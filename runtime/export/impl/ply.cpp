@@ -1,5 +1,6 @@
 // PLY, binary, little endian (Turk, "The PLY polygon file format", 1994). Colours are sRGB; v of
 // texture coordinates goes upwards, as in the readers that know `s` and `t`.
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
 
@@ -39,7 +40,7 @@ char* put_bytes(char* at, const T& value) {
 
 } // namespace
 
-ExportStatus write_ply(const ExportJob& job, PieceWriter& out) {
+Outcome<Done> write_ply(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
     const bool textured = is_complete(mesh, mesh.texture_coordinates);
     const bool coloured = is_complete(mesh, mesh.colours);
@@ -82,7 +83,7 @@ ExportStatus write_ply(const ExportJob& job, PieceWriter& out) {
             out.used(put_bytes(at + 1, corners));
         }
     }
-    return ExportStatus::Ok;
+    return finish(out);
 }
 
 } // namespace lsys

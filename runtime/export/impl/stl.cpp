@@ -1,6 +1,7 @@
 // STL, binary (3D Systems, "StereoLithography interface specification", 1988): 80 bytes of text,
 // the number of triangles, and 50 bytes each. Normals are those of the triangles; 0 where there is
 // none.
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
 
@@ -19,7 +20,7 @@ constexpr std::size_t kTriangleBytes = 4 * sizeof(glm::vec3) + 2;
 
 } // namespace
 
-ExportStatus write_stl(const ExportJob& job, PieceWriter& out) {
+Outcome<Done> write_stl(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
     // Text STL begins with `solid`, and readers look no further.
     std::string header = fmt::format("STL in metres, +Y up. {}: {}", one_line(job.info.generator),
@@ -46,7 +47,7 @@ ExportStatus write_stl(const ExportJob& job, PieceWriter& out) {
             out.used(at + kTriangleBytes);
         }
     }
-    return ExportStatus::Ok;
+    return finish(out);
 }
 
 } // namespace lsys

@@ -1,5 +1,6 @@
 // SVG (W3C, "Scalable Vector Graphics 1.1"): the plane z = 0 seen from +Z, whose y goes down. Lines
 // have the mean diameter of their segments; runs of equal ones are one polyline. Units are metres.
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/outline.h"
 #include "runtime/export/impl/text.h"
@@ -190,9 +191,9 @@ void Drawing::write() {
 
 } // namespace
 
-ExportStatus write_svg(const ExportJob& job, PieceWriter& out) {
+Outcome<Done> write_svg(const ExportJob& job, PieceWriter& out) {
     Drawing(job.skeleton, job.info, out).write();
-    return ExportStatus::Ok;
+    return finish(out);
 }
 
 } // namespace lsys

@@ -1,6 +1,7 @@
 // USD as text (OpenUSD, "UsdGeomMesh", "UsdPreviewSurface specification",
 // https://openusd.org/release/): one mesh, its parts as subsets bound to materials. v of texture
 // coordinates goes upwards.
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
 #include "runtime/export/impl/usda_parts.h"
@@ -128,7 +129,7 @@ void put_mesh(const Mesh& mesh, const std::vector<std::string>& names, PieceWrit
 
 } // namespace
 
-ExportStatus write_usda(const ExportJob& job, PieceWriter& out) {
+Outcome<Done> write_usda(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
     const std::vector<std::string> names = usda_part_names(mesh);
     put_header(job.info, out);
@@ -136,7 +137,7 @@ ExportStatus write_usda(const ExportJob& job, PieceWriter& out) {
     put_mesh(mesh, names, out);
     put_usda_materials(mesh, names, job.info, "/Plant", out);
     out.put("}\n");
-    return ExportStatus::Ok;
+    return finish(out);
 }
 
 } // namespace lsys

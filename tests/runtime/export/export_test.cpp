@@ -35,15 +35,28 @@ std::string exported(const Mesh& mesh, ExportFormat format) {
     REQUIRE(export_mesh(mesh, {}, format, info(), [&bytes](std::string_view piece) {
                 bytes += piece;
                 return true;
-            }) == ExportStatus::Ok);
+            }).ok());
     return bytes;
 }
 
-ExportStatus without_bytes(const Mesh& mesh, ExportFormat format) {
-    return export_mesh(mesh, {}, format, info(), [](std::string_view piece) {
+constexpr std::string_view kNothing = "the plant has nothing to draw, so no file is written";
+constexpr std::string_view kTooLarge =
+    "the plant is larger than a file of this format can be; another format, fewer sides or a "
+    "coarser --level may hold it";
+
+/// The message of an export that fails before it writes.
+std::string refusal(const Outcome<Done>& outcome) {
+    REQUIRE_FALSE(outcome.ok());
+    CHECK(outcome.stop() == Stop::Failed);
+    REQUIRE(outcome.messages().all().size() == 1);
+    return outcome.messages().all()[0].text;
+}
+
+std::string refusal(const Mesh& mesh, ExportFormat format) {
+    return refusal(export_mesh(mesh, {}, format, info(), [](std::string_view piece) {
         CHECK(piece.empty());
         return true;
-    });
+    }));
 }
 
 } // namespace
@@ -104,14 +117,14 @@ TEST_CASE("large files come in pieces, and the same ones again") {
                   first += piece;
                   largest = std::max(largest, piece.size());
                   return true;
-              }) == ExportStatus::Ok);
+              }).ok());
         CHECK(first.size() > std::size_t{512} << 10);
         CHECK(largest <= std::size_t{256} << 10);
         std::string second;
         CHECK(export_mesh(mesh, skeleton, format, info(), [&second](std::string_view piece) {
                   second += piece;
                   return true;
-              }) == ExportStatus::Ok);
+              }).ok());
         CHECK(first == second);
     }
 }
@@ -125,33 +138,34 @@ TEST_CASE("a sink that stops is left alone") {
             int pieces = 0;
             CHECK(export_mesh(mesh, skeleton, format, info(), [&](std::string_view) {
                       return ++pieces <= taken;
-                  }) == ExportStatus::Stopped);
+                  }).stop() == Stop::Cancelled);
             CHECK(pieces == taken + 1);
         }
     }
-    CHECK(write_mtl(mesh, info(), [](std::string_view) { return false; }) == ExportStatus::Stopped);
+    CHECK(write_mtl(mesh, info(), [](std::string_view) { return false; }).stop() ==
+          Stop::Cancelled);
 }
 
 TEST_CASE("where nothing is drawn nothing is written") {
     for (const ExportFormat format : export_formats()) {
         CAPTURE(traits_of(format).name);
-        CHECK(without_bytes({}, format) == ExportStatus::Nothing);
+        CHECK(refusal({}, format) == kNothing);
     }
-    CHECK(write_mtl({}, info(), [](std::string_view) { return true; }) == ExportStatus::Nothing);
+    CHECK(refusal(write_mtl({}, info(), [](std::string_view) { return true; })) == kNothing);
     Mesh points = test::triangle_mesh();
     points.parts[0].index_count = 0;
-    CHECK(without_bytes(points, ExportFormat::Glb) == ExportStatus::Nothing);
+    CHECK(refusal(points, ExportFormat::Glb) == kNothing);
 }
 
 TEST_CASE("what a format cannot count is refused at once") {
     // None of the memory is touched.
     Mesh mesh = test::triangle_mesh();
     mesh.positions.resize(std::uint64_t{180} << 20);
-    CHECK(without_bytes(mesh, ExportFormat::Glb) == ExportStatus::TooLarge);
-    CHECK(without_bytes(mesh, ExportFormat::Gltf) == ExportStatus::TooLarge);
+    CHECK(refusal(mesh, ExportFormat::Glb) == kTooLarge);
+    CHECK(refusal(mesh, ExportFormat::Gltf) == kTooLarge);
     Mesh many = test::triangle_mesh();
     many.parts[0].index_count = 3 * (std::uint64_t{1} << 32U);
-    CHECK(without_bytes(many, ExportFormat::Stl) == ExportStatus::TooLarge);
+    CHECK(refusal(many, ExportFormat::Stl) == kTooLarge);
 }
 
 TEST_CASE("a primitive uses colours of vertices where they are not the material's") {
@@ -184,7 +198,8 @@ TEST_CASE("textures are left out if they are not wanted") {
                       [&bytes](std::string_view piece) {
                           bytes += piece;
                           return true;
-                      }) == ExportStatus::Ok);
+                      })
+              .ok());
     CHECK(bytes.find("image/png") == std::string::npos);
     CHECK(exported(test::plant_mesh(), ExportFormat::Glb).find("image/png") != std::string::npos);
 }
@@ -216,7 +231,8 @@ TEST_CASE("a seed that JSON's readers would round is a string") {
                           [&bytes](std::string_view piece) {
                               bytes += piece;
                               return true;
-                          }) == ExportStatus::Ok);
+                          })
+                  .ok());
         return bytes;
     };
     CHECK(text().find(R"("seed":9007199254740991,)") != std::string::npos);
