@@ -26,12 +26,12 @@ enum class ExportFormat : std::uint8_t {
 #undef LSYS_EXPORT_FORMAT
 };
 
-/// Where a format has the textures of its materials.
+/// Place of the textures of a format's materials.
 enum class ExportPictures : std::uint8_t {
     None,
-    Inside,           // the file; multiplied by the colour of the material
-    FilesWithOpacity, // beside it, with the colour in them; the opacity of leaves also on its own
-    FilesWithRelief,  // beside it, with the colour in them; the relief of bark as normals
+    Inside,           // the file; readers multiply them by the colour of the material
+    FilesWithOpacity, // beside it, multiplied by the colour; opacity of leaves in files of its own
+    FilesWithRelief,  // beside it, multiplied by the colour; relief of bark as normal maps
 };
 
 struct ExportJob;
@@ -40,18 +40,18 @@ class PieceWriter;
 
 /// A row of formats.def.
 struct FormatTraits {
-    std::string_view name;    // of `--format`; behind a dot the extension of its files
+    std::string_view name;    // value of `--format` and extension of files
     std::string_view content; // for README.md
     bool uses_mesh = true;    // false: drawn from the skeleton, without the mesh
-    /// The most of a mesh that the format can count.
+    /// Largest mesh that the format can count.
     std::uint64_t max_vertices = ~std::uint64_t{0};
     std::uint64_t max_triangles = ~std::uint64_t{0};
     ExportPictures pictures = ExportPictures::None;
-    bool has_mtl = false; // materials are a file of their own, see write_mtl()
+    bool has_mtl = false; // materials in a file beside it, by write_mtl()
     bool motion = false;  // one file holds all frames of an animation
-    /// Writes trees as instances; null: the format has none, and forests are baked.
+    /// Writes trees as instances; null: the format has no instances.
     Outcome<Done> (*write_forest)(const ForestExportJob& job, PieceWriter& out) = nullptr;
-    bool expands_forest = false; // write_forest can write nodes in place of instances
+    bool expands_forest = false; // write_forest can write ForestForm::Expanded
     Outcome<Done> (*write)(const ExportJob& job, PieceWriter& out) = nullptr;
 };
 [[nodiscard]] const FormatTraits& traits_of(ExportFormat format);
@@ -66,13 +66,13 @@ struct FormatTraits {
 /// Takes the next bytes; false stops the export.
 using ByteSink = std::function<bool(std::string_view)>;
 
-/// Of a skin: glTF counts joints in 16 bits, and one of them is that of what stands still.
+/// Joints of a skin that move, at most: glTF counts joints in 16 bits, and joint 0 stands still.
 inline constexpr std::uint32_t kMostJoints = 65'535;
 
-/// What a file shows, for messages.
+/// Subject of a file in messages.
 enum class ExportSubject : std::uint8_t { Plant, Forest };
 
-/// What a file says about where it comes from.
+/// Origin and contents of a file.
 struct ExportInfo {
     ExportSubject subject = ExportSubject::Plant;
     std::string grammar; // its name
@@ -80,15 +80,15 @@ struct ExportInfo {
     std::uint32_t generations = 0;
     std::string generator; // the program and its version
     std::string mtl_name;  // the file of write_mtl() beside an OBJ; empty: none
-    /// OBJ and USDA: what the names of their pictures begin with, which are files beside them;
-    /// empty: there are none, and materials are plain colours.
+    /// Begin of the names of pictures beside the file; empty: no pictures, materials are plain
+    /// colours.
     std::string picture_prefix;
-    bool textures = true;      // pictures for the materials that are textured, where the format can
+    bool textures = true;      // pictures for textured materials, where the format has pictures
     std::uint32_t threads = 0; // 0: as many as the machine has
-    /// Those of Skeleton::mesh_files, whose outlines Svg draws; it leaves out what is not here.
+    /// Meshes of Skeleton::mesh_files, for their outlines in SVG; missing meshes are skipped.
     const std::vector<UserMesh>* user_meshes = nullptr;
-    /// glTF: the mesh is a skin that these poses move, of which the skeleton is the first. The mesh
-    /// has its segments.
+    /// Poses that move the mesh as a skin, in formats with motion. The skeleton is the first pose,
+    /// and Mesh::segments is complete.
     const PlantAnimation* animation = nullptr;
 };
 
@@ -100,7 +100,7 @@ Outcome<Done> export_mesh(const Mesh& mesh,
                           ExportFormat format,
                           const ExportInfo& info,
                           const ByteSink& sink);
-/// A PNG that a file refers to.
+/// A PNG file that an exported file refers to.
 struct PictureFile {
     std::string name;
     std::string bytes;

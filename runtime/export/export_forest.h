@@ -1,6 +1,6 @@
 // Export of forests: trees as instances of shared surfaces, as nodes, or as one mesh. Bytes go to a
-// sink in pieces, and no more of the trees is held than a piece of one cell of the ground. Metres,
-// +Y up. Same forest, same bytes, for any number of threads.
+// sink in pieces; memory holds the trees of a part of one cell of the ground. Metres, +Y up. Same
+// forest, same bytes, for any number of threads.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -13,7 +13,7 @@
 
 namespace lsys {
 
-/// What is drawn. All outlive the calls below.
+/// A forest to export. References outlive the calls below.
 struct ForestScene {
     const Forest& forest;
     /// By species and stage, as ForestSpecies::stages.
@@ -25,18 +25,18 @@ enum class ForestForm : std::uint8_t {
     Instanced, // EXT_mesh_gpu_instancing, which readers must know; 40 bytes a branch instance
     Expanded,  // a node for each branch instance; for FormatTraits::expands_forest
 };
-/// More branch instances are no nodes of a file. Each takes about 200 bytes there.
+/// Branch instances of ForestForm::Expanded, at most. Each takes about 200 bytes of the file.
 inline constexpr std::uint64_t kMostForestNodes = 1'000'000;
 
 struct ForestExportInfo {
     std::string name;      // of the scene
     std::string generator; // the program and its version
-    /// m, side of the squares of ground whose trees are instanced together; 0: all trees are.
+    /// Side in m of the squares of ground whose trees are instanced together; 0: one square.
     float cell = 0.0F;
     bool textures = true;
-    std::string picture_prefix; // of USDA, as in ExportInfo
+    std::string picture_prefix; // as in ExportInfo
     std::uint32_t threads = 0;  // 0: as many as the machine has
-    /// Most room for transforms. Less makes more walks over the trees, and the same file.
+    /// Buffer for transforms, at most. A smaller one takes more walks over the trees.
     std::uint64_t window_bytes = std::uint64_t{512} << 20;
 };
 
@@ -61,17 +61,17 @@ Outcome<std::vector<PictureFile>> make_forest_picture_files(const ForestScene& s
 /// bits count; OutOfMemory.
 Outcome<Mesh> bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads);
 
-/// Trees that can be told apart by their segments, whatever instances they are made of: by number,
-/// lengths and places of the segments in the coordinates of the tree, up to second moments and one
-/// part in a million. Trees of one species that differ in age alone are the same if they look it.
+/// Counts trees with different segments, regardless of their instances: number, lengths and places
+/// of the segments in the coordinates of the tree, compared by second moments to one part in a
+/// million. Trees of one species that differ only in age count once if their segments are equal.
 [[nodiscard]] std::uint64_t count_different_trees(const Forest& forest, std::uint32_t threads);
 
 struct ForestStatsOptions {
     bool different_trees = false; // takes about 100 bytes a tree
     std::uint32_t threads = 0;
 };
-/// One JSON object in a line: counts of the forest, its species, their stages and caches; hits,
-/// misses and what was recorded by (id, age).
+/// One JSON object in a line: counts of the forest, its species, their stages and caches, with
+/// hits, misses and recordings by (id, age).
 [[nodiscard]] std::string forest_stats_json(const ForestScene& scene,
                                             const ForestStatsOptions& options);
 

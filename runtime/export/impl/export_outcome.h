@@ -20,7 +20,8 @@ Outcome<Done> too_large_for_format(ExportSubject subject);
 /// Done, or Cancelled where the sink has stopped.
 Outcome<Done> finish(PieceWriter& out);
 
-/// The outcome of `run()`; OutOfMemory where it throws for want of memory for `what`.
+/// The outcome of `run()`, or OutOfMemory with a message about `what` if it throws bad_alloc or
+/// length_error.
 template <typename Run>
 auto catch_no_memory(std::string_view what, const Run& run) -> decltype(run()) {
     try {

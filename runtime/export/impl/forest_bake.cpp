@@ -11,7 +11,8 @@ namespace lsys {
 
 namespace {
 
-/// What stands in a piece of the trees: first how much, then where it begins.
+/// Vertices and indices of a piece of the trees: at first their counts, then their positions in the
+/// mesh.
 struct Share {
     std::uint64_t vertices = 0;
     std::vector<std::uint64_t> indices; // by material of the scene
@@ -106,7 +107,7 @@ private:
         return count;
     }
 
-    /// Calls visit(kind's number, branch) for those of a piece.
+    /// Calls visit(number of the kind, branch) for each branch of the trees.
     template <typename Visit>
     void for_each_branch(std::span<const Tree> trees, const Visit& visit) const {
         std::vector<TreeExpander> expanders;
@@ -213,7 +214,7 @@ private:
     std::vector<std::size_t> first_kind_; // of each species
     std::size_t kinds_ = 0;
     std::vector<Share> shares_;
-    LargeVector<std::uint32_t> indices_;   // until they are the mesh's
+    LargeVector<std::uint32_t> indices_;   // of the mesh, which takes them when complete
     std::vector<std::uint64_t> ground_at_; // indices of the ground, by material
     bool textured_ = true;
     bool tangents_ = true;

@@ -18,10 +18,10 @@
 
 namespace lsys {
 
-/// The arrays of a kind, or of the ground.
+/// Arrays of a kind of tree, or of the ground.
 struct ForestBlock {
     const Mesh* mesh = nullptr;
-    const std::vector<std::uint32_t>* materials = nullptr; // among those of the scene
+    const std::vector<std::uint32_t>* materials = nullptr; // numbers among all of the scene
     GltfData data;
     std::vector<bool> coloured; // by materials of the mesh
     Bounds bounds;
@@ -29,7 +29,7 @@ struct ForestBlock {
     std::size_t first_view = 0;
     std::size_t first_accessor = 0;
 
-    /// Views before that of the indices.
+    /// Number of views before the view of indices.
     [[nodiscard]] std::size_t attributes() const { return data.views.size() - 1; }
 };
 
@@ -41,9 +41,9 @@ public:
                    const ForestExportInfo& info);
 
     [[nodiscard]] std::uint64_t data_bytes() const { return bytes_; }
-    /// Members of the document but its buffers.
+    /// Writes all members of the document but `buffers`.
     void put_members(JsonWriter& json) const;
-    /// The buffer.
+    /// Hands over the buffer.
     void put_data(const GltfSink& write) const;
 
 private:
@@ -64,7 +64,7 @@ private:
     void put_materials(JsonWriter& json) const;
     void put_accessors(JsonWriter& json) const;
     void put_views(JsonWriter& json) const;
-    /// Calls visit(block, parts) for each mesh, as they are numbered.
+    /// Calls visit(block, parts) for each mesh in the order of their numbers.
     template <typename Visit>
     void for_each_mesh(const Visit& visit) const;
 
@@ -77,7 +77,7 @@ private:
     std::vector<std::size_t> block_of_kind_;
     std::size_t ground_block_ = kNoBlock;
     std::vector<std::uint32_t> mesh_of_instance_;
-    /// Numbers in the file, by material of the scene and whether vertices are coloured.
+    /// Number in the file of each pair (material of the scene, vertices have colours).
     std::map<std::pair<std::uint32_t, bool>, std::size_t> material_numbers_;
     Pictures pictures_;
     std::vector<std::string> images_;

@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// A file of instances to be written.
+/// Input of a writer of forests.
 struct ForestExportJob {
     const ForestScene& scene;
     const ForestPlan& plan;
@@ -29,7 +29,7 @@ inline constexpr std::uint64_t kRotationBytes = 16;
 inline constexpr std::uint64_t kScaleBytes = 12;
 inline constexpr std::uint64_t kInstanceBytes = kTranslationBytes + kRotationBytes + kScaleBytes;
 
-/// Hands over the transforms of all groups in order; false from `write` stops it.
+/// Hands over the transforms of all groups in order, until `write` returns false.
 void write_transforms(const ForestPlan& plan,
                       const ForestExportInfo& info,
                       const std::function<bool(std::span<const std::byte>)>& write);

@@ -1,7 +1,6 @@
 // Forests as glTF 2.0: EXT_mesh_gpu_instancing (Khronos, vendor extension; a node for each pair of
 // an instance and a cell of the ground), or a node for each branch instance. The instances of a
-// species share arrays of vertices. The document is written twice: into nothing, to know its size,
-// which a GLB says first, and into the file.
+// species share arrays of vertices.
 #include "runtime/base/size_text.h"
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/forest_document.h"

@@ -13,8 +13,8 @@ namespace lsys {
 
 namespace {
 
-/// Moments of the segments of an instance, seen from its entry, weighted by length: whatever
-/// instances a tree is made of, their sums are those of its segments.
+/// Moments of the segments of an instance, seen from its entry, weighted by length. The sum over
+/// the instances of a tree depends on its segments alone.
 struct Moments {
     std::uint64_t segments = 0;
     double length = 0.0;
@@ -65,7 +65,7 @@ Moments moments_of(const InstanceCache& cache, const Instance& instance) {
     return moments;
 }
 
-/// Adds those of an instance at `branch`, whose scale is 1.
+/// Adds the moments `own` of an instance at `branch`, whose scale is 1.
 void add(Moments& tree, const Moments& own, const BranchInstance& branch) {
     const glm::dmat3 turn = glm::mat3_cast(glm::normalize(glm::dquat(branch.rotation)));
     const glm::dvec3 at(branch.position);
@@ -87,7 +87,7 @@ void add(Moments& tree, const Moments& own, const BranchInstance& branch) {
     }
 }
 
-/// One part in a million of what is about as large as the largest.
+/// Compares to one part in a million of the largest moment.
 bool alike(const Moments& a, const Moments& b) {
     constexpr double kPart = 1e-6;
     const auto near = [](double x, double y, double size) {
@@ -124,7 +124,7 @@ std::uint64_t count_different(std::vector<TreeLook>& looks) {
     };
     std::sort(looks.begin(), looks.end(), before);
     std::uint64_t count = 0;
-    std::vector<std::size_t> near; // representatives that what comes may be like
+    std::vector<std::size_t> near; // representatives that further trees may equal
     for (std::size_t i = 0; i < looks.size(); ++i) {
         const TreeLook& look = looks[i];
         const auto& s = look.moments.second;
@@ -262,7 +262,7 @@ std::string forest_stats_json(const ForestScene& scene, const ForestStatsOptions
         json.member("polygons", counts.polygons).member("triangles", plan.triangles());
         json.member("bytes", bytes).member("digest", fmt::format("{:016x}", counts.digest));
         json.array("species");
-        std::span<const ForestKind> kinds = plan.kinds(); // of species in order
+        std::span<const ForestKind> kinds = plan.kinds(); // sorted by species
         for (const ForestSpecies& species : forest.species) {
             put_species(json, species, kinds.first(species.stages.size()));
             kinds = kinds.subspan(species.stages.size());

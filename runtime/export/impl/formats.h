@@ -7,7 +7,7 @@
 
 namespace lsys {
 
-/// A file to be written.
+/// Input of a writer.
 struct ExportJob {
     const Mesh& mesh;
     const Skeleton& skeleton;
@@ -22,7 +22,7 @@ struct ExportJob {
 
 /// Triangles of all parts.
 [[nodiscard]] std::uint64_t triangle_count(const Mesh& mesh);
-/// An optional array that can be used: one item for each vertex.
+/// Whether an optional array is present: one item for each vertex.
 template <typename Items>
 [[nodiscard]] bool is_complete(const Mesh& mesh, const Items& items) {
     return items.size() == mesh.positions.size();

@@ -1,6 +1,6 @@
 // glTF 2.0 (Khronos, ISO/IEC 12113:2022): as GLB, and as JSON with the buffer in it as base64. One
-// mesh with a primitive for each part; all share the arrays of vertices. Metres and +Y up are the
-// format's own.
+// mesh with a primitive for each part; all share the arrays of vertices. glTF is in metres and +Y
+// up by definition.
 #include "runtime/base/size_text.h"
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
@@ -154,7 +154,7 @@ Outcome<Done> write(const ExportJob& job, bool binary, PieceWriter& out) {
     if (data.bytes > kMostGltfBytes) {
         return too_large_for_format(info.subject);
     }
-    // Written once: poses of many joints are long.
+    // Formatted once for both passes of a GLB: the nodes of many joints are long.
     const std::string members = json_document(
         [&](JsonWriter& json) { Document(job, motion, data, pictures, json).write(); });
     const GltfFile file{

@@ -20,7 +20,7 @@ struct Influence {
     std::array<std::uint8_t, 4> weights{};
 };
 
-/// Weights add up to 255. A joint without weight has to be 0, and none may come twice.
+/// Weights add up to 255. glTF wants joint 0 where the weight is 0, and no joint twice.
 Influence influence_of(const VertexSegments& segments, const Skin& skin) {
     const std::uint16_t first = skin.joint_of(segments[0]);
     const std::uint16_t second = skin.joint_of(segments[1]);

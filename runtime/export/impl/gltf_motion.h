@@ -18,17 +18,17 @@ struct GltfMotion {
     const PlantAnimation& poses; // at least one frame
 
     [[nodiscard]] std::size_t moving_joints() const { return skin.segments.size(); }
-    /// Bytes that name the joint of a vertex.
+    /// Bytes of the number of a joint.
     [[nodiscard]] std::size_t joint_bytes() const { return skin.joint_count() <= 256 ? 1 : 2; }
 };
 
 using GltfBytes = std::function<void(std::span<const std::byte>)>;
-/// The arrays, in the order of their names in GltfArray.
+/// Write the arrays, in the order of GltfArray.
 void write_vertex_joints(const Mesh& mesh, const GltfMotion& motion, const GltfBytes& write);
 void write_vertex_weights(const Mesh& mesh, const GltfMotion& motion, const GltfBytes& write);
 void write_inverse_binds(const GltfMotion& motion, const GltfBytes& write);
 void write_times(const GltfMotion& motion, const GltfBytes& write);
-/// Joint by joint, in each by frames.
+/// Joint by joint, frame by frame within a joint.
 void write_translations(const GltfMotion& motion, const GltfBytes& write);
 void write_rotations(const GltfMotion& motion, const GltfBytes& write);
 

@@ -80,7 +80,7 @@ void put_attribute_accessors(JsonWriter& json,
                               vertices,
                               attribute.type});
         if (view.array == GltfArray::Positions) {
-            // As exact as the data: the shortest text of a float reads back another double.
+            // Digits of doubles: readers parse the shortest text of a float as another double.
             const glm::dvec3 low(bounds.low);
             const glm::dvec3 high(bounds.high);
             json.member("min", {low.x, low.y, low.z}).member("max", {high.x, high.y, high.z});

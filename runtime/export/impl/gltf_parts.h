@@ -1,4 +1,4 @@
-// Parts of glTF that the writers of plants and of forests share. Those that take a JsonWriter write
+// Parts of glTF that the writers of plants and of forests share. Functions with a JsonWriter write
 // into the document.
 #pragma once
 
@@ -21,7 +21,7 @@ namespace lsys {
 inline constexpr std::uint64_t kMostGltfBytes = 0xFFFFFFFFu; // of a GLB, and of any buffer
 
 // Component types of accessors.
-inline constexpr int kGltfByte = 5121; // unsigned, as the two below it
+inline constexpr int kGltfByte = 5121; // all unsigned
 inline constexpr int kGltfShort = 5123;
 inline constexpr int kGltfInteger = 5125;
 inline constexpr int kGltfFloat = 5126;
@@ -34,7 +34,7 @@ struct GltfAccessor {
     std::uint64_t count;   // items
     std::string_view type; // "VEC3"
 };
-/// Leaves the accessor open for further members.
+/// Begins the object of an accessor; the caller adds members and ends it.
 JsonWriter& begin_accessor(JsonWriter& json, const GltfAccessor& accessor);
 
 /// The member `attributes` of a primitive: accessors from `first_accessor` on, one for each view of
@@ -60,7 +60,7 @@ void put_material(JsonWriter& json,
 /// Samplers, textures and images. The images lie in buffer views from `first_view` on.
 void put_images(JsonWriter& json, const std::vector<Picture>& list, std::size_t first_view);
 
-/// Takes the next bytes of a buffer; false: no more are wanted.
+/// Takes the next bytes of a buffer; returns false to stop.
 using GltfSink = std::function<bool(std::span<const std::byte>)>;
 /// The contents of a file.
 struct GltfFile {

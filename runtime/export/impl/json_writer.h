@@ -1,6 +1,6 @@
-// JsonWriter: a JSON document (RFC 8259) written from its beginning to its end, without white
-// space. It sets commas and closes what is open; nothing but the brackets is remembered. Used by
-// all that writes glTF, and by statistics.
+// JsonWriter: a JSON document (RFC 8259) as a stream, without white space. It sets commas and
+// closing brackets; open brackets are all it stores. Used by the writers of glTF and by the
+// statistics of forests.
 //
 //     JsonWriter json(out);
 //     json.object().member("name", "oak").array("sizes").value(1).value(2.5).end().end();
@@ -53,7 +53,7 @@ public:
     }
     /// JSON as it stands.
     JsonWriter& literal(std::string_view json);
-    /// A string that `write` puts into the PieceWriter, without characters that need an escape.
+    /// A string whose characters `write` puts into the PieceWriter, unescaped.
     template <typename Write>
     JsonWriter& text(const Write& write) {
         literal("\"");
@@ -83,7 +83,7 @@ private:
         out_.used(fmt::format_to(at, FMT_COMPILE("{}"), number));
         return *this;
     }
-    /// The place for at most `bytes - 1` bytes of a value, behind the comma that it needs.
+    /// Room for `bytes - 1` bytes of a value, behind its comma if it needs one.
     [[nodiscard]] char* begin_value(std::size_t bytes) {
         char* at = out_.room(bytes);
         if (comma_) {

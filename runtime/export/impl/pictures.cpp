@@ -25,7 +25,7 @@ bool is_in_use(const Mesh& mesh, std::size_t material) {
     });
 }
 
-/// The picture of that kind, material and colour, which is there only once.
+/// The number of a picture with the kind, material and colour of `wanted`, added if missing.
 std::size_t number_of(std::vector<Picture>& list, const Picture& wanted) {
     const auto found = std::find_if(list.begin(), list.end(), [&wanted](const Picture& picture) {
         return picture.kind == wanted.kind && picture.material == wanted.material &&
@@ -40,11 +40,11 @@ std::size_t number_of(std::vector<Picture>& list, const Picture& wanted) {
         names.push_back(picture.name);
     }
     list.push_back(wanted);
-    list.back().name = unlike(names, wanted.name);
+    list.back().name = unique_name(names, wanted.name);
     return list.size() - 1;
 }
 
-/// IEC 61966-2-1, of a byte.
+/// Linear value of an sRGB byte (IEC 61966-2-1).
 float linear(std::uint8_t value) {
     const float c = static_cast<float>(value) / 255.0F;
     return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
@@ -81,7 +81,7 @@ Texture paint(const Picture& picture) {
 std::string encode_picture(const Picture& picture) {
     const bool as_it_is = picture.file != nullptr && picture.kind == PictureKind::Colour &&
                           picture.tint == glm::vec3(1.0F);
-    if (as_it_is) { // no second copy of what may be large
+    if (as_it_is) { // without a copy: it may be large
         return encode_png(*picture.file);
     }
     return encode_png(paint(picture));

@@ -1,5 +1,5 @@
 // PLY, binary, little endian (Turk, "The PLY polygon file format", 1994). Colours are sRGB; v of
-// texture coordinates goes upwards, as in the readers that know `s` and `t`.
+// texture coordinates goes upwards, as readers of `s` and `t` expect.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
@@ -18,7 +18,7 @@ static_assert(std::endian::native == std::endian::little, "arrays are written as
 
 namespace {
 
-/// Colours of the palette as bytes, as far as the mesh uses it.
+/// Colours of the palette as bytes, up to the last one that the mesh uses.
 std::vector<std::array<std::uint8_t, 3>> palette_bytes(const Mesh& mesh) {
     std::uint32_t last = 0;
     for (const std::uint16_t colour : mesh.colours) {
@@ -44,7 +44,7 @@ Outcome<Done> write_ply(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
     const bool textured = is_complete(mesh, mesh.texture_coordinates);
     const bool coloured = is_complete(mesh, mesh.colours);
-    // `int` is what every reader knows.
+    // Every reader knows `int`.
     const bool small = mesh.positions.size() <= std::numeric_limits<std::int32_t>::max();
     out.put(fmt::format("ply\nformat binary_little_endian 1.0\ncomment {}\ncomment {}\n"
                         "comment metres, +Y up\nelement vertex {}\n"

@@ -1,6 +1,6 @@
 // STL, binary (3D Systems, "StereoLithography interface specification", 1988): 80 bytes of text,
-// the number of triangles, and 50 bytes each. Normals are those of the triangles; 0 where there is
-// none.
+// the number of triangles, and 50 bytes for each. Normals of triangles, 0 for triangles without
+// area.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
@@ -22,7 +22,7 @@ constexpr std::size_t kTriangleBytes = 4 * sizeof(glm::vec3) + 2;
 
 Outcome<Done> write_stl(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
-    // Text STL begins with `solid`, and readers look no further.
+    // Not `solid`: readers take files that begin with it for text.
     std::string header = fmt::format("STL in metres, +Y up. {}: {}", one_line(job.info.generator),
                                      origin_line(job.info));
     header.resize(kHeaderBytes, ' ');

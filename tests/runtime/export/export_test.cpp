@@ -247,12 +247,12 @@ TEST_CASE("names cannot break the syntax around them") {
           "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD \xEF\xBF\xBD\xEF\xBF\xBD");
     CHECK(json_text("a\"b\\c\n\xFF") == "a\\\"b\\\\c\\u000a\xEF\xBF\xBD");
     CHECK(xml_text("<a & \"b\">") == "&lt;a &amp; &quot;b&quot;&gt;");
-    CHECK(word("a b") == "a_b");
-    CHECK(word("") == "_");
+    CHECK(obj_identifier("a b") == "a_b");
+    CHECK(obj_identifier("") == "_");
     CHECK(identifier("3 \xC3\xA4.b") == "_3____b");
     CHECK(identifier("") == "_");
-    CHECK(unlike({"a", "a_2", "b"}, "a") == "a_3");
-    CHECK(unlike({"a"}, "b") == "b");
+    CHECK(unique_name({"a", "a_2", "b"}, "a") == "a_3");
+    CHECK(unique_name({"a"}, "b") == "b");
     CHECK(srgb_byte(0.0F) == 0);
     CHECK(srgb_byte(2.0F) == 255);
     CHECK(srgb_byte(0.2158605F) == 128);
