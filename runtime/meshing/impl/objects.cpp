@@ -130,7 +130,7 @@ void append_objects(const Skeleton& skeleton,
                     const std::vector<UserMesh>& user_meshes,
                     const MeshOptions& options,
                     MeshBuilder& builder) {
-    // Leaves of the program L3D are drawn with its segments.
+    // program_shapes draws leaves of the program L3D with its segments.
     const auto is_drawn = [&](const PlacedObject& object) {
         return !(skeleton.of_program && options.method == MeshMethod::Tubes &&
                  object.kind == TurtleOperation::Leaf);

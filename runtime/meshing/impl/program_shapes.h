@@ -1,6 +1,5 @@
-// Surfaces as the program L3D makes them, for Skeleton::of_program: each segment a cylinder of its
-// own whose caps share the vertices of its rings, 2 * sides of them, and each leaf a flat outline
-// of 8 vertices.
+// Surfaces of the program L3D, for Skeleton::of_program: each segment is a cylinder whose caps
+// share the 2 * sides vertices of its rings, each leaf a flat outline of 8 vertices.
 #pragma once
 
 #include "runtime/meshing/impl/mesh_builder.h"
@@ -8,7 +7,7 @@
 
 namespace lsys {
 
-/// Appends all segments, then all leaves. Colours, levels and droop are not of the program.
+/// Appends all segments, then all leaves. The program has no colours, levels or droop.
 void append_program_shapes(const Skeleton& skeleton, MeshBuilder& builder);
 
 } // namespace lsys
