@@ -1,10 +1,13 @@
-// The samples of a PNG file, as maps and textures read them.
+// Samples of PNG files (W3C, "Portable Network Graphics Specification", third edition, 2025), read
+// and written by libpng for maps and textures.
 #pragma once
 
 #include "grammar/base/result.h"
 #include "runtime/base/large_vector.h"
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -33,5 +36,11 @@ struct PngRequest {
 };
 [[nodiscard]] Result<PngSamples> read_png_samples(std::string_view bytes,
                                                   const PngRequest& request);
+
+/// The bytes of a PNG file of four bytes a pixel, red, green, blue and opacity; without opacity
+/// where all is opaque. Empty without memory for it. One version of libpng and zlib writes the same
+/// bytes always.
+[[nodiscard]] std::string
+write_png(std::uint32_t columns, std::uint32_t rows, std::span<const std::uint8_t> rgba);
 
 } // namespace lsys

@@ -57,62 +57,35 @@ private:
     std::optional<Error> failure_;
 };
 
-/// What the end of an export makes of the run.
-ExitStatus tell_exported(ExportStatus status,
-                         const Sink& sink,
-                         const Grammar& grammar,
-                         const Console& console) {
-    switch (status) {
-    case ExportStatus::Ok:
-        return ExitStatus::Ok;
-    case ExportStatus::Nothing:
-        return report_error(Error{"the plant has nothing to draw, so no file is written"}, console);
-    case ExportStatus::TooLarge:
-        return report_error(
-            Error{"the plant is larger than a file of this format can be; another format, "
-                  "fewer sides or a coarser --level may hold it"},
-            console);
-    case ExportStatus::TooManyJoints:
-        return show_diagnostic(
-            plant_limit_diagnostic(
-                "the skin", fmt::format("{} joints", grouped_digits(kMostJoints)),
-                "ask for fewer generations with `-n`, or for a numbered series in "
-                "another format, which is any but glTF: `-o tree.ply`"),
-            ExitStatus::Limit, grammar, console);
-    case ExportStatus::Stopped:
-        return sink.failure() ? report_error(*sink.failure(), console) : ExitStatus::Interrupted;
-    case ExportStatus::OutOfMemory:
-        return show_diagnostic(no_memory_diagnostic("the file"), ExitStatus::Limit, grammar,
-                               console);
-    }
-    return ExitStatus::Failure;
-}
-
 /// Files of one plant, all complete or all absent.
 class Files {
 public:
-    Files(const Grammar& grammar, const Console& console) : grammar_(grammar), console_(console) {}
+    explicit Files(const Console& console) : console_(console) {}
 
     /// Writes one, which is not to be seen yet.
     ExitStatus add(const std::string& path,
                    ExportTiming& timing,
-                   const std::function<ExportStatus(const ByteSink&)>& write) {
+                   const std::function<Outcome<Done>(const ByteSink&)>& write) {
         Result<Output> output = Output::open(path, console_);
         if (!output) {
             return report_error(output.error(), console_);
         }
         Sink sink(output.value(), console_);
-        const ExportStatus status = write([&sink](std::string_view bytes) { return sink(bytes); });
+        Outcome<Done> written = write([&sink](std::string_view bytes) { return sink(bytes); });
         timing.bytes += sink.written();
-        const ExitStatus told = tell_exported(status, sink, grammar_, console_);
-        if (told != ExitStatus::Ok) {
-            return told;
+        if (sink.failure()) {
+            return report_error(*sink.failure(), console_);
+        }
+        Done done;
+        const ExitStatus status = console_.take(std::move(written), done);
+        if (status != ExitStatus::Ok) {
+            return status;
         }
         if (const Result<Done> finished = output.value().finish(); !finished) {
             return report_error(finished.error(), console_);
         }
         outputs_.push_back(std::move(output.value()));
-        return told;
+        return status;
     }
     /// Lets all be seen.
     ExitStatus commit() {
@@ -121,7 +94,6 @@ public:
     }
 
 private:
-    const Grammar& grammar_;
     const Console& console_;
     std::vector<Output> outputs_;
 };
@@ -145,25 +117,21 @@ ExitStatus
 add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info, Files& files) {
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
     std::vector<PictureFile> pictures;
-    if (make_picture_files(run.mesh, run.format, info, pictures) != ExportStatus::Ok) {
-        return show_diagnostic(no_memory_diagnostic("the pictures"), ExitStatus::Limit, run.grammar,
-                               run.console);
+    ExitStatus status = run.console.take(make_picture_files(run.mesh, run.format, info), pictures);
+    if (status != ExitStatus::Ok) {
+        return status;
     }
-    const auto put = [](std::string_view bytes, const ByteSink& sink) {
-        return sink(bytes) ? ExportStatus::Ok : ExportStatus::Stopped;
-    };
     for (const PictureFile& picture : pictures) {
         if (!run.pictures.insert(picture.name).second) {
             continue;
         }
-        const ExitStatus status =
-            files.add(path.parent_path() / picture.name, run.timing,
-                      [&](const ByteSink& sink) { return put(picture.bytes, sink); });
+        status = files.add(path.parent_path() / picture.name, run.timing,
+                           [&](const ByteSink& sink) { return write_picture_file(picture, sink); });
         if (status != ExitStatus::Ok) {
             return status;
         }
     }
-    if (run.format != ExportFormat::Obj) {
+    if (!traits_of(run.format).has_mtl) {
         return ExitStatus::Ok;
     }
     const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
@@ -188,7 +156,7 @@ ExitStatus write_plant(Export& run,
                        const PlantAnimation* animation = nullptr) {
     const ExportCommand& command = run.command;
     SteadyClock::time_point start = SteadyClock::now();
-    if (uses_mesh(run.format)) {
+    if (traits_of(run.format).uses_mesh) {
         MeshOptions options = command.mesh;
         options.segments = animation != nullptr;
         run.mesh = {};
@@ -208,7 +176,7 @@ ExitStatus write_plant(Export& run,
     info.user_meshes = &run.plant.user_meshes;
     info.animation = animation;
     info.threads = command.run.threads;
-    Files files(run.grammar, run.console);
+    Files files(run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
         status = add_side_files(run, path, info, files);
@@ -223,11 +191,6 @@ ExitStatus write_plant(Export& run,
     }
     run.timing.write_seconds += seconds_since(start);
     return status;
-}
-
-/// The formats that can hold a plant in motion as one file.
-bool holds_motion(ExportFormat format) {
-    return format == ExportFormat::Gltf || format == ExportFormat::Glb;
 }
 
 /// One file with all frames.
@@ -272,7 +235,7 @@ ExitStatus write_bent(Export& run) {
         physics.pose(bent);
         return write_plant(run, bent, command.output);
     }
-    if (holds_motion(run.format)) {
+    if (traits_of(run.format).motion) {
         return write_animation(run, physics);
     }
     for (std::uint32_t frame = 1; frame <= command.frames; ++frame) {
@@ -306,10 +269,12 @@ ExitStatus run_export(const ExportCommand& command, const Console& console) {
         return report_error(Error{"--settle and --frames need a force: --gravity or --wind"},
                             console);
     }
-    if (command.frames != 0 && command.output == "-" && !holds_motion(*format)) {
+    if (command.frames != 0 && command.output == "-" && !traits_of(*format).motion) {
         return report_error(
-            Error{"--frames writes several files of this format, which do not go to "
-                  "standard output; glb and gltf hold all frames in one"},
+            Error{fmt::format(
+                "--frames writes several files of this format, which do not go to standard "
+                "output; {} hold all frames in one",
+                format_names("and", [](const FormatTraits& each) { return each.motion; }))},
             console);
     }
     Grammar grammar;

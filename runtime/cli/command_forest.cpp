@@ -29,43 +29,36 @@ enum class Kind : std::uint8_t { None, Instances, Mesh, Statistics };
 /// What the name of the output asks for.
 struct Target {
     Kind kind = Kind::None;
-    ForestFormat forest = ForestFormat::Glb;
-    ExportFormat mesh = ExportFormat::Glb;
+    ExportFormat format = ExportFormat::Glb;
 };
 
+bool has_instances(const FormatTraits& format) {
+    return format.write_forest != nullptr;
+}
+
 Result<Target> target_of(const ForestCommand& command) {
-    Target target;
     if (command.output.empty()) {
-        return target;
+        return Target{};
     }
-    const std::string extension = std::filesystem::path(command.output).extension().string();
-    if (extension == ".json") {
-        target.kind = Kind::Statistics;
-        return target;
+    const std::filesystem::path path = command.output;
+    if (path.extension() == ".json") {
+        return Target{Kind::Statistics};
     }
+    const std::optional<ExportFormat> format = format_of_path(command.output);
     if (command.bake) {
-        const std::optional<ExportFormat> format = format_of_path(command.output);
-        if (!format || !uses_mesh(*format)) {
-            return Error{fmt::format("`{}`: --bake writes obj, ply, off, stl, glb, gltf or usda",
-                                     command.output)};
+        if (!format || !traits_of(*format).uses_mesh) {
+            return Error{
+                fmt::format("`{}`: --bake writes {}", command.output,
+                            format_names("or", [](const auto& each) { return each.uses_mesh; }))};
         }
-        target.kind = Kind::Mesh;
-        target.mesh = *format;
-        return target;
+        return Target{Kind::Mesh, *format};
     }
-    target.kind = Kind::Instances;
-    if (extension == ".glb") {
-        target.forest = ForestFormat::Glb;
-    } else if (extension == ".gltf") {
-        target.forest = ForestFormat::Gltf;
-    } else if (extension == ".usda") {
-        target.forest = ForestFormat::Usda;
-    } else {
-        return Error{fmt::format("the name of `{}` does not tell a format with instances: glb, "
-                                 "gltf or usda, or json for statistics; --bake writes others",
-                                 command.output)};
+    if (!format || !has_instances(traits_of(*format))) {
+        return Error{fmt::format("the name of `{}` does not tell a format with instances: {}, or "
+                                 "json for statistics; --bake writes others",
+                                 command.output, format_names("or", has_instances))};
     }
-    return target;
+    return Target{Kind::Instances, *format};
 }
 
 /// Options that do not go together, in words; empty if all is well.
@@ -76,8 +69,10 @@ std::string find_conflict(const ForestCommand& command, const Target& target) {
     if (command.expand && command.bake) {
         return "--expand and --bake do not go together";
     }
-    if (command.expand && (target.kind != Kind::Instances || target.forest == ForestFormat::Usda)) {
-        return "--expand is for glb and gltf";
+    if (command.expand &&
+        (target.kind != Kind::Instances || !traits_of(target.format).expands_forest)) {
+        return "--expand is for " +
+               format_names("and", [](const auto& each) { return each.expands_forest; });
     }
     if (command.frames != 0 && (command.output.empty() || command.output == "-")) {
         return "--frames writes a numbered series, so it needs -o FILE";
@@ -126,7 +121,7 @@ add_output(Run& run, const std::string& path, const Write& write, std::vector<Ou
         return report_error(output.error(), run.console);
     }
     std::optional<Error> failure;
-    const ExitStatus status = write([&](std::string_view bytes) {
+    Outcome<Done> written = write([&](std::string_view bytes) {
         if (run.console.interrupted()) {
             return false;
         }
@@ -139,7 +134,9 @@ add_output(Run& run, const std::string& path, const Write& write, std::vector<Ou
     if (failure) {
         return report_error(*failure, run.console);
     }
-    if (status != ExitStatus::Ok) {
+    Done done;
+    if (const ExitStatus status = run.console.take(std::move(written), done);
+        status != ExitStatus::Ok) {
         return status;
     }
     if (const Result<Done> finished = output.value().finish(); !finished) {
@@ -163,28 +160,6 @@ ExitStatus write_output(Run& run, const std::string& path, const Write& write) {
     return status == ExitStatus::Ok ? show_outputs(outputs, run.console) : status;
 }
 
-ExitStatus tell(ForestExportStatus status, const Run& run) {
-    switch (status) {
-    case ForestExportStatus::Ok:
-        return ExitStatus::Ok;
-    case ForestExportStatus::Nothing:
-        return report_error(Error{"the forest has nothing to draw, so no file is written"},
-                            run.console);
-    case ForestExportStatus::TooLarge:
-        return report_error(Error{"the forest is larger than a file of this format can be"},
-                            run.console);
-    case ForestExportStatus::TooManyNodes:
-        return run.console.show(plant_limit_diagnostic("the expanded forest", "1,000,000 branches",
-                                                       "without --expand, branches are instances"),
-                                ExitStatus::Limit);
-    case ForestExportStatus::Stopped:
-        return ExitStatus::Interrupted;
-    case ForestExportStatus::OutOfMemory:
-        return run.console.show(no_memory_diagnostic("the file"), ExitStatus::Limit);
-    }
-    return ExitStatus::Failure;
-}
-
 ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string& path) {
     ForestExportInfo info;
     info.name = std::filesystem::path(path).stem().string();
@@ -193,10 +168,11 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     info.threads = run.command.run.threads;
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
     std::vector<Output> outputs; // pictures before the file that names them
-    if (run.target.forest == ForestFormat::Usda) {
+    if (traits_of(run.target.format).pictures != ExportPictures::Inside) {
         info.textures = path != "-";
         std::vector<PictureFile> pictures;
-        const ExitStatus status = tell(make_forest_picture_files(scene, info, pictures), run);
+        const ExitStatus status =
+            run.console.take(make_forest_picture_files(scene, run.target.format, info), pictures);
         if (status != ExitStatus::Ok) {
             return status;
         }
@@ -204,7 +180,7 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
             const std::string beside =
                 (std::filesystem::path(path).parent_path() / picture.name).string();
             const auto put = [&](const ByteSink& sink) {
-                return sink(picture.bytes) ? ExitStatus::Ok : ExitStatus::Interrupted;
+                return write_picture_file(picture, sink);
             };
             if (const ExitStatus added = add_output(run, beside, put, outputs);
                 added != ExitStatus::Ok) {
@@ -214,52 +190,29 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     }
     const ForestForm form = run.command.expand ? ForestForm::Expanded : ForestForm::Instanced;
     const auto put = [&](const ByteSink& sink) {
-        return tell(export_forest(scene, run.target.forest, form, info, sink), run);
+        return export_forest(scene, run.target.format, form, info, sink);
     };
     const ExitStatus status = add_output(run, path, put, outputs);
     return status == ExitStatus::Ok ? show_outputs(outputs, run.console) : status;
 }
 
 ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& path) {
+    const RunOptions& options = run.command.run;
     Mesh mesh;
-    switch (bake_forest(scene, run.command.run.limits.max_bytes, run.command.run.threads, mesh)) {
-    case MeshStatus::Ok:
-        break;
-    case MeshStatus::TooManyVertices:
-        return report_error(
-            Error{"the baked forest has more than 4,294,967,295 vertices; without --bake, "
-                  "branches are instances"},
-            run.console);
-    case MeshStatus::Limit:
-        return run.console.show(
-            plant_limit_diagnostic("the baked forest", run.command.run.limits.max_bytes),
-            ExitStatus::Limit);
-    case MeshStatus::OutOfMemory:
-        return run.console.show(no_memory_diagnostic("the baked forest"), ExitStatus::Limit);
+    const ExitStatus status =
+        run.console.take(bake_forest(scene, options.limits.max_bytes, options.threads), mesh);
+    if (status != ExitStatus::Ok) {
+        return status;
     }
     ExportInfo info;
+    info.subject = ExportSubject::Forest;
     info.grammar = std::filesystem::path(path).stem().string();
     info.seed = run.grown.forest.key;
     info.generator = "lsc " LSC_VERSION;
-    info.textures = run.target.mesh == ExportFormat::Glb || run.target.mesh == ExportFormat::Gltf;
+    info.textures = traits_of(run.target.format).pictures == ExportPictures::Inside;
     const Skeleton none;
     return write_output(run, path, [&](const ByteSink& sink) {
-        switch (export_mesh(mesh, none, run.target.mesh, info, sink)) {
-        case ExportStatus::Ok:
-            return ExitStatus::Ok;
-        case ExportStatus::Nothing:
-            return report_error(Error{"the forest has nothing to draw, so no file is written"},
-                                run.console);
-        case ExportStatus::Stopped:
-            return ExitStatus::Interrupted;
-        case ExportStatus::OutOfMemory:
-            return run.console.show(no_memory_diagnostic("the file"), ExitStatus::Limit);
-        case ExportStatus::TooLarge:
-        case ExportStatus::TooManyJoints:
-            break;
-        }
-        return report_error(Error{"the forest is larger than a file of this format can be"},
-                            run.console);
+        return export_mesh(mesh, none, run.target.format, info, sink);
     });
 }
 

@@ -133,17 +133,12 @@ void add_export(CLI::App& app, ExportCommand& command) {
                    "The file, whose name tells the format; `-` is standard output")
         ->required()
         ->type_name("FILE");
-    add_choice<std::optional<ExportFormat>>(app, "--format", command.format,
-                                            {{"obj", ExportFormat::Obj},
-                                             {"ply", ExportFormat::Ply},
-                                             {"off", ExportFormat::Off},
-                                             {"off+", ExportFormat::OffPlus},
-                                             {"stl", ExportFormat::Stl},
-                                             {"gltf", ExportFormat::Gltf},
-                                             {"glb", ExportFormat::Glb},
-                                             {"svg", ExportFormat::Svg},
-                                             {"usda", ExportFormat::Usda}},
-                                            "The format (default by the name of the file)");
+    std::vector<std::pair<std::string, std::optional<ExportFormat>>> formats;
+    for (const ExportFormat format : export_formats()) {
+        formats.emplace_back(traits_of(format).name, format);
+    }
+    add_choice(app, "--format", command.format, std::move(formats),
+               "The format (default by the name of the file)");
     app.add_flag("--stream", command.stream,
                  "Draw without storing the word (no contexts, parallel rewriting only)");
     app.add_flag("--stats", command.stats,
@@ -163,9 +158,11 @@ void add_export(CLI::App& app, ExportCommand& command) {
                  "Start from where it comes to rest; without --frames that is what is written")
         ->group("Physics");
     constexpr std::uint64_t kMaxFrames = 1'000'000;
-    add_parsed(app, "--frames", command.frames, whole(1, kMaxFrames),
-               "The plant at N moments: glb and gltf hold them as one animation, of other formats "
-               "there is a numbered file for each: tree.0001.ply, tree.0002.ply, ...")
+    const std::string frames =
+        fmt::format("The plant at N moments: {} hold them as one animation, of other formats "
+                    "there is a numbered file for each: tree.0001.ply, tree.0002.ply, ...",
+                    format_names("and", [](const FormatTraits& format) { return format.motion; }));
+    add_parsed(app, "--frames", command.frames, whole(1, kMaxFrames), frames.c_str())
         ->type_name("N")
         ->group("Physics");
     const auto rate = [](const std::string& text) { return parse_number(text, 0.1F, 1000.0F); };
@@ -189,9 +186,17 @@ void add_export(CLI::App& app, ExportCommand& command) {
 void add_forest(CLI::App& app, ForestCommand& command) {
     app.add_option("FILE", command.files, "A scene (.toml), or grammars, one for each species")
         ->required();
+    const auto has_instances = [](const FormatTraits& format) {
+        return format.write_forest != nullptr;
+    };
     app.add_option("-o,--output", command.output,
-                   "The file, whose name tells the format: glb, gltf or usda with instances, json "
-                   "statistics; with --bake also obj, ply, off or stl")
+                   fmt::format("The file, whose name tells the format: {} with instances, json "
+                               "statistics; with --bake also {}",
+                               format_names("or", has_instances),
+                               format_names("or",
+                                            [&](const FormatTraits& format) {
+                                                return format.uses_mesh && !has_instances(format);
+                                            })))
         ->type_name("FILE");
     app.add_flag("--check", command.check, "Read the scene and its grammars, write nothing");
     app.add_flag("--stats", command.stats,

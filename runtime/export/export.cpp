@@ -1,112 +1,72 @@
 #include "runtime/export/export.h"
 
+#include "runtime/export/impl/export_outcome.h"
+#include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/formats.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <new>
-#include <stdexcept>
-#include <utility>
 
 namespace lsys {
 
 namespace {
 
-struct Extension {
-    std::string_view text; // lower case
-    ExportFormat format;
+constexpr std::array kFormats{
+#define LSYS_EXPORT_FORMAT(enumerator, ...) ExportFormat::enumerator,
+#include "runtime/export/formats.def"
+#undef LSYS_EXPORT_FORMAT
 };
-constexpr std::array<Extension, 9> kExtensions{{
-    {".obj", ExportFormat::Obj},
-    {".ply", ExportFormat::Ply},
-    {".off", ExportFormat::Off},
-    {".off+", ExportFormat::OffPlus},
-    {".stl", ExportFormat::Stl},
-    {".gltf", ExportFormat::Gltf},
-    {".glb", ExportFormat::Glb},
-    {".svg", ExportFormat::Svg},
-    {".usda", ExportFormat::Usda},
+
+/// By ExportFormat.
+constexpr std::array<FormatTraits, kFormats.size()> kTraits{{
+#define LSYS_EXPORT_FORMAT(enumerator, function, ...) {__VA_ARGS__, .write = function},
+#include "runtime/export/formats.def"
+#undef LSYS_EXPORT_FORMAT
 }};
 
 char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// STL counts triangles in 32 bits; USDA, whose integers are signed, indices of a face.
-bool fits(const Mesh& mesh, ExportFormat format) {
-    switch (format) {
-    case ExportFormat::Stl:
-        return triangle_count(mesh) <= std::numeric_limits<std::uint32_t>::max();
-    case ExportFormat::Usda:
-        return mesh.positions.size() <= std::uint64_t{std::numeric_limits<std::int32_t>::max()} + 1;
-    default:
-        return true;
-    }
-}
-
-ExportStatus write(const Mesh& mesh,
-                   const Skeleton& skeleton,
-                   ExportFormat format,
-                   const ExportInfo& info,
-                   const ByteSink& sink) {
-    if (uses_mesh(format)
-            ? triangle_count(mesh) == 0
-            : skeleton.segments.empty() && skeleton.objects.empty() && skeleton.polygons.empty()) {
-        return ExportStatus::Nothing;
-    }
-    if (!fits(mesh, format)) {
-        return ExportStatus::TooLarge;
-    }
-    PieceWriter out(sink);
-    ExportStatus status = ExportStatus::Ok;
-    switch (format) {
-    case ExportFormat::Obj:
-        write_obj(mesh, info, out);
-        break;
-    case ExportFormat::Ply:
-        write_ply(mesh, info, out);
-        break;
-    case ExportFormat::Off:
-    case ExportFormat::OffPlus:
-        write_off(mesh, format == ExportFormat::OffPlus, out);
-        break;
-    case ExportFormat::Stl:
-        write_stl(mesh, info, out);
-        break;
-    case ExportFormat::Gltf:
-    case ExportFormat::Glb:
-        status = write_gltf(mesh, skeleton, format == ExportFormat::Glb, info, out);
-        break;
-    case ExportFormat::Svg:
-        write_svg(skeleton, info, out);
-        break;
-    case ExportFormat::Usda:
-        write_usda(mesh, info, out);
-        break;
-    }
-    if (status == ExportStatus::Ok && !out.finish()) {
-        return ExportStatus::Stopped;
-    }
-    return status;
-}
-
 } // namespace
 
+const FormatTraits& traits_of(ExportFormat format) {
+    return kTraits[static_cast<std::size_t>(format)];
+}
+
+std::span<const ExportFormat> export_formats() {
+    return kFormats;
+}
+
 std::optional<ExportFormat> format_of_path(std::string_view path) {
-    for (const Extension& extension : kExtensions) {
-        if (path.size() > extension.text.size() &&
-            std::equal(extension.text.begin(), extension.text.end(),
-                       path.end() - static_cast<std::ptrdiff_t>(extension.text.size()),
-                       [](char a, char b) { return a == lower(b); })) {
-            return extension.format;
+    std::string ending(path);
+    std::transform(ending.begin(), ending.end(), ending.begin(), lower);
+    for (const ExportFormat format : kFormats) {
+        const std::string extension = fmt::format(".{}", traits_of(format).name);
+        if (ending.size() > extension.size() && ending.ends_with(extension)) {
+            return format;
         }
     }
     return std::nullopt;
 }
 
-bool uses_mesh(ExportFormat format) {
-    return format != ExportFormat::Svg;
+std::string format_names(std::string_view conjunction,
+                         const std::function<bool(const FormatTraits&)>& is_listed) {
+    std::vector<std::string_view> names;
+    for (const FormatTraits& format : kTraits) {
+        if (is_listed(format)) {
+            names.push_back(format.name);
+        }
+    }
+    std::sort(names.begin(), names.end());
+    const auto before_last = names.empty() ? names.end() : names.end() - 1;
+    std::string text = fmt::format("{}", fmt::join(names.begin(), before_last, ", "));
+    for (auto last = before_last; last != names.end(); ++last) {
+        text += names.size() > 1 ? fmt::format(" {} {}", conjunction, *last) : std::string(*last);
+    }
+    return text;
 }
 
 std::uint64_t triangle_count(const Mesh& mesh) {
@@ -117,18 +77,31 @@ std::uint64_t triangle_count(const Mesh& mesh) {
     return count;
 }
 
-ExportStatus export_mesh(const Mesh& mesh,
-                         const Skeleton& skeleton,
-                         ExportFormat format,
-                         const ExportInfo& info,
-                         const ByteSink& sink) {
-    try {
-        return write(mesh, skeleton, format, info, sink);
-    } catch (const std::bad_alloc&) {
-        return ExportStatus::OutOfMemory;
-    } catch (const std::length_error&) {
-        return ExportStatus::OutOfMemory;
-    }
+Outcome<Done> export_mesh(const Mesh& mesh,
+                          const Skeleton& skeleton,
+                          ExportFormat format,
+                          const ExportInfo& info,
+                          const ByteSink& sink) {
+    return catch_no_memory("the file", [&] {
+        const FormatTraits& traits = traits_of(format);
+        const std::uint64_t triangles = triangle_count(mesh);
+        if (traits.uses_mesh ? triangles == 0
+                             : skeleton.segments.empty() && skeleton.objects.empty() &&
+                                   skeleton.polygons.empty()) {
+            return nothing_to_draw(info.subject);
+        }
+        if (triangles > traits.max_triangles || mesh.positions.size() > traits.max_vertices) {
+            return too_large_for_format(info.subject);
+        }
+        PieceWriter out(sink);
+        return traits.write({mesh, skeleton, info}, out);
+    });
+}
+
+Outcome<Done> write_picture_file(const PictureFile& picture, const ByteSink& sink) {
+    PieceWriter out(sink);
+    out.put(picture.bytes);
+    return finish(out);
 }
 
 } // namespace lsys

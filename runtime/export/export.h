@@ -1,15 +1,17 @@
-// Export: a mesh, or for drawings the skeleton, as a file of somebody else's. Bytes go to a sink in
-// pieces and in order, large arrays straight from memory; the file as a whole exists nowhere. Made
-// from the results of make_mesh() and the turtle; read by the command line, which owns the files.
-// Units are metres and +Y is up in every format that has a say in it. Same input, same bytes.
+// Export: a mesh, or for drawings the skeleton, as a file of a common format. Bytes go to a sink in
+// pieces and in order, large arrays straight from memory; no file is held as a whole. Made from the
+// results of make_mesh() and the turtle; used by the command line, which owns the files. Metres and
+// +Y up in every format that can state them. Same input, same bytes.
 #pragma once
 
+#include "grammar/base/outcome.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/turtle/skeleton.h"
 
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,65 +20,96 @@ namespace lsys {
 
 struct PlantAnimation;
 
-enum class ExportFormat : std::uint8_t { Obj, Ply, Off, OffPlus, Stl, Gltf, Glb, Svg, Usda };
+enum class ExportFormat : std::uint8_t {
+#define LSYS_EXPORT_FORMAT(enumerator, ...) enumerator,
+#include "runtime/export/formats.def"
+#undef LSYS_EXPORT_FORMAT
+};
 
-/// By the extension, in capitals or not.
+/// Place of the textures of a format's materials.
+enum class ExportPictures : std::uint8_t {
+    None,
+    Inside,           // the file; readers multiply them by the colour of the material
+    FilesWithOpacity, // beside it, multiplied by the colour; opacity of leaves in files of its own
+    FilesWithRelief,  // beside it, multiplied by the colour; relief of bark as normal maps
+};
+
+struct ExportJob;
+struct ForestExportJob;
+class PieceWriter;
+
+/// A row of formats.def.
+struct FormatTraits {
+    std::string_view name;    // value of `--format` and extension of files
+    std::string_view content; // for README.md
+    bool uses_mesh = true;    // false: drawn from the skeleton, without the mesh
+    /// Largest mesh that the format can count.
+    std::uint64_t max_vertices = ~std::uint64_t{0};
+    std::uint64_t max_triangles = ~std::uint64_t{0};
+    ExportPictures pictures = ExportPictures::None;
+    bool has_mtl = false; // materials in a file beside it, by write_mtl()
+    bool motion = false;  // one file holds all frames of an animation
+    /// Writes trees as instances; null: the format has no instances.
+    Outcome<Done> (*write_forest)(const ForestExportJob& job, PieceWriter& out) = nullptr;
+    bool expands_forest = false; // write_forest can write ForestForm::Expanded
+    Outcome<Done> (*write)(const ExportJob& job, PieceWriter& out) = nullptr;
+};
+[[nodiscard]] const FormatTraits& traits_of(ExportFormat format);
+/// All formats, in the order of formats.def.
+[[nodiscard]] std::span<const ExportFormat> export_formats();
+/// The format of the path's extension, in any case of letters.
 [[nodiscard]] std::optional<ExportFormat> format_of_path(std::string_view path);
-/// Svg is drawn from the skeleton; all others are made from the mesh, which it does not look at.
-[[nodiscard]] bool uses_mesh(ExportFormat format);
+/// Names of the formats for which `is_listed`, in alphabetical order: "glb, gltf or usda".
+[[nodiscard]] std::string format_names(std::string_view conjunction,
+                                       const std::function<bool(const FormatTraits&)>& is_listed);
 
 /// Takes the next bytes; false stops the export.
 using ByteSink = std::function<bool(std::string_view)>;
 
-/// Of a skin: glTF counts joints in 16 bits, and one of them is that of what stands still.
+/// Joints of a skin that move, at most: glTF counts joints in 16 bits, and joint 0 stands still.
 inline constexpr std::uint32_t kMostJoints = 65'535;
 
-/// What a file says about where it comes from.
+/// Subject of a file in messages.
+enum class ExportSubject : std::uint8_t { Plant, Forest };
+
+/// Origin and contents of a file.
 struct ExportInfo {
+    ExportSubject subject = ExportSubject::Plant;
     std::string grammar; // its name
     std::uint64_t seed = 0;
     std::uint32_t generations = 0;
     std::string generator; // the program and its version
     std::string mtl_name;  // the file of write_mtl() beside an OBJ; empty: none
-    /// OBJ and USDA: what the names of their pictures begin with, which are files beside them;
-    /// empty: there are none, and materials are plain colours.
+    /// Begin of the names of pictures beside the file; empty: no pictures, materials are plain
+    /// colours.
     std::string picture_prefix;
-    bool textures = true;      // pictures for the materials that are textured, where the format can
+    bool textures = true;      // pictures for textured materials, where the format has pictures
     std::uint32_t threads = 0; // 0: as many as the machine has
-    /// Those of Skeleton::mesh_files, whose outlines Svg draws; it leaves out what is not here.
+    /// Meshes of Skeleton::mesh_files, for their outlines in SVG; missing meshes are skipped.
     const std::vector<UserMesh>* user_meshes = nullptr;
-    /// glTF: the mesh is a skin that these poses move, of which the skeleton is the first. The mesh
-    /// has its segments.
+    /// Poses that move the mesh as a skin, in formats with motion. The skeleton is the first pose,
+    /// and Mesh::segments is complete.
     const PlantAnimation* animation = nullptr;
 };
 
-enum class ExportStatus : std::uint8_t {
-    Ok,
-    Nothing,       // no triangle, or for Svg nothing drawn: no byte was written
-    TooLarge,      // more than the format can hold: no byte was written
-    TooManyJoints, // of a skin, more than kMostJoints: no byte was written
-    Stopped,       // the sink said so
-    OutOfMemory,
-};
-
-/// Writes one file to `sink`. Indices of the mesh must be below its number of vertices.
-[[nodiscard]] ExportStatus export_mesh(const Mesh& mesh,
-                                       const Skeleton& skeleton,
-                                       ExportFormat format,
-                                       const ExportInfo& info,
-                                       const ByteSink& sink);
-/// A PNG that a file refers to.
+/// Writes one file to `sink`. Indices of the mesh must be below its number of vertices. Without its
+/// value no byte was written, unless the outcome is Cancelled (by the sink) or OutOfMemory. Failed:
+/// nothing to draw, or more than the format can hold. Limit: more than kMostJoints.
+Outcome<Done> export_mesh(const Mesh& mesh,
+                          const Skeleton& skeleton,
+                          ExportFormat format,
+                          const ExportInfo& info,
+                          const ByteSink& sink);
+/// A PNG file that an exported file refers to.
 struct PictureFile {
     std::string name;
     std::string bytes;
 };
-/// Those of an OBJ and its MTL, or of a USDA.
-[[nodiscard]] ExportStatus make_picture_files(const Mesh& mesh,
-                                              ExportFormat format,
-                                              const ExportInfo& info,
-                                              std::vector<PictureFile>& files);
-/// The materials of an OBJ, whose colours are sRGB. Nothing where there is no OBJ.
-[[nodiscard]] ExportStatus
-write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink);
+/// The pictures that lie beside a file of the format. Stops: OutOfMemory.
+Outcome<std::vector<PictureFile>>
+make_picture_files(const Mesh& mesh, ExportFormat format, const ExportInfo& info);
+Outcome<Done> write_picture_file(const PictureFile& picture, const ByteSink& sink);
+/// Writes the materials of an OBJ, with colours in sRGB. Stops as export_mesh().
+Outcome<Done> write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink);
 
 } // namespace lsys

@@ -1,6 +1,6 @@
 // Export of forests: trees as instances of shared surfaces, as nodes, or as one mesh. Bytes go to a
-// sink in pieces, and no more of the trees is held than a piece of one cell of the ground. Metres,
-// +Y up. Same forest, same bytes, for any number of threads.
+// sink in pieces; memory holds the trees of a part of one cell of the ground. Metres, +Y up. Same
+// forest, same bytes, for any number of threads.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -13,7 +13,7 @@
 
 namespace lsys {
 
-/// What is drawn. All outlive the calls below.
+/// A forest to export. References outlive the calls below.
 struct ForestScene {
     const Forest& forest;
     /// By species and stage, as ForestSpecies::stages.
@@ -21,65 +21,57 @@ struct ForestScene {
     const Mesh* ground = nullptr; // may be null
 };
 
-enum class ForestFormat : std::uint8_t { Gltf, Glb, Usda };
 enum class ForestForm : std::uint8_t {
     Instanced, // EXT_mesh_gpu_instancing, which readers must know; 40 bytes a branch instance
-    Expanded,  // a node for each branch instance; of glTF only
+    Expanded,  // a node for each branch instance; for FormatTraits::expands_forest
 };
-/// More branch instances are no nodes of a file. Each takes about 200 bytes there.
+/// Branch instances of ForestForm::Expanded, at most. Each takes about 200 bytes of the file.
 inline constexpr std::uint64_t kMostForestNodes = 1'000'000;
 
 struct ForestExportInfo {
     std::string name;      // of the scene
     std::string generator; // the program and its version
-    /// m, side of the squares of ground whose trees are instanced together; 0: all trees are.
+    /// Side in m of the squares of ground whose trees are instanced together; 0: one square.
     float cell = 0.0F;
     bool textures = true;
-    std::string picture_prefix; // of USDA, as in ExportInfo
+    std::string picture_prefix; // as in ExportInfo
     std::uint32_t threads = 0;  // 0: as many as the machine has
-    /// Most room for transforms. Less makes more walks over the trees, and the same file.
+    /// Buffer for transforms, at most. A smaller one takes more walks over the trees.
     std::uint64_t window_bytes = std::uint64_t{512} << 20;
 };
 
-enum class ForestExportStatus : std::uint8_t {
-    Ok,
-    Nothing,      // no triangle: no byte was written
-    TooLarge,     // more than the format can hold: no byte was written
-    TooManyNodes, // Expanded, more than kMostForestNodes: no byte was written
-    Stopped,      // the sink said so
-    OutOfMemory,
-};
-
-/// Beside the scene it takes 8 bytes a tree, 24 bytes for each pair of a cell and an instance that
-/// stands there, 16 bytes for each pair of 512 trees of a cell and an instance that stands in them,
-/// and ForestExportInfo::window_bytes. Precondition: trees' species have meshes.
-[[nodiscard]] ForestExportStatus export_forest(const ForestScene& scene,
-                                               ForestFormat format,
-                                               ForestForm form,
-                                               const ForestExportInfo& info,
-                                               const ByteSink& sink);
-/// Those that a USDA of the scene names.
-[[nodiscard]] ForestExportStatus make_forest_picture_files(const ForestScene& scene,
-                                                           const ForestExportInfo& info,
-                                                           std::vector<PictureFile>& files);
+/// Writes the trees as instances, in a format with FormatTraits::write_forest. Beside the scene it
+/// takes 8 bytes a tree, 24 bytes for each pair of a cell and an instance that stands there, 16
+/// bytes for each pair of 512 trees of a cell and an instance that stands in them, and
+/// ForestExportInfo::window_bytes. Precondition: trees' species have meshes. Stops as
+/// export_mesh(); Limit: Expanded, more than kMostForestNodes.
+Outcome<Done> export_forest(const ForestScene& scene,
+                            ExportFormat format,
+                            ForestForm form,
+                            const ForestExportInfo& info,
+                            const ByteSink& sink);
+/// The pictures that lie beside such a file. Stops: OutOfMemory.
+Outcome<std::vector<PictureFile>> make_forest_picture_files(const ForestScene& scene,
+                                                            ExportFormat format,
+                                                            const ForestExportInfo& info);
 
 /// All triangles in world coordinates, parts by the order of materials in species and ground.
-/// Texture coordinates, tangents and colours are kept where every surface has them. Limit: more
-/// than `max_bytes`, found before memory is taken for it.
-[[nodiscard]] MeshStatus
-bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads, Mesh& mesh);
+/// Texture coordinates, tangents and colours are kept where every surface has them. Stops: Limit
+/// for more than `max_bytes`, found before memory is taken for it; Failed for more vertices than 32
+/// bits count; OutOfMemory.
+Outcome<Mesh> bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads);
 
-/// Trees that can be told apart by their segments, whatever instances they are made of: by number,
-/// lengths and places of the segments in the coordinates of the tree, up to second moments and one
-/// part in a million. Trees of one species that differ in age alone are the same if they look it.
+/// Counts trees with different segments, regardless of their instances: number, lengths and places
+/// of the segments in the coordinates of the tree, compared by second moments to one part in a
+/// million. Trees of one species that differ only in age count once if their segments are equal.
 [[nodiscard]] std::uint64_t count_different_trees(const Forest& forest, std::uint32_t threads);
 
 struct ForestStatsOptions {
     bool different_trees = false; // takes about 100 bytes a tree
     std::uint32_t threads = 0;
 };
-/// One JSON object in a line: counts of the forest, its species, their stages and caches; hits,
-/// misses and what was recorded by (id, age).
+/// One JSON object in a line: counts of the forest, its species, their stages and caches, with
+/// hits, misses and recordings by (id, age).
 [[nodiscard]] std::string forest_stats_json(const ForestScene& scene,
                                             const ForestStatsOptions& options);
 

@@ -1,5 +1,5 @@
-// Forest: species with their instance caches, and trees as numbers. Nothing of a tree is stored but
-// its record; its branches are made when somebody asks for them.
+// Forest: species with their instance caches, and trees as small records. Branches of a tree are
+// made on demand and not stored.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -23,16 +23,16 @@ struct ForestStage {
 struct ForestSpecies {
     std::string name;
     std::vector<ForestStage> stages; // by rising generations; at least one
-    /// Years that a plant needs for each stage after the first; 0: all plants are of the last.
+    /// Years between two stages; 0: all plants have the last stage.
     float years_of_stage = 0.0F;
 };
 
 struct Forest {
     std::uint64_t key = 0;
-    std::vector<ForestSpecies> species; // Tree::species counts them
+    std::vector<ForestSpecies> species; // by Tree::species
     LargeVector<Tree> trees;
 
-    /// In ForestSpecies::stages of the tree's species.
+    /// The tree's index in ForestSpecies::stages.
     [[nodiscard]] std::uint32_t stage_of(const Tree& tree) const {
         const ForestSpecies& kind = species[tree.species];
         const auto last = static_cast<std::uint32_t>(kind.stages.size()) - 1;
@@ -54,14 +54,14 @@ struct ForestCounts {
     std::uint64_t objects = 0;
     std::uint64_t polygons = 0;
     std::uint32_t most_branches = 0; // of one tree
-    /// Changes with any branch of any tree: its place, turn, scale or instance. The same for any
-    /// number of threads and any order.
+    /// Depends on place, rotation, scale and instance of every branch, not on the number of threads
+    /// or the order of trees.
     std::uint64_t digest = 0;
 
     void add(const ForestCounts& other);
 };
 
-/// Trees in pieces, on several threads: visit(piece, trees) once for each. 0 threads: as many as
+/// Calls visit(piece, trees) for each piece of the trees, on several threads. 0 threads: as many as
 /// the machine has.
 void for_each_piece(const Forest& forest,
                     std::uint32_t threads,

@@ -60,7 +60,7 @@ public:
             }
             return false;
         }
-        // What is drawn now belongs to none of the instances around it.
+        // The drawing from here on belongs to none of the enclosing instances.
         ++slot.misses;
         for (std::size_t i = suspended_; i < active_.size(); ++i) {
             end_range(active_[i], branch.drawn);
@@ -75,7 +75,7 @@ public:
 
     void end(const DrawnCounts& drawn) override { close(drawn); }
 
-    /// The lists, once all heroes are drawn.
+    /// Fills the lists of the cache, after all heroes.
     void finish() {
         for (std::size_t i = 0; i < cache_.instances.size(); ++i) {
             Instance& instance = cache_.instances[i];
@@ -100,12 +100,12 @@ public:
     }
 
 private:
-    /// An instance that is being drawn.
+    /// An instance in progress.
     struct Active {
         std::uint32_t instance = kNone;
         DrawnCounts range_begin;
-        std::size_t suspended_below = 0; // what suspended_ was, if it suspends
-        bool suspends = false;           // the instances around it
+        std::size_t suspended_below = 0; // suspended_ before it, if it suspends
+        bool suspends = false;           // the enclosing instances
     };
 
     void start(std::uint32_t slot, const TurtlePlace& place, const DrawnCounts& drawn) {
@@ -174,7 +174,7 @@ private:
         add(place.sides);
         add(place.colour);
         if (branch.id < options_.knows_up.size() && options_.knows_up[branch.id]) {
-            // How the heading rises, and how the right axis does beside it.
+            // Rise of the heading and of the right axis.
             const glm::dvec3 heading = place.frame * glm::dvec3(0.0, 1.0, 0.0);
             const glm::dvec3 right = place.frame * glm::dvec3(1.0, 0.0, 0.0);
             const glm::dvec3 up = place.frame * glm::dvec3(0.0, 0.0, 1.0);
@@ -196,7 +196,7 @@ private:
 
     void add(std::uint32_t word) { key_.append(reinterpret_cast<const char*>(&word), sizeof word); }
 
-    /// A value as it is, or how many tolerances large it is.
+    /// The bits of a value, or its number of tolerances.
     void add_real(std::uint32_t id, float value) {
         const std::uint32_t part = part_++;
         if (options_.tolerance == 0.0F) {
@@ -221,7 +221,7 @@ private:
     std::vector<std::vector<DrawnRange>> ranges_;      // by instance
     std::vector<std::vector<std::uint32_t>> variants_; // by slot
     std::vector<Active> active_;
-    std::size_t suspended_ = 0; // of active_: those before are suspended
+    std::size_t suspended_ = 0; // in active_: instances before it are suspended
     std::unordered_map<std::string, std::uint32_t> slot_of_key_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, double> scales_; // by id and part of the key
     std::string key_;

@@ -1,7 +1,7 @@
 // InstanceCache: the branches of a few hero plants of an instanced system, from which any number of
 // distinct plants are put together (Kenwood, Gain and Marais 2014; docs/language.md section 9). An
 // instance is a part of the heroes' common skeleton with an entry, and exits where other instances
-// go on. What can stand for what is told by a slot: all instances with one key.
+// continue. Instances with one key can replace each other; a slot lists them.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -22,24 +22,24 @@
 
 namespace lsys {
 
-/// Where another instance goes on, seen from the entry of the one that holds it.
+/// Place where another instance continues, relative to the entry of the instance that has the exit.
 struct InstanceExit {
     glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
     glm::vec3 position{}; // m
     std::uint32_t slot = 0;
-    std::uint32_t order = 0; // brackets between
+    std::uint32_t order = 0; // brackets between entry and exit
 };
 
-/// A run of what the heroes drew.
+/// A range of the heroes' segments, objects and polygons.
 struct DrawnRange {
     DrawnCounts begin;
     DrawnCounts end;
 };
 
-/// A segment of the heroes at whose end a branch was passed over.
+/// A segment of the heroes at whose tip a branch is left out.
 struct InstanceFork {
     std::uint32_t segment = 0;
-    std::uint32_t slot = 0; // of what goes on there
+    std::uint32_t slot = 0; // of the branch
 };
 
 struct Instance {
@@ -49,22 +49,22 @@ struct Instance {
     std::uint32_t exit_count = 0;
     std::uint32_t first_range = 0; // in InstanceCache::ranges
     std::uint32_t range_count = 0;
-    DrawnCounts size;                     // of its ranges together
+    DrawnCounts size;                     // of all its ranges
     glm::dquat frame{1.0, 0.0, 0.0, 0.0}; // of the turtle at its entry, in the skeleton
     glm::dvec3 position{};
-    std::uint32_t order = 0; // of the branch in its hero; of the segments there alike
+    std::uint32_t order = 0; // of the branch and its segments in its hero
 };
 
-/// The instances of one key; what was met while the heroes were drawn.
+/// The instances of one key, with counts of the recording.
 struct InstanceSlot {
     std::uint32_t id = 0; // 0: the axiom, whole plants
     std::uint32_t age = 0;
     std::uint32_t first_variant = 0; // in InstanceCache::variants
     std::uint32_t variant_count = 0;
-    std::uint64_t hits = 0;     // branches that were to be taken and could be
-    std::uint64_t misses = 0;   // that were recorded because there was none to take
-    std::uint64_t recorded = 0; // without the misses
-    std::uint64_t dropped = 0;  // not kept, because of the cap
+    std::uint64_t hits = 0;     // branches that were taken from recorded ones
+    std::uint64_t misses = 0;   // branches that were recorded because the slot was empty
+    std::uint64_t recorded = 0; // other branches that were recorded
+    std::uint64_t dropped = 0;  // not kept because of the cap
 };
 
 struct InstanceCache {
@@ -77,7 +77,7 @@ struct InstanceCache {
     std::vector<InstanceFork> forks; // where the skeleton lacks a branch
     std::uint32_t heroes = 0;
 
-    /// Without the skeleton.
+    /// Memory without the skeleton.
     [[nodiscard]] std::uint64_t byte_count() const {
         return instances.size() * sizeof(Instance) + slots.size() * sizeof(InstanceSlot) +
                variants.size() * sizeof(std::uint32_t) + exits.size() * sizeof(InstanceExit) +
@@ -90,9 +90,9 @@ struct CacheOptions {
     std::uint32_t generations = 0;
     std::uint64_t seed = 0; // hero k has seed + k
     std::uint32_t cap = 0;  // most instances of one key; 0: any number
-    /// Part of the first value of its kind by which values of one key may differ; 0: not at all.
+    /// Tolerance of values of one key, as a part of the first value of their kind; 0: equal values.
     float tolerance = 0.0F;
-    /// By id: what is drawn depends on where up is, so the key says where that is.
+    /// By id: whether the drawing depends on the direction of up, which is then part of the key.
     std::vector<bool> knows_up;
     std::uint32_t threads = 0;
     Limits limits;                               // of each word
@@ -104,9 +104,9 @@ struct CacheOptions {
 struct CacheOutcome {
     DeriveStatus derived = DeriveStatus::Ok;
     TurtleStatus drawn = TurtleStatus::Ok;
-    RuntimeError error;     // where derived is Error, or drawn NotInterpreted
-    LimitReport limit;      // where it is Limit or OutOfMemory
-    std::uint32_t hero = 0; // that could not be made
+    RuntimeError error;     // for derived Error, or drawn NotInterpreted
+    LimitReport limit;      // for derived Limit or OutOfMemory
+    std::uint32_t hero = 0; // the one that failed
     std::array<TurtleFault, kTurtleFaultKinds> faults{}; // of all heroes
 
     [[nodiscard]] bool fine() const {
@@ -120,7 +120,7 @@ struct CacheOutcome {
 [[nodiscard]] CacheOutcome
 make_instance_cache(const Bytecode& bytecode, const CacheOptions& options, InstanceCache& cache);
 
-/// An instance where it stands in a plant.
+/// An instance placed in a plant.
 struct BranchInstance {
     glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
     glm::vec3 position{}; // m
@@ -129,7 +129,7 @@ struct BranchInstance {
     std::uint32_t order = 0; // of the branch: brackets around it, its own included
 };
 
-/// Puts trees together. One for each thread.
+/// Expands trees into instances. Use one for each thread.
 class TreeExpander {
 public:
     /// `key`: of the forest. `cache` outlives the expander.
@@ -139,10 +139,10 @@ public:
     /// order. A function of cache, key and tree alone. Returns how many.
     template <typename Visit>
     std::uint32_t expand(const Tree& tree, Visit&& visit);
-    /// Calls visit(instance) where expand() calls visit(BranchInstance), in a third of the time.
+    /// Calls visit(instance) for the instances of expand(), without places: in a third of the time.
     template <typename Visit>
     std::uint32_t expand_instances(const Tree& tree, Visit&& visit);
-    /// The instance that expand() visits first: of the whole plant.
+    /// The first instance of expand(): a whole plant.
     [[nodiscard]] std::uint32_t root_instance(const Tree& tree) {
         return choose(cache_.slots[0], tree.number, 0);
     }
@@ -154,14 +154,14 @@ private:
         std::uint32_t slot;
         std::uint32_t order;
     };
-    /// What waits to be visited, the next one last. Room is made for many at a time, because most
-    /// instances add but one or two.
+    /// Instances to visit, the next one last. Grows by many at a time: most instances add one or
+    /// two.
     template <typename T>
     class Stack {
     public:
         [[nodiscard]] bool empty() const { return count_ == 0; }
         T pop() { return items_[--count_]; }
-        /// Where to put the next `count`.
+        /// Room for `count` further items.
         T* add(std::size_t count) {
             if (count > items_.size() - count_) {
                 items_.resize(2 * (count_ + count));
@@ -187,7 +187,7 @@ private:
     std::array<std::uint32_t, kBlockRun> draws_{}; // of the tree's nodes around the last one
 };
 
-/// The transform that puts a tree where it stands.
+/// The transform of a tree into the world.
 [[nodiscard]] BranchInstance root_of(const Tree& tree);
 
 template <typename Visit>

@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max() - 1;
 constexpr std::uint64_t kInstancesOfPiece = 256;
 
-/// Slots that a tree can come to.
+/// Slots that a tree can contain.
 std::vector<bool> find_reached(const InstanceCache& cache) {
     std::vector<bool> reached(cache.slots.size());
     std::vector<std::uint32_t> pending;
@@ -59,11 +59,11 @@ bool draws_at_entry(const InstanceCache& cache, const Instance& instance) {
     return false;
 }
 
-/// For each slot: whether what stands for it begins with a segment, its own or that of an instance
-/// at one of its exits.
+/// By slot: whether its instances begin with a segment, their own or that of an instance at one of
+/// their exits.
 std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
     std::vector<bool> begins(cache.slots.size());
-    // Exits at an entry are few, and hang together in chains as long as brackets are deep.
+    // Exits at an entry are few, in chains no longer than the depth of brackets.
     for (bool changed = true; changed;) {
         changed = false;
         for (std::size_t s = 0; s < cache.slots.size(); ++s) {
@@ -84,8 +84,8 @@ std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
     return begins;
 }
 
-/// The heroes' skeleton with its forks, in which every object and polygon has a number of its own
-/// for a parent: what was drawn is numbered segments first, then polygons, then objects.
+/// The heroes' skeleton with its forks, in which the parent of an object or polygon is its own
+/// number: things are numbered segments first, then polygons, then objects.
 Skeleton number_what_was_drawn(const InstanceCache& cache) {
     Skeleton skeleton = cache.skeleton;
     const std::vector<bool> begins = find_slots_with_segments(cache);
@@ -103,7 +103,7 @@ Skeleton number_what_was_drawn(const InstanceCache& cache) {
     return skeleton;
 }
 
-/// The triangles of each thing drawn, in the order of the mesh.
+/// Triangles of each thing, in the order of the mesh.
 struct Owners {
     LargeVector<std::uint32_t> first; // of each thing; at its end, the number of triangles
     LargeVector<std::uint32_t> triangles;
@@ -148,7 +148,7 @@ public:
     void count(const Instance& instance, std::span<std::uint64_t> counts) const {
         visit(instance, [&](std::size_t part, std::uint32_t) { counts[part] += 3; });
     }
-    /// `at`: where the indices of each part go on.
+    /// `at`: the next index of each part.
     void write(const Instance& instance,
                std::span<std::uint64_t> at,
                LargeVector<std::uint32_t>& indices) const {
@@ -194,7 +194,7 @@ private:
     Owners owners_;
 };
 
-/// Lists the instances' triangles in place of the heroes'.
+/// Replaces the heroes' triangles by the lists of the instances.
 InstanceMeshStatus
 list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceMeshes& meshes) {
     Mesh& mesh = meshes.mesh;

@@ -1,6 +1,6 @@
 // InstanceMeshes: the surfaces of a cache's instances. The heroes' common skeleton is meshed once;
-// an instance is a list of its triangles, so that instances that lie within one another share
-// vertices. Made by make_instance_meshes(); read by exporters and viewers of forests.
+// an instance is a list of its triangles, so that nested instances share vertices. Made by
+// make_instance_meshes(); used by exporters and viewers of forests.
 #pragma once
 
 #include "runtime/forest/instance_cache.h"
@@ -15,12 +15,12 @@
 namespace lsys {
 
 struct InstanceMeshes {
-    /// In the coordinates of the heroes. Indices: the lists of the instances, one after the other.
-    /// Parts: those of the first instance by rising material, then those of the next one.
+    /// Surface in the coordinates of the heroes. Indices: the lists of all instances in order.
+    /// Parts: those of the first instance by rising material, then of the next one.
     Mesh mesh;
     std::vector<std::uint32_t> first_part; // of each instance; at its end, the number of parts
 
-    /// An instance that no tree can come to has none.
+    /// Triangles of an instance; 0 for one that no tree can contain.
     [[nodiscard]] std::span<const MeshPart> parts_of(std::uint32_t instance) const {
         return std::span(mesh.parts)
             .subspan(first_part[instance], first_part[instance + 1] - first_part[instance]);
@@ -32,7 +32,7 @@ struct InstanceMeshes {
         }
         return triangles;
     }
-    /// Of vertices and lists.
+    /// Memory of vertices and lists.
     [[nodiscard]] std::uint64_t byte_count() const {
         return mesh.byte_count() + mesh.parts.size() * sizeof(MeshPart) +
                first_part.size() * sizeof(std::uint32_t);
@@ -47,15 +47,15 @@ enum class InstanceMeshStatus : std::uint8_t {
     Joined, // MeshMethod::Boxes: a branch and its parent are one surface, which cannot be cut
 };
 
-/// Every triangle belongs to the instances that have drawn its segment, object or polygon. Where a
-/// branch was passed over, its parent ends as if the branch were there. Leaves droop and bark noise
-/// runs as on the heroes. MeshOptions::segments is not looked at; max_bytes bounds the result.
+/// A triangle belongs to all instances that contain its segment, object or polygon. A parent of a
+/// branch that is left out ends as if the branch were there. Leaves droop and bark noise runs as on
+/// the heroes. MeshOptions::segments is ignored; max_bytes limits the result.
 [[nodiscard]] InstanceMeshStatus make_instance_meshes(const InstanceCache& cache,
                                                       const std::vector<UserMesh>& user_meshes,
                                                       const MeshOptions& options,
                                                       InstanceMeshes& meshes);
 
-/// Where the heroes' coordinates lie, for an instance to stand at `branch`.
+/// Transform of the heroes' coordinates that puts an instance at `branch`.
 struct InstancePose {
     glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
     glm::vec3 translation{}; // m

@@ -1,6 +1,6 @@
-// Tree: a plant of a forest as numbers. What it looks like is a function of these, of its species'
-// instance cache and of the forest's key (docs/language.md section 9), so that a forest is an array
-// of trees and nothing more.
+// Tree: a plant of a forest as a small record. Its shape is a function of the record, its species'
+// instance cache and the forest's key (docs/language.md section 9); so a forest is an array of
+// trees.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -13,9 +13,9 @@ struct Tree {
     glm::vec3 position{};     // m, of the start of the turtle
     float yaw = 0.0F;         // radians about +Y
     float scale = 1.0F;       // of all lengths
-    std::uint32_t number = 0; // counts the forest's trees; what makes a tree itself
+    std::uint32_t number = 0; // in the forest: seeds the choices of the tree
     std::uint16_t species = 0;
-    std::uint16_t age = 0; // years; 0: as old as its species' generations say
+    std::uint16_t age = 0; // years; 0: last stage of its species
 };
 static_assert(sizeof(Tree) == 28); // without padding: a forest has millions, and bytes are compared
 

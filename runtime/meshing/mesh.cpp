@@ -23,7 +23,7 @@ MeshStatus build(const Skeleton& skeleton,
     MeshBuilder builder(options, mesh);
     if (skeleton.l3d_compatible_surface && options.method == MeshMethod::Tubes) {
         append_l3d_shapes(skeleton, builder);
-        append_objects(skeleton, user_meshes, options, builder); // the others
+        append_objects(skeleton, user_meshes, options, builder); // other objects
         return builder.finish();
     }
     switch (options.method) {
@@ -62,7 +62,7 @@ MeshStatus make_mesh(const Skeleton& skeleton,
 }
 
 glm::vec3 palette_colour(std::uint32_t index) {
-    // Grammars count colours up as a plant grows, so the first ones are those of wood and foliage.
+    // Grammars count colours up as a plant grows, so the first ones are wood and foliage.
     static constexpr std::array<std::array<float, 3>, 25> kRound{{
         {0.162F, 0.098F, 0.054F}, // bark
         {0.082F, 0.235F, 0.028F}, // leaf

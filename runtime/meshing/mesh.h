@@ -1,6 +1,6 @@
-// Mesh: triangles made from a skeleton. Arrays run in parallel; indices count vertices. Triangles
-// are counter-clockwise seen from outside. Metres, right-handed, +Y up; texture coordinates have v
-// downwards as glTF has it.
+// Mesh: triangles made from a skeleton. Arrays of vertices are parallel. Triangles are
+// counter-clockwise seen from outside. Metres, right-handed, +Y up; v of texture coordinates goes
+// down, as in glTF.
 #pragma once
 
 #include "runtime/meshing/triangle_list.h"
@@ -22,14 +22,14 @@ struct Texture; // runtime/meshing/texture.h
 
 enum class MaterialKind : std::uint8_t { Bark, Leaf, Flower, Plain };
 
-/// What a part of a mesh looks like. Colours are linear RGBA, 0 to 1.
+/// Appearance of a part of a mesh. Colours are linear RGBA, 0 to 1.
 struct Material {
     std::string name;
     MaterialKind kind = MaterialKind::Plain;
     glm::vec4 colour{1.0F};
     bool two_sided = false;
-    bool cut_out = false;  // texels below half opacity are not there
-    bool textured = false; // by `picture`, or that of its kind, see runtime/meshing/texture.h
+    bool cut_out = false;  // texels below half opacity are discarded
+    bool textured = false; // by `picture`, or else by material_texture(kind)
     std::shared_ptr<const Texture> picture = nullptr; // of a file; multiplied by the colour
 };
 
@@ -40,14 +40,14 @@ struct MeshPart {
     std::uint64_t index_count = 0;
 };
 
-/// The segments that carry a vertex, half each; twice the same where it is one, kNoSegment: none.
+/// The two segments that carry a vertex, half each; equal for one, kNoSegment for none.
 using VertexSegments = std::array<std::uint32_t, 2>;
 
 struct Mesh {
     LargeVector<glm::vec3> positions;
     LargeVector<glm::vec3> normals;             // unit length
     LargeVector<glm::vec2> texture_coordinates; // empty if not asked for
-    LargeVector<glm::vec4> tangents;            // empty if not asked for; w is the bitangent's sign
+    LargeVector<glm::vec4> tangents;            // empty if not asked for; w: sign of the bitangent
     LargeVector<std::uint16_t> colours;   // palette index of each vertex; empty if not asked for
     LargeVector<VertexSegments> segments; // empty if not asked for
     TriangleList indices;
@@ -70,22 +70,22 @@ enum class MeshMethod : std::uint8_t {
 
 struct MeshOptions {
     MeshMethod method = MeshMethod::Tubes;
-    /// 0 is the finest; each level has about half the sides and fewer rings of the one before.
+    /// 0 is the finest; each level has about half the sides of the one before, and fewer rings.
     std::uint32_t level = 0;
-    /// Sides of every cross-section; 0: as the skeleton says.
+    /// Sides of every cross-section; 0: those of the skeleton.
     std::uint32_t sides = 0;
-    /// Of Tubes, in metres: each ring has as few sides as keep it so near to its circle, and at
-    /// most those of its level; 0: all have those of their level.
+    /// Tubes: distance in metres of a ring from its circle, at most; rings get the fewest sides
+    /// that keep it, up to those of their level. 0: rings have the sides of their level.
     float deviation = 0.0F;
     bool texture_coordinates = true;
     bool tangents = true;
     bool colours = true;
-    bool segments = false; // for a skin
+    bool segments = false; // Mesh::segments, for a skin
     /// Part of the radius by which smooth noise moves the bark (Baele and Warzee 2005); 0: none.
     float bark_noise = 0.0F;
     /// Bending of leaves by gravity, 0 (none) to 1 (they hang).
     float droop = 0.0F;
-    std::uint32_t subdivisions = 2; // of Boxes
+    std::uint32_t subdivisions = 2; // Boxes: steps of smoothing
     std::uint64_t max_bytes = ~std::uint64_t{0};
     std::uint32_t threads = 0; // 0: as many as the machine has
 
@@ -94,7 +94,7 @@ struct MeshOptions {
 
 enum class MeshStatus : std::uint8_t { Ok, TooManyVertices, Limit, OutOfMemory };
 
-/// A name in the text of a file.
+/// A name in an OBJ or MTL file.
 struct ObjName {
     std::string name;
     std::uint64_t offset = 0;
@@ -106,16 +106,16 @@ struct UserMesh {
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> texture_coordinates;
     std::vector<std::uint32_t> indices;
-    std::vector<ObjName> libraries;         // files of materials that it names
-    std::vector<ObjName> materials;         // of its faces, by their first; no name: of none
-    std::shared_ptr<const Texture> picture; // that all of it shows; may be none
-    std::vector<std::string> files;         // that were looked for to find it
-    [[nodiscard]] float length() const;     // greatest y, at least 0
-    [[nodiscard]] std::uint64_t byte_count() const; // of memory, without the picture
+    std::vector<ObjName> libraries; // its files of materials (mtllib)
+    std::vector<ObjName> materials; // of its faces, in order of first use; no name: no material
+    std::shared_ptr<const Texture> picture;         // of the whole mesh; may be null
+    std::vector<std::string> files;                 // tried in search of the picture
+    [[nodiscard]] float length() const;             // greatest y, at least 0
+    [[nodiscard]] std::uint64_t byte_count() const; // in memory, without the picture
 };
 
-/// Makes `mesh` from `skeleton`. `user_meshes` are those of Skeleton::mesh_files, in order. The
-/// same result for any number of threads. TooManyVertices: more than 2^32 - 1.
+/// Makes `mesh` from `skeleton`. `user_meshes`: meshes of Skeleton::mesh_files, in order. The
+/// result does not depend on the number of threads. TooManyVertices: more than 2^32 - 1.
 [[nodiscard]] MeshStatus make_mesh(const Skeleton& skeleton,
                                    const std::vector<UserMesh>& user_meshes,
                                    const MeshOptions& options,

@@ -33,7 +33,7 @@ ShapePart plain(std::uint16_t palette) {
 }
 
 // --- LEAF
-// Ovate, with a stem and a drawn-out tip. Between these places the outline is straight.
+// Ovate, with a stem and a drawn-out tip. The outline is straight between these places.
 constexpr float kStemLength = 0.12F;
 constexpr float kStemHalfWidth = 0.014F;
 constexpr float kLeafHalfWidth = 0.25F;

@@ -35,11 +35,11 @@ struct Shape {
     bool droops = false; // bends by gravity
 };
 
-/// Empty for operations that are no object of the library.
+/// The shape of an object of the library; empty for other operations.
 [[nodiscard]] Shape make_shape(TurtleOperation kind, std::uint32_t level);
 [[nodiscard]] Shape make_shape(const UserMesh& mesh);
 
-/// Half the width of LEAF at a distance from its base, 0 to 1: its outline, for pictures of it.
+/// Half the width of LEAF at a distance from its base, 0 to 1: the outline of its texture.
 [[nodiscard]] float leaf_half_width(float distance);
 
 } // namespace lsys

@@ -1,6 +1,7 @@
 #include "runtime/meshing/texture.h"
 
 #include "grammar/base/hash.h"
+#include "runtime/base/png_samples.h"
 #include "runtime/meshing/shapes.h"
 
 #include <algorithm>
@@ -28,18 +29,18 @@ float mix(float a, float b, float t) {
     return a + (b - a) * t;
 }
 
-/// What is above the next whole number below. Rounding down by the library takes most of the time.
+/// Fractional part of a number. std::floor would take most of the time.
 float fraction(float x) {
     const auto whole = static_cast<float>(static_cast<std::int32_t>(x));
     return x - (whole > x ? whole - 1.0F : whole);
 }
 
-/// Of a texel, in the picture.
+/// Position of a texel in the picture, 0 to 1.
 float middle(std::uint32_t texel) {
     return (static_cast<float>(texel) + 0.5F) / static_cast<float>(kSize);
 }
 
-/// Where a texel lies between two points of a lattice of `cells`, which repeats.
+/// Position of a texel between two points of a repeating lattice of `cells`.
 struct Between {
     std::uint32_t low = 0;
     std::uint32_t high = 0;
@@ -107,7 +108,7 @@ private:
 /// Two families of lines that cross make long lozenges; cracks across them are shallow and rare.
 class Bark {
 public:
-    /// Of the bark, 0 in the fissures to 1 on the ridges.
+    /// Height of the bark, 0 in the fissures to 1 on the ridges.
     [[nodiscard]] float height(std::uint32_t column, std::uint32_t row) const {
         const float deep = smooth(0.0F, 0.55F, deep_(column, row));
         const float thin = smooth(0.0F, 0.5F, thin_(column, row));
@@ -163,8 +164,8 @@ Texture paint_bark() {
     });
 }
 
-/// Half the width of the leaf in the picture, 0 to 1: that of the mesh, its corners rounded, and a
-/// margin, so that along most of its edge the mesh is what ends the leaf.
+/// Half the width of the leaf in the picture, 0 to 1: the outline of the mesh with rounded corners
+/// and a margin, so that mostly the mesh ends the leaf.
 float leaf_half(float distance) {
     constexpr float kGreatest = 0.25F;
     constexpr float kMargin = 0.04F;
@@ -241,6 +242,10 @@ Texture bark_normals() {
         return std::array{0.5F + 0.5F * x / length, 0.5F + 0.5F * y / length, 0.5F + 0.5F / length,
                           1.0F};
     });
+}
+
+std::string encode_png(const Texture& texture) {
+    return write_png(texture.width, texture.height, texture.texels);
 }
 
 } // namespace lsys

@@ -1,6 +1,6 @@
-// Textures: small pictures that are computed, the same on every machine, and those of files. The
-// former are made to be multiplied by the colour of a material, so they are near white where the
-// surface is plain. Read by exporters and viewers.
+// Textures: pictures of materials, computed or read from files. Computed ones are equal on every
+// machine and near white, to be multiplied by the colour of a material. Used by exporters and
+// viewers.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -13,15 +13,15 @@
 
 namespace lsys {
 
-/// Rows from v = 0 on, four bytes a texel: sRGB and opacity. For normals: x, y, z and 255, where
-/// -1 ... 1 is 0 ... 255, x points along u and y against v, as in glTF.
+/// Rows from v = 0 on, four bytes per texel: sRGB and opacity. Normal maps: x, y, z (-1 to 1 as 0
+/// to 255) and 255; x points along u and y against v, as in glTF.
 struct Texture {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::vector<std::uint8_t> texels;
 };
 
-/// Bark and Leaf.
+/// True for Bark and Leaf.
 [[nodiscard]] bool has_texture(MaterialKind kind);
 /// Bark: fissures along v; repeats in both directions. Leaf: opaque within the rounded outline of
 /// LEAF, whose base is at v = 1 and tip at v = 0, as wide as the picture; a midrib and side veins.
@@ -30,17 +30,17 @@ struct Texture {
 /// The relief of the bark as normals.
 [[nodiscard]] Texture bark_normals();
 
-/// Most texels of a picture that is read, and along a side.
+/// Texels of a picture that is read, in all and along a side, at most.
 inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 26;
 inline constexpr std::uint32_t kMaxTextureSide = 16384;
 /// Reads a PNG file whose texels take at most `max_bytes`. Other formats are refused by name.
 [[nodiscard]] Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes);
 /// Whether any texel is less than half opaque.
 [[nodiscard]] bool has_holes(const Texture& texture);
-/// Of what is at least half opaque, linear; white if nothing is.
+/// Mean linear colour of texels that are at least half opaque; white without such texels.
 [[nodiscard]] glm::vec3 mean_colour(const Texture& texture);
 
-/// The bytes of a PNG file; without opacity where all is opaque. Empty if there is no memory.
+/// The bytes of a PNG file; without opacity if all texels are opaque. Empty without memory for it.
 [[nodiscard]] std::string encode_png(const Texture& texture);
 
 } // namespace lsys

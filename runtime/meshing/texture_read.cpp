@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// What the first bytes say of a picture that is no PNG; empty: nothing.
+/// Name of the format that the first bytes identify; empty for PNG and unknown ones.
 std::string_view other_format(std::string_view bytes) {
     struct Known {
         std::string_view begin;

@@ -11,7 +11,7 @@ namespace lsys {
 namespace {
 
 constexpr std::uint32_t kMostSides = 255;
-// Indices of a unit of a patch: of one band, or of all of any other shape.
+// Indices of a unit of a patch: one band, or the whole of any other shape.
 constexpr std::size_t kMostOfUnit = std::size_t{6} * kMostSides;
 constexpr std::uint32_t kMostBands = 1U << 20; // at once
 constexpr std::uint32_t kMostOfBlock = std::numeric_limits<std::uint32_t>::max();
@@ -60,7 +60,7 @@ std::uint32_t TriangleList::operator[](std::uint64_t index) const {
     return value;
 }
 
-/// Writes the triangles of a patch that is not of bands.
+/// Writes the triangles of a patch other than bands.
 void TriangleList::write_unit(const Patch& patch, std::uint32_t vertex, std::uint32_t* to) {
     const std::uint32_t sides = patch.sides;
     const std::uint32_t low = vertex + patch.first;
@@ -234,7 +234,7 @@ void TriangleList::append_bands(const RingCorners& low, std::uint32_t bands) {
     if (!blocks_.empty() && !blocks_.back().patches.empty()) {
         Patch& patch = blocks_.back().patches.back();
         if (patch.shape == Shape::Bands && patch.second == low.first && patch.sides == low.sides &&
-            patch.seam == low.seam && indices <= kMostOfBlock - patch.end) { // more of the same
+            patch.seam == low.seam && indices <= kMostOfBlock - patch.end) { // continues the patch
             patch.second = behind;
             patch.end += indices;
             size_ += indices;

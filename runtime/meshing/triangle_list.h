@@ -1,7 +1,7 @@
-// TriangleList: the indices of a mesh, three for each triangle, where they are regular as the rule
-// that makes them. What a tube would need as indices is as large as its positions and normals; as
-// bands between rings and fans it is some bytes for a whole axis, and the memory of a large mesh
-// is what making it costs most of.
+// TriangleList: the indices of a mesh, three for each triangle, compressed: regular ones are stored
+// as bands between rings and fans. The indices of a tube would take as much memory as its positions
+// and normals; as bands they take some bytes for a whole axis. Writing memory is most of the cost
+// of a large mesh.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -17,8 +17,8 @@
 
 namespace lsys {
 
-/// Corners that lie one after the other, the first of which is vertex `first`. With a seam there is
-/// one vertex more than sides, where the picture begins and ends; without, the first is the last.
+/// Consecutive vertices of a ring from vertex `first` on. With a seam, where the picture begins and
+/// ends, there is one vertex more than sides; without, the first corner is the last too.
 struct RingCorners {
     std::uint32_t first = 0;
     std::uint32_t sides = 0; // at most 255
@@ -34,31 +34,30 @@ public:
     TriangleList(LargeVector<std::uint32_t> indices) { append(std::move(indices)); }
     TriangleList(std::initializer_list<std::uint32_t> indices);
 
-    /// In indices.
+    /// Number of indices.
     [[nodiscard]] std::uint64_t size() const { return size_; }
     [[nodiscard]] bool empty() const { return size_ == 0; }
     [[nodiscard]] std::uint64_t byte_count() const;
 
     /// Slow: see TriangleReader, read() and expanded().
     [[nodiscard]] std::uint32_t operator[](std::uint64_t index) const;
-    /// The indices from `first` on. Precondition: there are as many.
+    /// Copies the indices from `first` on. Precondition: the list has as many.
     void read(std::uint64_t first, std::span<std::uint32_t> to) const;
     [[nodiscard]] LargeVector<std::uint32_t> expanded() const;
-    /// Whether the indices are the same, however they are kept.
+    /// Compares indices, however they are stored.
     friend bool operator==(const TriangleList& a, const TriangleList& b);
 
     void push_back(std::uint32_t index);
     void append(LargeVector<std::uint32_t> indices);
-    /// All of `list`, whose vertices are counted from `first_vertex`.
+    /// Appends `list`, with `first_vertex` added to its indices.
     void append(TriangleList list, std::uint32_t first_vertex);
 
-    /// Two triangles a side between each ring and the next, of `bands` + 1 rings of which `low` is
-    /// the first.
+    /// Appends two triangles per side between consecutive rings, `bands` + 1 rings from `low` on.
     void append_bands(const RingCorners& low, std::uint32_t bands);
-    /// The triangles between two rings of different sides.
+    /// Appends the triangles between two rings with different sides.
     void append_uneven_band(const RingCorners& low, const RingCorners& high);
-    /// A triangle from each side of a ring to `point`, or with `each_its_own` to the vertices from
-    /// `point` on. `upwards`: the ring goes counter-clockwise seen from there.
+    /// Appends a triangle from each side of a ring to vertex `point`, or with `each_its_own` to the
+    /// vertices from `point` on. `upwards`: the ring is counter-clockwise seen from there.
     void append_fan(const RingCorners& ring, std::uint32_t point, bool each_its_own, bool upwards);
 
 private:
@@ -76,7 +75,7 @@ private:
         bool upwards : 1 = false;
     };
 
-    /// Patches, or indices as they are.
+    /// Patches, or plain indices.
     struct Block {
         std::uint64_t begin = 0; // of its indices
         std::uint32_t first_vertex = 0;
@@ -113,7 +112,7 @@ void for_each_chunk(const TriangleList& list, const Visit& visit) {
     }
 }
 
-/// Reads indices in about their order, some thousands at a time.
+/// Random access to indices, fast for nearly sequential reads: expands some thousands at a time.
 class TriangleReader {
 public:
     explicit TriangleReader(const TriangleList& list) : list_(list) {}

@@ -36,7 +36,7 @@ struct Corner {
     friend bool operator==(const Corner&, const Corner&) = default;
 };
 
-/// Numbers different corners in the order they come: open addressing, at most half full.
+/// Numbers distinct corners in order of first use: open addressing, at most half full.
 class CornerNumbers {
 public:
     std::uint32_t number(const Corner& corner) {
@@ -162,7 +162,7 @@ private:
         return of(positions_) + of(normals_) + of(texture_coordinates_) + of(around_) +
                of(mesh_.indices) + numbers_.byte_count() + name_bytes_;
     }
-    /// Sets the error if not.
+    /// Whether `more` bytes fit; sets the error if not.
     bool has_memory(std::uint64_t more) {
         if (held_bytes() + more <= max_bytes_) {
             return true;
@@ -254,7 +254,7 @@ private:
             return std::nullopt;
         }
         if (problem == std::errc::result_out_of_range) {
-            // Too large or too small for a double: which of them, only the text says.
+            // Out of range of a double: the text tells whether it is too large or too small.
             const std::size_t exponent = digits.find_first_of("eE");
             const std::size_t leading = digits.find_first_not_of("-0");
             const bool tiny = exponent != std::string_view::npos
@@ -300,7 +300,7 @@ private:
         }
         const std::size_t before = at_;
         const std::uint64_t line_before = line_;
-        const std::optional<float> v = number(); // may be left out
+        const std::optional<float> v = number(); // optional
         if (v) {
             t[1] = *v;
         } else {
@@ -386,7 +386,7 @@ private:
             fail(line, fmt::format("a face needs three corners and has {}", count));
         }
     }
-    /// False: there is no memory for it.
+    /// Returns false without memory for it.
     bool add_triangle(const Corner& a, const Corner& b, const Corner& c) {
         const glm::dvec3 p(positions_[a.position]);
         const glm::dvec3 area = glm::cross(glm::dvec3(positions_[b.position]) - p,
@@ -458,7 +458,7 @@ private:
     std::vector<glm::vec2> texture_coordinates_;
     std::vector<glm::dvec3> around_; // sums of twice the areas of faces, by vertex
     CornerNumbers numbers_;
-    ObjName material_; // of the faces that follow
+    ObjName material_; // of the next faces
     std::string last_material_;
     std::unordered_set<std::string> known_libraries_;
     std::unordered_set<std::string> known_materials_;
@@ -497,7 +497,7 @@ std::unordered_map<std::string, MaterialPicture> pictures_of(std::string_view mt
         names.insert(each.name);
     }
     std::unordered_map<std::string, MaterialPicture> materials;
-    MaterialPicture* material = nullptr; // that the lines are about
+    MaterialPicture* material = nullptr; // of the current lines
     for (std::size_t at = 0; at < mtl.size();) {
         const std::size_t end = std::min(mtl.find_first_of("\r\n", at), mtl.size());
         std::size_t begin = at;

@@ -1,7 +1,6 @@
 // Meshes of `#object X "leaf.obj"`: Wavefront OBJ, the geometry of it (v, vt, vn, f) and the names
-// of its materials (mtllib, usemtl). Lines of any other kind are skipped. What is read has unit
-// normals, indices in range and no triangle without area; texture coordinates are turned to v
-// downwards.
+// of its materials (mtllib, usemtl). Other lines are skipped. A mesh that was read has unit
+// normals, indices in range and no triangle without area; its v goes down.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -20,12 +19,12 @@ namespace lsys {
 /// coordinates of a file without any are empty. At most `max_bytes` are used beside `text`.
 [[nodiscard]] Result<UserMesh> read_obj(std::string_view text, std::uint64_t max_bytes);
 
-/// What a file of materials (MTL) says of the picture of one.
+/// Picture of a material in a file of materials (MTL).
 struct MaterialPicture {
-    bool has_options = false; // that stand before the picture's name
-    ObjName file;             // of map_Kd; no name: it has none
+    bool has_options = false; // before the name
+    ObjName file;             // of map_Kd; no name: no picture
 };
-/// Those of the materials `wanted`, by their names.
+/// Pictures of the materials `wanted`, found by name.
 [[nodiscard]] std::unordered_map<std::string, MaterialPicture>
 pictures_of(std::string_view mtl, std::span<const ObjName> wanted);
 

@@ -1,6 +1,5 @@
-// PlantAnimation: the poses of a plant that moves, for exporters of skins. Made by record().
-// Objects and polygons go rigidly with the segments that are their parents; without a parent they
-// stay.
+// PlantAnimation: poses of a moving plant, for exporters of skins. Made by record(). Objects and
+// polygons move rigidly with their parent segment; without a parent they stand still.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -30,14 +29,14 @@ struct PlantAnimation {
     }
 };
 
-/// What such an animation takes in memory.
+/// Memory of an animation.
 [[nodiscard]] constexpr std::uint64_t animation_bytes(std::uint64_t segments,
                                                       std::uint64_t frames) {
     return segments * frames * sizeof(SegmentPlace);
 }
 
-/// Moves the plant on and takes a frame every 1 / frames_per_second seconds, the first as it is
-/// now. Between two frames there are equal steps, none longer than the plant's time step.
+/// Moves the plant and records a frame every 1 / frames_per_second seconds, the first at once.
+/// Between two frames there are equal steps, none longer than the plant's time step.
 /// `frames_per_second` is 0.1 to 10,000, else 24.
 [[nodiscard]] PlantAnimation
 record(PlantPhysics& physics, std::uint32_t frames, float frames_per_second);

@@ -1,33 +1,31 @@
 // Spring-joint physics of plants: Crankshaw 2019, chapter 6, after Barron, Sorge and Davis 2001,
 // "Real-time procedural animation of trees". As there, a segment turns about its base against a
-// spring, moved by weight, wind and a damper, and carries its children. Different are:
+// spring, moved by weight, wind and a damper, and carries its children. Differences:
 // - Hooke's torque is -k d - c w with the relative angular velocity w. The thesis prints + for the
 //   damper, which would add energy.
-// - Wind is a velocity in m/s. Its force on a segment is 1/2 rho C A |v| v, where v is the wind
-// seen
-//   by the moving segment and A what it shows to it; the torque is lever x force as in the thesis.
-//   So still air brakes.
+// - Wind is a velocity in m/s. Its force on a segment is 1/2 rho C A |v| v: v is the velocity of
+//   the air relative to the segment, A the area across it. Torque is lever x force as in the
+//   thesis. So still air brakes.
 // - A trunk feels the weight and the inertia of its crown: all joints are solved together.
 //
-// A step is implicit (physics/joints.cpp), which alone is not a proof: rotations are not linear,
-// and centrifugal terms are explicit. So a step is also checked. Let E be the energy allowed, at
-// first that of the start.
-//   1. The solved motion is taken for the whole step, else for a quarter, a sixteenth ... of it;
-//   the
-//      first is kept whose energy of position V, springs and weight, is at most E.
-//   2. If none is, the plant stands still in this step, which leaves V as it was, at most E.
-//   3. Velocities are scaled down where need be, so that V + energy of motion is at most E.
-//   4. E becomes that sum.
-// Energy of motion is never negative, so V + energy of motion never grows, whatever the grammar
-// says and whatever the solver did; with wind, by no more than its work. Sums of doubles are equal
-// only up to rounding: V may pass E by 1e-12 of the magnitudes it is made of, but not more the
-// longer it goes on, as E itself never rises. Step 1 nearly always takes the whole step: the solver
-// minimises a model of the energy that is above it (see there). Implicit Euler of its own accord
-// damps what the time step is too long to show.
+// A step is implicit (impl/joints.cpp), which alone proves nothing: rotations are not linear, and
+// centrifugal terms are explicit. So a step is also checked. Let E be the allowed energy, at first
+// that of the start.
+//   1. Take the solved motion for the whole step, else for a quarter, a sixteenth ... of it: the
+//      first part whose energy of position V (springs and weight) is at most E.
+//   2. If there is none, stand still in this step, which leaves V as it was, at most E.
+//   3. Scale velocities down, if need be, so that V + energy of motion is at most E.
+//   4. Set E to that sum.
+// Energy of motion is never negative, so V + energy of motion never grows, for any grammar and any
+// error of the solver; with wind, by no more than its work. Sums of doubles are exact up to
+// rounding: V may exceed E by 1e-12 of the magnitudes of its terms, but not by more in later steps,
+// as E itself never rises. Step 1 nearly always takes the whole step: the solver minimises an upper
+// bound of the energy (see there). Implicit Euler damps motions that are too fast for the time
+// step.
 //
-// settle() takes long steps, each from standstill and without dampers. Each goes downhill, and the
-// nearer the end, the more of the true second derivative of the energy it uses: then it is Newton's
-// method, which doubles the digits with each round.
+// settle() takes long steps, each from standstill and without dampers. Each goes downhill. The
+// nearer the end, the more of the true second derivative of the energy it uses: in the end it is
+// Newton's method, which doubles the digits in each round.
 #include "runtime/physics/physics.h"
 
 #include "runtime/physics/impl/motion.h"
@@ -56,7 +54,7 @@ float not_negative(float value) {
     return std::max(finite_or(value, 0.0F), 0.0F);
 }
 
-/// What of the options counts.
+/// The options with values out of range corrected.
 PhysicsOptions usable(PhysicsOptions options) {
     options.gravity = finite_or(options.gravity, 0.0F);
     glm::vec3& wind = options.wind.velocity;
@@ -69,7 +67,7 @@ PhysicsOptions usable(PhysicsOptions options) {
     return options;
 }
 
-/// Between -1 and 1, smooth, 0 at time 0.
+/// A smooth function of time from -1 to 1, 0 at time 0.
 double gust_at(double time) {
     const double turns = 2.0 * std::numbers::pi * time;
     return 0.6 * std::sin(turns / 3.1) + 0.4 * std::sin(turns / 1.3);
@@ -91,7 +89,7 @@ PlantBodies plant_of(const Skeleton& rest, double surface_mass) {
     plant.rest = make_bodies(rest, surface_mass);
     const std::vector<std::uint32_t>& ends = plant.rest.level_ends;
     plant.schedule = Schedule(ends);
-    std::uint32_t widest = 1; // two depths next to each other
+    std::uint32_t widest = 1; // bodies of two consecutive depths, at most
     for (std::size_t depth = 0; depth < ends.size(); ++depth) {
         widest = std::max(widest, ends[depth] - (depth < 2 ? 0 : ends[depth - 2]));
     }
@@ -119,9 +117,9 @@ struct PlantPhysics::State {
     Workers workers;
     PlantBodies plant;
     double time = 0.0;
-    double energy = 0.0; // never less than that of the plant, and equal but for rounding
+    double energy = 0.0; // that of the plant up to rounding, never less
 
-    /// Keeps place and velocities, and sees what energy that is.
+    /// Stores place and velocities, and computes their energy.
     void look() {
         for (std::size_t b = 0; b < plant.motion.size(); ++b) {
             plant.solution[b].spin = plant.motion[b].spin;
@@ -131,10 +129,10 @@ struct PlantPhysics::State {
     }
 
     struct Step {
-        double share = 0.0; // of the solved motion that was taken
+        double share = 0.0; // part of the solved motion that was taken
         double turn = 0.0;  // rad, greatest
     };
-    /// Makes a step; without `keep_velocity` it ends at standstill.
+    /// Makes a step, which ends at standstill without `keep_velocity`.
     Step advance(const Forces& now, bool keep_velocity) {
         solve_spins(plant, now, workers);
         double share = 1.0;

@@ -4,7 +4,7 @@
 //
 // Always holds: everything is finite, whatever the skeleton says; without wind the energy never
 // grows, for any springs, masses, lengths and time step; the same numbers for any number of
-// threads. Why, and how a step is made: physics/plant_physics.cpp.
+// threads. The head of physics.cpp describes a step and proves this.
 #pragma once
 
 #include "runtime/turtle/skeleton.h"
@@ -24,7 +24,7 @@ struct Wind {
     friend bool operator==(const Wind&, const Wind&) = default;
 };
 
-/// What is not finite counts as 0, and so does what is negative where that has no meaning.
+/// Values that are not finite count as 0; so do negative ones where they have no meaning.
 struct PhysicsOptions {
     float gravity = 9.81F; // m/s^2, downwards; 0: none
     Wind wind;
@@ -43,15 +43,15 @@ public:
     PlantPhysics(const PlantPhysics&) = delete;
     PlantPhysics& operator=(const PlantPhysics&) = delete;
 
-    /// Other forces from now on, as from sliders; the motion goes on. `threads` stays as it was.
+    /// Replaces the options but `threads`; the motion goes on.
     void set(const PhysicsOptions& options);
-    /// As they are in use.
+    /// The options in use, after corrections.
     [[nodiscard]] const PhysicsOptions& options() const;
 
     /// One time step.
     void step();
-    /// Goes to where the plant comes to rest in steady wind, without the time in between; ends
-    /// without motion. Returns whether, within `max_rounds`, no segment turned by more than
+    /// Moves the plant to its place of rest in steady wind, without motion and without passing of
+    /// time. Returns whether, within `max_rounds`, no segment turned by more than
     /// `tolerance` (radians) in a round.
     bool settle(double tolerance, std::uint32_t max_rounds);
     /// Back to rest, at time 0.
@@ -62,7 +62,7 @@ public:
     [[nodiscard]] double energy() const;
     [[nodiscard]] const Skeleton& rest() const;
     /// The bent plant: `out` is the skeleton at rest with other bases, frames, positions and
-    /// corners. What has not moved is exactly as at rest.
+    /// corners. Parts that have not moved are exactly as at rest.
     void pose(Skeleton& out) const;
 
 private:

@@ -175,11 +175,11 @@ void measure_files(const Kind& kind) {
         ForestExportInfo info;
         info.cell = cell;
         const double writing = seconds([&] {
-            if (export_forest(scene, ForestFormat::Glb, ForestForm::Instanced, info,
-                              [&bytes](std::string_view piece) {
-                                  bytes += piece.size();
-                                  return true;
-                              }) != ForestExportStatus::Ok) {
+            if (!export_forest(scene, ExportFormat::Glb, ForestForm::Instanced, info,
+                               [&bytes](std::string_view piece) {
+                                   bytes += piece.size();
+                                   return true;
+                               })) {
                 fail("not written");
             }
         });

@@ -67,11 +67,11 @@ ByteSink into(std::ofstream& file) {
 
 bool write_forest(const fs::path& path,
                   const ForestScene& scene,
-                  ForestFormat format,
+                  ExportFormat format,
                   ForestForm form,
                   const ForestExportInfo& info) {
     std::ofstream file(path, std::ios::binary);
-    return export_forest(scene, format, form, info, into(file)) == ForestExportStatus::Ok ||
+    return export_forest(scene, format, form, info, into(file)).ok() ||
            complain(path.string() + ": not written");
 }
 
@@ -157,24 +157,29 @@ int main(int argument_count, char** arguments) {
     info.generator = "write_forest";
     info.cell = 50.0F;
     info.picture_prefix = "forest";
-    using Format = ForestFormat;
-    using Form = ForestForm;
-    bool all = write_forest(folder / "forest.glb", scene, Format::Glb, Form::Instanced, info);
-    all = write_forest(folder / "forest.gltf", scene, Format::Gltf, Form::Instanced, info) && all;
-    all = write_forest(folder / "expanded.glb", scene, Format::Glb, Form::Expanded, info) && all;
-    all = write_forest(folder / "expanded.gltf", scene, Format::Gltf, Form::Expanded, info) && all;
-    all = write_forest(folder / "forest.usda", scene, Format::Usda, Form::Instanced, info) && all;
-    std::vector<PictureFile> pictures;
-    all = make_forest_picture_files(scene, info, pictures) == ForestExportStatus::Ok && all;
-    for (const PictureFile& picture : pictures) {
+    bool all = true;
+    for (const ExportFormat format : export_formats()) {
+        const FormatTraits& traits = traits_of(format);
+        const auto path = [&](const char* name) {
+            return folder / fmt::format("{}.{}", name, traits.name);
+        };
+        if (traits.write_forest != nullptr) {
+            all = write_forest(path("forest"), scene, format, ForestForm::Instanced, info) && all;
+        }
+        if (traits.expands_forest) {
+            all = write_forest(path("expanded"), scene, format, ForestForm::Expanded, info) && all;
+        }
+    }
+    const auto pictures = make_forest_picture_files(scene, ExportFormat::Usda, info);
+    for (const PictureFile& picture : pictures.value()) {
         std::ofstream(folder / picture.name, std::ios::binary) << picture.bytes;
     }
-    Mesh baked;
-    all = bake_forest(scene, ~std::uint64_t{0}, 0, baked) == MeshStatus::Ok && all;
+    const Outcome<Mesh> bake = bake_forest(scene, ~std::uint64_t{0}, 0);
+    const Mesh& baked = bake.value();
     for (const char* extension : {"ply", "glb", "gltf"}) {
         std::ofstream file(folder / (std::string("baked.") + extension), std::ios::binary);
         const auto format = format_of_path(std::string("baked.") + extension);
-        all = export_mesh(baked, {}, *format, {}, into(file)) == ExportStatus::Ok && all;
+        all = export_mesh(baked, {}, *format, {}, into(file)).ok() && all;
     }
     const std::string facts = facts_of(scene, baked);
     std::ofstream(folder / "facts.json") << facts;

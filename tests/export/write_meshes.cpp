@@ -3,6 +3,8 @@
 #include "runtime/export/export.h"
 #include "tests/support/meshes.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -14,16 +16,13 @@ using namespace lsys;
 
 namespace {
 
-constexpr std::array<const char*, 8> kExtensions{"obj", "ply",  "off", "off+",
-                                                 "stl", "gltf", "glb", "usda"};
-
 bool write_file(const std::filesystem::path& path,
                 const Mesh& mesh,
                 const Skeleton& skeleton,
                 const ExportInfo& info) {
     std::ofstream file(path, std::ios::binary);
     const auto format = format_of_path(path.string());
-    const ExportStatus status =
+    const Outcome<Done> written =
         format
             ? export_mesh(mesh, skeleton, *format, info,
                           [&file](std::string_view bytes) {
@@ -35,21 +34,21 @@ bool write_file(const std::filesystem::path& path,
                   return file.good();
               });
     file.close();
-    if (status != ExportStatus::Ok || !file) {
+    if (!written || !file) {
         std::fprintf(stderr, "%s: not written\n", path.c_str());
         return false;
     }
     return true;
 }
 
-/// The pictures that an OBJ and its MTL, or a USDA name.
+/// Pictures that lie beside a file of the format.
 bool write_pictures(const std::filesystem::path& folder,
                     const Mesh& mesh,
                     ExportFormat format,
                     const ExportInfo& info) {
-    std::vector<PictureFile> files;
-    bool fine = make_picture_files(mesh, format, info, files) == ExportStatus::Ok;
-    for (const PictureFile& picture : files) {
+    const Outcome<std::vector<PictureFile>> files = make_picture_files(mesh, format, info);
+    bool fine = files.ok();
+    for (const PictureFile& picture : files.value()) {
         std::ofstream file(folder / picture.name, std::ios::binary);
         file << picture.bytes;
         fine = fine && file.good();
@@ -121,13 +120,14 @@ int main(int argument_count, char** arguments) {
     for (const auto& [name, mesh] : meshes) {
         info.mtl_name = std::string(name) + ".mtl";
         info.picture_prefix = name;
-        for (const ExportFormat format : {ExportFormat::Obj, ExportFormat::Usda}) {
-            fine = write_pictures(folder, mesh, format, info) && fine;
-        }
         fine = write_file(folder / info.mtl_name, mesh, {}, info) && fine;
-        for (const char* extension : kExtensions) {
-            fine =
-                write_file(folder / (std::string(name) + '.' + extension), mesh, {}, info) && fine;
+        for (const ExportFormat format : export_formats()) {
+            const FormatTraits& traits = traits_of(format);
+            if (traits.uses_mesh) {
+                const std::string file = fmt::format("{}.{}", name, traits.name);
+                fine = write_pictures(folder, mesh, format, info) && fine;
+                fine = write_file(folder / file, mesh, {}, info) && fine;
+            }
         }
         counts << name << ' ' << mesh.positions.size() << ' ' << mesh.indices.size() / 3 << ' '
                << mesh.parts.size() << '\n';

@@ -1,7 +1,10 @@
-// Exports plants that move, by `lsc export --frames`: each as one GLB, one glTF, and a PLY for
-// every frame. Usage: write_motion FOLDER counts.txt in it has a line `NAME FRAMES FPS` for each
-// plant.
+// Exports plants that move, by `lsc export --frames`: each as one file of every format that holds
+// motion, and a PLY for every frame. Usage: write_motion FOLDER counts.txt in it has a line `NAME
+// FRAMES FPS` for each plant.
+#include "runtime/export/export.h"
 #include "tests/support/lsc_run.h"
+
+#include <fmt/format.h>
 
 #include <array>
 #include <cstdio>
@@ -41,17 +44,18 @@ constexpr const char* kFrames = "13";
 constexpr const char* kRate = "10";
 
 bool write_case(const Case& motion, const fs::path& folder, std::ofstream& counts) {
-    for (const char* extension : {".glb", ".gltf", ".ply"}) {
-        std::vector<std::string> arguments{
-            "export",   "-",
-            "-o",       (folder / (std::string(motion.name) + extension)).string(),
-            "--frames", kFrames,
-            "--fps",    kRate};
+    for (const lsys::ExportFormat format : lsys::export_formats()) {
+        const lsys::FormatTraits& traits = lsys::traits_of(format);
+        if (!traits.motion && format != lsys::ExportFormat::Ply) {
+            continue;
+        }
+        const std::string file = fmt::format("{}.{}", motion.name, traits.name);
+        std::vector<std::string> arguments{"export",   "-",     "-o",    (folder / file).string(),
+                                           "--frames", kFrames, "--fps", kRate};
         arguments.insert(arguments.end(), motion.options.begin(), motion.options.end());
         const LscRun run = run_lsc(arguments, motion.grammar);
         if (run.status != 0) {
-            std::fprintf(stderr, "%s%s: status %d\n%s", motion.name, extension, run.status,
-                         run.err.c_str());
+            std::fprintf(stderr, "%s: status %d\n%s", file.c_str(), run.status, run.err.c_str());
             return false;
         }
     }

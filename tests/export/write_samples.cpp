@@ -1,14 +1,16 @@
 // Exports every sample in every format, by `lsc export`. Usage: write_samples FOLDER
 // counts.txt in it has a line `NAME VERTICES TRIANGLES PARTS` for each sample. Plants with more
 // than kMostVertices are exported after as many generations as have no more.
+#include "runtime/export/export.h"
 #include "tests/support/lsc_run.h"
 
-#include <algorithm>
-#include <array>
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace {
@@ -20,8 +22,6 @@ using lsys::tests::Sample;
 using lsys::tests::stated;
 
 constexpr long kMostVertices = 20000;
-constexpr std::array<const char*, 9> kExtensions{"ply",  "obj", "off",  "off+", "stl",
-                                                 "gltf", "glb", "usda", "svg"};
 
 long occurrences(const std::string& text, const std::string& part) {
     long count = 0;
@@ -40,8 +40,8 @@ bool failed(const Sample& sample, const LscRun& run) {
 
 bool export_sample(const Sample& sample, const fs::path& folder, std::ofstream& counts) {
     const std::string name = sample.file.stem().string();
-    const auto file = [&](const char* extension) {
-        return (folder / (name + '.' + extension)).string();
+    const auto file = [&](std::string_view extension) {
+        return (folder / fmt::format("{}.{}", name, extension)).string();
     };
     const std::string source = sample.file.string();
     LscRun run = run_lsc({"export", source, "-o", file("ply"), "--stats"}, "");
@@ -59,8 +59,9 @@ bool export_sample(const Sample& sample, const fs::path& folder, std::ofstream& 
         }
     }
     const std::string n = std::to_string(generations);
-    for (const char* extension : kExtensions) {
-        const LscRun written = run_lsc({"export", source, "-n", n, "-o", file(extension)}, "");
+    for (const lsys::ExportFormat format : lsys::export_formats()) {
+        const LscRun written =
+            run_lsc({"export", source, "-n", n, "-o", file(lsys::traits_of(format).name)}, "");
         if (failed(sample, written)) {
             return false;
         }

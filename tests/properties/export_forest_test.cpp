@@ -54,8 +54,11 @@ struct Wood {
     }
 };
 
+constexpr std::string_view kNothing = "the forest has nothing to draw, so no file is written";
+
 struct Exported {
-    ForestExportStatus status = ForestExportStatus::Ok;
+    std::optional<Stop> stop; // none: it was written
+    std::string error;
     std::string bytes;
     json document; // of a GLB
     std::string_view buffer() const { return std::string_view(bytes).substr(buffer_at); }
@@ -63,14 +66,21 @@ struct Exported {
 };
 
 Exported
-exported(const ForestScene& scene, ForestFormat format, ForestForm form, ForestExportInfo info) {
+exported(const ForestScene& scene, ExportFormat format, ForestForm form, ForestExportInfo info) {
     info.name = "wood";
     Exported result;
-    result.status = export_forest(scene, format, form, info, [&](std::string_view bytes) {
-        result.bytes += bytes;
-        return true;
-    });
-    if (result.status == ForestExportStatus::Ok && format == ForestFormat::Glb) {
+    const Outcome<Done> outcome =
+        export_forest(scene, format, form, info, [&](std::string_view bytes) {
+            result.bytes += bytes;
+            return true;
+        });
+    if (!outcome) {
+        const Message& message = outcome.messages().all().at(0);
+        result.stop = outcome.stop();
+        result.error = message.kind == Message::Kind::Diagnostics
+                           ? message.diagnostics.all()[0].message
+                           : message.text;
+    } else if (format == ExportFormat::Glb) {
         std::uint32_t size = 0;
         std::memcpy(&size, result.bytes.data() + 12, sizeof size);
         result.document = json::parse(result.bytes.substr(20, size));
@@ -81,7 +91,7 @@ exported(const ForestScene& scene, ForestFormat format, ForestForm form, ForestE
 }
 
 Exported exported(const ForestScene& scene,
-                  ForestFormat format,
+                  ExportFormat format,
                   ForestForm form = ForestForm::Instanced,
                   float cell = 0.0F,
                   std::uint32_t threads = 1) {
@@ -89,6 +99,12 @@ Exported exported(const ForestScene& scene,
     info.cell = cell;
     info.threads = threads;
     return exported(scene, format, form, info);
+}
+
+Mesh bake(const ForestScene& scene, std::uint32_t threads = 0) {
+    Outcome<Mesh> baked = bake_forest(scene, ~std::uint64_t{0}, threads);
+    REQUIRE(baked.ok());
+    return std::move(baked.value());
 }
 
 std::uint64_t instances_in(const json& document) {
@@ -127,8 +143,8 @@ TEST_CASE("an instance takes forty bytes of a GLB, whatever the cells") {
     wood.add_species(kBush, 5);
     wood.add_species(kBush, 4);
     wood.add_trees(700);
-    const Exported one = exported(wood.scene(), ForestFormat::Glb);
-    REQUIRE(one.status == ForestExportStatus::Ok);
+    const Exported one = exported(wood.scene(), ExportFormat::Glb);
+    REQUIRE(!one.stop);
     const std::uint64_t branches = one.document["nodes"][0]["extras"]["branches"];
     CHECK(instances_in(one.document) == branches);
     CHECK(one.document["extensionsUsed"] == json::array({"EXT_mesh_gpu_instancing"}));
@@ -141,7 +157,7 @@ TEST_CASE("an instance takes forty bytes of a GLB, whatever the cells") {
     CHECK(one.buffer().size() > without + 40 * branches);
     for (const float cell : {100.0F, 33.0F}) {
         const Exported cells =
-            exported(wood.scene(), ForestFormat::Glb, ForestForm::Instanced, cell);
+            exported(wood.scene(), ExportFormat::Glb, ForestForm::Instanced, cell);
         CHECK(instances_in(cells.document) == branches);
         CHECK(cells.buffer().size() == one.buffer().size());
         CHECK(cells.document["nodes"][0]["children"].size() > 1);
@@ -159,18 +175,19 @@ TEST_CASE("a forest has the same bytes for any number of threads") {
     Wood wood;
     wood.add_species(kBush, 5);
     wood.add_trees(1800);
-    for (const ForestFormat format : {ForestFormat::Glb, ForestFormat::Gltf, ForestFormat::Usda}) {
+    for (const ExportFormat format : export_formats()) {
+        if (traits_of(format).write_forest == nullptr) {
+            continue;
+        }
         for (const float cell : {0.0F, 200.0F}) {
             const Exported one = exported(wood.scene(), format, ForestForm::Instanced, cell, 1);
             const Exported four = exported(wood.scene(), format, ForestForm::Instanced, cell, 4);
-            CHECK(one.status == ForestExportStatus::Ok);
+            CHECK(!one.stop);
             CHECK(one.bytes == four.bytes);
         }
     }
-    Mesh one;
-    Mesh four;
-    CHECK(bake_forest(wood.scene(), ~std::uint64_t{0}, 1, one) == MeshStatus::Ok);
-    CHECK(bake_forest(wood.scene(), ~std::uint64_t{0}, 4, four) == MeshStatus::Ok);
+    const Mesh one = bake(wood.scene(), 1);
+    const Mesh four = bake(wood.scene(), 4);
     CHECK(one.positions == four.positions);
     CHECK(one.indices == four.indices);
 }
@@ -183,12 +200,12 @@ TEST_CASE("a forest has the same bytes however little room there is for its tran
         ForestExportInfo info;
         info.cell = cell;
         const Exported whole =
-            exported(wood.scene(), ForestFormat::Glb, ForestForm::Instanced, info);
+            exported(wood.scene(), ExportFormat::Glb, ForestForm::Instanced, info);
         const std::uint64_t branches = whole.document["nodes"][0]["extras"]["branches"];
         REQUIRE(branches > 2000);
         for (const std::uint64_t room : {std::uint64_t{0}, std::uint64_t{100}, branches / 2}) {
             info.window_bytes = 40 * room;
-            CHECK(exported(wood.scene(), ForestFormat::Glb, ForestForm::Instanced, info).bytes ==
+            CHECK(exported(wood.scene(), ExportFormat::Glb, ForestForm::Instanced, info).bytes ==
                   whole.bytes);
         }
     }
@@ -198,11 +215,10 @@ TEST_CASE("the instances of a GLB stand where the baked forest has its triangles
     Wood wood;
     wood.add_species(kBush, 5);
     wood.add_trees(600);
-    Mesh baked;
-    REQUIRE(bake_forest(wood.scene(), ~std::uint64_t{0}, 0, baked) == MeshStatus::Ok);
+    const Mesh baked = bake(wood.scene());
     test::check_mesh(baked, {});
     const Shape wanted = shape_of(baked);
-    const Exported file = exported(wood.scene(), ForestFormat::Glb, ForestForm::Instanced, 300.0F);
+    const Exported file = exported(wood.scene(), ExportFormat::Glb, ForestForm::Instanced, 300.0F);
     const json& document = file.document;
     const auto floats = [&](std::size_t accessor) {
         const json& a = document["accessors"][accessor];
@@ -258,8 +274,8 @@ TEST_CASE("transforms of more instances than are held at once are all there") {
     wood.add_species("#set names letters; #w : F; #p : F : * : F;", 1);
     constexpr std::uint32_t kTrees = (1U << 21) + 5;
     wood.add_trees(kTrees);
-    const Exported file = exported(wood.scene(), ForestFormat::Glb);
-    REQUIRE(file.status == ForestExportStatus::Ok);
+    const Exported file = exported(wood.scene(), ExportFormat::Glb);
+    REQUIRE(!file.stop);
     std::uint64_t count = 0;
     for (const json& node : file.document["nodes"]) {
         if (!node.contains("extensions")) {
@@ -293,39 +309,41 @@ TEST_CASE("transforms of more instances than are held at once are all there") {
 TEST_CASE("a forest that cannot be written is refused before a byte is") {
     Wood wood;
     wood.add_species(kBush, 4);
-    CHECK(exported(wood.scene(), ForestFormat::Glb).status == ForestExportStatus::Nothing);
+    CHECK(exported(wood.scene(), ExportFormat::Glb).error == kNothing);
     wood.add_trees(20);
     Wood bare;
     bare.add_species("#w : A; #p : A : * : [A] A;", 2);
     bare.add_trees(20);
-    for (const ForestFormat format : {ForestFormat::Glb, ForestFormat::Usda}) {
+    for (const ExportFormat format : {ExportFormat::Glb, ExportFormat::Usda}) {
         const Exported nothing = exported(bare.scene(), format);
-        CHECK(nothing.status == ForestExportStatus::Nothing);
+        CHECK(nothing.error == kNothing);
         CHECK(nothing.bytes.empty());
     }
     Wood many;
     many.add_species("#set names letters; #w : F; #p : F : * : F;", 1);
     many.add_trees(kMostForestNodes + 1);
-    const Exported nodes = exported(many.scene(), ForestFormat::Glb, ForestForm::Expanded);
-    CHECK(nodes.status == ForestExportStatus::TooManyNodes);
+    const Exported nodes = exported(many.scene(), ExportFormat::Glb, ForestForm::Expanded);
+    CHECK(nodes.stop == Stop::Limit);
+    CHECK(nodes.error == "the expanded forest does not fit into 1,000,000 branches");
     CHECK(nodes.bytes.empty());
 
     std::size_t pieces = 0;
-    const ForestExportStatus stopped = export_forest(
-        wood.scene(), ForestFormat::Glb, ForestForm::Instanced, {}, [&](std::string_view) {
-            ++pieces;
-            return false;
-        });
-    CHECK(stopped == ForestExportStatus::Stopped);
+    const Outcome<Done> stopped = export_forest(wood.scene(), ExportFormat::Glb,
+                                                ForestForm::Instanced, {}, [&](std::string_view) {
+                                                    ++pieces;
+                                                    return false;
+                                                });
+    CHECK(stopped.stop() == Stop::Cancelled);
     CHECK(pieces == 1);
 
-    Mesh baked;
-    REQUIRE(bake_forest(wood.scene(), ~std::uint64_t{0}, 0, baked) == MeshStatus::Ok);
+    const Mesh baked = bake(wood.scene());
     const std::uint64_t bytes = baked.byte_count();
-    CHECK(bake_forest(wood.scene(), bytes, 0, baked) == MeshStatus::Ok);
-    CHECK(bake_forest(wood.scene(), bytes - 1, 0, baked) == MeshStatus::Limit);
-    CHECK(baked.positions.empty());
-    CHECK(bake_forest(wood.scene(), 1000, 0, baked) == MeshStatus::Limit);
+    CHECK(bake_forest(wood.scene(), bytes, 0).ok());
+    const Outcome<Mesh> refused = bake_forest(wood.scene(), bytes - 1, 0);
+    CHECK(refused.stop() == Stop::Limit);
+    CHECK(refused.messages().all().at(0).diagnostics.all()[0].message.starts_with(
+        "the baked forest does not fit into "));
+    CHECK(bake_forest(wood.scene(), 1000, 0).stop() == Stop::Limit);
 }
 
 TEST_CASE("a ground without trees is a forest, and is baked with its material") {
@@ -337,13 +355,12 @@ TEST_CASE("a ground without trees is a forest, and is baked with its material") 
     ground.indices = {0, 1, 2};
     ground.materials.emplace_back().name = "ground";
     ground.parts.push_back({0, 0, 3});
-    const Exported file = exported(wood.scene(&ground), ForestFormat::Glb);
-    REQUIRE(file.status == ForestExportStatus::Ok);
+    const Exported file = exported(wood.scene(&ground), ExportFormat::Glb);
+    REQUIRE(!file.stop);
     CHECK_FALSE(file.document.contains("extensionsRequired"));
     CHECK(file.document["meshes"].size() == 1);
     wood.add_trees(3);
-    Mesh baked;
-    REQUIRE(bake_forest(wood.scene(&ground), ~std::uint64_t{0}, 0, baked) == MeshStatus::Ok);
+    const Mesh baked = bake(wood.scene(&ground));
     CHECK(baked.tangents.empty()); // as those of the ground
     CHECK(baked.materials.size() == wood.meshes[0][0].mesh.materials.size() + 1);
     CHECK(baked.materials.back().name == "ground");
@@ -382,8 +399,7 @@ TEST_CASE("statistics of a forest add up") {
     CHECK(stats["species"].size() == 2);
     CHECK(stats["species"][0]["trees"] == 51);
     CHECK(stats["different_trees"] > 2);
-    Mesh baked;
-    REQUIRE(bake_forest(wood.scene(), ~std::uint64_t{0}, 0, baked) == MeshStatus::Ok);
+    const Mesh baked = bake(wood.scene());
     CHECK(stats["triangles"] == baked.indices.size() / 3);
     for (const json& species : stats["species"]) {
         const json& stage = species["stages"][0];

@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view kDigits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// Two digits for each value of twelve bits.
+/// The two digits of each value of twelve bits.
 constexpr std::array<std::array<char, 2>, 4096> kPairs = [] {
     std::array<std::array<char, 2>, 4096> pairs{};
     for (std::size_t i = 0; i < pairs.size(); ++i) {

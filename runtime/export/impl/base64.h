@@ -1,4 +1,4 @@
-// Base64 (RFC 4648) of bytes that come in pieces.
+// Base64Writer: Base64 (RFC 4648) of bytes that arrive in pieces.
 #pragma once
 
 #include "runtime/export/impl/piece_writer.h"
@@ -12,12 +12,12 @@ public:
     explicit Base64Writer(PieceWriter& out) : out_(out) {}
 
     void put(std::span<const std::byte> bytes);
-    /// After the last byte.
+    /// Writes the last group, with padding.
     void finish();
 
 private:
     PieceWriter& out_;
-    std::array<std::byte, 3> rest_{}; // bytes that make no whole group yet
+    std::array<std::byte, 3> rest_{}; // bytes of an incomplete group
     std::size_t rest_size_ = 0;
 };
 

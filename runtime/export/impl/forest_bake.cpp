@@ -1,18 +1,18 @@
 // A forest as one mesh: every branch instance gets vertices of its own.
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/forest_plan.h"
 #include "runtime/export/impl/formats.h"
 
 #include <algorithm>
 #include <limits>
-#include <new>
-#include <stdexcept>
 #include <utility>
 
 namespace lsys {
 
 namespace {
 
-/// What stands in a piece of the trees: first how much, then where it begins.
+/// Vertices and indices of a piece of the trees: at first their counts, then their positions in the
+/// mesh.
 struct Share {
     std::uint64_t vertices = 0;
     std::vector<std::uint64_t> indices; // by material of the scene
@@ -20,8 +20,8 @@ struct Share {
 
 class Baker {
 public:
-    Baker(const ForestScene& scene, std::uint32_t threads, Mesh& mesh)
-        : scene_(scene), threads_(threads), mesh_(mesh), plan_(scene, 0.0F, threads),
+    Baker(const ForestScene& scene, std::uint32_t threads)
+        : scene_(scene), threads_(threads), plan_(scene, 0.0F, threads),
           materials_(find_forest_materials(scene, plan_)) {
         for (const ForestKind& kind : plan_.kinds()) {
             own_.push_back(number_vertices(kind, plan_));
@@ -39,9 +39,13 @@ public:
         }
     }
 
-    MeshStatus bake(std::uint64_t max_bytes) {
+    Outcome<Mesh> bake(std::uint64_t max_bytes) {
+        const auto limit = [max_bytes]() -> Outcome<Mesh> {
+            return {Stop::Limit,
+                    messages_of(plant_limit_diagnostic("the baked forest", max_bytes))};
+        };
         if (plan_.triangles() > max_bytes / (3 * sizeof(std::uint32_t))) {
-            return MeshStatus::Limit; // before shares are counted
+            return limit(); // before shares are counted
         }
         count_shares();
         std::uint64_t vertices = ground_vertices();
@@ -63,13 +67,15 @@ public:
             }
         }
         if (vertices > std::numeric_limits<std::uint32_t>::max()) {
-            return MeshStatus::TooManyVertices;
+            return {Stop::Failed,
+                    messages_of("the baked forest has more than 4,294,967,295 vertices; without "
+                                "--bake, branches are instances")};
         }
         const std::uint64_t of_vertex =
             2 * sizeof(glm::vec3) + (textured_ ? sizeof(glm::vec2) : 0) +
             (tangents_ ? sizeof(glm::vec4) : 0) + (colours_ ? sizeof(std::uint16_t) : 0);
         if (vertices * of_vertex + indices * sizeof(std::uint32_t) > max_bytes) {
-            return MeshStatus::Limit;
+            return limit();
         }
         mesh_.positions.resize(vertices);
         mesh_.normals.resize(vertices);
@@ -80,7 +86,7 @@ public:
         put_ground();
         put_trees();
         mesh_.indices = std::move(indices_);
-        return MeshStatus::Ok;
+        return {std::move(mesh_), {}};
     }
 
 private:
@@ -101,7 +107,7 @@ private:
         return count;
     }
 
-    /// Calls visit(kind's number, branch) for those of a piece.
+    /// Calls visit(number of the kind, branch) for each branch of the trees.
     template <typename Visit>
     void for_each_branch(std::span<const Tree> trees, const Visit& visit) const {
         std::vector<TreeExpander> expanders;
@@ -201,14 +207,14 @@ private:
 
     const ForestScene& scene_;
     std::uint32_t threads_;
-    Mesh& mesh_;
+    Mesh mesh_;
     ForestPlan plan_;
     ForestMaterials materials_;
     std::vector<InstanceVertices> own_;   // of each kind
     std::vector<std::size_t> first_kind_; // of each species
     std::size_t kinds_ = 0;
     std::vector<Share> shares_;
-    LargeVector<std::uint32_t> indices_;   // until they are the mesh's
+    LargeVector<std::uint32_t> indices_;   // of the mesh, which takes them when complete
     std::vector<std::uint64_t> ground_at_; // indices of the ground, by material
     bool textured_ = true;
     bool tangents_ = true;
@@ -217,21 +223,10 @@ private:
 
 } // namespace
 
-MeshStatus
-bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads, Mesh& mesh) {
-    mesh = {};
-    MeshStatus status = MeshStatus::OutOfMemory;
-    try {
-        status = Baker(scene, threads, mesh).bake(max_bytes);
-    } catch (const std::bad_alloc&) {
-        status = MeshStatus::OutOfMemory;
-    } catch (const std::length_error&) {
-        status = MeshStatus::OutOfMemory;
-    }
-    if (status != MeshStatus::Ok) {
-        mesh = {};
-    }
-    return status;
+Outcome<Mesh>
+bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads) {
+    return catch_no_memory("the baked forest",
+                           [&] { return Baker(scene, threads).bake(max_bytes); });
 }
 
 } // namespace lsys

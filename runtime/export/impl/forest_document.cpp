@@ -1,81 +1,70 @@
 #include "runtime/export/impl/forest_document.h"
 
 #include "runtime/export/impl/forest_formats.h"
-#include "runtime/export/impl/formats.h"
-#include "runtime/export/impl/gltf_parts.h"
-#include "runtime/export/impl/text.h"
 
-#include <algorithm>
-#include <array>
+#include <fmt/format.h>
 
 namespace lsys {
 
-namespace {
-
-/// A number above 2^53 is not safe with every reader of JSON.
-std::string json_number(std::uint64_t value) {
-    return value < std::uint64_t{1} << 53U ? fmt::format("{}", value)
-                                           : fmt::format("\"{}\"", value);
-}
-
-} // namespace
-
-void ForestDocument::add_extras() {
-    add(R"("extras":{{"scene":"{}","key":{},"trees":{},"branches":{},"triangles":{},"species":[)",
-        json_text(info_.name), json_number(scene_.forest.key), scene_.forest.trees.size(),
-        plan_.branches(), plan_.triangles());
-    for (std::size_t k = 0; k < plan_.kinds().size(); ++k) {
-        const ForestKind& kind = plan_.kinds()[k];
+void ForestDocument::put_extras(JsonWriter& json) const {
+    json.object("extras").member("scene", info_.name).member("key", scene_.forest.key);
+    json.member("trees", scene_.forest.trees.size()).member("branches", plan_.branches());
+    json.member("triangles", plan_.triangles()).array("species");
+    for (const ForestKind& kind : plan_.kinds()) {
         const ForestSpecies& species = scene_.forest.species[kind.species];
-        add(R"({}{{"name":"{}","n":{},"heroes":{},"instances":{},"trees":{}}})", comma(k),
-            json_text(species.name), species.stages[kind.stage].generations, kind.cache->heroes,
-            kind.cache->instances.size(), kind.trees);
+        json.object().member("name", species.name);
+        json.member("n", species.stages[kind.stage].generations);
+        json.member("heroes", kind.cache->heroes);
+        json.member("instances", kind.cache->instances.size()).member("trees", kind.trees).end();
     }
-    add("]}}");
+    json.end().end();
 }
 
-/// Nodes: the forest, the ground, the cells, then what stands in them.
-void ForestDocument::add_nodes() {
+/// Nodes: the forest, the ground, the cells, then the branches in them.
+void ForestDocument::put_nodes(JsonWriter& json) const {
     const std::size_t ground = ground_block_ == kNoBlock ? 0 : 1;
     const std::size_t cells = plan_.cells().size();
-    add(R"("scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"name":"forest","children":[)");
+    json.member("scene", 0).array("scenes").object().member("nodes", {0}).end().end();
+    json.array("nodes").object().member("name", "forest").array("children");
     for (std::size_t i = 0; i < ground + cells; ++i) {
-        add("{}{}", comma(i), 1 + i);
+        json.value(1 + i);
     }
-    add("],");
-    add_extras();
-    add("}}");
+    json.end();
+    put_extras(json);
+    json.end();
     if (ground > 0) {
-        add(R"(,{{"name":"ground","mesh":0}})");
+        json.object().member("name", "ground").member("mesh", 0).end();
     }
     std::uint64_t child = 1 + ground + cells;
     for (const ForestCell& cell : plan_.cells()) {
-        add(R"(,{{"name":"cell {} {}","children":[)", cell.x, cell.z);
+        json.object().member("name", fmt::format("cell {} {}", cell.x, cell.z));
+        json.array("children");
         const std::uint64_t count = instanced() ? cell.group_count : cell.branches;
         for (std::uint64_t i = 0; i < count; ++i) {
-            add("{}{}", comma(i), child++);
+            json.value(child++);
         }
-        add("]}}");
+        json.end().end();
     }
     if (instanced()) {
-        add_instanced_nodes();
+        put_instanced_nodes(json);
     } else {
-        add_expanded_nodes();
+        put_expanded_nodes(json);
     }
-    add("],");
+    json.end();
 }
 
-void ForestDocument::add_instanced_nodes() {
+void ForestDocument::put_instanced_nodes(JsonWriter& json) const {
     std::size_t accessor = first_group_accessor_;
     for (const ForestGroup& group : plan_.groups()) {
-        add(R"(,{{"mesh":{},"extensions":{{"EXT_mesh_gpu_instancing":{{"attributes":{{)"
-            R"("TRANSLATION":{},"ROTATION":{},"SCALE":{}}}}}}}}})",
-            mesh_of_instance_[group.instance], accessor, accessor + 1, accessor + 2);
+        json.object().member("mesh", mesh_of_instance_[group.instance]).object("extensions");
+        json.object("EXT_mesh_gpu_instancing").object("attributes");
+        json.member("TRANSLATION", accessor).member("ROTATION", accessor + 1);
+        json.member("SCALE", accessor + 2).end().end().end().end();
         accessor += 3;
     }
 }
 
-void ForestDocument::add_expanded_nodes() {
+void ForestDocument::put_expanded_nodes(JsonWriter& json) const {
     for (const ForestCell& cell : plan_.cells()) {
         plan_.for_each_branch(cell, [&](const ForestKind& kind, std::uint32_t instance,
                                         const BranchInstance& branch) {
@@ -85,54 +74,39 @@ void ForestDocument::add_expanded_nodes() {
             const InstancePose pose = pose_of(branch, kind.cache->instances[branch.instance]);
             const glm::vec3& t = pose.translation;
             const glm::quat& r = pose.rotation;
-            add(R"(,{{"mesh":{},"translation":[{},{},{}],"rotation":[{},{},{},{}],)"
-                R"("scale":[{},{},{}]}})",
-                mesh_of_instance_[instance], t.x, t.y, t.z, r.x, r.y, r.z, r.w, pose.scale,
-                pose.scale, pose.scale);
+            json.object().member("mesh", mesh_of_instance_[instance]);
+            json.member("translation", {t.x, t.y, t.z});
+            json.member("rotation", {r.x, r.y, r.z, r.w});
+            json.member("scale", {pose.scale, pose.scale, pose.scale}).end();
         });
     }
 }
 
-void ForestDocument::add_mesh(const std::string& name,
+void ForestDocument::put_mesh(JsonWriter& json,
+                              const std::string& name,
                               const ForestBlock& block,
                               std::span<const MeshPart> parts,
-                              std::size_t& accessor) {
-    static constexpr std::array<std::pair<GltfArray, const char*>, 5> kAttributes{{
-        {GltfArray::Positions, "POSITION"},
-        {GltfArray::Normals, "NORMAL"},
-        {GltfArray::TextureCoordinates, "TEXCOORD_0"},
-        {GltfArray::Tangents, "TANGENT"},
-        {GltfArray::Colours, "COLOR_0"},
-    }};
-    add(R"({{"name":"{}","primitives":[)", json_text(name));
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-        const std::uint32_t material = parts[p].material;
-        add(R"({}{{"attributes":{{)", comma(p));
-        for (std::size_t a = 0; a < block.attributes(); ++a) {
-            const GltfArray array = block.data.views[a].array;
-            const auto named =
-                std::find_if(kAttributes.begin(), kAttributes.end(),
-                             [array](const auto& each) { return each.first == array; });
-            if (array != GltfArray::Colours || block.coloured[material]) {
-                add(R"({}"{}":{})", comma(a), named->second, block.first_accessor + a);
-            }
-        }
-        add(R"(}},"indices":{},"material":{}}})", accessor++,
-            material_numbers_.at({(*block.materials)[material], block.coloured[material]}));
+                              std::size_t& accessor) const {
+    json.object().member("name", name).array("primitives");
+    for (const MeshPart& part : parts) {
+        const bool coloured = block.coloured[part.material];
+        json.object();
+        put_attributes(json, block.data, block.first_accessor, coloured);
+        json.member("indices", accessor++);
+        const std::pair key((*block.materials)[part.material], coloured);
+        json.member("material", material_numbers_.at(key)).end();
     }
-    add("]}}");
+    json.end().end();
 }
 
-void ForestDocument::add_meshes() {
-    add(R"("meshes":[)");
+void ForestDocument::put_meshes(JsonWriter& json) const {
+    json.array("meshes");
     std::size_t accessor = 0;
     for (const ForestBlock& block : blocks_) {
         accessor += block.attributes();
     }
-    std::size_t written = 0;
     if (ground_block_ != kNoBlock) {
-        add_mesh("ground", blocks_[ground_block_], scene_.ground->parts, accessor);
-        ++written;
+        put_mesh(json, "ground", blocks_[ground_block_], scene_.ground->parts, accessor);
     }
     for (std::size_t k = 0; k < plan_.kinds().size(); ++k) {
         const ForestKind& kind = plan_.kinds()[k];
@@ -143,129 +117,93 @@ void ForestDocument::add_meshes() {
                 : fmt::format("{} n{}", species.name, species.stages[kind.stage].generations);
         for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
             if (plan_.uses()[kind.first + i] > 0) {
-                add("{}", comma(written++));
-                add_mesh(fmt::format("{} {}", name, i), blocks_[block_of_kind_[k]],
+                put_mesh(json, fmt::format("{} {}", name, i), blocks_[block_of_kind_[k]],
                          kind.meshes->parts_of(i), accessor);
             }
         }
     }
-    add("],");
+    json.end();
 }
 
-void ForestDocument::add_materials() {
+void ForestDocument::put_materials(JsonWriter& json) const {
     std::vector<std::pair<std::uint32_t, bool>> list(material_numbers_.size());
     for (const auto& [key, number] : material_numbers_) {
         list[number] = key;
     }
-    add(R"("materials":[)");
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        const auto& [material, coloured] = list[i];
-        add("{}{}", comma(i),
-            material_json(materials_.samples.materials[material], pictures_.of_materials[material],
-                          coloured));
+    json.array("materials");
+    for (const auto& [material, coloured] : list) {
+        put_material(json, materials_.samples.materials[material], pictures_.of_materials[material],
+                     coloured);
     }
-    add("],");
+    json.end();
     if (!pictures_.list.empty()) {
-        add("{}", images_json(pictures_.list, first_image_view_));
+        put_images(json, pictures_.list, first_image_view_);
     }
 }
 
-void ForestDocument::add_attribute(const ForestBlock& block, std::size_t view) {
-    constexpr int kByte = 5121;
-    constexpr int kFloat = 5126;
-    const GltfArray array = block.data.views[view].array;
-    const bool colours = array == GltfArray::Colours;
-    const bool four = colours || array == GltfArray::Tangents;
-    add(R"({{"bufferView":{},"componentType":{},"count":{},"type":"VEC{}")",
-        block.first_view + view, colours ? kByte : kFloat, block.mesh->positions.size(),
-        four                                     ? 4
-        : array == GltfArray::TextureCoordinates ? 2
-                                                 : 3);
-    if (array == GltfArray::Positions) {
-        // As exact as the data: the shortest text of a float reads back another double.
-        const glm::dvec3 low(block.bounds.low);
-        const glm::dvec3 high(block.bounds.high);
-        add(R"(,"min":[{},{},{}],"max":[{},{},{}])", low.x, low.y, low.z, high.x, high.y, high.z);
-    }
-    add("{}}}", colours ? R"(,"normalized":true)" : "");
-}
-
-void ForestDocument::add_accessors() {
-    constexpr int kUnsigned = 5125;
-    add(R"("accessors":[)");
-    std::size_t written = 0;
+void ForestDocument::put_accessors(JsonWriter& json) const {
+    json.array("accessors");
     for (const ForestBlock& block : blocks_) {
-        for (std::size_t i = 0; i < block.attributes(); ++i) {
-            add("{}", comma(written++));
-            add_attribute(block, i);
-        }
+        put_attribute_accessors(json, block.data, block.first_view, block.mesh->positions.size(),
+                                block.bounds);
     }
     for_each_mesh([&](const ForestBlock& block, std::span<const MeshPart> parts) {
         for (const MeshPart& part : parts) {
-            add(R"({}{{"bufferView":{},"byteOffset":{},"componentType":{},"count":{},)"
-                R"("type":"SCALAR"}})",
-                comma(written++), block.first_view + block.attributes(),
-                part.first_index * sizeof(std::uint32_t), kUnsigned, part.index_count);
+            begin_accessor(json, {block.first_view + block.attributes(),
+                                  part.first_index * sizeof(std::uint32_t), kGltfInteger,
+                                  part.index_count, "SCALAR"})
+                .end();
         }
     });
     if (instanced()) {
-        const auto transform = [&](std::uint64_t offset, std::uint64_t count, int width) {
-            add(R"(,{{"bufferView":{},"byteOffset":{},"componentType":5126,"count":{},)"
-                R"("type":"VEC{}"}})",
-                transforms_view_, offset, count, width);
-        };
         for (const ForestGroup& group : plan_.groups()) {
-            const std::uint64_t offset = kInstanceBytes * group.first;
-            transform(offset, group.count, 3);
-            transform(offset + kTranslationBytes * group.count, group.count, 4);
-            transform(offset + (kTranslationBytes + kRotationBytes) * group.count, group.count, 3);
+            std::uint64_t offset = kInstanceBytes * group.first;
+            const auto put_transform = [&](std::uint64_t bytes, std::string_view type) {
+                begin_accessor(json, {transforms_view_, offset, kGltfFloat, group.count, type})
+                    .end();
+                offset += bytes * group.count;
+            };
+            put_transform(kTranslationBytes, "VEC3");
+            put_transform(kRotationBytes, "VEC4");
+            put_transform(kScaleBytes, "VEC3");
         }
     }
-    add("],");
+    json.end();
 }
 
-void ForestDocument::add_views() {
-    constexpr int kVertices = 34962;
-    constexpr int kIndices = 34963;
-    add(R"("bufferViews":[)");
-    std::size_t written = 0;
+void ForestDocument::put_views(JsonWriter& json) const {
+    json.array("bufferViews");
     for (const ForestBlock& block : blocks_) {
         for (const GltfView& view : block.data.views) {
-            add(R"({}{{"buffer":0,"byteOffset":{},"byteLength":{},"target":{}}})", comma(written++),
-                block.offset + view.offset, view.bytes,
-                view.array == GltfArray::Indices ? kIndices : kVertices);
+            put_view(json, view, block.offset);
         }
     }
-    std::uint64_t offset = transforms_offset_;
+    GltfView view{.array = GltfArray::Image, .offset = transforms_offset_};
     if (first_image_view_ > transforms_view_) {
-        const std::uint64_t bytes = kInstanceBytes * plan_.branches();
-        add(R"({}{{"buffer":0,"byteOffset":{},"byteLength":{}}})", comma(written++), offset, bytes);
-        offset += bytes;
+        view.bytes = kInstanceBytes * plan_.branches();
+        put_view(json, view, 0);
+        view.offset += view.bytes;
     }
     for (const std::string& image : images_) {
-        add(R"({}{{"buffer":0,"byteOffset":{},"byteLength":{}}})", comma(written++), offset,
-            image.size());
-        offset += image.size();
+        view.bytes = image.size();
+        put_view(json, view, 0);
+        view.offset += view.bytes;
     }
-    add("],");
+    json.end();
 }
 
-void ForestDocument::put(PieceWriter& out) {
-    out_ = &out;
-    text_.clear();
-    add(R"({{"asset":{{"version":"2.0","generator":"{}"}},)", json_text(info_.generator));
+void ForestDocument::put_members(JsonWriter& json) const {
+    json.object("asset").member("version", "2.0").member("generator", info_.generator).end();
     if (first_image_view_ > transforms_view_) {
-        add(R"("extensionsUsed":["EXT_mesh_gpu_instancing"],)"
-            R"("extensionsRequired":["EXT_mesh_gpu_instancing"],)");
+        for (const char* const list : {"extensionsUsed", "extensionsRequired"}) {
+            json.member(list, {"EXT_mesh_gpu_instancing"});
+        }
     }
-    add_nodes();
-    add_meshes();
-    add_materials();
-    add_accessors();
-    add_views();
-    add(R"("buffers":[{{"byteLength":{})", bytes_);
-    out.put({text_.data(), text_.size()});
-    text_.clear();
+    put_nodes(json);
+    put_meshes(json);
+    put_materials(json);
+    put_accessors(json);
+    put_views(json);
 }
 
 } // namespace lsys

@@ -1,18 +1,15 @@
-// The document of a forest in glTF: what lies where in the buffer, and the text that says so.
-// Written as often as it is asked for, and held nowhere.
+// ForestDocument: a forest in glTF: the layout of its buffer, and the document that describes it.
+// The document is made anew for each put_members() and never stored.
 #pragma once
 
 #include "runtime/export/impl/forest_plan.h"
 #include "runtime/export/impl/gltf_data.h"
+#include "runtime/export/impl/gltf_parts.h"
+#include "runtime/export/impl/json_writer.h"
 #include "runtime/export/impl/pictures.h"
-#include "runtime/export/impl/piece_writer.h"
-
-#include <fmt/format.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <iterator>
 #include <map>
 #include <span>
 #include <string>
@@ -21,10 +18,10 @@
 
 namespace lsys {
 
-/// The arrays of a kind, or of the ground.
+/// Arrays of a kind of tree, or of the ground.
 struct ForestBlock {
     const Mesh* mesh = nullptr;
-    const std::vector<std::uint32_t>* materials = nullptr; // among those of the scene
+    const std::vector<std::uint32_t>* materials = nullptr; // numbers among all of the scene
     GltfData data;
     std::vector<bool> coloured; // by materials of the mesh
     Bounds bounds;
@@ -32,7 +29,7 @@ struct ForestBlock {
     std::size_t first_view = 0;
     std::size_t first_accessor = 0;
 
-    /// Views before that of the indices.
+    /// Number of views before the view of indices.
     [[nodiscard]] std::size_t attributes() const { return data.views.size() - 1; }
 };
 
@@ -44,39 +41,30 @@ public:
                    const ForestExportInfo& info);
 
     [[nodiscard]] std::uint64_t data_bytes() const { return bytes_; }
-    /// Up to the size of the buffer, without what closes it.
-    void put(PieceWriter& out);
-    /// The buffer.
-    void put_data(const std::function<bool(std::span<const std::byte>)>& write) const;
+    /// Writes all members of the document but `buffers`.
+    void put_members(JsonWriter& json) const;
+    /// Hands over the buffer.
+    void put_data(const GltfSink& write) const;
 
 private:
     static constexpr std::size_t kNoBlock = ~std::size_t{0};
-    template <typename... Arguments>
-    void add(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-        fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
-        if (text_.size() > kPieceBytes / 8) {
-            out_->put({text_.data(), text_.size()});
-            text_.clear();
-        }
-    }
-    [[nodiscard]] const char* comma(std::size_t index) const { return index == 0 ? "" : ","; }
     [[nodiscard]] bool instanced() const { return form_ == ForestForm::Instanced; }
 
     void add_block(const Mesh& mesh, const std::vector<std::uint32_t>& materials);
-    void add_extras();
-    void add_nodes();
-    void add_instanced_nodes();
-    void add_expanded_nodes();
-    void add_mesh(const std::string& name,
+    void put_extras(JsonWriter& json) const;
+    void put_nodes(JsonWriter& json) const;
+    void put_instanced_nodes(JsonWriter& json) const;
+    void put_expanded_nodes(JsonWriter& json) const;
+    void put_mesh(JsonWriter& json,
+                  const std::string& name,
                   const ForestBlock& block,
                   std::span<const MeshPart> parts,
-                  std::size_t& accessor);
-    void add_meshes();
-    void add_materials();
-    void add_accessors();
-    void add_attribute(const ForestBlock& block, std::size_t view);
-    void add_views();
-    /// Calls visit(block, parts) for each mesh, as they are numbered.
+                  std::size_t& accessor) const;
+    void put_meshes(JsonWriter& json) const;
+    void put_materials(JsonWriter& json) const;
+    void put_accessors(JsonWriter& json) const;
+    void put_views(JsonWriter& json) const;
+    /// Calls visit(block, parts) for each mesh in the order of their numbers.
     template <typename Visit>
     void for_each_mesh(const Visit& visit) const;
 
@@ -89,7 +77,7 @@ private:
     std::vector<std::size_t> block_of_kind_;
     std::size_t ground_block_ = kNoBlock;
     std::vector<std::uint32_t> mesh_of_instance_;
-    /// Numbers in the file, by material of the scene and whether vertices are coloured.
+    /// Number in the file of each pair (material of the scene, vertices have colours).
     std::map<std::pair<std::uint32_t, bool>, std::size_t> material_numbers_;
     Pictures pictures_;
     std::vector<std::string> images_;
@@ -98,8 +86,6 @@ private:
     std::size_t first_group_accessor_ = 0;
     std::uint64_t transforms_offset_ = 0;
     std::uint64_t bytes_ = 0;
-    PieceWriter* out_ = nullptr;
-    fmt::memory_buffer text_;
 };
 
 template <typename Visit>

@@ -1,4 +1,4 @@
-// The writers of forests. Each writes one whole file and may stop early once the writer has
+// The writers of forests. Each writes one whole file and may stop early once the PieceWriter has
 // stopped.
 #pragma once
 
@@ -11,16 +11,17 @@
 
 namespace lsys {
 
-[[nodiscard]] ForestExportStatus write_forest_gltf(const ForestScene& scene,
-                                                   const ForestPlan& plan,
-                                                   ForestForm form,
-                                                   bool binary,
-                                                   const ForestExportInfo& info,
-                                                   PieceWriter& out);
-[[nodiscard]] ForestExportStatus write_forest_usda(const ForestScene& scene,
-                                                   const ForestPlan& plan,
-                                                   const ForestExportInfo& info,
-                                                   PieceWriter& out);
+/// Input of a writer of forests.
+struct ForestExportJob {
+    const ForestScene& scene;
+    const ForestPlan& plan;
+    ForestForm form;
+    const ForestExportInfo& info;
+};
+
+Outcome<Done> write_forest_gltf(const ForestExportJob& job, PieceWriter& out);
+Outcome<Done> write_forest_glb(const ForestExportJob& job, PieceWriter& out);
+Outcome<Done> write_forest_usda(const ForestExportJob& job, PieceWriter& out);
 
 /// Bytes of the transforms of a group: all translations, then all rotations, then all scales.
 inline constexpr std::uint64_t kTranslationBytes = 12;
@@ -28,7 +29,7 @@ inline constexpr std::uint64_t kRotationBytes = 16;
 inline constexpr std::uint64_t kScaleBytes = 12;
 inline constexpr std::uint64_t kInstanceBytes = kTranslationBytes + kRotationBytes + kScaleBytes;
 
-/// Hands over the transforms of all groups in order; false from `write` stops it.
+/// Hands over the transforms of all groups in order, until `write` returns false.
 void write_transforms(const ForestPlan& plan,
                       const ForestExportInfo& info,
                       const std::function<bool(std::span<const std::byte>)>& write);

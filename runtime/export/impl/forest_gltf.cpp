@@ -1,8 +1,8 @@
 // Forests as glTF 2.0: EXT_mesh_gpu_instancing (Khronos, vendor extension; a node for each pair of
 // an instance and a cell of the ground), or a node for each branch instance. The instances of a
-// species share arrays of vertices. The document is written twice: into nothing, to know its size,
-// which a GLB says first, and into the file.
-#include "runtime/export/impl/base64.h"
+// species share arrays of vertices.
+#include "runtime/base/size_text.h"
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/forest_document.h"
 #include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/formats.h"
@@ -20,7 +20,7 @@ ForestDocument::ForestDocument(const ForestScene& scene,
       materials_(find_forest_materials(scene, plan)) {
     ExportInfo pictures;
     pictures.textures = info.textures;
-    pictures_ = find_pictures(materials_.samples, ExportFormat::Gltf, pictures);
+    pictures_ = find_pictures(materials_.samples, ExportPictures::Inside, pictures);
     images_ = encode_pictures(pictures_.list, info.threads);
     if (scene.ground != nullptr && triangle_count(*scene.ground) > 0) {
         ground_block_ = 0;
@@ -85,7 +85,7 @@ void ForestDocument::add_block(const Mesh& mesh, const std::vector<std::uint32_t
     }
 }
 
-void ForestDocument::put_data(const std::function<bool(std::span<const std::byte>)>& write) const {
+void ForestDocument::put_data(const GltfSink& write) const {
     for (const ForestBlock& block : blocks_) {
         write_gltf_data(*block.mesh, nullptr, block.data,
                         [&write](std::span<const std::byte> bytes) { write(bytes); });
@@ -98,55 +98,33 @@ void ForestDocument::put_data(const std::function<bool(std::span<const std::byte
     }
 }
 
-ForestExportStatus write_forest_gltf(const ForestScene& scene,
-                                     const ForestPlan& plan,
-                                     ForestForm form,
-                                     bool binary,
-                                     const ForestExportInfo& info,
-                                     PieceWriter& out) {
-    if (form == ForestForm::Expanded && plan.branches() > kMostForestNodes) {
-        return ForestExportStatus::TooManyNodes;
+namespace {
+
+Outcome<Done> write(const ForestExportJob& job, bool binary, PieceWriter& out) {
+    if (job.form == ForestForm::Expanded && job.plan.branches() > kMostForestNodes) {
+        return {Stop::Limit, messages_of(plant_limit_diagnostic(
+                                 "the expanded forest",
+                                 fmt::format("{} branches", grouped_digits(kMostForestNodes)),
+                                 "without --expand, branches are instances"))};
     }
-    ForestDocument document(scene, plan, form, info);
+    const ForestDocument document(job.scene, job.plan, job.form, job.info);
     if (document.data_bytes() > kMostGltfBytes) {
-        return ForestExportStatus::TooLarge;
+        return too_large_for_format(ExportSubject::Forest);
     }
-    if (!binary) {
-        document.put(out);
-        out.put(R"(,"uri":"data:application/octet-stream;base64,)");
-        Base64Writer base64(out);
-        document.put_data([&](std::span<const std::byte> bytes) {
-            base64.put(bytes);
-            return !out.stopped();
-        });
-        base64.finish();
-        out.put("\"}]}\n");
-        return ForestExportStatus::Ok;
-    }
-    constexpr std::string_view kEnd = "}]}";
-    std::uint64_t json_bytes = kEnd.size();
-    const ByteSink count = [&json_bytes](std::string_view bytes) {
-        json_bytes += bytes.size();
-        return true;
-    };
-    PieceWriter counter(count);
-    document.put(counter);
-    if (!counter.finish()) {
-        return ForestExportStatus::Stopped;
-    }
-    const std::uint64_t padding = (4 - json_bytes % 4) % 4;
-    if (!put_glb_header(json_bytes + padding, document.data_bytes(), out)) {
-        return ForestExportStatus::TooLarge;
-    }
-    document.put(out);
-    out.put(kEnd);
-    out.put(std::string_view("   ").substr(0, padding));
-    put_glb_data_header(document.data_bytes(), out);
-    document.put_data([&out](std::span<const std::byte> bytes) {
-        out.put_bytes(bytes);
-        return !out.stopped();
-    });
-    return ForestExportStatus::Ok;
+    const GltfFile file{binary, [&document](JsonWriter& json) { document.put_members(json); },
+                        document.data_bytes(),
+                        [&document](const GltfSink& write) { document.put_data(write); }};
+    return put_gltf_file(file, out) ? finish(out) : too_large_for_format(ExportSubject::Forest);
+}
+
+} // namespace
+
+Outcome<Done> write_forest_gltf(const ForestExportJob& job, PieceWriter& out) {
+    return write(job, false, out);
+}
+
+Outcome<Done> write_forest_glb(const ForestExportJob& job, PieceWriter& out) {
+    return write(job, true, out);
 }
 
 } // namespace lsys

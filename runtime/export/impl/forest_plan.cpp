@@ -59,7 +59,7 @@ ForestPlan::ForestPlan(const ForestScene& scene, float cell, std::uint32_t threa
     find_groups();
 }
 
-/// Trees by cells, in each as they lie in the forest.
+/// Sorts trees by cells, within a cell in the order of the forest.
 void ForestPlan::sort_trees(float cell) {
     const LargeVector<Tree>& trees = scene_.forest.trees;
     if (!(cell > 0.0F)) {
@@ -123,7 +123,7 @@ void ForestPlan::cut_cells() {
     }
 }
 
-/// Leaves in ForestPiece::before how many stand in the piece itself.
+/// Sets ForestPiece::before to the counts of the piece itself; find_groups() sums them.
 void ForestPlan::count_pieces(std::uint32_t threads) {
     Workers(threads).for_each(pieces_.size(), [this](std::uint64_t number) {
         ForestPiece& piece = pieces_[number];
@@ -209,7 +209,7 @@ InstanceVertices number_vertices(const ForestKind& kind, const ForestPlan& plan)
     InstanceVertices own;
     const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
     own.indices.resize(indices.size());
-    // The instance that has met a vertex last, and its number there.
+    // For each vertex the last instance that uses it, and the vertex's number there.
     std::vector<std::uint32_t> met_by(mesh.positions.size(), kNone);
     std::vector<std::uint32_t> numbers(mesh.positions.size());
     for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {

@@ -1,5 +1,5 @@
-// ForestPlan: which instances stand in which cell of the ground, and how many. Found by putting all
-// trees together once; they are put together again wherever their transforms are needed.
+// ForestPlan: counts of instances in each cell of the ground. Made by expanding all trees once;
+// whoever needs transforms expands the trees again, so that none are stored.
 #pragma once
 
 #include "runtime/export/export_forest.h"
@@ -15,26 +15,25 @@ namespace lsys {
 struct ForestKind {
     std::uint32_t species = 0;
     std::uint32_t stage = 0;
-    std::uint32_t first = 0; // number of its first instance among those of all kinds
+    std::uint32_t first = 0; // number of its first instance among all kinds
     const InstanceCache* cache = nullptr;
     const InstanceMeshes* meshes = nullptr;
     std::uint64_t trees = 0;
 };
 
-/// The instances of one number that stand in one cell.
+/// Instances with one number in one cell.
 struct ForestGroup {
-    std::uint32_t instance = 0; // among those of all kinds
-    std::uint64_t first = 0;    // how many are in the groups before
+    std::uint32_t instance = 0; // number among all kinds
+    std::uint64_t first = 0;    // count in all groups before
     std::uint64_t count = 0;
 };
 
-/// Some trees of one cell. Its branches with triangles can be put where they belong without regard
-/// to other pieces.
+/// Consecutive trees of one cell: the unit of work of a thread.
 struct ForestPiece {
     std::uint64_t first_tree = 0; // in the order of the plan
     std::uint64_t tree_count = 0;
-    /// How many of an instance stand in the pieces of the cell before, for the instances that stand
-    /// here, which have rising numbers.
+    /// (instance, its count in the pieces of the cell before) for each instance of this piece, by
+    /// rising instance.
     std::vector<std::pair<std::uint32_t, std::uint64_t>> before;
 };
 
@@ -56,22 +55,22 @@ public:
     ForestPlan(const ForestScene& scene, float cell, std::uint32_t threads);
 
     [[nodiscard]] std::span<const ForestKind> kinds() const { return kinds_; }
-    /// Those with triangles, by z, then x.
+    /// Cells with triangles, by z, then x.
     [[nodiscard]] std::span<const ForestCell> cells() const { return cells_; }
-    /// Of all cells, by rising number of the instance within a cell.
+    /// Groups of all cells, within a cell by rising number of the instance.
     [[nodiscard]] std::span<const ForestGroup> groups() const { return groups_; }
     [[nodiscard]] std::span<const ForestPiece> pieces_of(const ForestCell& cell) const {
         return std::span(pieces_).subspan(cell.first_piece, cell.piece_count);
     }
-    /// How often each instance stands somewhere; 0 where it has no triangles.
+    /// Count of each instance in the forest; 0 for instances without triangles.
     [[nodiscard]] const std::vector<std::uint64_t>& uses() const { return uses_; }
     [[nodiscard]] const ForestKind& kind_of_instance(std::uint32_t instance) const;
     /// Branch instances with triangles.
     [[nodiscard]] std::uint64_t branches() const { return branches_; }
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
 
-    /// Calls visit(kind, number among all, branch) for the branches of a cell, tree by tree in
-    /// their order in the forest. With triangles or without.
+    /// Calls visit(kind, number among all, branch) for all branches of a cell, with triangles or
+    /// without, tree by tree in the order of the forest.
     template <typename Visit>
     void for_each_branch(const ForestCell& cell, const Visit& visit) const {
         for_each_branch_of(cell.first_tree, cell.tree_count, visit);
@@ -99,7 +98,7 @@ private:
     const ForestScene& scene_;
     std::vector<ForestKind> kinds_;
     std::vector<std::uint32_t> first_kind_;    // of each species
-    LargeVector<std::uint32_t> tree_of_place_; // empty: the trees lie as they are
+    LargeVector<std::uint32_t> tree_of_place_; // empty: the order of the forest
     std::vector<ForestCell> cells_;
     std::vector<ForestPiece> pieces_;
     std::vector<ForestGroup> groups_;
@@ -123,21 +122,22 @@ void ForestPlan::for_each_branch_of(std::uint64_t first,
     }
 }
 
-/// What the materials of a scene are, each once: a mesh of nothing but materials, each with a part,
-/// and which of them those of the kinds and of the ground are.
+/// Distinct materials of a scene, and the numbers of the kinds' and the ground's materials among
+/// them.
 struct ForestMaterials {
-    Mesh samples;
+    Mesh samples; // no vertices; a part for each material
     std::vector<std::vector<std::uint32_t>> of_kinds;
     std::vector<std::uint32_t> of_ground;
 };
 [[nodiscard]] ForestMaterials find_forest_materials(const ForestScene& scene,
                                                     const ForestPlan& plan);
 
-/// The vertices that each used instance has, numbered for itself.
+/// Vertices of each used instance, numbered from 0 within the instance.
 struct InstanceVertices {
     std::vector<std::uint64_t> first;    // of each instance, in `vertices`; one more at the end
     LargeVector<std::uint32_t> vertices; // of the mesh
-    LargeVector<std::uint32_t> indices;  // beside those of the mesh: in the instance's own vertices
+    LargeVector<std::uint32_t>
+        indices; // parallel to those of the mesh, in the numbers of the instance
 
     [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t instance) const {
         return std::span(vertices).subspan(first[instance], first[instance + 1] - first[instance]);

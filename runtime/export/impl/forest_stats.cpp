@@ -1,12 +1,11 @@
 #include "runtime/export/impl/forest_plan.h"
-#include "runtime/export/impl/text.h"
+#include "runtime/export/impl/json_writer.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <tuple>
 
@@ -14,8 +13,8 @@ namespace lsys {
 
 namespace {
 
-/// Moments of the segments of an instance, seen from its entry, weighted by length: whatever
-/// instances a tree is made of, their sums are those of its segments.
+/// Moments of the segments of an instance, seen from its entry, weighted by length. The sum over
+/// the instances of a tree depends on its segments alone.
 struct Moments {
     std::uint64_t segments = 0;
     double length = 0.0;
@@ -66,7 +65,7 @@ Moments moments_of(const InstanceCache& cache, const Instance& instance) {
     return moments;
 }
 
-/// Adds those of an instance at `branch`, whose scale is 1.
+/// Adds the moments `own` of an instance at `branch`, whose scale is 1.
 void add(Moments& tree, const Moments& own, const BranchInstance& branch) {
     const glm::dmat3 turn = glm::mat3_cast(glm::normalize(glm::dquat(branch.rotation)));
     const glm::dvec3 at(branch.position);
@@ -88,7 +87,7 @@ void add(Moments& tree, const Moments& own, const BranchInstance& branch) {
     }
 }
 
-/// One part in a million of what is about as large as the largest.
+/// Compares to one part in a million of the largest moment.
 bool alike(const Moments& a, const Moments& b) {
     constexpr double kPart = 1e-6;
     const auto near = [](double x, double y, double size) {
@@ -125,7 +124,7 @@ std::uint64_t count_different(std::vector<TreeLook>& looks) {
     };
     std::sort(looks.begin(), looks.end(), before);
     std::uint64_t count = 0;
-    std::vector<std::size_t> near; // representatives that what comes may be like
+    std::vector<std::size_t> near; // representatives that further trees may equal
     for (std::size_t i = 0; i < looks.size(); ++i) {
         const TreeLook& look = looks[i];
         const auto& s = look.moments.second;
@@ -162,31 +161,57 @@ struct KeyCounts {
         recorded += slot.recorded;
         dropped += slot.dropped;
     }
-    [[nodiscard]] std::string json() const {
+    void put(JsonWriter& json) const {
+        json.member("slots", slots).member("instances", instances);
+        json.member("hits", hits).member("misses", misses);
+        json.member("recorded", recorded).member("dropped", dropped).name("hit_rate");
         const std::uint64_t wanted = hits + misses;
-        return fmt::format(
-            R"("slots":{},"instances":{},"hits":{},"misses":{},"recorded":{},"dropped":{},)"
-            R"("hit_rate":{})",
-            slots, instances, hits, misses, recorded, dropped,
-            wanted == 0
-                ? "null"
-                : fmt::format("{:.4f}", static_cast<double>(hits) / static_cast<double>(wanted)));
+        json.literal(wanted == 0 ? "null"
+                                 : fmt::format("{:.4f}", static_cast<double>(hits) /
+                                                             static_cast<double>(wanted)));
     }
 };
 
-std::string cache_json(const InstanceCache& cache) {
+void put_cache(JsonWriter& json, const InstanceCache& cache) {
     KeyCounts all;
     std::map<std::pair<std::uint32_t, std::uint32_t>, KeyCounts> by_key;
     for (const InstanceSlot& slot : cache.slots) {
         all.add(slot);
         by_key[{slot.id, slot.age}].add(slot);
     }
-    std::string text = all.json() + R"(,"keys":[)";
+    all.put(json);
+    json.array("keys");
     for (const auto& [key, counts] : by_key) {
-        text += fmt::format(R"({}{{"id":{},"age":{},{}}})", text.back() == '[' ? "" : ",",
-                            key.first, key.second, counts.json());
+        json.object().member("id", key.first).member("age", key.second);
+        counts.put(json);
+        json.end();
     }
-    return text + "]";
+    json.end();
+}
+
+std::uint64_t cache_bytes(const ForestKind& kind) {
+    return kind.cache->byte_count() + kind.cache->skeleton.byte_count();
+}
+
+void put_species(JsonWriter& json,
+                 const ForestSpecies& species,
+                 std::span<const ForestKind> stages) {
+    std::uint64_t trees = 0;
+    for (const ForestKind& kind : stages) {
+        trees += kind.trees;
+    }
+    json.object().member("name", species.name).member("trees", trees).array("stages");
+    for (const ForestKind& kind : stages) {
+        json.object().member("generations", species.stages[kind.stage].generations);
+        json.member("trees", kind.trees).member("heroes", kind.cache->heroes);
+        json.member("segments", kind.cache->skeleton.segments.size());
+        json.member("vertices", kind.meshes->mesh.positions.size());
+        json.member("cache_bytes", cache_bytes(kind));
+        json.member("mesh_bytes", kind.meshes->byte_count());
+        put_cache(json, *kind.cache);
+        json.end();
+    }
+    json.end().end();
 }
 
 } // namespace
@@ -224,40 +249,26 @@ std::string forest_stats_json(const ForestScene& scene, const ForestStatsOptions
     const ForestPlan plan(scene, 0.0F, options.threads);
     const ForestCounts counts = count_forest(forest, options.threads);
     std::uint64_t bytes = 0;
-    std::string species;
-    for (std::size_t s = 0; s < forest.species.size(); ++s) {
-        std::uint64_t trees = 0;
-        std::string stages;
-        for (const ForestKind& kind : plan.kinds()) {
-            if (kind.species != s) {
-                continue;
-            }
-            trees += kind.trees;
-            const std::uint64_t cache_bytes =
-                kind.cache->byte_count() + kind.cache->skeleton.byte_count();
-            bytes += cache_bytes + kind.meshes->byte_count();
-            stages += fmt::format(
-                R"({}{{"generations":{},"trees":{},"heroes":{},"segments":{},"vertices":{},)"
-                R"("cache_bytes":{},"mesh_bytes":{},{}}})",
-                stages.empty() ? "" : ",", forest.species[s].stages[kind.stage].generations,
-                kind.trees, kind.cache->heroes, kind.cache->skeleton.segments.size(),
-                kind.meshes->mesh.positions.size(), cache_bytes, kind.meshes->byte_count(),
-                cache_json(*kind.cache));
-        }
-        species += fmt::format(R"({}{{"name":"{}","trees":{},"stages":[{}]}})", s == 0 ? "" : ",",
-                               json_text(forest.species[s].name), trees, stages);
+    for (const ForestKind& kind : plan.kinds()) {
+        bytes += cache_bytes(kind) + kind.meshes->byte_count();
     }
-    const std::string different = options.different_trees
-                                      ? fmt::format(R"("different_trees":{},)",
-                                                    count_different_trees(forest, options.threads))
-                                      : "";
-    const bool safe = forest.key < std::uint64_t{1} << 53U; // with every reader of JSON
-    return fmt::format(
-        R"({{"key":{},"trees":{},{}"branches":{},"most_branches":{},"segments":{},"objects":{},)"
-        R"("polygons":{},"triangles":{},"bytes":{},"digest":"{:016x}","species":[{}]}})",
-        safe ? fmt::format("{}", forest.key) : fmt::format("\"{}\"", forest.key), counts.trees,
-        different, counts.branches, counts.most_branches, counts.segments, counts.objects,
-        counts.polygons, plan.triangles(), bytes, counts.digest, species);
+    return json_document([&](JsonWriter& json) {
+        json.object().member("key", forest.key).member("trees", counts.trees);
+        if (options.different_trees) {
+            json.member("different_trees", count_different_trees(forest, options.threads));
+        }
+        json.member("branches", counts.branches).member("most_branches", counts.most_branches);
+        json.member("segments", counts.segments).member("objects", counts.objects);
+        json.member("polygons", counts.polygons).member("triangles", plan.triangles());
+        json.member("bytes", bytes).member("digest", fmt::format("{:016x}", counts.digest));
+        json.array("species");
+        std::span<const ForestKind> kinds = plan.kinds(); // sorted by species
+        for (const ForestSpecies& species : forest.species) {
+            put_species(json, species, kinds.first(species.stages.size()));
+            kinds = kinds.subspan(species.stages.size());
+        }
+        json.end().end();
+    });
 }
 
 } // namespace lsys

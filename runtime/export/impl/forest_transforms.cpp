@@ -1,6 +1,6 @@
-// Transforms in the order of a file: cell by cell, group by group. A window of groups is filled in
-// one walk over the trees of their cells, by threads, each of which takes pieces; a group that is
-// larger than a window takes a walk for each of its three arrays and no room at all.
+// Transforms in the order of a file: cell by cell, group by group. One walk over the trees of their
+// cells fills a window of groups; threads take its pieces. A group larger than the window takes a
+// walk for each of its three arrays, and no window.
 #include "runtime/base/workers.h"
 #include "runtime/export/impl/forest_formats.h"
 
@@ -42,7 +42,7 @@ private:
         return cell.first_group + cell.group_count;
     }
 
-    /// As many groups as fit, at least one.
+    /// Takes as many groups as fit, at least one.
     [[nodiscard]] std::span<const ForestGroup> window_from(std::size_t first) const {
         const std::span<const ForestGroup> groups = plan_.groups().subspan(first);
         std::size_t some = 1;
@@ -53,7 +53,7 @@ private:
         return groups.first(some);
     }
 
-    /// Of groups from number `first`, which is of `cell`, on.
+    /// Range of groups from number `first`, a group of `cell`, on.
     void write_window(std::size_t cell, std::size_t first, std::span<const ForestGroup> groups) {
         const std::size_t end = first + groups.size();
         std::vector<std::pair<const ForestCell*, const ForestPiece*>> pieces;
@@ -72,11 +72,11 @@ private:
         hand_over(floats_);
     }
 
-    /// Puts what stands in a piece and in `groups`, which are of one cell, into the window that
+    /// Puts the instances of a piece that are in `groups`, all of one cell, into the window that
     /// begins with instance `window`.
     void fill(std::span<const ForestGroup> groups, const ForestPiece& piece, std::uint64_t window) {
         struct Place {
-            float* base = nullptr; // of the group; null: it is not in the window
+            float* base = nullptr; // of the group; null: outside of the window
             std::uint64_t count = 0;
             std::uint64_t next = 0;
         };

@@ -1,7 +1,8 @@
 // Forests as USD text: a PointInstancer for each species and stage (OpenUSD,
 // "UsdGeomPointInstancer"). Prototypes are the instances, each with vertices of its own, seen from
-// its entry: orientations are half floats for older readers, and what is far from its origin would
-// be off. `orientationsf` says the same in floats.
+// its entry: orientations are half floats for older readers, which would displace vertices far from
+// the origin. `orientationsf` has them as floats.
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
@@ -34,7 +35,8 @@ public:
         std::vector<std::string> names{"Ground", "Materials"};
         for (std::size_t k = 0; k < plan_.kinds().size(); ++k) {
             const ForestKind& kind = plan_.kinds()[k];
-            names.push_back(unlike(names, identifier(scene_.forest.species[kind.species].name)));
+            names.push_back(
+                unique_name(names, identifier(scene_.forest.species[kind.species].name)));
             if (count_used(kind) > 0) {
                 put_instancer(kind, materials_.of_kinds[k], names.back());
             }
@@ -72,101 +74,23 @@ private:
                              scene_.forest.key, scene_.forest.trees.size(), plan_.branches()));
     }
 
-    /// `vertex(i)` and `index(i)`: of the mesh of this prim; the parts' triangles come in order.
-    template <typename Vertex, typename Turn, typename Index>
-    void put_surface(const Mesh& mesh,
-                     std::string_view name,
-                     std::uint64_t vertices,
-                     std::span<const MeshPart> parts,
-                     const std::vector<std::uint32_t>& materials,
-                     const Vertex& vertex,
-                     const Turn& turn,
-                     const Index& index) {
-        bool two_sided = false;
-        std::uint64_t triangles = 0;
+    /// Names of the materials of the parts. `materials`: numbers of their mesh's among all.
+    [[nodiscard]] std::vector<std::string>
+    names_of(std::span<const MeshPart> parts, const std::vector<std::uint32_t>& materials) const {
+        std::vector<std::string> names;
         for (const MeshPart& part : parts) {
-            two_sided = two_sided || mesh.materials[part.material].two_sided;
-            triangles += part.index_count / 3;
+            names.push_back(names_[materials[part.material]]);
         }
-        Bounds bounds;
-        for (std::uint64_t i = 0; i < vertices; ++i) {
-            bounds.add(turn(mesh.positions[vertex(i)], true));
-        }
-        out_.put(fmt::format("    def Mesh \"{}\"\n"
-                             "    {{\n"
-                             "        uniform token subdivisionScheme = \"none\"\n"
-                             "        uniform token orientation = \"rightHanded\"\n"
-                             "        uniform bool doubleSided = {}\n"
-                             "        float3[] extent = [({}, {}, {}), ({}, {}, {})]\n",
-                             name, two_sided ? 1 : 0, bounds.low.x, bounds.low.y, bounds.low.z,
-                             bounds.high.x, bounds.high.y, bounds.high.z));
-        put_list(out_, "int[] faceVertexCounts", triangles,
-                 [](std::uint64_t, char* at) { return put_text(at, "3"); });
-        out_.put("\n");
-        put_list(out_, "int[] faceVertexIndices", 3 * triangles, [&](std::uint64_t i, char* at) {
-            return put_number(at, std::uint64_t{index(parts[0].first_index + i)});
-        });
-        out_.put("\n");
-        const auto vectors = [&](std::string_view what, const LargeVector<glm::vec3>& from,
-                                 bool place) {
-            put_list(out_, what, vertices, [&](std::uint64_t i, char* at) {
-                const glm::vec3 v = turn(from[vertex(i)], place);
-                return put_tuple<3>(at, {v.x, v.y, v.z});
-            });
-        };
-        vectors("point3f[] points", mesh.positions, true);
-        out_.put("\n");
-        vectors("normal3f[] normals", mesh.normals, false);
-        constexpr std::string_view kOfVertices =
-            " (\n            interpolation = \"vertex\"\n        )\n";
-        out_.put(kOfVertices);
-        if (is_complete(mesh, mesh.texture_coordinates)) {
-            put_list(out_, "texCoord2f[] primvars:st", vertices, [&](std::uint64_t i, char* at) {
-                const glm::vec2& t = mesh.texture_coordinates[vertex(i)];
-                return put_tuple<2>(at, {t.x, 1.0F - t.y});
-            });
-            out_.put(kOfVertices);
-        }
-        if (is_complete(mesh, mesh.colours)) {
-            put_list(out_, "color3f[] primvars:displayColor", vertices,
-                     [&](std::uint64_t i, char* at) {
-                         const glm::vec3 c = palette_colour(mesh.colours[vertex(i)]);
-                         return put_tuple<3>(at, {c.r, c.g, c.b});
-                     });
-            out_.put(kOfVertices);
-        }
-        put_subsets(parts, materials);
-        out_.put("    }\n");
-    }
-
-    void put_subsets(std::span<const MeshPart> parts, const std::vector<std::uint32_t>& materials) {
-        out_.put("        uniform token subsetFamily:materialBind:familyType = \"partition\"\n");
-        std::uint64_t first = 0;
-        for (const MeshPart& part : parts) {
-            const std::string& name = names_[materials[part.material]];
-            out_.put(fmt::format("\n        def GeomSubset \"{}\" (\n"
-                                 "            prepend apiSchemas = [\"MaterialBindingAPI\"]\n"
-                                 "        )\n"
-                                 "        {{\n"
-                                 "        uniform token elementType = \"face\"\n"
-                                 "        uniform token familyName = \"materialBind\"\n",
-                                 name));
-            put_list(
-                out_, "int[] indices", part.index_count / 3,
-                [first](std::uint64_t face, char* at) { return put_number(at, first + face); });
-            out_.put(fmt::format("\n        rel material:binding = </Forest/Materials/{}>\n"
-                                 "        }}\n",
-                                 name));
-            first += part.index_count / 3;
-        }
+        return names;
     }
 
     void put_ground(const Mesh& mesh) {
         TriangleReader indices(mesh.indices);
-        put_surface(
-            mesh, "Ground", mesh.positions.size(), mesh.parts, materials_.of_ground,
+        const std::vector<std::string> names = names_of(mesh.parts, materials_.of_ground);
+        put_usda_surface(
+            out_, {mesh, "Ground", mesh.positions.size(), mesh.parts, names, "/Forest"},
             [](std::uint64_t i) { return i; }, [](const glm::vec3& v, bool) { return v; },
-            [&indices](std::uint64_t i) { return indices[i]; });
+            [&](std::uint64_t i) { return indices[mesh.parts[0].first_index + i]; });
     }
 
     void put_instancer(const ForestKind& kind,
@@ -194,19 +118,23 @@ private:
             const Instance& instance = kind.cache->instances[i];
             const glm::dquat back = glm::conjugate(instance.frame);
             const std::span<const std::uint32_t> vertices = own.of(i);
-            put_surface(
-                kind.meshes->mesh, fmt::format("I{}", i), vertices.size(), kind.meshes->parts_of(i),
-                materials, [vertices](std::uint64_t k) { return vertices[k]; },
+            const std::span<const MeshPart> parts = kind.meshes->parts_of(i);
+            const std::vector<std::string> names = names_of(parts, materials);
+            put_usda_surface(
+                out_,
+                {kind.meshes->mesh, fmt::format("I{}", i), vertices.size(), parts, names,
+                 "/Forest"},
+                [vertices](std::uint64_t k) { return vertices[k]; },
                 [&](const glm::vec3& v, bool place) {
                     return glm::vec3(
                         back * (glm::dvec3(v) - (place ? instance.position : glm::dvec3(0.0))));
                 },
-                [&own](std::uint64_t k) { return own.indices[k]; });
+                [&](std::uint64_t k) { return own.indices[parts[0].first_index + k]; });
         }
         out_.put("        }\n    }\n");
     }
 
-    /// An array for each part of the transforms, and a walk over the trees for each array.
+    /// Writes each part of the transforms as an array of its own, by a walk over the trees.
     void put_branches(const ForestKind& kind) {
         put_array("int[] protoIndices", kind, [this](const BranchInstance& branch, char* at) {
             return put_number(at, std::uint64_t{prototypes_[branch.instance]});
@@ -258,22 +186,20 @@ private:
 
 } // namespace
 
-ForestExportStatus write_forest_usda(const ForestScene& scene,
-                                     const ForestPlan& plan,
-                                     const ForestExportInfo& info,
-                                     PieceWriter& out) {
+Outcome<Done> write_forest_usda(const ForestExportJob& job, PieceWriter& out) {
+    const ForestPlan& plan = job.plan;
     // Integers of USD are signed.
     constexpr std::uint64_t kMost = 0x7FFFFFFF;
     for (const ForestKind& kind : plan.kinds()) {
         if (kind.meshes->mesh.positions.size() > kMost) {
-            return ForestExportStatus::TooLarge;
+            return too_large_for_format(ExportSubject::Forest);
         }
     }
     if (plan.branches() > kMost) {
-        return ForestExportStatus::TooLarge;
+        return too_large_for_format(ExportSubject::Forest);
     }
-    UsdaForest(scene, plan, info, out).write();
-    return ForestExportStatus::Ok;
+    UsdaForest(job.scene, plan, job.info, out).write();
+    return finish(out);
 }
 
 } // namespace lsys

@@ -1,28 +1,28 @@
-// The writers of the formats. Each writes one whole file and may stop early once the writer has
-// stopped. The mesh has at least one triangle, its optional arrays are empty or complete.
+// The writers of formats.def. Each writes one whole file and may stop early once the PieceWriter
+// has stopped. The mesh has at least one triangle and no more than the format can count; its
+// optional arrays are empty or complete.
 #pragma once
 
 #include "runtime/export/impl/piece_writer.h"
 
 namespace lsys {
 
-void write_obj(const Mesh& mesh, const ExportInfo& info, PieceWriter& out);
-void write_ply(const Mesh& mesh, const ExportInfo& info, PieceWriter& out);
-/// `plus`: with texture coordinates, and a flag at each face that says whether it is of a leaf.
-void write_off(const Mesh& mesh, bool plus, PieceWriter& out);
-void write_stl(const Mesh& mesh, const ExportInfo& info, PieceWriter& out);
-void write_usda(const Mesh& mesh, const ExportInfo& info, PieceWriter& out);
-/// TooLarge where a buffer of glTF would be 4 GiB or more, TooManyJoints; else Ok, stopped or not.
-[[nodiscard]] ExportStatus write_gltf(const Mesh& mesh,
-                                      const Skeleton& skeleton,
-                                      bool binary,
-                                      const ExportInfo& info,
-                                      PieceWriter& out);
-void write_svg(const Skeleton& skeleton, const ExportInfo& info, PieceWriter& out);
+/// Input of a writer.
+struct ExportJob {
+    const Mesh& mesh;
+    const Skeleton& skeleton;
+    const ExportInfo& info;
+};
+
+// Stops: Cancelled; glTF: Failed for a buffer or GLB of 4 GiB, Limit for too many joints.
+#define LSYS_EXPORT_FORMAT(enumerator, function, ...)                                              \
+    Outcome<Done> function(const ExportJob& job, PieceWriter& out);
+#include "runtime/export/formats.def"
+#undef LSYS_EXPORT_FORMAT
 
 /// Triangles of all parts.
 [[nodiscard]] std::uint64_t triangle_count(const Mesh& mesh);
-/// An optional array that can be used: one item for each vertex.
+/// Whether an optional array is present: one item for each vertex.
 template <typename Items>
 [[nodiscard]] bool is_complete(const Mesh& mesh, const Items& items) {
     return items.size() == mesh.positions.size();

@@ -26,7 +26,7 @@ bool is_coloured(const Mesh& mesh, const MeshPart& part) {
         return false;
     }
     const glm::vec3 own(mesh.materials[part.material].colour);
-    std::uint32_t seen = ~std::uint32_t{0}; // a palette index that is the material's colour
+    std::uint32_t seen = ~std::uint32_t{0}; // a palette index with the material's colour
     TriangleReader indices(mesh.indices);
     for (std::uint64_t i = 0; i < part.index_count; ++i) {
         const std::uint16_t colour = mesh.colours[indices[part.first_index + i]];
@@ -66,7 +66,7 @@ template <typename Vector>
 void write_directions(std::span<const Vector> items, const GltfBytes& write) {
     const auto right = [](const Vector& v) { return is_right(v); };
     std::vector<Vector> mended;
-    // What is right goes out from where it lies.
+    // Correct items go out uncopied.
     while (!items.empty()) {
         const auto wrong = std::find_if_not(items.begin(), items.end(), right);
         const auto good = static_cast<std::size_t>(wrong - items.begin());
@@ -107,6 +107,12 @@ void write_colours(const Mesh& mesh, const GltfBytes& write) {
 }
 
 } // namespace
+
+std::size_t GltfData::first_view(GltfArray array) const {
+    const auto found = std::find_if(views.begin(), views.end(),
+                                    [array](const GltfView& view) { return view.array == array; });
+    return static_cast<std::size_t>(found - views.begin());
+}
 
 GltfData
 plan_gltf_data(const Mesh& mesh, const GltfMotion* motion, std::vector<std::string> images) {

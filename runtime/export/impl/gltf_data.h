@@ -1,4 +1,4 @@
-// The buffer of a glTF file: which arrays lie in it, and where.
+// GltfData: the layout of the buffer of a glTF file.
 #pragma once
 
 #include "runtime/export/impl/gltf_motion.h"
@@ -39,8 +39,11 @@ struct GltfData {
     std::vector<GltfView> views;
     std::vector<std::string> images; // PNG
     std::uint64_t bytes = 0;         // of the buffer, a multiple of 4
-    /// For each part: its vertices have colours of their own, which differ from the material's.
+    /// By part: vertices have colours that differ from the material's.
     std::vector<bool> coloured;
+
+    /// The number of the first view of the array; views.size() without one.
+    [[nodiscard]] std::size_t first_view(GltfArray array) const;
 };
 
 /// Plans the buffer, images last. Without `motion` there is no skin.

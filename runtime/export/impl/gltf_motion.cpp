@@ -1,11 +1,12 @@
 #include "runtime/export/impl/gltf_motion.h"
 
+#include "runtime/export/impl/gltf_parts.h"
+
 #include <fmt/format.h>
 #include <glm/mat4x4.hpp>
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <vector>
 
 namespace lsys {
@@ -13,14 +14,13 @@ namespace lsys {
 namespace {
 
 constexpr std::size_t kChunk = 16384; // vertices
-constexpr int kFloat = 5126;
 
 struct Influence {
     std::array<std::uint16_t, 4> joints{};
     std::array<std::uint8_t, 4> weights{};
 };
 
-/// Weights add up to 255. A joint without weight has to be 0, and none may come twice.
+/// Weights add up to 255. glTF wants joint 0 where the weight is 0, and no joint twice.
 Influence influence_of(const VertexSegments& segments, const Skin& skin) {
     const std::uint16_t first = skin.joint_of(segments[0]);
     const std::uint16_t second = skin.joint_of(segments[1]);
@@ -116,74 +116,70 @@ void write_rotations(const GltfMotion& motion, const GltfBytes& write) {
     }
 }
 
-std::string joint_nodes(const GltfMotion& motion, std::size_t first) {
-    std::string text = R"({"name":"joints")";
-    const auto add = std::back_inserter(text);
-    for (std::size_t i = 0; i < motion.moving_joints(); ++i) {
-        fmt::format_to(add, "{}{}", i == 0 ? R"(,"children":[)" : ",", first + 1 + i);
+void put_joint_nodes(JsonWriter& json, const GltfMotion& motion, std::size_t first) {
+    json.object().member("name", "joints");
+    if (motion.moving_joints() > 0) {
+        json.array("children");
+        for (std::size_t i = 0; i < motion.moving_joints(); ++i) {
+            json.value(first + 1 + i);
+        }
+        json.end();
     }
-    text += motion.moving_joints() == 0 ? "}" : "]}";
+    json.end();
     std::vector<glm::quat> rotations;
     for (const std::uint32_t segment : motion.skin.segments) {
         const glm::vec3& base = motion.poses.frame(0)[segment].base;
         joint_rotations(motion.poses, segment, rotations);
         const glm::quat& q = rotations.front();
-        fmt::format_to(add,
-                       R"(,{{"name":"segment {}","translation":[{},{},{}],)"
-                       R"("rotation":[{},{},{},{}]}})",
-                       segment, base.x, base.y, base.z, q.x, q.y, q.z, q.w);
+        json.object().member("name", fmt::format("segment {}", segment));
+        json.member("translation", {base.x, base.y, base.z});
+        json.member("rotation", {q.x, q.y, q.z, q.w}).end();
     }
-    return text;
 }
 
-std::string motion_accessors(const GltfMotion& motion, const GltfMotionViews& views) {
+void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, const GltfData& data) {
     const std::uint32_t frames = motion.poses.frame_count;
-    std::string text = fmt::format(
-        R"({{"bufferView":{},"componentType":{},"count":{},"type":"MAT4"}},)"
-        R"({{"bufferView":{},"componentType":{},"count":{},"type":"SCALAR","min":[0],"max":[{}]}})",
-        views.inverse_binds, kFloat, motion.skin.joint_count(), views.times, kFloat, frames,
-        static_cast<double>(time_of(motion.poses, frames - 1)));
-    const auto add = std::back_inserter(text);
-    const auto add_channels = [&](std::size_t view, std::size_t bytes, const char* type) {
+    const std::size_t binds = data.first_view(GltfArray::InverseBinds);
+    begin_accessor(json, {binds, {}, kGltfFloat, motion.skin.joint_count(), "MAT4"}).end();
+    begin_accessor(json, {data.first_view(GltfArray::Times), {}, kGltfFloat, frames, "SCALAR"})
+        .member("min", {0})
+        .member("max", {static_cast<double>(time_of(motion.poses, frames - 1))})
+        .end();
+    const auto put_channels = [&](GltfArray array, std::size_t bytes, const char* type) {
+        const std::size_t view = data.first_view(array);
         for (std::size_t i = 0; i < motion.moving_joints(); ++i) {
-            fmt::format_to(add,
-                           R"(,{{"bufferView":{},"byteOffset":{},"componentType":{},"count":{},)"
-                           R"("type":"{}"}})",
-                           view, i * frames * bytes, kFloat, frames, type);
+            begin_accessor(json, {view, i * frames * bytes, kGltfFloat, frames, type}).end();
         }
     };
-    add_channels(views.translations, sizeof(glm::vec3), "VEC3");
-    add_channels(views.rotations, sizeof(glm::quat), "VEC4");
-    return text;
+    put_channels(GltfArray::Translations, sizeof(glm::vec3), "VEC3");
+    put_channels(GltfArray::Rotations, sizeof(glm::quat), "VEC4");
 }
 
-std::string
-skin_and_animation(const GltfMotion& motion, std::size_t first_node, std::size_t accessor) {
-    std::string text = fmt::format(
-        R"("skins":[{{"name":"plant","inverseBindMatrices":{},"skeleton":{},"joints":[)", accessor,
-        first_node);
-    const auto add = std::back_inserter(text);
+void put_skin_and_animation(JsonWriter& json,
+                            const GltfMotion& motion,
+                            std::size_t first_node,
+                            std::size_t accessor) {
+    json.array("skins").object().member("name", "plant");
+    json.member("inverseBindMatrices", accessor).member("skeleton", first_node).array("joints");
     for (std::size_t i = 0; i < motion.skin.joint_count(); ++i) {
-        fmt::format_to(add, "{}{}", i == 0 ? "" : ",", first_node + i);
+        json.value(first_node + i);
     }
-    text += "]}],";
+    json.end().end().end();
     const std::size_t moving = motion.moving_joints();
     if (moving == 0) { // an animation has at least one channel
-        return text;
+        return;
     }
-    text += R"("animations":[{"name":"motion","channels":[)";
+    json.array("animations").object().member("name", "motion").array("channels");
     for (std::size_t i = 0; i < 2 * moving; ++i) {
-        fmt::format_to(add, R"({}{{"sampler":{},"target":{{"node":{},"path":"{}"}}}})",
-                       i == 0 ? "" : ",", i, first_node + 1 + i % moving,
-                       i < moving ? "translation" : "rotation");
+        json.object().member("sampler", i).object("target");
+        json.member("node", first_node + 1 + i % moving);
+        json.member("path", i < moving ? "translation" : "rotation").end().end();
     }
-    text += R"(],"samplers":[)";
+    json.end().array("samplers");
     for (std::size_t i = 0; i < 2 * moving; ++i) {
-        fmt::format_to(add, R"({}{{"input":{},"output":{}}})", i == 0 ? "" : ",", accessor + 1,
-                       accessor + 2 + i);
+        json.object().member("input", accessor + 1).member("output", accessor + 2 + i).end();
     }
-    text += "]}],";
-    return text;
+    json.end().end().end();
 }
 
 } // namespace lsys

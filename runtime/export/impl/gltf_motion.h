@@ -2,48 +2,44 @@
 // that turns and shifts each of them (glTF 2.0, sections 3.7.3 and 3.11).
 #pragma once
 
+#include "runtime/export/impl/json_writer.h"
 #include "runtime/export/impl/skin.h"
 
 #include <cstddef>
 #include <functional>
 #include <span>
-#include <string>
 
 namespace lsys {
+
+struct GltfData;
 
 struct GltfMotion {
     Skin skin;
     const PlantAnimation& poses; // at least one frame
 
     [[nodiscard]] std::size_t moving_joints() const { return skin.segments.size(); }
-    /// Bytes that name the joint of a vertex.
+    /// Bytes of the number of a joint.
     [[nodiscard]] std::size_t joint_bytes() const { return skin.joint_count() <= 256 ? 1 : 2; }
 };
 
 using GltfBytes = std::function<void(std::span<const std::byte>)>;
-/// The arrays, in the order of their names in GltfArray.
+/// Write the arrays, in the order of GltfArray.
 void write_vertex_joints(const Mesh& mesh, const GltfMotion& motion, const GltfBytes& write);
 void write_vertex_weights(const Mesh& mesh, const GltfMotion& motion, const GltfBytes& write);
 void write_inverse_binds(const GltfMotion& motion, const GltfBytes& write);
 void write_times(const GltfMotion& motion, const GltfBytes& write);
-/// Joint by joint, in each by frames.
+/// Joint by joint, frame by frame within a joint.
 void write_translations(const GltfMotion& motion, const GltfBytes& write);
 void write_rotations(const GltfMotion& motion, const GltfBytes& write);
 
-/// Views of the arrays that accessors are about.
-struct GltfMotionViews {
-    std::size_t inverse_binds = 0;
-    std::size_t times = 0;
-    std::size_t translations = 0;
-    std::size_t rotations = 0;
-};
-
-/// Nodes of the joints, separated by commas; that of joint 0, the first, has the number `first`.
-[[nodiscard]] std::string joint_nodes(const GltfMotion& motion, std::size_t first);
-/// Accessors, separated by commas: inverse binds, times, then two for each joint that moves.
-[[nodiscard]] std::string motion_accessors(const GltfMotion& motion, const GltfMotionViews& views);
-/// The members `skins` and `animations`. `accessor` is the number of the first of those above.
-[[nodiscard]] std::string
-skin_and_animation(const GltfMotion& motion, std::size_t first_node, std::size_t accessor);
+/// Nodes of the joints; that of joint 0, the first, has the number `first`.
+void put_joint_nodes(JsonWriter& json, const GltfMotion& motion, std::size_t first);
+/// Accessors: inverse binds, times, then two for each joint that moves.
+void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, const GltfData& data);
+/// The members `skins` and `animations`. `accessor`: number of the first of put_motion_accessors().
+void put_skin_and_animation(JsonWriter& json,
+                            const GltfMotion& motion,
+                            std::size_t first_node,
+                            std::size_t accessor);
 
 } // namespace lsys

@@ -1,30 +1,77 @@
-// Pieces of glTF that its writers share: materials, images, the headers of a GLB.
+// Parts of glTF that the writers of plants and of forests share. Functions with a JsonWriter write
+// into the document.
 #pragma once
 
+#include "runtime/export/impl/gltf_data.h"
+#include "runtime/export/impl/json_writer.h"
 #include "runtime/export/impl/pictures.h"
 #include "runtime/export/impl/piece_writer.h"
 #include "runtime/meshing/mesh.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lsys {
 
 inline constexpr std::uint64_t kMostGltfBytes = 0xFFFFFFFFu; // of a GLB, and of any buffer
 
-/// `coloured`: vertices have colours of their own in place of the material's.
-[[nodiscard]] std::string
-material_json(const Material& material, const MaterialPictures& shown, bool coloured);
-/// Samplers, textures and images, with a comma behind them. The images lie in buffer views from
-/// `first_view` on.
-[[nodiscard]] std::string images_json(const std::vector<Picture>& list, std::size_t first_view);
+// Component types of accessors.
+inline constexpr int kGltfByte = 5121; // all unsigned
+inline constexpr int kGltfShort = 5123;
+inline constexpr int kGltfInteger = 5125;
+inline constexpr int kGltfFloat = 5126;
 
-/// What stands before the document and before the buffer, whose sizes are multiples of 4. False:
-/// the file would be too large, nothing was written.
-[[nodiscard]] bool
-put_glb_header(std::uint64_t json_bytes, std::uint64_t data_bytes, PieceWriter& out);
-void put_glb_data_header(std::uint64_t data_bytes, PieceWriter& out);
+/// A part of a buffer view as items of one type.
+struct GltfAccessor {
+    std::size_t view;
+    std::optional<std::uint64_t> offset; // bytes in the view; none: the whole view
+    int component;
+    std::uint64_t count;   // items
+    std::string_view type; // "VEC3"
+};
+/// Begins the object of an accessor; the caller adds members and ends it.
+JsonWriter& begin_accessor(JsonWriter& json, const GltfAccessor& accessor);
+
+/// The member `attributes` of a primitive: accessors from `first_accessor` on, one for each view of
+/// `data` before the indices. `coloured`: with the colours of vertices.
+void put_attributes(JsonWriter& json,
+                    const GltfData& data,
+                    std::size_t first_accessor,
+                    bool coloured);
+/// The accessors of put_attributes(), of views from `first_view` on. `bounds` of the positions.
+void put_attribute_accessors(JsonWriter& json,
+                             const GltfData& data,
+                             std::size_t first_view,
+                             std::uint64_t vertices,
+                             const Bounds& bounds);
+/// A buffer view that begins `offset` bytes behind view.offset.
+void put_view(JsonWriter& json, const GltfView& view, std::uint64_t offset);
+
+/// `coloured`: vertices have colours of their own in place of the material's.
+void put_material(JsonWriter& json,
+                  const Material& material,
+                  const MaterialPictures& shown,
+                  bool coloured);
+/// Samplers, textures and images. The images lie in buffer views from `first_view` on.
+void put_images(JsonWriter& json, const std::vector<Picture>& list, std::size_t first_view);
+
+/// Takes the next bytes of a buffer; returns false to stop.
+using GltfSink = std::function<bool(std::span<const std::byte>)>;
+/// The contents of a file.
+struct GltfFile {
+    bool binary = false; // GLB
+    /// Writes the members of the document but `buffers`. Called twice for GLB, which begins with
+    /// the size of its document.
+    std::function<void(JsonWriter&)> put_members;
+    std::uint64_t data_bytes = 0; // of the buffer: a multiple of 4, at most kMostGltfBytes
+    std::function<void(const GltfSink&)> put_data;
+};
+/// Returns false where a GLB would be too large; nothing is written then.
+[[nodiscard]] bool put_gltf_file(const GltfFile& file, PieceWriter& out);
 
 } // namespace lsys

@@ -1,5 +1,6 @@
 // Wavefront OBJ and MTL (Wavefront Advanced Visualizer manual, appendix B1, as its readers have it:
-// https://paulbourke.net/dataformats/obj/). v of texture coordinates goes upwards there.
+// https://paulbourke.net/dataformats/obj/). v of texture coordinates goes upwards.
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/pictures.h"
 #include "runtime/export/impl/text.h"
@@ -7,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <new>
 #include <optional>
 #include <vector>
 
@@ -15,16 +15,16 @@ namespace lsys {
 
 namespace {
 
-/// Of one line: keyword, blanks, and at most nine numbers.
+/// Bytes of a line, at most: keyword, blanks, nine numbers.
 constexpr std::size_t kLineBytes = 16 + 9 * (kNumberBytes + 1);
 
-/// Names that differ where the materials do.
-std::vector<std::string> material_words(const Mesh& mesh) {
-    std::vector<std::string> words;
+/// A unique name for each material.
+std::vector<std::string> material_names(const Mesh& mesh) {
+    std::vector<std::string> names;
     for (const Material& material : mesh.materials) {
-        words.push_back(unlike(words, word(material.name)));
+        names.push_back(unique_name(names, obj_identifier(material.name)));
     }
-    return words;
+    return names;
 }
 
 template <std::size_t kCount>
@@ -38,7 +38,7 @@ void put_line(PieceWriter& out, std::string_view keyword, const std::array<float
     out.used(at);
 }
 
-/// A corner names its position, texture coordinate and normal by the same number.
+/// Position, texture coordinate and normal of a corner have the same number.
 void put_faces(TriangleReader& indices, const MeshPart& part, bool textured, PieceWriter& out) {
     for (std::uint64_t i = 0; i + 2 < part.index_count && !out.stopped(); i += 3) {
         char* at = out.room(kLineBytes);
@@ -62,12 +62,13 @@ void put_faces(TriangleReader& indices, const MeshPart& part, bool textured, Pie
 
 } // namespace
 
-void write_obj(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
-    out.put(
-        fmt::format("# {}\n# {}\n# metres, +Y up\n", one_line(info.generator), origin_line(info)));
-    if (!info.mtl_name.empty()) {
-        // What follows the keyword is the name, blanks included.
-        out.put(fmt::format("mtllib {}\n", one_line(info.mtl_name)));
+Outcome<Done> write_obj(const ExportJob& job, PieceWriter& out) {
+    const Mesh& mesh = job.mesh;
+    out.put(fmt::format("# {}\n# {}\n# metres, +Y up\n", one_line(job.info.generator),
+                        origin_line(job.info)));
+    if (!job.info.mtl_name.empty()) {
+        // Readers take the rest of the line as the name, blanks included.
+        out.put(fmt::format("mtllib {}\n", one_line(job.info.mtl_name)));
     }
     out.put("o plant\n");
     for (std::size_t i = 0; i < mesh.positions.size() && !out.stopped(); ++i) {
@@ -83,23 +84,24 @@ void write_obj(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
         const glm::vec3& n = mesh.normals[i];
         put_line<3>(out, "vn", {n.x, n.y, n.z});
     }
-    const std::vector<std::string> words = material_words(mesh);
+    const std::vector<std::string> names = material_names(mesh);
     TriangleReader indices(mesh.indices);
     for (const MeshPart& part : mesh.parts) {
-        out.put(fmt::format("usemtl {}\n", words[part.material]));
+        out.put(fmt::format("usemtl {}\n", names[part.material]));
         put_faces(indices, part, textured, out);
     }
+    return finish(out);
 }
 
-ExportStatus write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink) {
+Outcome<Done> write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink) {
     if (triangle_count(mesh) == 0) {
-        return ExportStatus::Nothing;
+        return nothing_to_draw(info.subject);
     }
-    try {
+    return catch_no_memory("the file", [&] {
         PieceWriter out(sink);
         out.put(fmt::format("# {}\n# {}\n", one_line(info.generator), origin_line(info)));
-        const std::vector<std::string> words = material_words(mesh);
-        const Pictures pictures = find_pictures(mesh, ExportFormat::Obj, info);
+        const std::vector<std::string> names = material_names(mesh);
+        const Pictures pictures = find_pictures(mesh, ExportPictures::FilesWithOpacity, info);
         const auto put_map = [&](const char* keyword, const std::optional<std::size_t>& number) {
             if (number) { // as with mtllib, blanks are part of the name
                 out.put(fmt::format("{} {}\n", keyword, pictures.list[*number].name));
@@ -107,21 +109,19 @@ ExportStatus write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink&
         };
         for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
             const MaterialPictures& shown = pictures.of_materials[i];
-            // Multiplied by the picture, which has the colour in it.
+            // Readers multiply by the picture, which contains the colour.
             const glm::vec4 colour = shown.colour
                                          ? glm::vec4(1.0F, 1.0F, 1.0F, mesh.materials[i].colour.a)
                                          : mesh.materials[i].colour;
             out.put(fmt::format("\nnewmtl {}\nKa 0 0 0\nKd {:.4f} {:.4f} {:.4f}\nKs 0 0 0\n"
                                 "d {}\nillum 1\n",
-                                words[i], srgb(colour.r), srgb(colour.g), srgb(colour.b),
+                                names[i], srgb(colour.r), srgb(colour.g), srgb(colour.b),
                                 colour.a));
             put_map("map_Kd", shown.colour);
             put_map("map_d", shown.opacity);
         }
-        return out.finish() ? ExportStatus::Ok : ExportStatus::Stopped;
-    } catch (const std::bad_alloc&) {
-        return ExportStatus::OutOfMemory;
-    }
+        return finish(out);
+    });
 }
 
 } // namespace lsys

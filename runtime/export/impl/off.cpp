@@ -1,6 +1,7 @@
 // OFF (Geomview's object file format, http://www.geomview.org/docs/html/OFF.html) and OFF+, which
 // L3D reads and writes: `x y z u v` for a vertex, and at the end of a face 1 if it is of a leaf,
-// else 0. Neither has a word for units or axes. v goes upwards.
+// else 0. Neither format states units or axes. v goes upwards.
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
 
@@ -12,9 +13,7 @@ namespace {
 
 constexpr std::size_t kLineBytes = 8 + 6 * (kNumberBytes + 1);
 
-} // namespace
-
-void write_off(const Mesh& mesh, bool plus, PieceWriter& out) {
+Outcome<Done> write(const Mesh& mesh, bool plus, PieceWriter& out) {
     out.put(fmt::format("OFF\n{} {} 0\n", mesh.positions.size(), triangle_count(mesh)));
     const bool textured = is_complete(mesh, mesh.texture_coordinates);
     for (std::size_t i = 0; i < mesh.positions.size() && !out.stopped(); ++i) {
@@ -51,6 +50,17 @@ void write_off(const Mesh& mesh, bool plus, PieceWriter& out) {
             out.used(at);
         }
     }
+    return finish(out);
+}
+
+} // namespace
+
+Outcome<Done> write_off(const ExportJob& job, PieceWriter& out) {
+    return write(job.mesh, false, out);
+}
+
+Outcome<Done> write_off_plus(const ExportJob& job, PieceWriter& out) {
+    return write(job.mesh, true, out);
 }
 
 } // namespace lsys

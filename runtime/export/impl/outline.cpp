@@ -23,7 +23,7 @@ glm::vec3 direction(int i) {
                      static_cast<float>(radius * std::sin(golden * i)), static_cast<float>(z));
 }
 
-/// The point that lies farthest in each of many directions, once each.
+/// The farthest point in each of many directions, without duplicates.
 std::vector<glm::vec3> extreme_points(const std::vector<glm::vec3>& points) {
     std::vector<std::size_t> extreme;
     for (int i = 0; i < kDirections && !points.empty(); ++i) {
@@ -66,7 +66,7 @@ std::vector<Outline> object_outlines(const PlacedObject& object,
         outlines.push_back({extreme_points(part.positions),
                             palette_colour(own ? object.colour : part.material.palette)});
     }
-    // A flower's calyx comes last among its parts, and is hidden by the petals.
+    // The calyx, the last part of a flower, is drawn first: petals hide it.
     std::rotate(outlines.begin(), outlines.end() - (outlines.size() > 1 ? 1 : 0), outlines.end());
     return outlines;
 }

@@ -1,4 +1,4 @@
-// Outlines of objects, for drawings: what the shapes of the mesh look like from one side.
+// Outlines of objects for drawings: convex hulls of the parts of their shapes.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -12,17 +12,18 @@
 namespace lsys {
 
 struct Outline {
-    /// Seen from any side, their hull is about that of the part; of size 1, at the origin, along
-    /// +Y.
+    /// Extreme points of the part, whose hull from any side is about the part's; size 1, at the
+    /// origin, along +Y.
     std::vector<glm::vec3> corners;
     glm::vec3 colour{1.0F}; // linear
 };
 
-/// Of the parts of an object of this kind, mesh file and colour, those below first. Empty for a
-/// mesh file that is not among `user_meshes`.
+/// Outlines of the parts of an object, back to front. Depend on kind, mesh file and colour. Empty
+/// for a mesh file that is not among `user_meshes`.
 [[nodiscard]] std::vector<Outline> object_outlines(const PlacedObject& object,
                                                    const std::vector<UserMesh>& user_meshes);
-/// The convex hull, counter-clockwise; `points` are sorted. Fewer than three: they lie on a line.
+/// The convex hull, counter-clockwise; fewer than three corners for points on a line. Sorts
+/// `points`.
 [[nodiscard]] std::vector<glm::vec2> convex_hull(std::vector<glm::vec2>& points);
 
 } // namespace lsys

@@ -1,6 +1,7 @@
 #include "runtime/export/impl/pictures.h"
 
 #include "runtime/base/workers.h"
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
 
@@ -8,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <new>
-#include <stdexcept>
 
 namespace lsys {
 
@@ -25,7 +25,7 @@ bool is_in_use(const Mesh& mesh, std::size_t material) {
     });
 }
 
-/// The picture of that kind, material and colour, which is there only once.
+/// The number of a picture with the kind, material and colour of `wanted`, added if missing.
 std::size_t number_of(std::vector<Picture>& list, const Picture& wanted) {
     const auto found = std::find_if(list.begin(), list.end(), [&wanted](const Picture& picture) {
         return picture.kind == wanted.kind && picture.material == wanted.material &&
@@ -40,11 +40,11 @@ std::size_t number_of(std::vector<Picture>& list, const Picture& wanted) {
         names.push_back(picture.name);
     }
     list.push_back(wanted);
-    list.back().name = unlike(names, wanted.name);
+    list.back().name = unique_name(names, wanted.name);
     return list.size() - 1;
 }
 
-/// IEC 61966-2-1, of a byte.
+/// Linear value of an sRGB byte (IEC 61966-2-1).
 float linear(std::uint8_t value) {
     const float c = static_cast<float>(value) / 255.0F;
     return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
@@ -81,7 +81,7 @@ Texture paint(const Picture& picture) {
 std::string encode_picture(const Picture& picture) {
     const bool as_it_is = picture.file != nullptr && picture.kind == PictureKind::Colour &&
                           picture.tint == glm::vec3(1.0F);
-    if (as_it_is) { // no second copy of what may be large
+    if (as_it_is) { // without a copy: it may be large
         return encode_png(*picture.file);
     }
     return encode_png(paint(picture));
@@ -89,17 +89,16 @@ std::string encode_picture(const Picture& picture) {
 
 } // namespace
 
-Pictures find_pictures(const Mesh& mesh, ExportFormat format, const ExportInfo& info) {
+Pictures find_pictures(const Mesh& mesh, ExportPictures kind, const ExportInfo& info) {
     Pictures pictures;
     pictures.of_materials.resize(mesh.materials.size());
-    const bool is_gltf = format == ExportFormat::Gltf || format == ExportFormat::Glb;
-    const bool is_obj = format == ExportFormat::Obj;
-    if (!info.textures ||
-        (!is_gltf && (info.picture_prefix.empty() || (!is_obj && format != ExportFormat::Usda)))) {
+    const bool inside = kind == ExportPictures::Inside;
+    if (!info.textures || kind == ExportPictures::None ||
+        (!inside && info.picture_prefix.empty())) {
         return pictures;
     }
     const auto name = [&](const std::string& what) {
-        return is_gltf ? what : one_line(info.picture_prefix) + '.' + identifier(what) + ".png";
+        return inside ? what : one_line(info.picture_prefix) + '.' + identifier(what) + ".png";
     };
     for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
         const Material& material = mesh.materials[i];
@@ -112,16 +111,17 @@ Pictures find_pictures(const Mesh& mesh, ExportFormat format, const ExportInfo& 
         wanted.file = material.picture;
         const std::string what = wanted.file != nullptr ? material.name : bark ? "bark" : "leaf";
         MaterialPictures& shown = pictures.of_materials[i];
-        wanted.tint = is_gltf ? glm::vec3(1.0F) : glm::vec3(material.colour);
-        wanted.name = name(is_gltf ? what : material.name);
+        wanted.tint = inside ? glm::vec3(1.0F) : glm::vec3(material.colour);
+        wanted.name = name(inside ? what : material.name);
         shown.colour = number_of(pictures.list, wanted);
         wanted.tint = glm::vec3(1.0F);
-        if (is_obj && material.cut_out) {
+        if (kind == ExportPictures::FilesWithOpacity && material.cut_out) {
             wanted.kind = PictureKind::Opacity;
             wanted.name = name(what + " opacity");
             shown.opacity = number_of(pictures.list, wanted);
         }
-        if (!is_obj && bark && (!is_gltf || is_complete(mesh, mesh.tangents))) {
+        if (bark && (kind == ExportPictures::FilesWithRelief ||
+                     (inside && is_complete(mesh, mesh.tangents)))) {
             wanted.kind = PictureKind::Relief;
             wanted.name = name("bark normals");
             shown.relief = number_of(pictures.list, wanted);
@@ -144,25 +144,20 @@ std::vector<std::string> encode_pictures(const std::vector<Picture>& pictures,
     return files;
 }
 
-ExportStatus make_picture_files(const Mesh& mesh,
-                                ExportFormat format,
-                                const ExportInfo& info,
-                                std::vector<PictureFile>& files) {
-    try {
-        files.clear();
-        if (format == ExportFormat::Gltf || format == ExportFormat::Glb) {
-            return ExportStatus::Ok; // which has them in it
+Outcome<std::vector<PictureFile>>
+make_picture_files(const Mesh& mesh, ExportFormat format, const ExportInfo& info) {
+    return catch_no_memory("the pictures", [&]() -> Outcome<std::vector<PictureFile>> {
+        std::vector<PictureFile> files;
+        const ExportPictures kind = traits_of(format).pictures;
+        if (kind != ExportPictures::Inside) {
+            const Pictures pictures = find_pictures(mesh, kind, info);
+            std::vector<std::string> encoded = encode_pictures(pictures.list, info.threads);
+            for (std::size_t i = 0; i < encoded.size(); ++i) {
+                files.push_back({pictures.list[i].name, std::move(encoded[i])});
+            }
         }
-        const Pictures pictures = find_pictures(mesh, format, info);
-        std::vector<std::string> encoded = encode_pictures(pictures.list, info.threads);
-        for (std::size_t i = 0; i < encoded.size(); ++i) {
-            files.push_back({pictures.list[i].name, std::move(encoded[i])});
-        }
-        return ExportStatus::Ok;
-    } catch (const std::bad_alloc&) {
-    } catch (const std::length_error&) {
-    }
-    return ExportStatus::OutOfMemory;
+        return {std::move(files), {}};
+    });
 }
 
 } // namespace lsys

@@ -1,6 +1,6 @@
-// Pictures: which textures the materials of a file show. glTF multiplies them by the colour of the
-// material. Many readers of OBJ and USDA take either a picture or a colour, so there the colour is
-// in the picture, and there is one for each material.
+// Pictures: textures of the materials of a file. Readers of glTF multiply a picture by the colour
+// of the material. Many readers of OBJ and USDA take either a picture or a colour, so their
+// pictures contain the colour, one picture for each material.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -15,8 +15,8 @@
 namespace lsys {
 
 enum class PictureKind : std::uint8_t {
-    Colour,  // and opacity
-    Opacity, // in all channels, as readers of MTL differ in which one they look at
+    Colour,  // with opacity
+    Opacity, // in all channels, as readers of MTL differ in the one they use
     Relief,  // normals
 };
 
@@ -24,11 +24,11 @@ struct Picture {
     PictureKind kind = PictureKind::Colour;
     MaterialKind material = MaterialKind::Bark;
     glm::vec3 tint{1.0F};                // linear
-    std::shared_ptr<const Texture> file; // shown in place of that of the material's kind
-    std::string name;                    // of the file for OBJ and USDA
+    std::shared_ptr<const Texture> file; // in place of the texture of the material's kind
+    std::string name;                    // of the file, where it is one
 };
 
-/// Numbers of pictures.
+/// Numbers of the pictures of a material.
 struct MaterialPictures {
     std::optional<std::size_t> colour;
     std::optional<std::size_t> opacity;
@@ -40,10 +40,10 @@ struct Pictures {
     std::vector<MaterialPictures> of_materials; // of the mesh
 };
 
-/// None where the format or `info` wants none.
-[[nodiscard]] Pictures find_pictures(const Mesh& mesh, ExportFormat format, const ExportInfo& info);
+/// Empty for ExportPictures::None, and without ExportInfo::textures or a name for files.
+[[nodiscard]] Pictures find_pictures(const Mesh& mesh, ExportPictures kind, const ExportInfo& info);
 
-/// PNG files. Throws std::bad_alloc.
+/// Encodes the pictures as PNG. Throws std::bad_alloc.
 [[nodiscard]] std::vector<std::string> encode_pictures(const std::vector<Picture>& pictures,
                                                        std::uint32_t threads);
 

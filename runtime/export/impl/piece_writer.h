@@ -1,6 +1,6 @@
-// PieceWriter: bytes on their way to a sink. Small ones are gathered to pieces of kPieceBytes,
-// large arrays go out in such pieces straight from where they lie. After the sink has said no, all
-// is swallowed.
+// PieceWriter: a buffer before a sink. Small writes are collected to pieces of kPieceBytes; large
+// arrays go to the sink in such pieces uncopied. Once the sink has returned false, bytes are
+// discarded.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -19,7 +19,8 @@ class PieceWriter {
 public:
     explicit PieceWriter(const ByteSink& sink);
 
-    /// Where the next bytes may be written, at most `bytes` of them; used() says how many were.
+    /// Room for the next bytes, at most `bytes`. The caller writes them and calls used() with their
+    /// end.
     [[nodiscard]] char* room(std::size_t bytes) {
         if (static_cast<std::size_t>(end_ - at_) < bytes) {
             flush();
@@ -29,7 +30,7 @@ public:
     void used(char* end) { at_ = end; }
 
     void put(std::string_view text);
-    /// What is long is not copied.
+    /// Long spans are not copied.
     void put_bytes(std::span<const std::byte> bytes);
     template <typename T>
     void put_array(std::span<const T> items) {
@@ -37,7 +38,7 @@ public:
     }
 
     [[nodiscard]] bool stopped() const { return stopped_; }
-    /// Hands over what is left. False if the sink has stopped.
+    /// Hands over the rest. Returns false if the sink has stopped.
     [[nodiscard]] bool finish();
 
 private:

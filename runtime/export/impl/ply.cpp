@@ -1,5 +1,6 @@
 // PLY, binary, little endian (Turk, "The PLY polygon file format", 1994). Colours are sRGB; v of
-// texture coordinates goes upwards, as in the readers that know `s` and `t`.
+// texture coordinates goes upwards, as readers of `s` and `t` expect.
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
 
@@ -17,7 +18,7 @@ static_assert(std::endian::native == std::endian::little, "arrays are written as
 
 namespace {
 
-/// Colours of the palette as bytes, as far as the mesh uses it.
+/// Colours of the palette as bytes, up to the last one that the mesh uses.
 std::vector<std::array<std::uint8_t, 3>> palette_bytes(const Mesh& mesh) {
     std::uint32_t last = 0;
     for (const std::uint16_t colour : mesh.colours) {
@@ -39,17 +40,18 @@ char* put_bytes(char* at, const T& value) {
 
 } // namespace
 
-void write_ply(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
+Outcome<Done> write_ply(const ExportJob& job, PieceWriter& out) {
+    const Mesh& mesh = job.mesh;
     const bool textured = is_complete(mesh, mesh.texture_coordinates);
     const bool coloured = is_complete(mesh, mesh.colours);
-    // `int` is what every reader knows.
+    // Every reader knows `int`.
     const bool small = mesh.positions.size() <= std::numeric_limits<std::int32_t>::max();
     out.put(fmt::format("ply\nformat binary_little_endian 1.0\ncomment {}\ncomment {}\n"
                         "comment metres, +Y up\nelement vertex {}\n"
                         "property float x\nproperty float y\nproperty float z\n"
                         "property float nx\nproperty float ny\nproperty float nz\n{}{}"
                         "element face {}\nproperty list uchar {} vertex_indices\nend_header\n",
-                        one_line(info.generator), origin_line(info), mesh.positions.size(),
+                        one_line(job.info.generator), origin_line(job.info), mesh.positions.size(),
                         textured ? "property float s\nproperty float t\n" : "",
                         coloured ? "property uchar red\nproperty uchar green\nproperty uchar blue\n"
                                  : "",
@@ -81,6 +83,7 @@ void write_ply(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
             out.used(put_bytes(at + 1, corners));
         }
     }
+    return finish(out);
 }
 
 } // namespace lsys

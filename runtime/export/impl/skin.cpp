@@ -31,7 +31,7 @@ bool are_near(const Place& a, const Place& b, double distance) {
     return glm::dot(off, off) <= distance * distance && half_sine <= 0.5 * kAngle;
 }
 
-/// Whether `segment` goes where the joint of `leader` takes it; of kNoSegment, stands still.
+/// Whether `segment` moves with the joint of `leader`; for kNoSegment, whether it stands still.
 bool goes_with(const PlantAnimation& animation,
                std::uint32_t leader,
                std::uint32_t segment,
@@ -75,7 +75,7 @@ make_skin(const Mesh& mesh, const Skeleton& skeleton, const PlantAnimation& anim
     LSYS_CHECK(mesh.segments.size() == mesh.positions.size(), mesh.segments.size(),
                mesh.positions.size());
     const double distance = kPlace * size_of(mesh);
-    LargeVector<std::uint32_t> leaders; // the segment whose joint each one has; kNoSegment: joint 0
+    LargeVector<std::uint32_t> leaders; // segment whose joint a segment shares; kNoSegment: joint 0
     leaders.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t parent = skeleton.segments[i].parent;

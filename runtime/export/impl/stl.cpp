@@ -1,6 +1,7 @@
 // STL, binary (3D Systems, "StereoLithography interface specification", 1988): 80 bytes of text,
-// the number of triangles, and 50 bytes each. Normals are those of the triangles; 0 where there is
-// none.
+// the number of triangles, and 50 bytes for each. Normals of triangles, 0 for triangles without
+// area.
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
 
@@ -19,10 +20,11 @@ constexpr std::size_t kTriangleBytes = 4 * sizeof(glm::vec3) + 2;
 
 } // namespace
 
-void write_stl(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
-    // Text STL begins with `solid`, and readers look no further.
-    std::string header =
-        fmt::format("STL in metres, +Y up. {}: {}", one_line(info.generator), origin_line(info));
+Outcome<Done> write_stl(const ExportJob& job, PieceWriter& out) {
+    const Mesh& mesh = job.mesh;
+    // Not `solid`: readers take files that begin with it for text.
+    std::string header = fmt::format("STL in metres, +Y up. {}: {}", one_line(job.info.generator),
+                                     origin_line(job.info));
     header.resize(kHeaderBytes, ' ');
     out.put(header);
     const auto count = static_cast<std::uint32_t>(triangle_count(mesh));
@@ -45,6 +47,7 @@ void write_stl(const Mesh& mesh, const ExportInfo& info, PieceWriter& out) {
             out.used(at + kTriangleBytes);
         }
     }
+    return finish(out);
 }
 
 } // namespace lsys

@@ -1,5 +1,6 @@
 // SVG (W3C, "Scalable Vector Graphics 1.1"): the plane z = 0 seen from +Z, whose y goes down. Lines
 // have the mean diameter of their segments; runs of equal ones are one polyline. Units are metres.
+#include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/outline.h"
 #include "runtime/export/impl/text.h"
@@ -18,7 +19,7 @@ namespace {
 
 constexpr double kLongerSide = 800.0;   // of the picture, in pixels
 constexpr double kMargin = 0.02;        // of the longer side
-constexpr float kHairline = 1.0F / 800; // of the longer side: the least width of a line
+constexpr float kHairline = 1.0F / 800; // of the longer side: the width of a line, at least
 constexpr std::size_t kPointBytes = 2 * kNumberBytes + 2;
 
 std::string colour_text(const glm::vec3& linear) {
@@ -115,7 +116,7 @@ void Drawing::put_head() {
 void Drawing::put_point(const glm::vec2& point) {
     char* at = put_number(out_.room(kPointBytes), point.x);
     *at++ = ',';
-    at = put_number(at, 0.0F - point.y); // so that no -0 is written
+    at = put_number(at, 0.0F - point.y); // avoids -0
     out_.used(at);
 }
 
@@ -190,8 +191,9 @@ void Drawing::write() {
 
 } // namespace
 
-void write_svg(const Skeleton& skeleton, const ExportInfo& info, PieceWriter& out) {
-    Drawing(skeleton, info, out).write();
+Outcome<Done> write_svg(const ExportJob& job, PieceWriter& out) {
+    Drawing(job.skeleton, job.info, out).write();
+    return finish(out);
 }
 
 } // namespace lsys

@@ -20,7 +20,7 @@ bool is_control(char c) {
     return byte < 0x20 || byte == 0x7F;
 }
 
-/// Bytes of the character that `text` begins with; 0 if it is none (RFC 3629, section 4).
+/// Bytes of the first character of `text`; 0 if it is not UTF-8 (RFC 3629, section 4).
 std::size_t character_length(std::string_view text) {
     const auto byte = [&text](std::size_t i) {
         return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
@@ -107,7 +107,7 @@ std::string xml_text(std::string_view text) {
     return escaped;
 }
 
-std::string word(std::string_view text) {
+std::string obj_identifier(std::string_view text) {
     std::string name = one_line(text);
     std::replace(name.begin(), name.end(), ' ', '_');
     return name.empty() ? "_" : name;
@@ -121,12 +121,12 @@ std::string identifier(std::string_view text) {
     return name.empty() || is_digit(name[0]) ? '_' + name : name;
 }
 
-std::string unlike(const std::vector<std::string>& taken, const std::string& name) {
-    std::string different = name;
-    for (int i = 2; std::find(taken.begin(), taken.end(), different) != taken.end(); ++i) {
-        different = fmt::format("{}_{}", name, i);
+std::string unique_name(const std::vector<std::string>& taken, const std::string& name) {
+    std::string unique = name;
+    for (int i = 2; std::find(taken.begin(), taken.end(), unique) != taken.end(); ++i) {
+        unique = fmt::format("{}_{}", name, i);
     }
-    return different;
+    return unique;
 }
 
 float srgb(float linear) {

@@ -1,5 +1,4 @@
-// Pieces of text that several formats share: numbers written into a buffer, and names and comments
-// that cannot break the syntax around them.
+// Text that several formats share: numbers, and names and comments escaped for their syntax.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -13,12 +12,12 @@
 
 namespace lsys {
 
-/// Bytes that put_number() may write at most.
+/// Bytes that put_number() writes, at most.
 inline constexpr std::size_t kNumberBytes = 24;
 
-/// The shortest text that reads back as the same number. Returns where it ends.
+/// Writes the shortest digits that read back as the same number; returns their end.
 inline char* put_number(char* at, float value) {
-    // FMT_COMPILE makes a string of its own type; no format is parsed here.
+    // FMT_COMPILE parses the format at compile time.
     return fmt::format_to(at, FMT_COMPILE("{}"), value);
 }
 inline char* put_number(char* at, std::uint64_t value) {
@@ -30,20 +29,21 @@ inline char* put_text(char* at, std::string_view text) {
 
 /// One line of printable text: control characters become blanks.
 [[nodiscard]] std::string one_line(std::string_view text);
-/// What follows "generator" in comments: the grammar, seed and generations in one line.
+/// Grammar, seed and generations in one line, for comments.
 [[nodiscard]] std::string origin_line(const ExportInfo& info);
-/// Valid UTF-8: what is not becomes U+FFFD.
+/// Valid UTF-8: invalid bytes become U+FFFD.
 [[nodiscard]] std::string valid_utf8(std::string_view text);
-/// Between the quotes of a JSON string.
+/// Escaped for a JSON string, without its quotes.
 [[nodiscard]] std::string json_text(std::string_view text);
-/// Between tags of XML, or the quotes of an attribute.
+/// Escaped for XML, between tags or in an attribute.
 [[nodiscard]] std::string xml_text(std::string_view text);
-/// A word without blanks, as names in OBJ have to be.
-[[nodiscard]] std::string word(std::string_view text);
-/// A letter or underscore, then letters, digits and underscores.
+/// A name of OBJ: one line, blanks become underscores; `_` for an empty one.
+[[nodiscard]] std::string obj_identifier(std::string_view text);
+/// A letter or underscore, then letters, digits and underscores: other bytes become underscores.
 [[nodiscard]] std::string identifier(std::string_view text);
-/// `name`, or with the least number behind it that makes it none of `taken`.
-[[nodiscard]] std::string unlike(const std::vector<std::string>& taken, const std::string& name);
+/// `name`, with the least suffix _2, _3 ... that makes it differ from all of `taken` if need be.
+[[nodiscard]] std::string unique_name(const std::vector<std::string>& taken,
+                                      const std::string& name);
 
 /// A channel of linear colour as a byte of sRGB (IEC 61966-2-1).
 [[nodiscard]] std::uint8_t srgb_byte(float linear);

@@ -2,11 +2,13 @@
 
 #include "runtime/export/impl/pictures.h"
 
+#include <algorithm>
+
 namespace lsys {
 
 namespace {
 
-/// Between signs of an asset path, of which a name with such a sign needs three.
+/// An asset path between `@`, or between `@@@` if the name has an `@`.
 std::string asset_path(const std::string& name) {
     if (name.find('@') == std::string::npos) {
         return fmt::format("@./{}@", name);
@@ -102,9 +104,44 @@ void put_material(const Material& material,
 std::vector<std::string> usda_part_names(const Mesh& mesh) {
     std::vector<std::string> names;
     for (const MeshPart& part : mesh.parts) {
-        names.push_back(unlike(names, identifier(mesh.materials[part.material].name)));
+        names.push_back(unique_name(names, identifier(mesh.materials[part.material].name)));
     }
     return names;
+}
+
+void put_usda_surface_head(PieceWriter& out, const UsdaSurface& surface, const Bounds& bounds) {
+    const bool two_sided =
+        std::any_of(surface.parts.begin(), surface.parts.end(), [&](const MeshPart& part) {
+            return surface.mesh.materials[part.material].two_sided;
+        });
+    out.put(fmt::format("    def Mesh \"{}\"\n"
+                        "    {{\n"
+                        "        uniform token subdivisionScheme = \"none\"\n"
+                        "        uniform token orientation = \"rightHanded\"\n"
+                        "        uniform bool doubleSided = {}\n"
+                        "        float3[] extent = [({}, {}, {}), ({}, {}, {})]\n",
+                        surface.name, two_sided ? 1 : 0, bounds.low.x, bounds.low.y, bounds.low.z,
+                        bounds.high.x, bounds.high.y, bounds.high.z));
+}
+
+void put_usda_subsets(PieceWriter& out, const UsdaSurface& surface) {
+    out.put("        uniform token subsetFamily:materialBind:familyType = \"partition\"\n");
+    std::uint64_t first = 0;
+    for (std::size_t i = 0; i < surface.parts.size(); ++i) {
+        const std::uint64_t triangles = surface.parts[i].index_count / 3;
+        out.put(fmt::format("\n        def GeomSubset \"{}\" (\n"
+                            "            prepend apiSchemas = [\"MaterialBindingAPI\"]\n"
+                            "        )\n"
+                            "        {{\n"
+                            "        uniform token elementType = \"face\"\n"
+                            "        uniform token familyName = \"materialBind\"\n",
+                            surface.materials[i]));
+        put_list(out, "int[] indices", triangles,
+                 [first](std::uint64_t face, char* at) { return put_number(at, first + face); });
+        out.put(fmt::format("\n        rel material:binding = <{}/Materials/{}>\n        }}\n",
+                            surface.root, surface.materials[i]));
+        first += triangles;
+    }
 }
 
 void put_usda_materials(const Mesh& mesh,
@@ -112,7 +149,7 @@ void put_usda_materials(const Mesh& mesh,
                         const ExportInfo& info,
                         std::string_view root,
                         PieceWriter& out) {
-    const Pictures pictures = find_pictures(mesh, ExportFormat::Usda, info);
+    const Pictures pictures = find_pictures(mesh, ExportPictures::FilesWithRelief, info);
     out.put("\n    def Scope \"Materials\"\n    {\n");
     for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
         const std::uint32_t material = mesh.parts[i].material;

@@ -1,6 +1,7 @@
-// Pieces of USDA that its writers share: lists of numbers, and materials.
+// Parts of USDA that the writers of plants and of forests share.
 #pragma once
 
+#include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/piece_writer.h"
 #include "runtime/export/impl/text.h"
 
@@ -9,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,10 +20,10 @@ namespace lsys {
 inline constexpr std::size_t kUsdaItemsOfLine = 8;
 inline constexpr std::size_t kUsdaItemBytes = 16 + 3 * (kNumberBytes + 2);
 
-/// Names of the parts, no two alike.
+/// A unique name for each part.
 [[nodiscard]] std::vector<std::string> usda_part_names(const Mesh& mesh);
 
-/// `name = [...]` with `put(i, at)` for each item.
+/// Writes `name = [...]`; put(i, at) writes item i and returns its end.
 template <typename Put>
 void put_list(PieceWriter& out, std::string_view name, std::uint64_t count, const Put& put) {
     out.put(fmt::format("        {} = [", name));
@@ -42,7 +44,75 @@ template <std::size_t kCount>
     return put_text(at, ")");
 }
 
-/// A scope `Materials` within the prim at path `root`: a material for each part of the mesh.
+/// A mesh prim.
+struct UsdaSurface {
+    const Mesh& mesh; // may have further vertices
+    std::string name;
+    std::uint64_t vertices = 0;
+    std::span<const MeshPart> parts;
+    const std::vector<std::string>& materials; // names, by parts
+    std::string_view root;                     // path of the prim of put_usda_materials()
+};
+void put_usda_surface_head(PieceWriter& out, const UsdaSurface& surface, const Bounds& bounds);
+void put_usda_subsets(PieceWriter& out, const UsdaSurface& surface);
+/// `vertex(i)`: the number in the mesh of vertex i of the prim. `turn(v, is_point)`: a vector of
+/// the mesh in the coordinates of the prim. `corner(i)`: the vertex of the prim at corner i of the
+/// triangles of all parts, asked for in order.
+template <typename Vertex, typename Turn, typename Corner>
+void put_usda_surface(PieceWriter& out,
+                      const UsdaSurface& surface,
+                      const Vertex& vertex,
+                      const Turn& turn,
+                      const Corner& corner) {
+    constexpr std::string_view kOfVertices =
+        " (\n            interpolation = \"vertex\"\n        )\n";
+    const Mesh& mesh = surface.mesh;
+    const std::uint64_t vertices = surface.vertices;
+    std::uint64_t triangles = 0;
+    for (const MeshPart& part : surface.parts) {
+        triangles += part.index_count / 3;
+    }
+    Bounds bounds;
+    for (std::uint64_t i = 0; i < vertices; ++i) {
+        bounds.add(turn(mesh.positions[vertex(i)], true));
+    }
+    put_usda_surface_head(out, surface, bounds);
+    put_list(out, "int[] faceVertexCounts", triangles,
+             [](std::uint64_t, char* at) { return put_text(at, "3"); });
+    out.put("\n");
+    put_list(out, "int[] faceVertexIndices", 3 * triangles,
+             [&](std::uint64_t i, char* at) { return put_number(at, std::uint64_t{corner(i)}); });
+    out.put("\n");
+    const auto put_vectors = [&](std::string_view name, const LargeVector<glm::vec3>& from,
+                                 bool are_points) {
+        put_list(out, name, vertices, [&](std::uint64_t i, char* at) {
+            const glm::vec3 v = turn(from[vertex(i)], are_points);
+            return put_tuple<3>(at, {v.x, v.y, v.z});
+        });
+    };
+    put_vectors("point3f[] points", mesh.positions, true);
+    out.put("\n");
+    put_vectors("normal3f[] normals", mesh.normals, false);
+    out.put(kOfVertices);
+    if (is_complete(mesh, mesh.texture_coordinates)) {
+        put_list(out, "texCoord2f[] primvars:st", vertices, [&](std::uint64_t i, char* at) {
+            const glm::vec2& t = mesh.texture_coordinates[vertex(i)];
+            return put_tuple<2>(at, {t.x, 1.0F - t.y});
+        });
+        out.put(kOfVertices);
+    }
+    if (is_complete(mesh, mesh.colours)) {
+        put_list(out, "color3f[] primvars:displayColor", vertices, [&](std::uint64_t i, char* at) {
+            const glm::vec3 c = palette_colour(mesh.colours[vertex(i)]);
+            return put_tuple<3>(at, {c.r, c.g, c.b});
+        });
+        out.put(kOfVertices);
+    }
+    put_usda_subsets(out, surface);
+    out.put("    }\n");
+}
+
+/// Writes a scope `Materials` within the prim at path `root`: a material for each part of the mesh.
 void put_usda_materials(const Mesh& mesh,
                         const std::vector<std::string>& names,
                         const ExportInfo& info,

@@ -17,7 +17,7 @@ float straightness(const Segment& a, const Segment& b) {
     return glm::dot(direction(a.frame), direction(b.frame));
 }
 
-/// Lets `child` continue its parent, which joins it, if none does so better.
+/// Makes the joined `child` continue its parent unless a better child does.
 void follow(const Skeleton& skeleton, std::uint32_t child, LargeVector<std::uint32_t>& nexts) {
     const Segment& segment = skeleton.segments[child];
     const Segment& parent = skeleton.segments[segment.parent];
@@ -30,8 +30,8 @@ void follow(const Skeleton& skeleton, std::uint32_t child, LargeVector<std::uint
     }
 }
 
-/// A range of segments. What continues a segment of an earlier range waits until all are done, so
-/// that the children of each come in their order.
+/// A range of segments. Children of segments of earlier ranges wait until all ranges are done, so
+/// that the children of a segment are compared in order.
 class Range {
 public:
     Range(std::size_t begin, std::size_t end) : begin_(begin), end_(end) {}
@@ -57,7 +57,7 @@ public:
     }
 
     [[nodiscard]] const std::vector<std::uint32_t>& late() const { return late_; }
-    /// Those that segments have.
+    /// Colours in use, rising.
     [[nodiscard]] const std::vector<std::uint16_t>& colours() const { return colours_; }
 
 private:
@@ -73,7 +73,7 @@ private:
     std::size_t end_;
     std::vector<std::uint32_t> late_;
     std::vector<std::uint16_t> colours_;
-    std::vector<bool> used_; // of colours
+    std::vector<bool> used_; // by colour
 };
 
 } // namespace

@@ -1,4 +1,5 @@
-// Axes: which segments make one tube. An axis goes from a segment to the child that continues it.
+// Axes: chains of segments, each of which becomes one tube. An axis goes from a segment to the
+// child that continues it.
 #pragma once
 
 #include "runtime/turtle/skeleton.h"
@@ -10,13 +11,13 @@ namespace lsys {
 
 class Workers;
 
-/// In Axes::next: nothing goes on, but branches begin there.
+/// In Axes::next: no child continues the segment, but branches begin at its tip.
 inline constexpr std::uint32_t kForked = kNoSegment - 1;
 
 struct Axes {
-    /// The segment that continues each one, kForked, or kNoSegment.
+    /// By segment: the segment that continues it, kForked, or kNoSegment.
     LargeVector<std::uint32_t> next;
-    std::vector<std::uint16_t> colours; // that segments have, rising
+    std::vector<std::uint16_t> colours; // in use, rising
 };
 
 /// heading() of a unit quaternion in half the operations.
@@ -25,12 +26,13 @@ struct Axes {
             2.0F * (q.y * q.z + q.w * q.x)};
 }
 
-/// Whether `child` begins where `parent`, its parent, ends, as far as floats can tell. A segment
+/// Whether `child` begins at the tip of its parent `parent`, up to rounding of floats. A segment
 /// drawn backwards was turned around and ends elsewhere.
 [[nodiscard]] bool joins(const Segment& parent, const Segment& child);
 
-/// A segment is continued by its linked child of the same order; of several, by the one that bends
-/// least, and of equal ones by the first. The same for any number of workers.
+/// Finds for each segment the child that continues it: the linked child of the same order; of
+/// several, the one that bends least; of equal ones, the first. The result does not depend on the
+/// number of workers.
 [[nodiscard]] Axes find_axes(const Skeleton& skeleton, Workers& workers);
 
 /// Whether an axis begins with `segment`.

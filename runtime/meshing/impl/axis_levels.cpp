@@ -10,10 +10,10 @@ namespace lsys {
 
 namespace {
 
-// Joints that one edge may stand for: keeps the search linear.
+// Joints that one edge may replace: keeps the search linear.
 constexpr std::size_t kMostLeftOut = 32;
 
-/// Whether the edge from joint `first` to joint `last` may stand for those between.
+/// Whether the edge from joint `first` to joint `last` may replace the joints between.
 bool stands_for(const LargeVector<Joint>& joints,
                 std::size_t first,
                 std::size_t last,
@@ -32,7 +32,7 @@ bool stands_for(const LargeVector<Joint>& joints,
         const float bound = tolerance * joint.radius;
         const glm::vec3 off = joint.centre - (a.centre + part * (b.centre - a.centre));
         const float thicker = joint.radius - (a.radius + part * (b.radius - a.radius));
-        // Compared by coordinate: squares of what is huge are infinite.
+        // Compared by coordinate: squares of huge numbers are infinite.
         if (!(std::max({std::abs(off.x), std::abs(off.y), std::abs(off.z), std::abs(thicker)}) <=
               bound) ||
             joint.colour != a.colour || joint.sides != a.sides) {

@@ -4,9 +4,8 @@
 
 namespace lsys {
 
-/// Leaves out joints where the axis is nearly straight and its radius nearly linear: those that lie
-/// within `tolerance` radii of what is put in their place. Ends and changes of colour or sides
-/// stay.
+/// Removes joints that lie within `tolerance` radii of the edge that replaces them: where the axis
+/// is nearly straight and its radius nearly linear. Ends and changes of colour or sides stay.
 void leave_out_joints(LargeVector<Joint>& joints, LargeVector<Joint>& spare, float tolerance);
 
 /// Sets heading and length of the edge from `from` to `to`.

@@ -13,13 +13,12 @@ namespace lsys {
 
 namespace {
 
-// What lies nearer than this part of its coordinates is one point, in floats.
+// Points nearer than this part of their coordinates are equal in floats.
 constexpr float kResolution = 4e-6F;
-// A radius below this part of the coordinates is none; one that is larger is at least so large that
-// corners are apart.
+// A radius below this part of the coordinates is 0; larger ones keep corners apart.
 constexpr float kNoRadius = 1e-8F;
 constexpr float kRadiusOfSide = 4e-7F;
-// A ring is at least this part of what is around it, so that its triangles have an area.
+// Least radius of a ring as a part of its surroundings, so that its triangles have an area.
 constexpr float kThinnest = 1e-9F;
 constexpr float kLeastRadius = 1e-36F;
 constexpr float kGreatestRadius = 1e36F;
@@ -28,16 +27,16 @@ constexpr std::uint32_t kMostLevels = 8;
 constexpr float kHidden = 0.9F;
 constexpr float kThickestBranch = 1.5F; // in radii of the parent; above, the base is closed
 constexpr float kCollarSlope = 0.13F;
-constexpr float kLeastSine = 0.5F;      // of the angle of a branch, that a collar allows for
-constexpr float kMostOfEdge = 0.7F;     // that a collar may take
-constexpr float kMostParts = 16.0F;     // of an edge that is cut for noise
+constexpr float kLeastSine = 0.5F;      // of the angle of a branch, for the length of its collar
+constexpr float kMostOfEdge = 0.7F;     // for a collar
+constexpr float kMostParts = 16.0F;     // of an edge, cut for noise
 constexpr std::size_t kExtraJoints = 2; // of a run: a collar and the tip
 
 float greatest_coordinate(const glm::vec3& v) {
     return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
 }
 
-/// The radius as it can be drawn around `centre`; 0 if it cannot.
+/// The radius that can be drawn around `centre`; 0 if none can.
 float drawn_radius(float radius, const glm::vec3& centre, std::uint32_t sides) {
     const float far = greatest_coordinate(centre);
     if (!(radius > std::max(kNoRadius * far, kLeastRadius))) {
@@ -51,7 +50,7 @@ bool thick_beside(float radius, const Joint& before, float length) {
     return radius >= kThinnest * std::max(std::max(before.radius, before.length), length);
 }
 
-/// One at a joint that bends by at most 60 degrees, two by at most 120, else three.
+/// Rings of a joint: one up to a bend of 60 degrees, two up to 120, else three.
 std::uint8_t rings_of_bend(const glm::vec3& before, const glm::vec3& after) {
     const float cosine = glm::dot(before, after);
     return cosine >= 0.5F ? 1 : cosine >= -0.5F ? 2 : 3;
@@ -68,7 +67,7 @@ std::uint32_t fewer_sides(std::uint32_t sides) {
     return sides <= 3 ? 3 : sides == 4 ? 5 : (sides - 1) | 1U;
 }
 
-/// Both lines of the cache that it may lie in.
+/// Prefetches both cache lines that the segment may lie in.
 void prefetch(const Segment& segment) {
     __builtin_prefetch(&segment);
     __builtin_prefetch(&segment.forked);
@@ -100,7 +99,7 @@ void AxisReader::start(std::uint32_t first_segment) {
     }
     joints_.clear();
     if (const std::size_t joints = segments + kExtraJoints; joints > joints_.capacity()) {
-        // At once: growing would take as much fresh memory again.
+        // Reserved at once: growing would take as much fresh memory again.
         joints_.reserve(std::max(joints, 2 * joints_.capacity()));
     }
 }
@@ -115,7 +114,7 @@ bool AxisReader::next(Run& run) {
     return false;
 }
 
-/// Reads joints up to where nothing is drawn or the axis ends. False: there are none.
+/// Reads joints up to a gap or the end of the axis. Returns false if there are none.
 bool AxisReader::read(Run& run) {
     joints_.clear();
     stale_ = false;
@@ -127,7 +126,7 @@ bool AxisReader::read(Run& run) {
     for (std::uint32_t after = 0; at < kForked; at = after) {
         after = axes_.next[at];
         if (after < kForked) {
-            prefetch(skeleton_.segments[after]); // what branches off lies between
+            prefetch(skeleton_.segments[after]); // branches lie between
         }
         const Segment& segment = skeleton_.segments[at];
         if (!(segment.length > 0.0F)) {
@@ -208,7 +207,7 @@ void AxisReader::add(const Segment& segment, float radius) {
             stale_ = false;
         }
     }
-    // In place: a joint made elsewhere is copied while its parts are still on their way.
+    // Made in place: a copy would wait for the stores of its parts.
     Joint& joint = joints_.emplace_back();
     joint.centre = centre;
     joint.radius = radius;
@@ -224,7 +223,7 @@ void AxisReader::add(const Segment& segment, float radius) {
     }
 }
 
-/// False: nothing is long or thick enough to be drawn.
+/// Returns false if nothing is long or thick enough to be drawn.
 bool AxisReader::add_end(const glm::vec3& centre, float radius) {
     while (joints_.size() > 1 && coincide(joints_.back().centre, centre, joints_.back().radius)) {
         joints_.pop_back();
@@ -253,7 +252,7 @@ bool AxisReader::add_end(const glm::vec3& centre, float radius) {
     return true;
 }
 
-/// Whether the base lies within the tube that the axis branches from, and if so, fits it in.
+/// Fits the base into the tube that the axis branches from; returns false if it lies outside.
 bool AxisReader::begins_in_parent(Run& run) {
     const Segment& child = skeleton_.segments[run.first_segment];
     if (child.parent >= run.first_segment) {
@@ -286,7 +285,7 @@ bool AxisReader::begins_in_parent(Run& run) {
     return true;
 }
 
-/// A branch is wider where it leaves its parent: a ring more makes a cone of its first piece.
+/// Adds the collar: a branch is wider where it leaves its parent, by a cone with a ring of its own.
 void AxisReader::add_collar(const Segment& parent, float parent_radius) {
     Joint& base = joints_[0];
     const float cosine = glm::dot(heading(parent.frame), base.heading);
@@ -297,7 +296,7 @@ void AxisReader::add_collar(const Segment& parent, float parent_radius) {
         return;
     }
     if (counts_ && !(options_.bark_noise > 0.0F)) {
-        // A plant that bends keeps its numbers of sides: they are those of the longest collar.
+        // Sides of the longest collar, so that they do not change when the plant bends.
         const float longest = parent_radius / kLeastSine + 1.5F * base.radius;
         const float widest = std::max(joints_[1].radius - base.radius, 0.0F);
         flare_ = {base.radius + kCollarSlope * longest,
@@ -312,7 +311,7 @@ void AxisReader::add_collar(const Segment& parent, float parent_radius) {
     joints_.insert(joints_.begin() + 1, collar);
 }
 
-/// Cuts edges into pieces about as long as the tube is thick, so that noise has rings to move.
+/// Cuts edges into pieces about as long as the tube is thick, to give noise rings to move.
 void AxisReader::subdivide() {
     spare_.clear();
     for (std::size_t i = 0; i + 1 < joints_.size(); ++i) {
@@ -342,7 +341,7 @@ void AxisReader::subdivide() {
     joints_.swap(spare_);
 }
 
-/// Sides by radius, for joints that have all that they can have.
+/// Reduces the sides of joints by radius.
 void AxisReader::fit_sides() {
     radii_.clear();
     for (std::size_t i = 0; i < joints_.size(); ++i) {
@@ -364,7 +363,8 @@ void AxisReader::fit_sides() {
     }
 }
 
-/// For joints that are not plain: how they bend, and none too thin for its neighbours.
+/// For joints that are not plain: sets their rings by their bends, and widens those too thin for
+/// their neighbours.
 void AxisReader::set_rings() {
     const std::size_t last = joints_.size() - 1;
     for (std::size_t i = 0; i <= last; ++i) {

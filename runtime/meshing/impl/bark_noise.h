@@ -18,7 +18,7 @@ public:
     /// `circumference` of the tube, greater than 0; `seed` tells tubes apart.
     BarkNoise(float circumference, std::uint32_t seed);
 
-    /// At `turn` (0 to 1) around the axis and `arc` along it.
+    /// Noise at `turn` (0 to 1) around the axis and `arc` along it.
     [[nodiscard]] NoiseSample at(float turn, double arc) const;
 
 private:

@@ -15,17 +15,17 @@ namespace lsys {
 
 namespace {
 
-// Part of the greater radius that the smaller one has at least.
+// Least part of the smaller radius of the greater one.
 constexpr float kLeastTaper = 0.05F;
 // A single child continues its parent if it bends by less than 60 degrees.
 constexpr float kStraight = 0.5F;
 // Below this cosine, no side of a joint faces a child.
 constexpr float kFacing = 0.35F;
-// How much longer than the way out of the joint a child has to be.
+// Least length of a child as a multiple of its way out of the joint.
 constexpr float kOutside = 1.25F;
 constexpr std::size_t kSides = 5; // of a joint: four and the top
 
-/// Extents that can be told apart where the segment is.
+/// Least extent that floats can represent at the place of the segment.
 bool is_drawn(const Segment& segment) {
     const glm::vec3 end = tip(segment);
     const float far =
@@ -36,7 +36,7 @@ bool is_drawn(const Segment& segment) {
            radius > 1e-12F && radius < 1e12F && far < 1e12F;
 }
 
-/// A segment and where it grows.
+/// A segment and the place where it grows.
 class BoxMesher {
 public:
     BoxMesher(const Skeleton& skeleton, float width) : skeleton_(skeleton), width_(width) {}
@@ -58,7 +58,7 @@ private:
         return std::span(children_).subspan(first_child_[segment],
                                             first_child_[segment + 1] - first_child_[segment]);
     }
-    /// Drawn children by drawn parents, over segments without length.
+    /// Drawn children of each drawn parent, skipping segments without length.
     void find_children() {
         const std::size_t count = skeleton_.segments.size();
         drawn_.resize(count);
@@ -93,7 +93,7 @@ private:
         float base;
         float tip;
     };
-    /// Half sides of the box.
+    /// Half sides of the box of a segment.
     [[nodiscard]] Widths widths(const Segment& segment) const {
         const float least = kLeastTaper * std::max(segment.base_radius, segment.tip_radius);
         return {width_ * std::max(segment.base_radius, least),
@@ -111,7 +111,7 @@ private:
         const glm::vec3 along = heading(own.frame);
         const float length = own.length;
         writer_.begin_segment(own, segment, w.base);
-        // What is left between the joint it grows from and its tip.
+        // Rest between its joint and its tip.
         float reach = 0.0F;
         if (socket_of_[segment] == kNoSegment) {
             writer_.begin_root(w.base);
@@ -154,7 +154,7 @@ private:
         branch(segment, half, reach);
     }
 
-    /// A joint whose box has the children that fit on its sides.
+    /// Makes a joint whose sides carry the children that fit.
     void branch(std::uint32_t segment, float half, float reach) {
         const Segment& own = skeleton_.segments[segment];
         const glm::vec3 along = heading(own.frame);
@@ -188,7 +188,7 @@ private:
         }
     }
 
-    /// How far a ray from the middle of a joint's box is inside of it.
+    /// Length of a ray from the middle of a joint's box to its surface.
     static float
     way_out(const BoxJoint& joint, const glm::vec3& extent, const glm::vec3& direction) {
         const glm::vec3 local(glm::dot(direction, joint.sides[3].normal),

@@ -15,9 +15,9 @@ namespace {
 
 // Signs of right and up at the corners of a square.
 constexpr std::array<glm::vec2, 4> kCorners{{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
-// There and back around a branch, so that there is no seam.
+// u goes there and back around a branch, without a seam.
 constexpr std::array<float, 4> kAround{0.0F, 0.5F, 1.0F, 0.5F};
-// How much of a side the parts take that it is divided into.
+// Part of a divided side that its tiles take.
 constexpr float kInner = 0.85F;
 
 /// `v`, turned the shortest way that turns unit vector `from` into unit vector `to`.
@@ -56,7 +56,7 @@ void BoxWriter::begin_segment(const Segment& segment, std::uint32_t number, floa
     segment_ = &segment;
     number_ = number;
     distance_ = 0.0F;
-    // The picture goes half around, and is as high as it is wide.
+    // The picture covers half of the circumference, as high as it is wide.
     v_per_length_ = 1.0F / (4.0F * half);
 }
 
@@ -99,7 +99,7 @@ void BoxWriter::add_ring(float distance, const glm::vec3& direction, float half)
     distance_ = distance;
 }
 
-/// Faces between two rings, each with the corner at its start that sees all of it.
+/// Adds the faces between two rings, each from a corner that sees all of it.
 void BoxWriter::join(const BoxSocket& from, const BoxSocket& to) {
     for (std::size_t i = 0; i < 4; ++i) {
         const std::size_t j = (i + 1) % 4;

@@ -1,5 +1,5 @@
-// BoxWriter: rings of four corners and the faces between them, which are always those of a closed
-// mesh once every segment is closed and every side of a joint is divided.
+// BoxWriter: rings of four corners and the faces between them. The mesh is closed once every
+// segment is closed and every side of a joint is divided.
 #pragma once
 
 #include "runtime/meshing/impl/catmull_clark.h"
@@ -12,7 +12,7 @@
 
 namespace lsys {
 
-inline constexpr std::size_t kMostOnSide = 4; // children that a side of a joint is divided for
+inline constexpr std::size_t kMostOnSide = 4; // children of a side of a joint, at most
 
 /// An open square that a segment grows out of, seen from outside: its corners lie at (right, up) =
 /// (+, +), (-, +), (-, -), (+, -). Between two corners there may be a vertex of a neighbour.
@@ -34,16 +34,16 @@ struct BoxJoint {
 
 class BoxWriter {
 public:
-    /// What follows belongs to `segment`, of this number, whose box begins with this half side.
+    /// Begins `segment` of this number, whose box begins with this half side.
     void begin_segment(const Segment& segment, std::uint32_t number, float half);
     void begin_root(float half);
     void begin_at(const BoxSocket& socket);
-    /// A ring across `direction`, at a distance from the base of the segment, joined to what is
-    /// there.
+    /// Adds a ring across `direction`, at a distance from the base of the segment, joined to the
+    /// ring or socket before it.
     void add_ring(float distance, const glm::vec3& direction, float half);
-    /// A ring that is not joined yet: the sides between are those of a joint.
+    /// Adds a ring that is not joined yet: the sides between are sides of a joint.
     [[nodiscard]] BoxJoint add_joint(float distance, const glm::vec3& direction, float half);
-    /// Where the next segment grows on.
+    /// The socket of the next segment.
     [[nodiscard]] const BoxSocket& end_socket() const { return end_; }
     void close();
     /// Divides a side for segments that grow towards these places in (right, up); a socket for

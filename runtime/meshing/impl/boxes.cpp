@@ -28,7 +28,7 @@ constexpr std::uint64_t kMostCorners = std::uint64_t{1} << 31;
 constexpr std::uint64_t kMostSegments = 100'000'000;
 constexpr std::uint64_t kVerticesOfPiece = 1U << 14;
 
-/// Faces by the part they belong to, as triangles.
+/// Triangles of the faces, by part.
 struct Parts {
     std::vector<MeshBuilder::PartSize> sizes;   // by rising material
     std::vector<std::span<std::uint32_t>> room; // for the indices of each
@@ -110,7 +110,7 @@ void write_vertex(const CatmullClark& surface, std::uint32_t vertex, const MeshB
     const glm::vec3 normal = unit_or(area, glm::vec3(0.0F, 1.0F, 0.0F));
     const glm::vec3 across = edge - glm::dot(edge, normal) * normal;
     tangent -= glm::dot(tangent, normal) * normal;
-    // Where u turns back, there is none.
+    // No tangent where u turns back.
     tangent *= glm::length(tangent) > 1e-3F * tangents ? 1.0F : 0.0F;
     const glm::vec3 any = std::abs(normal.x) < 0.6F ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
     const glm::vec3 fallback =
@@ -119,7 +119,7 @@ void write_vertex(const CatmullClark& surface, std::uint32_t vertex, const MeshB
               {.position = mesh.positions[vertex],
                .normal = normal,
                .texture_coordinate = mesh.texture_coordinates[vertex],
-               // With v downwards, what is not mirrored turns clockwise.
+               // v goes down: pictures that are not mirrored turn clockwise.
                .tangent = glm::vec4(unit_or(tangent, fallback), mirrored > 0.0F ? -1.0F : 1.0F),
                .palette = mesh.colours[lowest]});
     if (!block.segments.empty()) {
@@ -177,7 +177,7 @@ void append_boxes(const Skeleton& skeleton, const MeshOptions& options, MeshBuil
     const MeshCounts counts = refined_counts(boxes, steps);
     MeshBlock block;
     if (skeleton.segments.size() > kMostSegments || counts.corners >= kMostCorners) {
-        // More vertices than there can be.
+        // Beyond any limit of vertices.
         (void)builder.place_parts({}, ~std::uint64_t{0}, block);
         return;
     }

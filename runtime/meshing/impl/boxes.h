@@ -6,9 +6,9 @@
 
 namespace lsys {
 
-/// Appends all segments, as the first that `builder` is given. Each plant is one closed surface,
+/// Appends all segments; nothing may be in `builder` before. Each plant is one closed surface,
 /// subdivided MeshOptions::subdivisions times less the level. Texture coordinates: u goes there and
-/// back around a branch, v down along it. What did not fit, the builder's status says.
+/// back around a branch, v down along it. The builder's status tells whether all fit.
 void append_boxes(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder);
 
 } // namespace lsys

@@ -182,7 +182,7 @@ void CatmullClark::refine() {
     twins.resize(to.corners.size());
     LargeVector<std::uint32_t> edges_of;
     edges_of.resize(to.corners.size());
-    // Half-edge h has the children 4h to 4h + 3, which are the quad at its first vertex.
+    // Children 4h to 4h + 3 of half-edge h are the quad at its first vertex.
     for_each(halves, [&](std::uint32_t half) {
         const std::uint32_t twin = twins_[half];
         const std::uint32_t before = previous(half);

@@ -1,7 +1,8 @@
 // Catmull-Clark subdivision of closed meshes (Catmull & Clark 1978, "Recursively generated B-spline
 // surfaces on arbitrary topological meshes"), on half-edges whose children are known by their
 // number (Dupuy & Vanhoey 2021, "A Halfedge Refinement Rule for Parallel Catmull-Clark
-// Subdivision"). Each element is computed from those around it, so threads do not show.
+// Subdivision"). Each element depends on its neighbours alone, so the result does not depend on
+// threads.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -15,8 +16,8 @@
 
 namespace lsys {
 
-/// Faces of any number of corners, counter-clockwise seen from outside. Texture coordinates are
-/// one for each vertex and are smoothed with the positions.
+/// Faces with any number of corners, counter-clockwise seen from outside. Each vertex has one
+/// texture coordinate, smoothed like its position.
 struct PolygonMesh {
     LargeVector<glm::vec3> positions;
     LargeVector<glm::vec2> texture_coordinates;
@@ -32,22 +33,22 @@ struct MeshCounts {
     std::uint64_t faces = 0;
     std::uint64_t corners = 0;
 };
-/// What `steps` steps make of a closed mesh; no more than is needed to see that it is too much.
+/// Sizes of a closed mesh after `steps` steps, capped beyond every limit.
 [[nodiscard]] MeshCounts refined_counts(const PolygonMesh& mesh, std::uint32_t steps);
 
 /// A closed mesh and its steps of subdivision.
 class CatmullClark {
 public:
-    /// The corners of `mesh` are less than 2^31.
+    /// Precondition: fewer than 2^31 corners.
     CatmullClark(PolygonMesh mesh, Workers& workers);
 
-    /// Whether every edge is that of two faces, in opposite directions. The rest asks for it.
+    /// Whether every edge has two faces, in opposite directions: precondition of all below.
     [[nodiscard]] bool closed() const { return closed_; }
-    /// One step. The corners are less than 2^29 before it.
+    /// One step. Precondition: fewer than 2^29 corners.
     void refine();
     [[nodiscard]] const PolygonMesh& mesh() const { return mesh_; }
 
-    /// Calls visit(face, corner) for the faces around a vertex; `corner` is where it has it.
+    /// Calls visit(face, corner) for the faces around a vertex; `corner`: the vertex in the face.
     template <typename Visit>
     void visit_faces(std::uint32_t vertex, const Visit& visit) const {
         const std::uint32_t first = vertex_half_[vertex];

@@ -22,7 +22,7 @@ constexpr std::uint64_t kSegmentsOfPiece = 4096;
 constexpr std::uint32_t kMostLevels = 8;
 constexpr float kGreatestRadius = 1e18F;
 
-/// What a segment becomes: rings of `sides` corners, or points.
+/// The cone of a segment: rings of `sides` corners, or points.
 struct Cone {
     std::uint32_t sides = 0; // 0: nothing
     float base_radius = 0.0F;
@@ -45,7 +45,7 @@ Cone cone_of(const Segment& segment, const MeshOptions& options) {
         usable_sides(options.sides != 0 ? options.sides : std::uint32_t{segment.sides});
     Cone cone;
     cone.sides = std::max(whole >> std::min(options.level, kMostLevels), kMinSides);
-    // What is smaller cannot be told from a point where it is.
+    // Smaller radii are points in floats.
     const glm::vec3 end = tip(segment);
     float far = 0.0F;
     for (int i = 0; i < 3; ++i) {
@@ -79,7 +79,7 @@ public:
         const float length = segment.length;
         const float slope = cone.base_radius - cone.tip_radius;
         const glm::vec2 normal = glm::normalize(glm::vec2(length, slope));
-        // The picture is as high as it is wide: once around.
+        // The picture goes once around, as high as it is wide.
         const float v =
             -length / (std::numbers::pi_v<float> * (cone.base_radius + cone.tip_radius));
         const std::uint64_t low = vertex_;

@@ -6,8 +6,8 @@
 
 namespace lsys {
 
-/// Appends all segments, as the first that `builder` is given. An end of radius 0 is a point; what
-/// has no length or no width is left out. What did not fit, the builder's status says.
+/// Appends all segments; nothing may be in `builder` before. An end of radius 0 is a point;
+/// segments without length or width are left out. The builder's status tells whether all fit.
 void append_cylinders(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder);
 
 } // namespace lsys

@@ -1,5 +1,5 @@
 // Unit directions of the corners of regular polygons, as constants: the same bits on every machine,
-// whatever its mathematical library makes of a cosine.
+// independent of its library's cosine.
 #pragma once
 
 #include "runtime/turtle/turtle.h"
@@ -78,7 +78,7 @@ inline constexpr auto kDirections = make_directions();
     return detail::kDirections.data() + detail::first_direction(sides);
 }
 
-/// A number of sides that there are directions for; 0 stands for 8.
+/// Clamps a number of sides to those with directions; 0 means 8.
 [[nodiscard]] constexpr std::uint32_t usable_sides(std::uint32_t sides) {
     return sides == 0 ? 8 : std::clamp(sides, kMinSides, kMaxSides);
 }

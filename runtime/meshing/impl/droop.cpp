@@ -14,9 +14,9 @@ namespace lsys {
 
 namespace {
 
-// Of the prepared leaves, which are few rows long.
+// Rows of prepared leaves, at most.
 constexpr std::size_t kMaxRows = 16;
-// How far a leaf that stands on its edge turns at most, radians.
+// Greatest turn of a leaf that stands on its edge, radians.
 constexpr float kSidewaysTurn = 2.1F;
 
 /// Part of the whole turn that is reached at a distance from the base: bending fades to the tip.
@@ -48,11 +48,12 @@ void Droop::bend(const ShapePart& part,
                  const glm::quat& frame,
                  float amount,
                  ShapePart& bent) const {
-    // The ground as the leaf sees it, its part across the midrib, and the axis to turn about.
+    // Direction to the ground in the leaf's space, its part across the midrib, and the axis to turn
+    // about.
     const glm::vec3 down = glm::conjugate(frame) * glm::vec3(0.0F, -1.0F, 0.0F);
     glm::vec3 across(down.x, 0.0F, down.z);
     const float length = glm::length(across);
-    // One that points straight up falls over its lower side.
+    // A leaf that points straight up falls over its lower side.
     across = length > 1e-5F ? across / length : glm::vec3(0.0F, 0.0F, -1.0F);
     const glm::vec3 axis(across.z, 0.0F, -across.x);
     // Sideways a blade is stiff, and would fold at its inner edge.
@@ -61,8 +62,8 @@ void Droop::bend(const ShapePart& part,
 
     struct Row {
         glm::vec3 centre;
-        glm::vec3 along;  // where +Y goes
-        glm::vec3 across; // where `across` goes
+        glm::vec3 along;  // image of +Y
+        glm::vec3 across; // image of `across`
     };
     std::array<Row, kMaxRows> rows;
     for (std::size_t i = 0; i < rows_.size(); ++i) {

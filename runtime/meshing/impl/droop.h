@@ -1,5 +1,5 @@
-// How a leaf bends by gravity: along its midrib each place is turned towards the ground, most of it
-// near the stem, so that nothing is stretched.
+// Bending of leaves by gravity: each place of the midrib is turned towards the ground, most of it
+// near the stem, without stretching the leaf.
 #pragma once
 
 #include "runtime/meshing/shapes.h"

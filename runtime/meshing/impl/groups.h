@@ -9,7 +9,7 @@
 
 namespace lsys {
 
-inline constexpr std::uint64_t kNoGroup = ~std::uint64_t{0}; // key of what is left out
+inline constexpr std::uint64_t kNoGroup = ~std::uint64_t{0}; // key of items to leave out
 
 struct Group {
     std::uint64_t key = 0;
@@ -22,7 +22,7 @@ struct Groups {
     LargeVector<std::uint32_t> items; // of one key together, each group in the items' own order
 };
 
-/// `key_of` is called twice for each of the items 0 ... count - 1.
+/// Sorts the items 0 ... count - 1 by key_of(item), which is called twice for each.
 template <typename KeyOf>
 [[nodiscard]] Groups group_items(std::uint64_t count, const KeyOf& key_of) {
     std::map<std::uint64_t, std::uint64_t> places; // key to count, then to the next free place

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint64_t kMaxVertices = 0xFFFFFFFFu;
 
-/// `data` with room for `needed` elements of which the first `used` keep their values. What is new
-/// is exact if nothing is kept, else room grows by doubling.
+/// Makes room for `needed` elements in `data` and keeps the first `used`. Allocates exactly if none
+/// is kept, else by doubling.
 template <typename Vector>
 std::span<typename Vector::value_type>
 grow(Vector& data, std::uint64_t used, std::uint64_t needed) {
@@ -108,7 +108,7 @@ MeshBuilder::MeshBuilder(const MeshOptions& options, Mesh& mesh) : options_(opti
     mesh.materials.clear();
 }
 
-/// Counts what is to come, if it fits.
+/// Adds to the counts of vertices and bytes; sets the status if they do not fit.
 bool MeshBuilder::take(std::uint64_t vertices, std::uint64_t triangle_bytes) {
     if (status_ != MeshStatus::Ok) {
         return false;

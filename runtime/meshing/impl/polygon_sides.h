@@ -1,4 +1,4 @@
-// How round a polygon is, and how many sides are round enough.
+// Roundness of regular polygons: measures, and the number of sides for a deviation.
 #pragma once
 
 #include "runtime/turtle/turtle.h"
@@ -8,18 +8,18 @@
 
 namespace lsys {
 
-/// Half of a side of the polygon with unit corners: sin(pi / sides).
+/// Half a side of the regular polygon with unit corners: sin(pi / sides).
 [[nodiscard]] float half_side(std::uint32_t sides);
-/// From its centre to the middle of a side: cos(pi / sides).
+/// Distance from its centre to the middle of a side: cos(pi / sides).
 [[nodiscard]] float inner_radius(std::uint32_t sides);
-/// What a polygon of `fewer` sides is widened by. The mean width of a convex shape is its
-/// circumference / pi (Cauchy), so it is as wide as one of `sides` sides if it is as long around.
+/// Factor that gives a polygon of `fewer` sides the circumference, and so the mean width, of one of
+/// `sides` sides: the mean width of a convex shape is its circumference / pi (Cauchy).
 [[nodiscard]] float widening(std::uint32_t sides, std::uint32_t fewer);
 
-/// Sides by radius: how many of them keep a polygon within a distance of its circle.
+/// Least number of sides, by radius, that keeps a polygon within a distance of its circle.
 class SideCounts {
 public:
-    /// `deviation` > 0, in the unit of radii.
+    /// `deviation`: greater than 0, in the unit of radii.
     explicit SideCounts(float deviation);
 
     /// The smallest odd number for which radius * (1 - cos(pi / sides)) is at most the deviation,
@@ -33,13 +33,13 @@ public:
         return sides < most ? sides : most;
     }
 
-    /// As the function above, from a table.
+    /// widening() from a table.
     [[nodiscard]] float widening(std::uint32_t sides, std::uint32_t fewer) const {
         return half_around_[sides] / half_around_[fewer];
     }
 
 private:
-    std::array<float, kMaxSides + 1> reach_{};       // the greatest radius for so many sides
+    std::array<float, kMaxSides + 1> reach_{};       // the greatest radius, by sides
     std::array<float, kMaxSides + 1> half_around_{}; // half of the circumference
 };
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kCornersOfPiece = 1U << 14;
 
-/// Where a polygon lies: unit axes, `across` x `along` = `normal`.
+/// The plane of a polygon: unit axes, `across` x `along` = `normal`.
 struct Plane {
     glm::dvec3 across{};
     glm::dvec3 along{};
@@ -27,7 +27,7 @@ struct Plane {
 };
 
 bool normalize(glm::dvec3& v) {
-    // Scaled first: squares of what a turtle reaches leave the range of a double.
+    // Scaled first: squares of coordinates may leave the range of a double.
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (!(largest > 0.0)) {
         return false;
@@ -117,7 +117,7 @@ struct Job {
     const LargeVector<std::uint32_t>& items;
 };
 
-/// Calls `work` for every piece; memory that runs out is told on the calling thread.
+/// Calls `work` for every piece; rethrows want of memory on the calling thread.
 template <typename Work>
 void for_each_piece(Workers& workers, std::vector<Piece>& pieces, const Work& work) {
     std::atomic<bool> failed{false};
@@ -217,7 +217,7 @@ std::vector<Piece> cut_into_pieces(const Job& job, const Group& group) {
 } // namespace
 
 void append_polygons(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder) {
-    // Leaf green is meant by 0, and is 1.
+    // Palette index 0 means leaf green, which is 1.
     const Groups groups = group_items(skeleton.polygons.size(), [&](std::uint64_t i) {
         return std::max<std::uint64_t>(skeleton.polygons[i].colour, 1);
     });

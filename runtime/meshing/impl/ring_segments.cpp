@@ -17,12 +17,12 @@ namespace lsys {
 
 namespace {
 
-// Joints that may lie between two at the bases of segments: two edges of a collar, each cut for
-// noise into at most sixteen.
+// Joints between the bases of two consecutive segments, at most: two edges of a collar, each cut
+// for noise into at most sixteen.
 constexpr std::size_t kMostBetween = 32;
 constexpr std::uint32_t kUnknown = kNoSegment;
 
-/// From a point to a segment's axis, squared.
+/// Squared distance of a point from a segment's axis.
 double distance(const glm::vec3& point, const Segment& segment) {
     const glm::dvec3 from(segment.base);
     const glm::dvec3 way = glm::dvec3(tip(segment)) - from;
@@ -85,8 +85,8 @@ private:
         }
     }
 
-    /// The segments of a run's joints. Joints and segments go the same way, and a joint lies
-    /// exactly at the base of the segment that begins there unless it was put between two.
+    /// Finds the segments of a run's joints. Joints and segments are in the same order; a joint
+    /// lies exactly at the base of its segment unless it was inserted between two.
     void find_places(const std::vector<Joint>& joints) {
         const std::size_t last = joints.size() - 1;
         places_.assign(joints.size(), kUnknown);
@@ -130,7 +130,7 @@ private:
         segments_of_[last] = {chain_[end], chain_[end]};
     }
 
-    /// The last one before `place` that has a length.
+    /// The last segment before `place` with a length.
     [[nodiscard]] std::uint32_t drawn_before(std::uint32_t place) const {
         std::uint32_t before = place - 1;
         while (before > 0 && !(skeleton_.segments[chain_[before]].length > 0.0F)) {
@@ -159,7 +159,7 @@ private:
         vertex_ += count;
     }
 
-    /// In the order in which a TubeWriter writes.
+    /// Writes in the order of a TubeWriter.
     void name(const OwnRun& own) {
         const std::vector<Joint>& joints = own.joints;
         const std::size_t last = joints.size() - 1;
@@ -176,7 +176,7 @@ private:
             } else {
                 put(columns, at);
             }
-            if (joints[i].colour != joints[i - 1].colour) { // the last ring once more
+            if (joints[i].colour != joints[i - 1].colour) { // duplicates the last ring
                 put(columns, bends ? VertexSegments{at[1], at[1]} : at);
             }
         }
@@ -192,9 +192,9 @@ private:
     std::span<VertexSegments> segments_;
     Workers workers_;
     Axes axes_;
-    std::vector<std::uint32_t> chain_;  // segments of the run, and what is not drawn behind it
-    std::vector<std::uint32_t> places_; // in chain_, of each joint
-    std::vector<VertexSegments> segments_of_; // each joint: of the edge before it and behind it
+    std::vector<std::uint32_t> chain_;        // segments of the run, and undrawn ones behind it
+    std::vector<std::uint32_t> places_;       // in chain_, of each joint
+    std::vector<VertexSegments> segments_of_; // by joint: of the edges before and behind it
     std::uint64_t vertex_ = 0;
 };
 

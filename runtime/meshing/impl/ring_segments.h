@@ -1,5 +1,5 @@
-// The segments of the rings of tubes, for a skin: a ring at a joint hangs half on the segment
-// before it and half on the one behind it, any other on the segment that it lies at.
+// Segments of the rings of tubes, for a skin: a ring at a joint hangs half on the segment before it
+// and half on the segment behind it, any other ring on the segment beside it.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -8,7 +8,7 @@
 
 namespace lsys {
 
-/// `segments` are those of the vertices that append_tubes() has written, with the same options.
+/// Fills `segments` of the vertices that append_tubes() wrote with the same options.
 void name_ring_segments(const Skeleton& skeleton,
                         const MeshOptions& options,
                         std::span<VertexSegments> segments);

@@ -1,5 +1,4 @@
-// Pieces that shapes are made of: surfaces of revolution about +Y, discs, boxes, and what completes
-// a mesh with normals and tangents.
+// Parts of shapes: surfaces of revolution about +Y, discs and boxes; normals and tangents.
 #pragma once
 
 #include "runtime/meshing/shapes.h"
@@ -18,7 +17,7 @@ struct ProfilePoint {
     glm::vec2 normal{};
 };
 
-/// Profile normals that turn evenly from one piece to the next. The profile rises.
+/// Smooth normals of a rising profile.
 void smooth_normals(std::span<ProfilePoint> profile);
 /// Turns a rising profile about +Y. A point of radius 0 is a pole. u goes around, v down.
 void append_revolution(ShapePart& part, std::span<const ProfilePoint> profile, std::uint32_t sides);
@@ -27,10 +26,10 @@ void append_disc(ShapePart& part, float y, bool up, std::uint32_t sides);
 /// The cube of side 1 that stands on the origin.
 void append_cube(ShapePart& part);
 
-/// Normals of vertices from the triangles around them, weighted by area.
+/// Sets normals of vertices from the triangles around them, weighted by area.
 void complete_normals(ShapePart& part);
-/// Tangents along rising u, made orthogonal to the normals (Lengyel 2001). Where the texture
-/// coordinates give none, any.
+/// Sets tangents along rising u, orthogonal to the normals (Lengyel 2001); any tangent where the
+/// texture coordinates give none.
 void complete_tangents(ShapePart& part);
 
 } // namespace lsys

@@ -12,9 +12,9 @@ namespace {
 
 // Coordinates are scaled to 0 ... 1 first; an area below this is rounding.
 constexpr double kFlat = 1e-13;
-// Below this, comparing with all corners is faster than with an index of them.
+// Below this number of corners, comparing with all is faster than an index.
 constexpr std::uint32_t kIndexedFrom = 64;
-// What looking for ears again and again in a polygon that has none may cost, in corners.
+// Budget in corners for repeated searches for ears in a polygon without any.
 constexpr std::uint32_t kSearches = 400'000;
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
@@ -95,13 +95,13 @@ double Triangulator::turn(std::uint32_t node) const {
     return area(nodes_[own.previous].at, own.at, nodes_[own.next].at);
 }
 
-/// All turns to the left, and once around.
+/// Whether all corners turn left, once around.
 bool Triangulator::is_convex() const {
     int changes = 0;
     bool was_right = false;
     bool known = false;
     std::uint32_t node = 0;
-    // The first edge comes twice, so that a change from the last one is seen.
+    // The first edge comes twice, to compare it with the last one.
     for (std::uint32_t i = 0; i <= left_; ++i, node = nodes_[node].next) {
         if (turn(node) < 0.0) {
             return false;
@@ -154,8 +154,8 @@ void Triangulator::remove(std::uint32_t node) {
     --left_;
 }
 
-/// Whether a corner of the ring keeps `ear` from being cut off: one that is not convex and lies in
-/// its triangle. One that lies on a corner of the triangle does if an edge leads inside from there.
+/// Whether a corner of the ring blocks `ear`: a reflex one that lies in its triangle. One that lies
+/// on a corner of the triangle blocks if an edge leads inside from there.
 bool Triangulator::is_blocked_by(std::uint32_t node, std::uint32_t ear) const {
     const Node& own = nodes_[ear];
     if (node == ear || node == own.previous || node == own.next) {
@@ -201,7 +201,7 @@ bool Triangulator::is_ear(std::uint32_t node) const {
     const glm::dvec2 high = glm::max(glm::max(a, own.at), c);
     const std::uint32_t first = order_of(low);
     const std::uint32_t last = order_of(high);
-    // Both ways at once: what blocks is near.
+    // Searched both ways at once: blocking corners are near.
     std::uint32_t down = own.lower;
     std::uint32_t up = own.higher;
     const auto blocks = [&](std::uint32_t p) {
@@ -223,7 +223,7 @@ bool Triangulator::is_ear(std::uint32_t node) const {
     }
 }
 
-/// Cuts `node` off, with its triangle unless that is flat.
+/// Removes `node`; adds its triangle unless it is flat.
 void Triangulator::cut(std::uint32_t node, std::vector<std::uint32_t>& triangles) {
     if (turn(node) > kFlat) {
         triangles.insert(triangles.end(), {nodes_[nodes_[node].previous].corner,
@@ -232,7 +232,7 @@ void Triangulator::cut(std::uint32_t node, std::vector<std::uint32_t>& triangles
     remove(node);
 }
 
-/// Where the edges before and after an edge cross each other, cuts the small triangle off.
+/// Cuts off the small triangle where the edges before and after an edge cross.
 std::uint32_t Triangulator::without_small_crossings(std::uint32_t start,
                                                     std::vector<std::uint32_t>& out) {
     std::uint32_t node = start;
@@ -251,7 +251,7 @@ std::uint32_t Triangulator::without_small_crossings(std::uint32_t start,
     return node;
 }
 
-/// In a ring without ears: cuts the next convex corner off.
+/// Cuts off the next convex corner of a ring without ears.
 std::uint32_t Triangulator::cut_anyway(std::uint32_t start, std::vector<std::uint32_t>& out) {
     std::uint32_t node = start;
     for (std::uint32_t i = 0; i < left_ && turn(node) <= kFlat; ++i) {
@@ -269,12 +269,12 @@ void Triangulator::clip(std::vector<std::uint32_t>& triangles) {
     }
     const std::uint32_t searches = 2 + kSearches / left_;
     std::uint32_t node = 0;
-    std::uint32_t search = 0;  // times that no ear was found
+    std::uint32_t search = 0;  // rounds without an ear
     std::uint32_t without = 0; // corners seen since the last ear
     while (left_ > 2) {
         const std::uint32_t after = nodes_[node].next;
         if (nodes_[node].at == nodes_[after].at || turn(node) == 0.0) {
-            // On a line with its neighbours, or on one of them: not needed.
+            // Not needed: on a line with its neighbours, or on one of them.
             remove(node);
             node = nodes_[node].previous;
             without = 0;
@@ -282,7 +282,7 @@ void Triangulator::clip(std::vector<std::uint32_t>& triangles) {
             node = cut_anyway(node, triangles);
         } else if (is_ear(node)) {
             cut(node, triangles);
-            node = nodes_[after].next; // leaving one out makes better triangles than a fan
+            node = nodes_[after].next; // skipping one makes better triangles than a fan
             without = 0;
         } else if (++without <= left_) {
             node = after;

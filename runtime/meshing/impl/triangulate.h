@@ -14,17 +14,17 @@
 
 namespace lsys {
 
-/// Keeps its memory from one polygon to the next.
+/// Reuses its memory from one polygon to the next.
 class Triangulator {
 public:
-    /// Appends triples of numbers of corners, counter-clockwise. The coordinates are finite; each
-    /// triangle has an area that is more than rounding.
+    /// Appends triples of numbers of corners, counter-clockwise. Precondition: finite coordinates.
+    /// Each triangle has an area above rounding.
     void append(std::span<const glm::dvec2> corners, std::vector<std::uint32_t>& triangles);
 
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-    /// A corner of what is left, in rings of neighbours and in a list by `order`.
+    /// A remaining corner, in rings of neighbours and in a list by `order`.
     struct Node {
         glm::dvec2 at{};
         std::uint32_t corner = 0;

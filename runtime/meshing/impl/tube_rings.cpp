@@ -1,7 +1,7 @@
-// The part of TubeWriter that fills arrays.
+// TubeWriter: filling of arrays.
 #include "runtime/meshing/impl/bark_noise.h"
 #include "runtime/meshing/impl/directions.h"
-#include "runtime/meshing/impl/lanes.h"
+#include "runtime/meshing/impl/float4.h"
 #include "runtime/meshing/impl/tube_writer.h"
 
 #include <glm/geometric.hpp>
@@ -15,17 +15,17 @@ namespace {
 
 /// An ellipse in space, or the cone of directions across it.
 struct Ellipse {
-    Lanes centre;
-    Lanes at_cosine;
-    Lanes at_sine;
+    Float4 centre;
+    Float4 at_cosine;
+    Float4 at_sine;
 
-    [[nodiscard]] Lanes at(Lanes cosine, Lanes sine) const {
+    [[nodiscard]] Float4 at(Float4 cosine, Float4 sine) const {
         return centre + (cosine * at_cosine + sine * at_sine);
     }
 };
 
-/// Writes `columns` vectors of both, three floats each. All but the last are written as four, the
-/// fourth of which the next one covers.
+/// Writes `columns` vectors of both, three floats each. All but the last are stored as four floats;
+/// the next one overwrites the fourth.
 void put_ellipses(glm::vec3* positions,
                   const Ellipse& position,
                   glm::vec3* normals,
@@ -34,13 +34,13 @@ void put_ellipses(glm::vec3* positions,
                   std::uint32_t columns) {
     const std::uint32_t last = columns - 1;
     for (std::uint32_t i = 0; i < last; ++i) {
-        const Lanes cosine = lanes(at[i].cosine);
-        const Lanes sine = lanes(at[i].sine);
+        const Float4 cosine = float4(at[i].cosine);
+        const Float4 sine = float4(at[i].sine);
         store_four(positions + i, position.at(cosine, sine));
         store_four(normals + i, normal.at(cosine, sine));
     }
-    const Lanes cosine = lanes(at[last].cosine);
-    const Lanes sine = lanes(at[last].sine);
+    const Float4 cosine = float4(at[last].cosine);
+    const Float4 sine = float4(at[last].sine);
     store_three(positions + last, position.at(cosine, sine));
     store_three(normals + last, normal.at(cosine, sine));
 }
@@ -56,10 +56,10 @@ void TubeWriter::put_ring(const Ring& ring) {
     } else {
         const float part =
             ring.slope == 0.0F ? 1.0F : 1.0F / std::sqrt(1.0F + ring.slope * ring.slope);
-        const Ellipse position{lanes(ring.centre), lanes(ring.radius * ring.wide_normal),
-                               lanes(ring.radius * ring.wide_binormal)};
-        const Ellipse normal{lanes((-ring.slope * part) * ring.tangent), lanes(part * ring.normal),
-                             lanes(part * ring.binormal)};
+        const Ellipse position{float4(ring.centre), float4(ring.radius * ring.wide_normal),
+                               float4(ring.radius * ring.wide_binormal)};
+        const Ellipse normal{float4((-ring.slope * part) * ring.tangent),
+                             float4(part * ring.normal), float4(part * ring.binormal)};
         put_ellipses(block_.positions.data() + first, position, block_.normals.data() + first,
                      normal, directions(ring.sides), columns);
     }
@@ -88,11 +88,11 @@ void TubeWriter::put_textured(const Ring& ring, std::uint64_t first) {
     glm::vec4* to = block_.tangents.data() + first;
     const Direction* at = directions(ring.sides);
     if (noise_ == nullptr) {
-        const Lanes a = lanes(ring.normal);
-        const Lanes b = lanes(ring.binormal);
-        const Lanes sign = lanes(glm::vec3(0.0F), 1.0F);
+        const Float4 a = float4(ring.normal);
+        const Float4 b = float4(ring.binormal);
+        const Float4 sign = float4(glm::vec3(0.0F), 1.0F);
         for (std::uint32_t i = 0; i < columns; ++i) {
-            store_four(to + i, sign + (lanes(at[i].cosine) * b - lanes(at[i].sine) * a));
+            store_four(to + i, sign + (float4(at[i].cosine) * b - float4(at[i].sine) * a));
         }
         return;
     }

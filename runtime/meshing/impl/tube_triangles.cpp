@@ -16,7 +16,7 @@ RingCorners TubeTriangles::add_ring(std::uint32_t sides) {
     return ring;
 }
 
-/// Adds a ring and the band from the last one.
+/// Adds a ring and the band between it and the last one.
 void TubeTriangles::link(TriangleList& list, std::uint32_t sides) {
     const RingCorners ring = add_ring(sides);
     if (sides == last_.sides) {
@@ -53,7 +53,7 @@ void TubeTriangles::add(const Run& run) {
         for (std::uint32_t ring = 1; ring < joint.rings; ++ring) {
             link(*list, joint.sides);
         }
-        if (joint.colour != joints[i - 1].colour) { // the ring is there once for each
+        if (joint.colour != joints[i - 1].colour) { // each colour has its own ring
             list = &lists_[slots_[joint.colour]];
             last_ = add_ring(joint.sides);
         }

@@ -1,5 +1,5 @@
-// TubeTriangles: the triangles of runs, and the number of vertices, before a vertex is made. What a
-// TubeWriter writes lies in the same order.
+// TubeTriangles: the triangles and the number of vertices of runs, before any vertex is made, in
+// the order of a TubeWriter.
 #pragma once
 
 #include "runtime/meshing/impl/axis_reader.h"
@@ -16,14 +16,14 @@ using ColourSlots = std::vector<std::uint32_t>;
 
 class TubeTriangles {
 public:
-    /// Appends to the list of each slot.
+    /// Appends the triangles of a run to the list of each slot.
     TubeTriangles(const MeshOptions& options,
                   const ColourSlots& slots,
                   std::span<TriangleList> lists);
 
     void add(const Run& run);
 
-    /// Of all runs so far.
+    /// Vertices of all runs so far.
     [[nodiscard]] std::uint64_t vertices() const { return vertices_; }
 
 private:

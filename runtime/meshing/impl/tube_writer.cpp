@@ -14,13 +14,13 @@ namespace lsys {
 namespace {
 
 constexpr float kGreatestSlope = 8.0F;
-constexpr std::uint32_t kStepsToDrift = 16; // of a frame, by some units in the last place
+constexpr std::uint32_t kStepsToDrift = 16; // edges after which a frame is made orthogonal again
 constexpr float kSpread = 0.2F;             // of the rings of one bend, in radii
 constexpr float kBluntHeight = 0.35F;
 // The ring between the end of a tube and the top of its half ball, in radii.
 constexpr float kBallRing = 0.75F;
 constexpr float kBallHeight = 0.62F;
-// How much of the bisector the first of three tangents of a bend has: a third of 90 degrees.
+// Part of the bisector in the first of three tangents of a bend: a third of 90 degrees.
 constexpr float kThird = 0.57735F;
 constexpr float kTurnsBack = -0.9F; // cosine of a bend
 
@@ -51,7 +51,7 @@ double mean_circumference(const Run& run) {
     return 2.0 * std::numbers::pi * area / length;
 }
 
-/// The unit axis of the bend from one edge to the next; any across the normal, if it turns back.
+/// The unit axis of the bend from one edge to the next; any across the normal for a reversal.
 glm::vec3 bend_axis(const glm::vec3& in, const glm::vec3& out, const glm::vec3& normal) {
     const glm::vec3 turn = glm::cross(in, out);
     const float sine = std::sqrt(glm::dot(turn, turn));
@@ -163,7 +163,7 @@ void TubeWriter::go(const Run& run, std::size_t end) {
             }
             put_ring(ring);
         }
-        if (ring.colour != joint.colour) { // the ring is there once for each
+        if (ring.colour != joint.colour) { // each colour has its own ring
             ring.colour = joint.colour;
             put_ring(ring);
         }
@@ -190,7 +190,7 @@ void TubeWriter::carry(const glm::vec3& in, const glm::vec3& out, Place& place) 
         normal = glm::dot(normal, axis) * axis +
                  glm::dot(normal, glm::cross(axis, in)) * glm::cross(axis, out);
     }
-    // A million steps leave it a unit vector across the edge.
+    // Renormalized, so that a million steps leave it a unit vector across the edge.
     if (++place.steps % kStepsToDrift == 0) {
         normal -= out * glm::dot(out, normal);
         normal *= 1.5F - 0.5F * glm::dot(normal, normal);
@@ -235,8 +235,8 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring& ring) {
     const glm::vec3 across_in = glm::cross(axis, in);
     const float half_cosine = std::sqrt(std::max(0.5F + 0.5F * cosine, 0.0F));
     const float half_sine = std::sqrt(std::max(0.5F - 0.5F * cosine, 0.0F));
-    // By how much the first tangent is turned from the edge before, and the last one from the edge
-    // behind: a quarter of the bend, or with three rings about a sixth.
+    // Turn of the first tangent from the edge before, and of the last one from the edge behind: a
+    // quarter of the bend, or with three rings about a sixth.
     const float share = joint.rings == 2 ? 1.0F : kThird;
     const float whole = 1.0F / std::sqrt(1.0F + share * (2.0F * half_cosine + share));
     const float part_cosine = (1.0F + share * half_cosine) * whole;
@@ -245,8 +245,8 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring& ring) {
     const float on = 0.75F * std::min(kSpread * joint.radius, 0.25F * joint.length);
     const glm::vec3 centre = ring.centre;
     const double arc = ring.arc;
-    // All tangents lie in the plane of the bend, so what the frame has along the axis and across it
-    // stays as it is.
+    // All tangents lie in the plane of the bend, so the parts of the frame along the axis and
+    // across it do not change.
     const float along_axis = glm::dot(at_.normal, axis);
     const float across_axis = glm::dot(at_.normal, across_in);
     const glm::vec3 normal_along = along_axis * axis;
@@ -276,7 +276,7 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring& ring) {
     put(cosine * part_cosine + sine * part_sine, sine * part_cosine - cosine * part_sine);
 }
 
-/// `ring` is the last one written.
+/// Closes the run; `ring` is the last one written.
 void TubeWriter::close(const Run& run, Ring& ring) {
     if (run.end == TubeEnd::Point) {
         return;

@@ -2,7 +2,7 @@
 // by double reflection (Wang, Juettler, Zheng and Liu, "Computation of rotation minimizing frames",
 // ACM TOG 27(1), 2008, section 4), so that a tube does not twist where the turtle rolls. It lies
 // across the edge, so the first reflection, along the edge, leaves it as it is; the second, in the
-// plane that halves the bend, is what remains. Corners of neighbouring rings are joined by lines
+// plane that halves the bend, remains. Corners of neighbouring rings are joined by lines
 // that are parallel to the edge between them.
 #pragma once
 
@@ -23,36 +23,36 @@ class BarkNoise;
 
 class TubeWriter {
 public:
-    /// Writes from vertex `vertex` of the block on.
+    /// Sets the next vertex to write, within the block.
     TubeWriter(const MeshBlock& block, const MeshOptions& options, std::uint64_t vertex);
 
-    /// Where the writing of a run is between two joints, and the frame there.
+    /// Progress within a run: a place between two joints, and the frame there.
     struct Place {
         std::size_t joint = 0; // the next one
         std::uint64_t vertex = 0;
         double arc = 0.0;
         double circumference = 0.0; // at the mean radius, where it is needed
-        glm::vec3 normal{}; // across the edge to the joint: where the first corner is seen from it
+        glm::vec3 normal{};         // across the edge to the joint: direction of the first corner
         std::uint32_t steps = 0;
     };
 
     void write(const Run& run);
     [[nodiscard]] Place begin(const Run& run) const;
-    /// Writes what begins before joint `end`; the place moves there.
+    /// Writes the rings before joint `end` and moves the place there.
     void write(const Run& run, Place& place, std::size_t end);
-    /// Moves the place as write() does up to a joint of the run, and writes nothing.
+    /// Moves the place up to a joint of the run as write() does, without writing.
     void skip(const Run& run, Place& place, std::size_t end) const;
 
     [[nodiscard]] std::uint64_t vertex() const { return at_.vertex; }
 
 private:
-    /// Where a ring lies and how: across the tangent, as an ellipse.
+    /// Position and shape of a ring: an ellipse across the tangent.
     struct Ring {
         glm::vec3 centre{};
         float radius = 0.0F;
         float slope = 0.0F; // of the radius by arc length
         glm::vec3 tangent{};
-        glm::vec3 normal{}; // unit; seen from the axis, the first corner lies there
+        glm::vec3 normal{}; // unit; direction of the first corner
         glm::vec3 binormal{};
         glm::vec3 wide_normal{}; // the normal and the binormal, stretched along the bend
         glm::vec3 wide_binormal{};
@@ -77,7 +77,7 @@ private:
     const MeshOptions& options_;
     bool seam_;
     Place at_;
-    // Of the run that is being written:
+    // State of the run being written:
     double v_scale_ = 0.0;
     const BarkNoise* noise_ = nullptr;
 };

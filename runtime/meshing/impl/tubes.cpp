@@ -22,21 +22,21 @@ constexpr std::uint64_t kPieces = 64;
 constexpr std::uint64_t kLeastOfPiece = 4096; // segments
 constexpr std::uint64_t kMostOfPiece = std::uint64_t{1} << 17;
 constexpr std::uint64_t kMostLists = std::uint64_t{1} << 20; // of pieces and colours
-constexpr std::size_t kJointsOfSegment = 2; // about, with those of ends and collars
+constexpr std::size_t kJointsOfSegment = 2;                  // about, with ends and collars
 constexpr std::size_t kJointsOfPart = 2048;
 constexpr std::size_t kLong = 4 * kJointsOfPart; // a run that is written in parts
 static_assert(kLong <= 0xFFFF);
 
-/// What makes a Run, beside its joints and their radii.
+/// A Run without its joints and their radii.
 struct KeptRun {
     std::uint32_t first_segment = 0;
-    std::uint16_t joint_count = 0; // but of long ones
+    std::uint16_t joint_count = 0; // except for long runs
     TubeEnd begin = TubeEnd::Flat;
     TubeEnd end = TubeEnd::Blunt;
 };
 
-/// A run that threads share, with joints of its own. Frames go from joint to joint, so each part
-/// begins where the one before has found its end.
+/// A run that several threads write, with joints of its own. Frames are carried from joint to
+/// joint, so each part waits for the place that the part before it has found.
 struct LongRun {
     std::size_t number = 0;      // in Piece::runs
     std::size_t first_joint = 0; // in Piece::joints, of the next run
@@ -44,15 +44,15 @@ struct LongRun {
     LargeVector<float> radii;
     std::uint64_t first_vertex = 0; // of those of the piece
     std::uint64_t end_vertex = 0;
-    std::vector<TubeWriter::Place> places; // where parts begin
-    std::atomic<std::size_t> known{1};     // of them
+    std::vector<TubeWriter::Place> places; // begins of parts
+    std::atomic<std::size_t> known{1};     // of the places
 };
 
-/// A range of segments, and what is drawn of the axes that begin there.
+/// A range of segments, and the runs of the axes that begin there.
 struct Piece {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
-    std::uint64_t vertices = 0;          // before: their number; after: where they start
+    std::uint64_t vertices = 0;          // first their number, then their position in the mesh
     std::vector<TriangleList> triangles; // of each colour
     LargeVector<KeptRun> runs;
     LargeVector<Joint> joints; // of all runs that are not long
@@ -142,7 +142,7 @@ struct Task {
     std::size_t part = 0;
 };
 
-/// In the order of vertices.
+/// Tasks in the order of vertices.
 std::vector<Task> make_tasks(std::vector<Piece>& pieces, std::uint64_t vertices) {
     std::vector<Task> tasks;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -206,7 +206,7 @@ private:
                 .first_segment = kept.first_segment};
     }
 
-    /// Tells the next part where it begins before anything is written, if there is someone to tell.
+    /// Publishes the place of the next part before writing, unless there is no other thread.
     void write_part(LongRun& shared) {
         const Run run = run_of(task_.piece->runs[task_.first_run], shared.joints, shared.radii);
         const std::size_t end = std::min((task_.part + 1) * kJointsOfPart, run.joints.size());
@@ -245,7 +245,7 @@ private:
                                               piece.radii.empty() ? 0 : kept.joint_count)));
             joint += kept.joint_count;
         }
-        // What was counted is what was written.
+        // Counted and written vertices agree.
         LSYS_CHECK(writer_.vertex() == task_.end_vertex, writer_.vertex(), task_.end_vertex);
         if (piece.long_runs.empty()) {
             piece.runs = {};

@@ -5,8 +5,8 @@
 
 namespace lsys {
 
-/// Appends the tubes of all segments, as the first that `builder` is given. How it went is the
-/// builder's status.
+/// Appends the tubes of all segments; nothing may be in `builder` before. The builder's status
+/// tells whether all fit.
 void append_tubes(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder);
 
 } // namespace lsys

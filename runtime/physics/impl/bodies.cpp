@@ -3,10 +3,10 @@
 // are equal. Mass is Segment::mass, which is the volume of that cone by the density unless the
 // author gave it.
 //
-// What is not a segment has no mass of its own in the grammar, but a crown without its leaves bends
-// too little. All of it is taken for thin sheets of `surface_mass`: an object of size s for s^2
-// square metres, half of its length away from where it begins; a polygon for its area, at the mean
-// of its corners. To the wind each shows half of that, the mean over directions.
+// Objects and polygons have no mass in the grammar, but a crown without its leaves bends too
+// little. They count as thin sheets of `surface_mass`: an object of size s as s^2 square metres,
+// half its length from its base; a polygon as its area, at the mean of its corners. The wind meets
+// half of the area, the mean over directions.
 #include "runtime/physics/impl/bodies.h"
 
 #include <glm/geometric.hpp>
@@ -21,7 +21,7 @@ namespace lsys {
 
 namespace {
 
-constexpr double kShown = 0.5; // part of a sheet that the wind sees
+constexpr double kShown = 0.5; // part of a sheet across the wind
 
 double magnitude(float value) {
     const auto greatest = static_cast<double>(std::numeric_limits<float>::max());
@@ -47,7 +47,7 @@ glm::dvec3 heading_of(const glm::quat& frame) {
     return glm::normalize(q * (1.0 / std::sqrt(norm))) * glm::dvec3(0.0, 1.0, 0.0);
 }
 
-/// Sums of a body while its loads come in.
+/// Sums of a body while loads are added.
 struct Load {
     glm::dvec3 first_moment{0.0};
     double sail = 0.0;
@@ -199,7 +199,7 @@ Bodies make_bodies(const Skeleton& rest, double surface_mass) {
                       sum / static_cast<double>(polygon.corner_count), out.bodies[b], loads[b]);
         }
     }
-    std::vector<double> carried(out.bodies.size(), 0.0); // mass of what is beyond
+    std::vector<double> carried(out.bodies.size(), 0.0); // mass beyond a body
     for (std::size_t b = out.bodies.size(); b-- > 0;) {
         Body& body = out.bodies[b];
         glm::dvec3 moment = loads[b].first_moment;

@@ -1,5 +1,5 @@
-// Bodies: the rigid bodies of a plant, one a segment, as they are at rest. A body is its segment
-// and the objects and polygons that the segment carries. Made once by plant_physics.cpp.
+// Bodies: the rigid bodies of a plant at rest, one for each segment, which carries its objects and
+// polygons. Made once by PlantPhysics.
 #pragma once
 
 #include "runtime/physics/impl/symmetric.h"
@@ -12,7 +12,7 @@
 
 namespace lsys {
 
-/// Vectors are in the axes of the world at rest, from the body's base.
+/// A rigid body. Vectors are from its base at rest, in the axes of the world.
 struct Body {
     std::uint32_t parent = kNoSegment; // a body, before this one
     std::uint32_t first_child = 0;     // bodies, behind this one
@@ -22,10 +22,10 @@ struct Body {
     Symmetric inertia;      // about the base
     double mass = 0.0;
     double spring = 0.0;
-    /// Sum of mass times place over itself and what its children carry, as if each child's whole
-    /// load were at the child's base: kg m.
+    /// Sum of mass times place over the body and its children, with the whole load of a child at
+    /// the child's base: kg m.
     glm::dvec3 moment{0.0};
-    // The wind sees side * sin + end * cos + sail, by the angle between wind and heading.
+    // Area across the wind: side * sin + end * cos + sail of the angle between wind and heading.
     glm::vec3 heading{0.0F, 1.0F, 0.0F};
     float side = 0.0F; // m^2
     float end = 0.0F;
@@ -40,7 +40,7 @@ struct Bodies {
     std::vector<std::uint32_t> level_ends; // for each depth, the end of its bodies
 };
 
-/// `surface_mass`: kg for each square metre of what is not a segment.
+/// `surface_mass`: kg per square metre of objects and polygons.
 [[nodiscard]] Bodies make_bodies(const Skeleton& rest, double surface_mass);
 
 /// A solid of uniform density about the middle of its base, for a mass of 1.

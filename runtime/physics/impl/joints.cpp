@@ -10,9 +10,9 @@
 // where d is the joint's rotation vector. G is |g| |sum m r| over what the body carries, with each
 // child's whole load at the child's base, and so much again for the wind: the second derivative of
 // the weight's energy in absolute rotations has no coupling between bodies and is nowhere greater.
-// That of the spring's energy along a rotation is nowhere greater than k. So the minimum lies
-// downhill, however long the step. Forces::exactness puts the true second derivatives in their
-// place.
+// The second derivative of the spring's energy along a rotation is nowhere greater than k. So the
+// minimum lies downhill, however long the step. Forces::exactness replaces these bounds by the true
+// second derivatives.
 #include "runtime/physics/impl/motion.h"
 
 #include <algorithm>
@@ -23,10 +23,10 @@ namespace lsys {
 
 namespace {
 
-constexpr double kLeastInertia = 1e-13;        // of the trace: what rounding may take away
-constexpr double kMostTurn = std::numbers::pi; // in a step; what is faster cannot be shown
+constexpr double kLeastInertia = 1e-13;        // of the trace: bound of rounding
+constexpr double kMostTurn = std::numbers::pi; // in a step: faster motion cannot be represented
 
-/// The forms of a body itself and of its joint.
+/// Quadratic forms of a body and of its joint.
 struct Own {
     Symmetric spin_spin;
     Rows spin_velocity;
@@ -36,8 +36,8 @@ struct Own {
     glm::dvec3 wind{0.0};
 };
 
-/// Adds `factor` times the second derivative of the energy of a force at the end of `arm`, by
-/// rotations of the arm: -arm . force is their energy. See Forces::exactness.
+/// Adds `factor` times the second derivative, by rotations of `arm`, of the energy -arm . force of
+/// a force at its end. See Forces::exactness.
 void add_stiffness(const glm::dvec3& arm,
                    const glm::dvec3& force,
                    double factor,
@@ -96,7 +96,7 @@ Own own_forms(const Body& body,
     return own;
 }
 
-/// Adds what a child is to its parent, whose base is `offset` before the child's.
+/// Adds the form of a child, whose base is at `offset` from its parent's, to its parent.
 void add_child(const Reduced& child, const glm::dvec3& offset, const Forces& forces, Own& own) {
     // M = spin_velocity + [r] velocity_velocity, rows; then
     // spin_spin + M^T-like terms of u = u_p + w_p x r, see the head of this file.
@@ -129,7 +129,7 @@ void add_child(const Reduced& child, const glm::dvec3& offset, const Forces& for
     }
 }
 
-/// Solves the body's own spin out of its forms.
+/// Eliminates the body's own spin from its forms.
 void eliminate(const Own& own,
                const Body& body,
                const BodyMotion& motion,
@@ -160,7 +160,7 @@ void eliminate(const Own& own,
         inertia.add_diagonal(more);
         sum.add_diagonal(more);
     }
-    if (!(sum.trace() > 0.0)) { // nothing holds or moves it: it goes with its parent
+    if (!(sum.trace() > 0.0)) { // no inertia, spring or force: it moves with its parent
         joint.add_diagonal(1.0);
         sum.add_diagonal(1.0);
     }

@@ -1,4 +1,4 @@
-// Motion: where the bodies of a plant are and how fast they move, and what acts on them in a step.
+// Motion: places and velocities of the bodies of a plant, and the forces on them in a step.
 #pragma once
 
 #include "runtime/base/workers.h"
@@ -13,7 +13,7 @@
 
 namespace lsys {
 
-/// What acts in one step.
+/// Forces of one step.
 struct Forces {
     double step = 0.0;       // s
     glm::dvec3 gravity{0.0}; // m/s^2
@@ -21,18 +21,18 @@ struct Forces {
     glm::dvec3 wind{0.0};    // m/s
     double drag = 0.0;       // half the air's density times the drag coefficient
     bool windy = false;
-    /// 0: the stiffness of weight, wind and springs is taken for the greatest that it has in any
-    /// direction; 1: for what it is, which is negative in some; or between.
+    /// Stiffness of weight, wind and springs: 0: the greatest of all directions; 1: the true one,
+    /// negative in some directions; between: interpolated.
     double exactness = 0.0;
 };
 
-/// How a body has turned since rest, and its base moved, in the axes of the world.
+/// Rotation of a body since rest and displacement of its base, in the axes of the world.
 struct BodyPose {
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};
     glm::dvec3 shift{0.0};
 };
 
-/// In the axes of the world.
+/// Motion of a body, in the axes of the world.
 struct BodyMotion {
     glm::dvec3 bend{0.0};     // of its joint: rotation vector from rest, relative to the parent
     glm::dvec3 spin{0.0};     // rad/s
@@ -46,10 +46,10 @@ struct JointSolution {
     glm::dvec3 offset{0.0};
     Rows from_parent;
     Rows from_velocity;
-    glm::dvec3 spin{0.0}; // what comes out
+    glm::dvec3 spin{0.0}; // the result
 };
 
-/// The part of a body and all beyond it, as its parent feels it: a quadratic form of the parent's
+/// A body and all beyond it, as felt by its parent: a quadratic form of the parent's
 /// spin and of the velocity of the body's base, and a linear form.
 struct Reduced {
     Symmetric spin_spin;
@@ -71,7 +71,7 @@ struct PlantBodies {
     std::uint32_t reduced_mask = 0;
 };
 
-/// How much the wind takes hold of a body whose centre moves at `velocity`: N s/m.
+/// Drag coefficient of a body whose centre moves at `velocity`: N s/m.
 [[nodiscard]] double hold_of_wind(const Body& body,
                                   const glm::dquat& turn,
                                   const glm::dvec3& velocity,
@@ -84,7 +84,7 @@ void solve_spins(PlantBodies& plant, const Forces& forces, Workers& workers);
 struct Energies {
     double motion = 0.0;
     double position = 0.0; // springs and weight; 0 at rest
-    double terms = 0.0;    // sum of the magnitudes of what makes up `position`
+    double terms = 0.0;    // sum of the magnitudes of the terms of `position`
     double work = 0.0;     // by the wind
     double turn = 0.0;     // rad, greatest
 };
@@ -92,10 +92,10 @@ struct Energies {
 /// that place and `speed` times these spins.
 [[nodiscard]] Energies move_bodies(
     PlantBodies& plant, const Forces& forces, double duration, double speed, Workers& workers);
-/// All velocities times `factor`.
+/// Multiplies all velocities by `factor`.
 void scale_velocities(PlantBodies& plant, double factor, Workers& workers);
 
-/// What is left of accelerations v^2 / r where a body turns so far in a step that they say nothing.
+/// Factor of accelerations v^2 / r, which falls to 0 where a body turns too far in a step for them.
 [[nodiscard]] inline double share_of_pull(const glm::dvec3& spin, double step) {
     return 1.0 / (1.0 + step * step * glm::dot(spin, spin));
 }

@@ -1,5 +1,5 @@
-// Schedule: the bodies of a plant cut into pieces that threads take, a depth at a time. What is cut
-// how depends on the plant alone, so that a sum over pieces is the same for any number of threads.
+// Schedule: the bodies of a plant cut into pieces for threads, depth by depth. The pieces depend on
+// the plant alone, so that a sum over pieces is the same for any number of threads.
 #pragma once
 
 #include "runtime/base/workers.h"
@@ -27,7 +27,8 @@ public:
             do_run(workers, run, work);
         }
     }
-    /// Children before parents: within a piece the bodies may depend on those behind them.
+    /// Calls `work` for all bodies, children before parents: within a piece the bodies may depend
+    /// on those behind them.
     template <typename Work>
     void inward(Workers& workers, const Work& work) const {
         for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {

@@ -64,7 +64,7 @@ struct Symmetric {
             glm::dot(x, ay), glm::dot(x, az), glm::dot(y, az)};
 }
 
-/// Whether a Cholesky decomposition goes through, with a margin for rounding.
+/// Whether `a` is positive definite, with a margin for rounding.
 [[nodiscard]] inline bool is_positive(const Symmetric& a) {
     const double least = 1e-12 * a.trace();
     if (!(a.xx > least)) {

@@ -27,7 +27,7 @@ std::string exported(const Mesh& mesh, ExportFormat format) {
     REQUIRE(export_mesh(mesh, {}, format, info(), [&bytes](std::string_view piece) {
                 bytes += piece;
                 return true;
-            }) == ExportStatus::Ok);
+            }).ok());
     return bytes;
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("an MTL gives materials of one name different ones") {
     CHECK(write_mtl(mesh, info(), [&text](std::string_view piece) {
               text += piece;
               return true;
-          }) == ExportStatus::Ok);
+          }).ok());
     CHECK(text == "# lsc 1\n"
                   "# a b.lsys, seed 7, 3 generations\n"
                   "\nnewmtl plain_red\nKa 0 0 0\nKd 1.0000 0.0000 0.0000\nKs 0 0 0\nd 1\nillum 1\n"
@@ -89,10 +89,10 @@ TEST_CASE("pictures of an OBJ and of a USDA have the colour in them") {
     ExportInfo with = info();
     with.picture_prefix = "p q";
     const auto names = [&](ExportFormat format) {
-        std::vector<PictureFile> files;
-        REQUIRE(make_picture_files(mesh, format, with, files) == ExportStatus::Ok);
+        const Outcome<std::vector<PictureFile>> files = make_picture_files(mesh, format, with);
+        REQUIRE(files.ok());
         std::vector<std::string> found;
-        for (const PictureFile& file : files) {
+        for (const PictureFile& file : files.value()) {
             CHECK(file.bytes.substr(1, 3) == "PNG");
             found.push_back(file.name);
         }
@@ -110,14 +110,14 @@ TEST_CASE("pictures of an OBJ and of a USDA have the colour in them") {
         text += piece;
         return true;
     };
-    REQUIRE(write_mtl(mesh, with, append) == ExportStatus::Ok);
+    REQUIRE(write_mtl(mesh, with, append).ok());
     CHECK(text.find("newmtl bark\nKa 0 0 0\nKd 1.0000 1.0000 1.0000\nKs 0 0 0\nd 1\nillum 1\n"
                     "map_Kd p q.bark.png\n") != std::string::npos);
     CHECK(text.find("map_Kd p q.leaf.png\nmap_d p q.leaf_opacity.png\n") != std::string::npos);
 
     text.clear();
     with.picture_prefix = "a@@@b";
-    REQUIRE(export_mesh(mesh, {}, ExportFormat::Usda, with, append) == ExportStatus::Ok);
+    REQUIRE(export_mesh(mesh, {}, ExportFormat::Usda, with, append).ok());
     CHECK(text.find("asset inputs:file = @@@./a\\@@@b.bark.png@@@\n") != std::string::npos);
     CHECK(text.find("inputs:normal.connect = </Plant/Materials/bark/Relief.outputs:rgb>") !=
           std::string::npos);
@@ -131,8 +131,8 @@ TEST_CASE("pictures of an OBJ and of a USDA have the colour in them") {
         }
         CHECK(names(ExportFormat::Obj).empty());
         text.clear();
-        REQUIRE(write_mtl(mesh, with, append) == ExportStatus::Ok);
-        REQUIRE(export_mesh(mesh, {}, ExportFormat::Usda, with, append) == ExportStatus::Ok);
+        REQUIRE(write_mtl(mesh, with, append).ok());
+        REQUIRE(export_mesh(mesh, {}, ExportFormat::Usda, with, append).ok());
         CHECK(text.find("map_") == std::string::npos);
         CHECK(text.find("asset") == std::string::npos);
     }

@@ -22,7 +22,7 @@ std::string drawn(const Skeleton& skeleton, const std::vector<UserMesh>* meshes 
     REQUIRE(export_mesh({}, skeleton, ExportFormat::Svg, info, [&text](std::string_view piece) {
                 text += piece;
                 return true;
-            }) == ExportStatus::Ok);
+            }).ok());
     return text;
 }
 

@@ -5,17 +5,13 @@
 
 #include <catch2/catch.hpp>
 
-#include <array>
+#include <set>
 #include <string>
 #include <vector>
 
 using namespace lsys;
 
 namespace {
-
-constexpr std::array kFormats{ExportFormat::Obj,     ExportFormat::Ply, ExportFormat::Off,
-                              ExportFormat::OffPlus, ExportFormat::Stl, ExportFormat::Gltf,
-                              ExportFormat::Glb,     ExportFormat::Svg, ExportFormat::Usda};
 
 ExportInfo info() {
     return {.grammar = "g.lsys",
@@ -39,15 +35,28 @@ std::string exported(const Mesh& mesh, ExportFormat format) {
     REQUIRE(export_mesh(mesh, {}, format, info(), [&bytes](std::string_view piece) {
                 bytes += piece;
                 return true;
-            }) == ExportStatus::Ok);
+            }).ok());
     return bytes;
 }
 
-ExportStatus without_bytes(const Mesh& mesh, ExportFormat format) {
-    return export_mesh(mesh, {}, format, info(), [](std::string_view piece) {
+constexpr std::string_view kNothing = "the plant has nothing to draw, so no file is written";
+constexpr std::string_view kTooLarge =
+    "the plant is larger than a file of this format can be; another format, fewer sides or a "
+    "coarser --level may hold it";
+
+/// The message of an export that fails before it writes.
+std::string refusal(const Outcome<Done>& outcome) {
+    REQUIRE_FALSE(outcome.ok());
+    CHECK(outcome.stop() == Stop::Failed);
+    REQUIRE(outcome.messages().all().size() == 1);
+    return outcome.messages().all()[0].text;
+}
+
+std::string refusal(const Mesh& mesh, ExportFormat format) {
+    return refusal(export_mesh(mesh, {}, format, info(), [](std::string_view piece) {
         CHECK(piece.empty());
         return true;
-    });
+    }));
 }
 
 } // namespace
@@ -66,29 +75,56 @@ TEST_CASE("formats go by the extension") {
     CHECK_FALSE(format_of_path("obj"));
     CHECK_FALSE(format_of_path(".obj"));
     CHECK_FALSE(format_of_path(""));
-    CHECK_FALSE(uses_mesh(ExportFormat::Svg));
-    CHECK(uses_mesh(ExportFormat::Obj));
+}
+
+TEST_CASE("every format is found by its own name alone") {
+    std::set<std::string_view> names;
+    for (const ExportFormat format : export_formats()) {
+        const FormatTraits& traits = traits_of(format);
+        CAPTURE(traits.name);
+        CHECK(names.insert(traits.name).second);
+        CHECK(format_of_path(std::string("a.") + std::string(traits.name)) == format);
+        CHECK_FALSE(traits.content.empty());
+        CHECK(traits.write != nullptr);
+        CHECK((!traits.expands_forest || traits.write_forest != nullptr));
+    }
+    CHECK_FALSE(traits_of(ExportFormat::Svg).uses_mesh);
+    CHECK(traits_of(ExportFormat::Obj).uses_mesh);
+}
+
+TEST_CASE("names of formats are listed in words") {
+    const auto names = [](const std::vector<ExportFormat>& wanted) {
+        return format_names("or", [&](const FormatTraits& traits) {
+            return std::any_of(wanted.begin(), wanted.end(),
+                               [&](ExportFormat format) { return &traits_of(format) == &traits; });
+        });
+    };
+    CHECK(names({}).empty());
+    CHECK(names({ExportFormat::Stl}) == "stl");
+    CHECK(names({ExportFormat::Gltf, ExportFormat::Glb}) == "glb or gltf");
+    CHECK(names({ExportFormat::Usda, ExportFormat::Gltf, ExportFormat::Glb}) ==
+          "glb, gltf or usda");
 }
 
 TEST_CASE("large files come in pieces, and the same ones again") {
     const Mesh mesh = test::large_mesh(20000);
     const Skeleton skeleton = long_skeleton();
-    for (const ExportFormat format : kFormats) {
-        CAPTURE(static_cast<int>(format));
+    for (const ExportFormat format : export_formats()) {
+        CAPTURE(traits_of(format).name);
         std::string first;
         std::size_t largest = 0;
         CHECK(export_mesh(mesh, skeleton, format, info(), [&](std::string_view piece) {
                   first += piece;
                   largest = std::max(largest, piece.size());
                   return true;
-              }) == ExportStatus::Ok);
+              }).ok());
         CHECK(first.size() > std::size_t{512} << 10);
         CHECK(largest <= std::size_t{256} << 10);
         std::string second;
         CHECK(export_mesh(mesh, skeleton, format, info(), [&second](std::string_view piece) {
                   second += piece;
                   return true;
-              }) == ExportStatus::Ok);
+              }).ok());
         CHECK(first == second);
     }
 }
@@ -96,39 +132,40 @@ TEST_CASE("large files come in pieces, and the same ones again") {
 TEST_CASE("a sink that stops is left alone") {
     const Mesh mesh = test::large_mesh(20000);
     const Skeleton skeleton = long_skeleton();
-    for (const ExportFormat format : kFormats) {
-        CAPTURE(static_cast<int>(format));
+    for (const ExportFormat format : export_formats()) {
+        CAPTURE(traits_of(format).name);
         for (const int taken : {0, 1, 2}) {
             int pieces = 0;
             CHECK(export_mesh(mesh, skeleton, format, info(), [&](std::string_view) {
                       return ++pieces <= taken;
-                  }) == ExportStatus::Stopped);
+                  }).stop() == Stop::Cancelled);
             CHECK(pieces == taken + 1);
         }
     }
-    CHECK(write_mtl(mesh, info(), [](std::string_view) { return false; }) == ExportStatus::Stopped);
+    CHECK(write_mtl(mesh, info(), [](std::string_view) { return false; }).stop() ==
+          Stop::Cancelled);
 }
 
 TEST_CASE("where nothing is drawn nothing is written") {
-    for (const ExportFormat format : kFormats) {
-        CAPTURE(static_cast<int>(format));
-        CHECK(without_bytes({}, format) == ExportStatus::Nothing);
+    for (const ExportFormat format : export_formats()) {
+        CAPTURE(traits_of(format).name);
+        CHECK(refusal({}, format) == kNothing);
     }
-    CHECK(write_mtl({}, info(), [](std::string_view) { return true; }) == ExportStatus::Nothing);
+    CHECK(refusal(write_mtl({}, info(), [](std::string_view) { return true; })) == kNothing);
     Mesh points = test::triangle_mesh();
     points.parts[0].index_count = 0;
-    CHECK(without_bytes(points, ExportFormat::Glb) == ExportStatus::Nothing);
+    CHECK(refusal(points, ExportFormat::Glb) == kNothing);
 }
 
 TEST_CASE("what a format cannot count is refused at once") {
     // None of the memory is touched.
     Mesh mesh = test::triangle_mesh();
     mesh.positions.resize(std::uint64_t{180} << 20);
-    CHECK(without_bytes(mesh, ExportFormat::Glb) == ExportStatus::TooLarge);
-    CHECK(without_bytes(mesh, ExportFormat::Gltf) == ExportStatus::TooLarge);
+    CHECK(refusal(mesh, ExportFormat::Glb) == kTooLarge);
+    CHECK(refusal(mesh, ExportFormat::Gltf) == kTooLarge);
     Mesh many = test::triangle_mesh();
     many.parts[0].index_count = 3 * (std::uint64_t{1} << 32U);
-    CHECK(without_bytes(many, ExportFormat::Stl) == ExportStatus::TooLarge);
+    CHECK(refusal(many, ExportFormat::Stl) == kTooLarge);
 }
 
 TEST_CASE("a primitive uses colours of vertices where they are not the material's") {
@@ -161,7 +198,8 @@ TEST_CASE("textures are left out if they are not wanted") {
                       [&bytes](std::string_view piece) {
                           bytes += piece;
                           return true;
-                      }) == ExportStatus::Ok);
+                      })
+              .ok());
     CHECK(bytes.find("image/png") == std::string::npos);
     CHECK(exported(test::plant_mesh(), ExportFormat::Glb).find("image/png") != std::string::npos);
 }
@@ -193,7 +231,8 @@ TEST_CASE("a seed that JSON's readers would round is a string") {
                           [&bytes](std::string_view piece) {
                               bytes += piece;
                               return true;
-                          }) == ExportStatus::Ok);
+                          })
+                  .ok());
         return bytes;
     };
     CHECK(text().find(R"("seed":9007199254740991,)") != std::string::npos);
@@ -208,12 +247,12 @@ TEST_CASE("names cannot break the syntax around them") {
           "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD \xEF\xBF\xBD\xEF\xBF\xBD");
     CHECK(json_text("a\"b\\c\n\xFF") == "a\\\"b\\\\c\\u000a\xEF\xBF\xBD");
     CHECK(xml_text("<a & \"b\">") == "&lt;a &amp; &quot;b&quot;&gt;");
-    CHECK(word("a b") == "a_b");
-    CHECK(word("") == "_");
+    CHECK(obj_identifier("a b") == "a_b");
+    CHECK(obj_identifier("") == "_");
     CHECK(identifier("3 \xC3\xA4.b") == "_3____b");
     CHECK(identifier("") == "_");
-    CHECK(unlike({"a", "a_2", "b"}, "a") == "a_3");
-    CHECK(unlike({"a"}, "b") == "b");
+    CHECK(unique_name({"a", "a_2", "b"}, "a") == "a_3");
+    CHECK(unique_name({"a"}, "b") == "b");
     CHECK(srgb_byte(0.0F) == 0);
     CHECK(srgb_byte(2.0F) == 255);
     CHECK(srgb_byte(0.2158605F) == 128);

@@ -245,13 +245,21 @@ TEST_CASE("a skin has 65,535 joints that move, and no more") {
                               .picture_prefix = "",
                               .animation = &poses};
         std::uint64_t bytes = 0;
-        const ExportStatus status =
+        const Outcome<Done> outcome =
             export_mesh(mesh, plant, ExportFormat::Glb, info, [&bytes](std::string_view piece) {
                 bytes += piece.size();
                 return true;
             });
         const bool fits = count == kMostJoints;
-        CHECK(status == (fits ? ExportStatus::Ok : ExportStatus::TooManyJoints));
+        CHECK(outcome.ok() == fits);
+        if (!fits) {
+            REQUIRE(outcome.stop() == Stop::Limit);
+            const Diagnostic& diagnostic = outcome.messages().all().at(0).diagnostics.all()[0];
+            CHECK(diagnostic.message == "the skin does not fit into 65,535 joints");
+            CHECK(diagnostic.help.at(0) ==
+                  "ask for fewer generations with `-n`, or for a numbered series in another "
+                  "format, which is any but glTF: `-o tree.ply`");
+        }
         CHECK((bytes > 0) == fits);
     }
 }

@@ -1,4 +1,5 @@
 // Textures that are computed.
+#include "grammar/base/hash.h"
 #include "runtime/meshing/shapes.h"
 #include "runtime/meshing/texture.h"
 
@@ -6,8 +7,14 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
 #include <png.h>
 #include <vector>
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#define STBI_NO_STDIO
+#include <stb/stb_image.h>
 
 using namespace lsys;
 
@@ -83,14 +90,33 @@ TEST_CASE("normals of the bark point out of it") {
     }
 }
 
-TEST_CASE("libpng reads of a PNG what was written") {
+TEST_CASE("other readers of PNG read what was written") {
     Texture odd{3, 2, {}};
     for (std::uint8_t i = 0; i < 24; ++i) {
         odd.texels.push_back(static_cast<std::uint8_t>(37 * i));
     }
+    Texture noise{101, 257, {}}; // hardly compressible
+    for (std::uint32_t i = 0; i < 4 * noise.width * noise.height; ++i) {
+        noise.texels.push_back(i % 4 == 3 ? 255 : static_cast<std::uint8_t>(lowbias32(i)));
+    }
+    Texture row{257, 1, {}};
+    row.texels.assign(noise.texels.begin(), noise.texels.begin() + 4 * 257);
     for (const Texture& texture : {material_texture(MaterialKind::Bark), bark_normals(),
-                                   material_texture(MaterialKind::Leaf), odd}) {
+                                   material_texture(MaterialKind::Leaf), odd, noise, row}) {
         const std::string bytes = encode_png(texture);
+        CHECK(bytes == encode_png(texture));
+        int width = 0;
+        int height = 0;
+        int channels = 0;
+        const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> read(
+            stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()),
+                                  static_cast<int>(bytes.size()), &width, &height, &channels, 4),
+            stbi_image_free);
+        REQUIRE(read != nullptr);
+        REQUIRE(static_cast<std::uint32_t>(width) == texture.width);
+        REQUIRE(static_cast<std::uint32_t>(height) == texture.height);
+        CHECK(std::equal(texture.texels.begin(), texture.texels.end(), read.get()));
+
         png_image image{};
         image.version = PNG_IMAGE_VERSION;
         REQUIRE(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) != 0);

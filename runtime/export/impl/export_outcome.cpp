@@ -1,0 +1,50 @@
+#include "runtime/export/impl/export_outcome.h"
+
+#include "runtime/export/impl/piece_writer.h"
+
+#include <fmt/format.h>
+
+namespace lsys {
+
+namespace {
+
+const char* name_of(ExportSubject subject) {
+    return subject == ExportSubject::Plant ? "plant" : "forest";
+}
+
+} // namespace
+
+Messages messages_of(Diagnostic diagnostic) {
+    Diagnostics diagnostics;
+    diagnostics.add(std::move(diagnostic));
+    Messages messages;
+    messages.add(std::move(diagnostics), nullptr);
+    return messages;
+}
+
+Messages messages_of(std::string error) {
+    Messages messages;
+    messages.add_error(std::move(error));
+    return messages;
+}
+
+Outcome<Done> nothing_to_draw(ExportSubject subject) {
+    return {Stop::Failed,
+            messages_of(fmt::format("the {} has nothing to draw, so no file is written",
+                                    name_of(subject)))};
+}
+
+Outcome<Done> too_large_for_format(ExportSubject subject) {
+    const char* const help = subject == ExportSubject::Plant
+                                 ? "; another format, fewer sides or a coarser --level may hold it"
+                                 : "";
+    return {Stop::Failed,
+            messages_of(fmt::format("the {} is larger than a file of this format can be{}",
+                                    name_of(subject), help))};
+}
+
+Outcome<Done> finish(PieceWriter& out) {
+    return out.finish() ? Outcome<Done>(Done{}, {}) : Outcome<Done>(Stop::Cancelled, {});
+}
+
+} // namespace lsys
