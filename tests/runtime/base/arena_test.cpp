@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -48,8 +49,23 @@ TEST_CASE("an arena moves with its memory") {
     CHECK(third.used() == 64);
 }
 
-TEST_CASE("an arena refuses sizes beyond the address space") {
+TEST_CASE("an arena grows, keeps its room and can be given back") {
     Arena arena;
-    CHECK_FALSE(arena.reserve(std::numeric_limits<std::size_t>::max()));
     CHECK(arena.capacity() == 0);
+    REQUIRE(arena.reserve(100));
+    auto* const small = arena.as<std::byte>();
+    small[99] = std::byte{7};
+    REQUIRE(arena.reserve(1000));
+    CHECK(arena.as<std::byte>() == small);
+    CHECK(arena.used() == 1000);
+    REQUIRE(arena.reserve(std::size_t{8} << 20));
+    arena.as<std::byte>()[(std::size_t{8} << 20) - 1] = std::byte{1};
+    CHECK(reinterpret_cast<std::uintptr_t>(arena.as<std::byte>()) % (std::size_t{2} << 20) == 0);
+    Arena other = std::move(arena);
+    CHECK(arena.as<std::byte>() == nullptr);
+    CHECK(other.used() == std::size_t{8} << 20);
+    other = Arena();
+    CHECK(other.capacity() == 0);
+    CHECK_FALSE(other.reserve(std::numeric_limits<std::size_t>::max()));
+    CHECK(other.as<std::byte>() == nullptr);
 }
