@@ -1,7 +1,7 @@
 #include "runtime/derive/interpretation.h"
 
-#include "runtime/derive/engine/chains.h"
 #include "runtime/derive/engine/levels.h"
+#include "runtime/derive/engine/stage_depth.h"
 #include "runtime/derive/engine/start.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// What outlives the plan that reads it.
+/// Values that the plan refers to.
 struct Prepared {
     Prepared(const Bytecode& program, const InterpretInputs& given)
         : bytecode(program), inputs(given) {}
@@ -43,20 +43,21 @@ public:
                 Sink sink)
         : prepared_(std::move(prepared)), plan_(std::move(plan)), sink_(std::move(sink)),
           origins_(origins),
-          levels_(
-              steps_of(*plan_, prepared_->inputs, depth_of(prepared_->bytecode, Stage::Interpret)),
-              {origins, prepared_->inputs.max_bytes, 1, most_stored(prepared_->bytecode),
-               prepared_->inputs.cancelled},
-              [this](const LevelBlock<C>& block) { return emit(block); }) {}
+          levels_(steps_of(*plan_,
+                           prepared_->inputs,
+                           stage_depth(prepared_->bytecode, Stage::Interpret)),
+                  {origins, prepared_->inputs.max_bytes, 1, most_stored(prepared_->bytecode),
+                   prepared_->inputs.cancelled},
+                  [this](const LevelBlock<C>& block) { return emit(block); }) {}
 
-    DeriveStatus feed(std::span<const Code> codes,
-                      std::span<const float> parameters,
-                      std::span<const Origin> origins) override {
+    std::optional<Stop> feed(std::span<const Code> codes,
+                             std::span<const float> parameters,
+                             std::span<const Origin> origins) override {
         const float* next = parameters.data();
         while (!codes.empty()) {
             const auto block = levels_.first_block();
             if (block.codes == nullptr) {
-                return DeriveStatus::Limit;
+                return Stop::Limit;
             }
             std::uint64_t count = 0;
             std::uint64_t stored = 0;
@@ -76,13 +77,12 @@ public:
                 origins = origins.subspan(count);
             }
             codes = codes.subspan(count);
-            const DeriveStatus status = levels_.push(count);
-            if (status != DeriveStatus::Ok) {
+            if (const std::optional<Stop> stop = levels_.push(count)) {
                 error_ = std::move(levels_.error());
-                return status;
+                return stop;
             }
         }
-        return DeriveStatus::Ok;
+        return std::nullopt;
     }
 
     const RuntimeError& error() const override { return error_; }
@@ -115,19 +115,6 @@ private:
     RuntimeError error_;
 };
 
-template <typename C>
-std::unique_ptr<Interpretation> make_typed(std::unique_ptr<const Prepared> prepared,
-                                           std::unique_ptr<const Plan> plan,
-                                           bool origins,
-                                           Interpretation::Sink sink) {
-    if (plan->record_width() == 1) {
-        return std::make_unique<Interpreter<C, std::uint8_t>>(std::move(prepared), std::move(plan),
-                                                              origins, std::move(sink));
-    }
-    return std::make_unique<Interpreter<C, std::uint32_t>>(std::move(prepared), std::move(plan),
-                                                           origins, std::move(sink));
-}
-
 } // namespace
 
 std::unique_ptr<Interpretation> Interpretation::make(const Bytecode& bytecode,
@@ -138,7 +125,7 @@ std::unique_ptr<Interpretation> Interpretation::make(const Bytecode& bytecode,
         return nullptr;
     }
     auto prepared = std::make_unique<Prepared>(bytecode, inputs);
-    // The derivation has drawn them before, without an error.
+    // the derivation has drawn them before, without an error
     static_cast<void>(draw_globals(bytecode, inputs.seed, prepared->globals));
     prepared->globals.resize(bytecode.globals.size());
     auto plan = std::make_unique<Plan>(
@@ -146,17 +133,13 @@ std::unique_ptr<Interpretation> Interpretation::make(const Bytecode& bytecode,
         PlanInputs{prepared->globals.data(), inputs.seed, static_cast<float>(inputs.generations)},
         true, Stage::Interpret);
     plan->prepare(inputs.generations);
-    switch (plan->code_width()) {
-    case 1:
-        return make_typed<std::uint8_t>(std::move(prepared), std::move(plan), origins,
-                                        std::move(sink));
-    case 2:
-        return make_typed<std::uint16_t>(std::move(prepared), std::move(plan), origins,
-                                         std::move(sink));
-    default:
-        return make_typed<std::uint32_t>(std::move(prepared), std::move(plan), origins,
-                                         std::move(sink));
-    }
+    return visit_code_type(plan->code_width(), [&](auto code) {
+        const std::uint32_t record_width = plan->record_width();
+        return visit_record_type(record_width, [&](auto record) -> std::unique_ptr<Interpretation> {
+            return std::make_unique<Interpreter<decltype(code), decltype(record)>>(
+                std::move(prepared), std::move(plan), origins, std::move(sink));
+        });
+    });
 }
 
 } // namespace lsys

@@ -1,11 +1,11 @@
 #include "runtime/derive/stream.h"
 
-#include "grammar/base/contract.h"
-#include "runtime/derive/engine/brackets.h"
-#include "runtime/derive/engine/chains.h"
+#include "runtime/base/memory_border.h"
+#include "runtime/derive/brackets.h"
 #include "runtime/derive/engine/levels.h"
 #include "runtime/derive/engine/origins.h"
 #include "runtime/derive/engine/plan.h"
+#include "runtime/derive/engine/stage_depth.h"
 #include "runtime/derive/engine/start.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint64_t kProgressStride = std::uint64_t{1} << 24;
 
-/// Sends the axiom down the levels, and what arrives to the consumer.
+/// Sends the axiom down the levels, and the modules of the last level to the consumer.
 template <typename C, typename R>
 class Streamer {
 public:
@@ -37,37 +37,38 @@ public:
 
     StreamOutcome run(const std::vector<float>& axiom_parameters) {
         const auto first = levels_.first_block();
-        DeriveStatus status = DeriveStatus::Limit;
+        std::optional<Stop> stop = Stop::Limit;
         if (first.codes != nullptr) {
             copy_axiom_codes(bytecode_, first.codes);
             std::copy(axiom_parameters.begin(), axiom_parameters.end(), first.parameters);
             if (options_.origins) {
                 copy_axiom_origins(bytecode_, first.origins);
             }
-            status = levels_.push(bytecode_.axiom.codes.count);
+            stop = levels_.push(bytecode_.axiom.codes.count);
         }
-        if (outcome_.status != DeriveStatus::Ok) {
-            return std::move(outcome_); // of emit()
+        if (outcome_.end.stop) {
+            return std::move(outcome_); // ended by emit()
         }
-        outcome_.status = status;
-        if (status == DeriveStatus::Error) {
-            outcome_.error = std::move(levels_.error());
-        } else if (status == DeriveStatus::Limit) {
+        outcome_.end.stop = stop;
+        if (stop == Stop::Diagnosed) {
+            outcome_.end.error = std::move(levels_.error());
+        } else if (stop == Stop::Limit) {
             report_limit(LimitKind::Memory, outcome_.modules);
-            outcome_.limit.predicted_bytes = levels_.held_bytes();
+            outcome_.end.limit.predicted_bytes = levels_.held_bytes();
         }
         return std::move(outcome_);
     }
 
 private:
     void report_limit(LimitKind kind, std::uint64_t predicted) {
-        outcome_.limit.kind = kind;
-        outcome_.limit.generation = options_.generations;
-        outcome_.limit.modules = outcome_.modules;
-        outcome_.limit.predicted_modules = predicted;
-        outcome_.limit.exact = false;
-        outcome_.limit.streamed = true;
-        outcome_.status = DeriveStatus::Limit;
+        LimitReport& limit = outcome_.end.limit;
+        limit.kind = kind;
+        limit.generation = options_.generations;
+        limit.modules = outcome_.modules;
+        limit.predicted_modules = predicted;
+        limit.exact = false;
+        limit.streamed = true;
+        outcome_.end.stop = Stop::Limit;
     }
 
     /// Hands a block of the last word to the consumer.
@@ -79,10 +80,10 @@ private:
         }
         const std::optional<std::uint64_t> unmatched = brackets_.feed(block.codes.data(), count);
         if (unmatched) {
-            outcome_.error =
+            outcome_.end.error =
                 unmatched_bracket(bytecode_, block.codes[*unmatched],
                                   block.first_position + *unmatched, options_.generations);
-            outcome_.status = DeriveStatus::Error;
+            outcome_.end.stop = Stop::Diagnosed;
             return false;
         }
         std::uint64_t parameters = 0;
@@ -94,7 +95,7 @@ private:
         emitted_.assign(block.codes.begin(), block.codes.end());
         const std::size_t origins = options_.origins ? emitted_.size() : 0;
         if (!consumer_({emitted_, {block.parameters, parameters}, {block.origins, origins}})) {
-            outcome_.status = DeriveStatus::Cancelled;
+            outcome_.end.stop = Stop::Cancelled;
             return false;
         }
         const std::uint64_t before = outcome_.modules;
@@ -116,16 +117,44 @@ private:
     StreamOutcome outcome_;
 };
 
-template <typename C>
-StreamOutcome stream(const Bytecode& bytecode,
-                     const LevelSteps& steps,
-                     const DeriveOptions& options,
-                     const StreamConsumer& consumer,
-                     const std::vector<float>& axiom) {
-    const bool narrow = steps.rewriting->record_width() == 1 &&
-                        (steps.passes == nullptr || steps.passes->record_width() == 1);
-    return narrow ? Streamer<C, std::uint8_t>(bytecode, steps, options, consumer).run(axiom)
-                  : Streamer<C, std::uint32_t>(bytecode, steps, options, consumer).run(axiom);
+StreamOutcome
+stream(const Bytecode& bytecode, const DeriveOptions& options, const StreamConsumer& consumer) {
+    StreamOutcome outcome;
+    std::vector<float> globals;
+    std::vector<float> axiom;
+    std::optional<RuntimeError> wrong = draw_globals(bytecode, options.seed, globals);
+    if (!wrong) {
+        wrong = axiom_parameters(bytecode, options.seed, globals, axiom);
+    }
+    if (wrong) {
+        outcome.end.error = std::move(*wrong);
+        outcome.end.stop = Stop::Diagnosed;
+        return outcome;
+    }
+    const PlanInputs inputs{globals.data(), options.seed, static_cast<float>(options.generations)};
+    const Plan plan(bytecode, inputs, false);
+    std::optional<Plan> decomposing;
+    LevelSteps steps;
+    steps.rewriting = &plan;
+    steps.seed = options.seed;
+    steps.last_age = options.generations;
+    steps.prunes = bytecode.cuts();
+    const StageDepth depth = stage_depth(bytecode, Stage::Decompose);
+    if (depth.passes != 0) {
+        decomposing.emplace(bytecode, inputs, false, Stage::Decompose);
+        steps.passes = &*decomposing;
+        steps.depth = depth.passes;
+        steps.checked = depth.checked;
+        steps.first_pass_draw = kFirstDecomposeDraw;
+    }
+    const std::uint32_t record_width =
+        std::max(plan.record_width(), decomposing ? decomposing->record_width() : 1);
+    return visit_code_type(plan.code_width(), [&](auto code) {
+        return visit_record_type(record_width, [&](auto record) {
+            return Streamer<decltype(code), decltype(record)>(bytecode, steps, options, consumer)
+                .run(axiom);
+        });
+    });
 }
 
 } // namespace
@@ -146,42 +175,15 @@ std::optional<std::string> why_not_streamable(const Bytecode& bytecode) {
 StreamOutcome derive_streamed(const Bytecode& bytecode,
                               const DeriveOptions& options,
                               const StreamConsumer& consumer) {
-    StreamOutcome outcome;
-    std::vector<float> globals;
-    std::vector<float> axiom;
-    std::optional<RuntimeError> wrong = draw_globals(bytecode, options.seed, globals);
-    if (!wrong) {
-        wrong = axiom_parameters(bytecode, options.seed, globals, axiom);
-    }
-    if (wrong) {
-        outcome.error = std::move(*wrong);
-        outcome.status = DeriveStatus::Error;
-        return outcome;
-    }
-    const PlanInputs inputs{globals.data(), options.seed, static_cast<float>(options.generations)};
-    const Plan plan(bytecode, inputs, false);
-    std::optional<Plan> decomposing;
-    LevelSteps steps;
-    steps.rewriting = &plan;
-    steps.seed = options.seed;
-    steps.last_age = options.generations;
-    steps.prunes = bytecode.cuts();
-    const StageDepth depth = depth_of(bytecode, Stage::Decompose);
-    if (depth.passes != 0) {
-        decomposing.emplace(bytecode, inputs, false, Stage::Decompose);
-        steps.passes = &*decomposing;
-        steps.depth = depth.passes;
-        steps.checked = depth.checked;
-        steps.first_pass_draw = kFirstDecomposeDraw;
-    }
-    switch (plan.code_width()) {
-    case 1:
-        return stream<std::uint8_t>(bytecode, steps, options, consumer, axiom);
-    case 2:
-        return stream<std::uint16_t>(bytecode, steps, options, consumer, axiom);
-    default:
-        return stream<std::uint32_t>(bytecode, steps, options, consumer, axiom);
-    }
+    return catch_no_memory([&] { return stream(bytecode, options, consumer); },
+                           [&] {
+                               StreamOutcome outcome;
+                               outcome.end.stop = Stop::OutOfMemory;
+                               outcome.end.limit.kind = LimitKind::Memory;
+                               outcome.end.limit.generation = options.generations;
+                               outcome.end.limit.streamed = true;
+                               return outcome;
+                           });
 }
 
 } // namespace lsys

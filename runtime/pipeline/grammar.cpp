@@ -35,7 +35,7 @@ Error unknown_dialect(const std::string& path) {
                              path, dialect_names())};
 }
 
-/// The dialect of a file: as asked for, else as it tells.
+/// The dialect asked for, else the detected one.
 Result<Dialect> dialect_of(const std::string& path,
                            const std::string& dialect,
                            std::string_view bytes,
@@ -49,7 +49,7 @@ Result<Dialect> dialect_of(const std::string& path,
         return unknown_dialect(path);
     }
     if (is_module_file(bytes)) {
-        return Dialect::Lsys; // which the caller tells apart
+        return Dialect::Lsys; // the caller checks for module files
     }
     const DetectedDialect detected = detect_dialect(path, bytes);
     if (!detected.dialect) {
@@ -62,7 +62,7 @@ Result<Dialect> dialect_of(const std::string& path,
     return *detected.dialect;
 }
 
-/// The -D that no constant answers to, with the nearest that does.
+/// The error of a -D that names no constant, with the nearest name that exists.
 Error unknown_definition(const std::string& name, const Grammar& grammar) {
     std::string text = fmt::format("-D {}: the grammar has no #define or #param `{}`", name, name);
     if (grammar.program) {
@@ -136,9 +136,9 @@ read_grammar(const std::string& path, const std::string& dialect, const Project&
     return step.done(GrammarText{std::move(bytes.value()), found.value()});
 }
 
-Result<Done> check_system(const std::string& path, Dialect dialect, const GrammarOptions& options) {
+Result<void> check_system(const std::string& path, Dialect dialect, const GrammarOptions& options) {
     return options.system.empty() || has_systems(dialect)
-               ? Result<Done>(Done{})
+               ? Result<void>()
                : Error{fmt::format("--system: `{}` is {} and holds one system only",
                                    shown_path(path), row_of(dialect).title)};
 }
@@ -148,8 +148,8 @@ Result<CompiledText> compile_text(const std::string& path,
                                   const GrammarOptions& options,
                                   std::uint64_t max_modules,
                                   const FileLoader& load) {
-    if (Result<Done> fine = check_system(path, text.dialect, options); !fine) {
-        return fine.error();
+    if (Result<void> ok = check_system(path, text.dialect, options); !ok) {
+        return ok.error();
     }
     CompiledText compiled;
     Grammar& grammar = compiled.grammar;
@@ -161,7 +161,7 @@ Result<CompiledText> compile_text(const std::string& path,
     compiled.syntax_diagnostics = compiled.diagnostics.all().size();
     const bool foreign = text.dialect != Dialect::Lsys;
     if (foreign && compiled.diagnostics.has_errors()) {
-        return compiled; // nothing can be said of the rest
+        return compiled; // there is no whole translation to check
     }
     CompileOptions compile_options;
     compile_options.definitions = options.definitions;
@@ -173,7 +173,7 @@ Result<CompiledText> compile_text(const std::string& path,
     CompileOutcome outcome = compile(std::move(ast), grammar.names, *grammar.sources,
                                      compile_options, compiled.diagnostics);
     if (foreign) {
-        compiled.diagnostics.drop_repairs("`#"); // they are written in .lsys
+        compiled.diagnostics.drop_repairs("`#"); // repairs written in .lsys
     }
     grammar.program = std::move(outcome.program);
     if (outcome.bytecode) {
@@ -213,11 +213,11 @@ load_grammar(const std::string& path, const GrammarOptions& options, const Proje
         return step.fail(compiled.error());
     }
     CompiledText& text = compiled.value();
-    const bool fine = step.diagnose(std::move(text.diagnostics), text.grammar.sources);
+    const bool ok = step.diagnose(std::move(text.diagnostics), text.grammar.sources);
     if (text.definition_error) {
         return step.fail(*text.definition_error);
     }
-    return fine ? step.done(std::move(text.grammar)) : step.end_diagnosed();
+    return ok ? step.done(std::move(text.grammar)) : step.end_diagnosed();
 }
 
 } // namespace lsys

@@ -16,18 +16,18 @@ namespace lsys {
 namespace {
 
 constexpr double kPeriod = 256.0; // cells after which stb's noise repeats
-/// Part of the finest feature over which slopes are measured. Places within the noise are exact to
-/// 2^-17 of a cell, which leaves an error of 1 in 2,000 there.
+/// Fraction of the finest feature over which slopes are measured. Coordinates in the noise are
+/// exact to 2^-17 of a cell, which leaves an error of 1 in 2,000.
 constexpr double kSlopePart = 1.0 / 32.0;
-constexpr double kLeastSlopeStep = 0.05; // m; binary32 is coarser than less of it far out
-/// The generation that the draws of terrains take; derivations never come to it.
+constexpr double kLeastSlopeStep = 0.05; // m; less is finer than binary32 far out
+/// Generation of the draws of terrains, beyond those of derivations.
 constexpr std::uint32_t kTerrainGeneration = 0xFFFFFFFCu;
 
 bool within(double value, double least, double most) {
-    return value >= least && value <= most; // false for what is no number
+    return value >= least && value <= most; // false for NaN
 }
 
-Result<Done> check_noise(const NoiseOptions& options) {
+Result<void> check_noise(const NoiseOptions& options) {
     struct Bound {
         std::string_view name;
         double value;
@@ -49,15 +49,15 @@ Result<Done> check_noise(const NoiseOptions& options) {
                             bound.name, bound.value, bound.least, bound.most)};
         }
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> check_altitude(std::string_view name, double altitude) {
+Result<void> check_altitude(std::string_view name, double altitude) {
     if (!within(altitude, -kFarthest, kFarthest)) {
         return Error{fmt::format("the {} of the terrain is {} m; it must be from {} to {}", name,
                                  altitude, -kFarthest, kFarthest)};
     }
-    return Done{};
+    return {};
 }
 
 /// `cells` within the period of the noise.
@@ -68,10 +68,10 @@ float wrapped(double cells) {
 } // namespace
 
 Result<Terrain> Terrain::flat(const Region& region, double altitude) {
-    if (const Result<Done> checked = check_region(region); !checked) {
+    if (const Result<void> checked = check_region(region); !checked) {
         return checked.error();
     }
-    if (const Result<Done> checked = check_altitude("altitude", altitude); !checked) {
+    if (const Result<void> checked = check_altitude("altitude", altitude); !checked) {
         return checked.error();
     }
     Terrain terrain(region);
@@ -80,10 +80,10 @@ Result<Terrain> Terrain::flat(const Region& region, double altitude) {
 }
 
 Result<Terrain> Terrain::noise(const Region& region, const NoiseOptions& options) {
-    if (const Result<Done> checked = check_region(region); !checked) {
+    if (const Result<void> checked = check_region(region); !checked) {
         return checked.error();
     }
-    if (const Result<Done> checked = check_noise(options); !checked) {
+    if (const Result<void> checked = check_noise(options); !checked) {
         return checked.error();
     }
     Terrain terrain(region);
@@ -91,7 +91,7 @@ Result<Terrain> Terrain::noise(const Region& region, const NoiseOptions& options
     double height = 1.0;
     double sum = 0.0;
     for (std::uint32_t number = 0; number < options.octaves; ++number) {
-        // Octaves have places of their own within the noise: in common, their zeros would meet.
+        // each octave is shifted within the noise: otherwise their zeros would coincide
         const PhiloxBlock words = draw_block(options.seed, kTerrainGeneration, number, 0);
         terrain.octaves_.push_back({scale, static_cast<double>(words[0]) * (kPeriod * 0x1p-32),
                                     static_cast<double>(words[1]) * (kPeriod * 0x1p-32),
@@ -110,7 +110,7 @@ Result<Terrain> Terrain::noise(const Region& region, const NoiseOptions& options
 
 Result<Terrain>
 Terrain::height_map(const Region& region, GreyMap map, const HeightMapOptions& options) {
-    if (const Result<Done> checked = check_region(region); !checked) {
+    if (const Result<void> checked = check_region(region); !checked) {
         return checked.error();
     }
     if (map.columns < 2 || map.rows < 2 ||
@@ -122,7 +122,7 @@ Terrain::height_map(const Region& region, GreyMap map, const HeightMapOptions& o
         std::pair{std::string_view("lowest height"), options.lowest},
         std::pair{std::string_view("highest height"), options.highest}};
     for (const auto& [name, altitude] : altitudes) {
-        if (const Result<Done> checked = check_altitude(name, altitude); !checked) {
+        if (const Result<void> checked = check_altitude(name, altitude); !checked) {
             return checked.error();
         }
     }

@@ -197,25 +197,13 @@ TurtleStatus Turtle::State::interpret(std::span<const C> codes,
         for (const Code each : piece) {
             stored += bytecode.stored_parameters(each);
         }
-        const DeriveStatus done = interpretation->feed(
+        const std::optional<Stop> stop = interpretation->feed(
             piece, parameters.first(stored), origins.empty() ? origins : origins.first(count));
-        if (status == TurtleStatus::Ok) { // else the turtle has ended it
-            switch (done) {
-            case DeriveStatus::Ok:
-                break;
-            case DeriveStatus::Error:
-                status = TurtleStatus::NotInterpreted;
-                break;
-            case DeriveStatus::Limit:
-                status = TurtleStatus::Limit;
-                break;
-            case DeriveStatus::OutOfMemory:
-                status = TurtleStatus::OutOfMemory;
-                break;
-            case DeriveStatus::Cancelled:
-                status = TurtleStatus::Cancelled;
-                break;
-            }
+        if (stop && status == TurtleStatus::Ok) { // else the turtle has ended it
+            status = *stop == Stop::Limit         ? TurtleStatus::Limit
+                     : *stop == Stop::OutOfMemory ? TurtleStatus::OutOfMemory
+                     : *stop == Stop::Cancelled   ? TurtleStatus::Cancelled
+                                                  : TurtleStatus::NotInterpreted;
         }
         codes = codes.subspan(count);
         parameters = parameters.subspan(stored);
@@ -246,17 +234,7 @@ TurtleStatus Turtle::reserve(const Word& word) {
             objects += drawn == Drawn::Object ? census[code] : 0;
         }
     };
-    switch (word.code_width()) {
-    case 1:
-        count(word.codes<std::uint8_t>());
-        break;
-    case 2:
-        count(word.codes<std::uint16_t>());
-        break;
-    default:
-        count(word.codes<std::uint32_t>());
-        break;
-    }
+    word.visit(count);
     const bool origins = word.keeps_origins();
     const std::uint64_t bytes = segments * sizeof(Segment) + objects * sizeof(PlacedObject) +
                                 (origins ? (segments + objects) * sizeof(Origin) : 0);
@@ -277,14 +255,8 @@ TurtleStatus Turtle::reserve(const Word& word) {
 }
 
 TurtleStatus Turtle::feed(const Word& word) {
-    switch (word.code_width()) {
-    case 1:
-        return state_->take(word.codes<std::uint8_t>(), word.parameters(), word.origins());
-    case 2:
-        return state_->take(word.codes<std::uint16_t>(), word.parameters(), word.origins());
-    default:
-        return state_->take(word.codes<std::uint32_t>(), word.parameters(), word.origins());
-    }
+    return word.visit(
+        [&](auto codes) { return state_->take(codes, word.parameters(), word.origins()); });
 }
 
 TurtleStatus Turtle::feed(std::span<const Code> codes, std::span<const float> parameters) {

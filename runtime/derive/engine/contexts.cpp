@@ -45,20 +45,13 @@ std::uint64_t ContextTables::held_bytes_after(const Word& word) const {
 }
 
 bool ContextTables::prepare(const Plan& plan, const Word& word) {
-    switch (word.code_width()) {
-    case 1:
-        return prepare_typed<std::uint8_t>(plan, word);
-    case 2:
-        return prepare_typed<std::uint16_t>(plan, word);
-    default:
-        return prepare_typed<std::uint32_t>(plan, word);
-    }
+    return word.visit([&](auto codes) { return build(plan, codes); });
 }
 
 template <typename C>
-bool ContextTables::prepare_typed(const Plan& plan, const Word& word) {
-    const C* const codes = word.codes<C>().data();
-    count_ = word.module_count();
+bool ContextTables::build(const Plan& plan, std::span<const C> word) {
+    const C* const codes = word.data();
+    count_ = word.size();
     needs_offsets_ = plan.reads_contexts() && plan.has_parameters();
     plain_ = !has_structure_ || is_plain(codes);
     if (!plain_) {
@@ -89,7 +82,7 @@ bool ContextTables::is_plain(const C* codes) const {
                        [this](C code) { return sights_[code] == Sight::Module; });
 }
 
-/// One walk with a stack of what was left of each open `[`.
+/// Walks once, with a stack of the module to the left of each open `[`.
 template <typename C>
 void ContextTables::build_left(const C* codes) {
     std::vector<std::uint64_t> open;
@@ -116,8 +109,8 @@ void ContextTables::build_left(const C* codes) {
     }
 }
 
-/// The same from the right: a `]` ends the axis before it, and its `[` goes on after it. A `[`
-/// without its `]` is a branch that reaches to the end of the word.
+/// Walks once from the right: a `]` ends the axis before it, which goes on after the branch at its
+/// `[`. A `[` without its `]` is a branch that reaches to the end of the word.
 template <typename C>
 void ContextTables::build_right(const C* codes) {
     struct Closed {
@@ -164,7 +157,7 @@ void ContextTables::build_right(const C* codes) {
 
 template <typename C>
 void ContextTables::build_offsets(const C* codes, const Plan& plan) {
-    auto* const offsets = reinterpret_cast<std::uint64_t*>(offsets_.data());
+    auto* const offsets = offsets_.as<std::uint64_t>();
     const std::vector<Row>& rows = plan.rows();
     std::uint64_t stored = 0;
     for (std::uint64_t i = 0; i < count_; ++i) {

@@ -2,8 +2,9 @@
 
 #include "grammar/base/contract.h"
 #include "runtime/derive/engine/count.h"
+#include "runtime/derive/engine/depth_limit.h"
 #include "runtime/derive/engine/faults.h"
-#include "runtime/derive/engine/remains.h"
+#include "runtime/derive/engine/instantiate.h"
 #include "runtime/derive/engine/write.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kMaxBlock = 4096;
 constexpr std::uint64_t kMinBlock = 32;
-/// The blocks of all levels together, where templates do not ask for more.
+/// Bytes of the blocks of all levels together, unless templates need more.
 constexpr std::uint64_t kBlocksBytes = std::uint64_t{8} << 20;
 
 } // namespace
@@ -58,12 +59,12 @@ typename Levels<C, R>::Block Levels<C, R>::first_block() {
 }
 
 template <typename C, typename R>
-DeriveStatus Levels<C, R>::push(std::uint64_t count) {
+std::optional<Stop> Levels<C, R>::push(std::uint64_t count) {
     levels_.front().count = count;
     std::uint64_t at = 0;
-    while (status_ == DeriveStatus::Ok) {
+    while (!stop_) {
         if (options_.cancelled != nullptr && options_.cancelled->load(std::memory_order_relaxed)) {
-            status_ = DeriveStatus::Cancelled;
+            stop_ = Stop::Cancelled;
             break;
         }
         if (at == last_ && levels_[at].count != 0) {
@@ -100,13 +101,13 @@ DeriveStatus Levels<C, R>::push(std::uint64_t count) {
             ++at;
         }
     }
-    return status_;
+    return stop_;
 }
 
 template <typename C, typename R>
 bool Levels<C, R>::fail(RuntimeError error) {
     error_ = std::move(error);
-    status_ = DeriveStatus::Error;
+    stop_ = Stop::Diagnosed;
     return false;
 }
 
@@ -148,7 +149,7 @@ void Levels<C, R>::prune(std::uint64_t index) {
     level.count = kept;
 }
 
-/// Gives a whole block to the level below as it is.
+/// Hands a whole block to the level below unchanged.
 template <typename C, typename R>
 void Levels<C, R>::hand_down(Level& level, Level& below) {
     std::swap(level.codes, below.codes);
@@ -198,7 +199,7 @@ bool Levels<C, R>::descend(std::uint64_t index) {
     return true;
 }
 
-/// After the last pass over a word: whether nothing matches any more.
+/// Whether nothing matches any more after the last pass over a word; else fails.
 template <typename C, typename R>
 bool Levels<C, R>::is_decomposed(std::uint64_t index) {
     if (!steps_.checked || !steps_.rewrites(index)) {
@@ -222,7 +223,7 @@ bool Levels<C, R>::emit(Level& level) {
                 level.parameters.get(),
                 level.origins.get(),
                 level.first_position})) {
-        status_ = DeriveStatus::Cancelled;
+        stop_ = Stop::Cancelled;
         return false;
     }
     return true;
@@ -235,7 +236,7 @@ bool Levels<C, R>::add_level() {
     const std::uint64_t origin_bytes = options_.origins ? room_codes_ * sizeof(Origin) : 0;
     held_bytes_ += sizeof(Level) + code_bytes + parameter_bytes + origin_bytes;
     if (held_bytes_ > options_.max_bytes) {
-        status_ = DeriveStatus::Limit;
+        stop_ = Stop::Limit;
         return false;
     }
     Level& level = levels_.emplace_back();
@@ -244,16 +245,13 @@ bool Levels<C, R>::add_level() {
     if (options_.origins) {
         level.origins = std::make_unique_for_overwrite<Origin[]>(room_codes_);
     }
-    // lanes read past the last parameter, and then need finite numbers
+    // wide loads read past the last parameter, where they need finite numbers
     std::fill_n(level.parameters.get(), parameter_bytes / sizeof(float), 0.0F);
     return true;
 }
 
-template class Levels<std::uint8_t, std::uint8_t>;
-template class Levels<std::uint8_t, std::uint32_t>;
-template class Levels<std::uint16_t, std::uint8_t>;
-template class Levels<std::uint16_t, std::uint32_t>;
-template class Levels<std::uint32_t, std::uint8_t>;
-template class Levels<std::uint32_t, std::uint32_t>;
+#define LSYS_LEVELS(C, R) template class Levels<C, R>;
+LSYS_FOR_CODES_AND_RECORDS(LSYS_LEVELS)
+#undef LSYS_LEVELS
 
 } // namespace lsys

@@ -1,19 +1,19 @@
-// One pass: a word read, another written. Cut into chunks that are counted and written by any
-// number of threads; limits are checked between the two. A generation is one pass, or one for each
-// rule.
+// Passes: one pass reads a word and writes another, in chunks that any number of threads count and
+// then write; limits are checked in between. A generation is one pass, or one pass per rule.
 #pragma once
 
 #include "runtime/base/workers.h"
 #include "runtime/derive/derive.h"
+#include "runtime/derive/engine/active_mask.h"
 #include "runtime/derive/engine/choose.h"
 #include "runtime/derive/engine/contexts.h"
-#include "runtime/derive/engine/marks.h"
 #include "runtime/derive/engine/match.h"
 #include "runtime/derive/engine/plan.h"
 
 #include <atomic>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 namespace lsys {
@@ -22,13 +22,13 @@ class Passes {
 public:
     Passes(const Plan& plan, const DeriveOptions& options);
 
-    /// Rewrites `in` into `out`, as the plan is prepared. After anything but Ok `in` is untouched
-    /// and error() or limit() tells. `other_bytes` counts towards the limit on memory.
-    [[nodiscard]] DeriveStatus
+    /// Rewrites `in` into `out`, as the plan is prepared. After a Stop `in` is untouched and
+    /// error() or limit() has the facts. `other_bytes` counts towards the limit on memory.
+    [[nodiscard]] std::optional<Stop>
     run(const Word& in, Word& out, const PassKeys& keys, std::uint64_t other_bytes);
     /// Whether some module of `word` may be rewritten as the plan is prepared.
     [[nodiscard]] bool concerns(const Word& word) const;
-    /// The next word given to run() is not the one it wrote last.
+    /// Announces that the next word given to run() is not the one it wrote last.
     void forget() { census_known_ = false; }
 
     [[nodiscard]] const RuntimeError& error() const { return error_; }
@@ -37,37 +37,37 @@ public:
     [[nodiscard]] const Workers& workers() const { return workers_; }
 
 private:
-    /// A stretch of the word that one thread takes: [begin, end), and where it is written.
+    /// A stretch [begin, end) of the word for one thread, and where its successors are written.
     struct Chunk {
         ModulePlace begin;
         std::uint64_t end = 0;
-        std::uint64_t modules = 0; // that it becomes
+        std::uint64_t modules = 0; // written
         std::uint64_t parameters = 0;
         std::uint64_t out_module = 0;
         std::uint64_t out_parameter = 0;
-        bool marked = false; // counted, and to be written, by its marks
+        bool masked = false; // counted and written by its mask
         bool fault = false;
         std::uint64_t fault_index = 0;
     };
 
-    template <typename C>
-    [[nodiscard]] DeriveStatus run_typed(const Word& in, Word& out, const PassKeys& keys);
     template <typename C, typename R>
-    [[nodiscard]] DeriveStatus run_recorded(const Word& in, Word& out, const PassKeys& keys);
+    [[nodiscard]] std::optional<Stop>
+    run_typed(const WordView<C>& word, const Word& in, Word& out, const PassKeys& keys);
     template <typename C>
     void cut(const WordView<C>& word);
     template <typename C>
     void place_chunks(const WordView<C>& word, bool stores);
     template <typename C>
-    [[nodiscard]] bool marks_pay(const WordView<C>& word, const Chunk& chunk) const;
+    [[nodiscard]] bool mask_pays(const WordView<C>& word, const Chunk& chunk) const;
     template <typename C, typename R>
-    [[nodiscard]] DeriveStatus count(const WordView<C>& word, const PassKeys& keys);
+    [[nodiscard]] std::optional<Stop> count(const WordView<C>& word, const PassKeys& keys);
     template <typename C, typename R>
-    [[nodiscard]] DeriveStatus write(const WordView<C>& word, Word& out, const PassKeys& keys);
+    [[nodiscard]] std::optional<Stop>
+    write(const WordView<C>& word, Word& out, const PassKeys& keys);
     template <typename C>
     void take_census(const WordView<C>& word);
     void advance_census();
-    [[nodiscard]] DeriveStatus check_limits(const Word& in, const Word& out, const PassKeys& keys);
+    [[nodiscard]] bool check_limits(const Word& in, const Word& out, const PassKeys& keys);
     template <typename C>
     [[nodiscard]] std::uint32_t dominant_production(const WordView<C>& word,
                                                     const PassKeys& keys) const;
@@ -75,29 +75,29 @@ private:
         return plan_.needs_contexts() ? &contexts_ : nullptr;
     }
     template <typename C>
-    [[nodiscard]] DeriveStatus report_fault(const WordView<C>& word,
-                                            const PassKeys& keys,
-                                            ModulePlace begin,
-                                            std::uint64_t end);
-    [[nodiscard]] DeriveStatus no_memory(const Word& in, std::uint64_t bytes);
+    [[nodiscard]] std::optional<Stop> report_fault(const WordView<C>& word,
+                                                   const PassKeys& keys,
+                                                   ModulePlace begin,
+                                                   std::uint64_t end);
+    [[nodiscard]] std::optional<Stop> no_memory(const Word& in, std::uint64_t bytes);
     [[nodiscard]] bool cancelled() const;
     void report_progress(std::uint32_t generation, std::uint64_t modules);
     template <typename R>
     [[nodiscard]] R* records_at(std::uint64_t index) {
-        return reinterpret_cast<R*>(records_.data()) + index;
+        return records_.as<R>() + index;
     }
 
     const Plan& plan_;
     const DeriveOptions& options_;
     Workers workers_;
     ContextTables contexts_;
-    Marks marks_;
+    ActiveMask mask_;
     std::vector<Chunk> chunks_;
-    Arena records_;                     // of module i at place i or before, within its chunk
-    std::vector<std::uint64_t> census_; // modules of each code in the word
+    Arena records_;                     // record of module i at index <= i, within its chunk
+    std::vector<std::uint64_t> census_; // number of modules of each code in the word
     bool census_known_ = false;
-    bool by_census_ = false;    // the pass at work takes sizes from the census, and writes in order
-    std::uint64_t modules_ = 0; // of the word to be written
+    bool by_census_ = false;    // this pass takes sizes from the census and writes in order
+    std::uint64_t modules_ = 0; // of the word to write
     std::uint64_t parameters_ = 0;
     std::uint64_t other_bytes_ = 0;
     std::atomic<std::uint64_t> written_{0};

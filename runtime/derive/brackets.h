@@ -1,4 +1,4 @@
-// Whether every `]` has its `[`. A word may be fed in pieces.
+// Brackets of words and templates: whether every `]` has its `[`.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -10,6 +10,12 @@
 
 namespace lsys {
 
+/// Whether a `]` of the template has no `[` in it.
+[[nodiscard]] bool closes_unopened(const Bytecode& bytecode, TableRange codes);
+/// Whether the production removes a bracket from the word, so that another loses its partner.
+[[nodiscard]] bool rewrites_bracket(const Bytecode& bytecode, const BytecodeProduction& production);
+
+/// Checks the brackets of a word, which may come in pieces.
 class BracketCounter {
 public:
     explicit BracketCounter(const Bytecode& bytecode);
@@ -30,13 +36,13 @@ public:
     }
 
 private:
-    std::vector<std::int8_t> change_; // of the depth, by code
+    std::vector<std::int8_t> change_; // change of the depth, by code
     std::int64_t depth_ = 0;
     bool has_close_ = false;
 };
 
-/// The production that must have written an unmatched `]`: the only one whose successor closes
-/// what it has not opened, in a program whose axiom does not. kNoProduction if that is not known.
+/// The production that must have written an unmatched `]`: the only one whose successor closes a
+/// bracket that it does not open, if the axiom closes none. kNoProduction if several could have.
 [[nodiscard]] ProductionId only_unbalanced_production(const Bytecode& bytecode);
 
 /// The error of a `]` without its `[` at `position` of a word of age `age`.
