@@ -29,6 +29,8 @@ struct GrammarOptions {
     /// Those of constants that the grammar does not have are ignored.
     std::vector<Definition> optional_definitions;
     std::optional<std::uint32_t> generations; // instead of #n
+
+    friend bool operator==(const GrammarOptions&, const GrammarOptions&) = default;
 };
 
 /// The bytes of a grammar and the dialect that they are in.

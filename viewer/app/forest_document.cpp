@@ -51,7 +51,7 @@ Outcome<Done> make_model(const ViewOptions& options,
 
 /// `edits` and `known` may be null.
 Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
-                                              const ForestEdits* edits,
+                                              const SceneOverrides* edits,
                                               const ForestDocument* known,
                                               const Project& project) {
     Step step(project);
@@ -64,7 +64,9 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
         return step.end();
     }
     if (edits != nullptr) {
-        apply(*edits, loaded.scene);
+        if (const Result<Done> applied = apply(*edits, loaded.scene); !applied) {
+            return step.fail(applied.error());
+        }
     }
     const auto document = std::make_shared<ForestDocument>();
     document->scene = loaded.scene;
@@ -101,10 +103,10 @@ Outcome<std::shared_ptr<ForestDocument>> make_forest_document(const ViewOptions&
     return make(options, nullptr, nullptr, project);
 }
 
-Outcome<std::shared_ptr<ForestDocument>> make_live_forest(const ViewOptions& options,
-                                                          const ForestEdits& edits,
-                                                          const ForestDocument* known,
-                                                          const Project& project) {
+Outcome<std::shared_ptr<ForestDocument>> make_unpainted_forest(const ViewOptions& options,
+                                                               const SceneOverrides& edits,
+                                                               const ForestDocument* known,
+                                                               const Project& project) {
     return make(options, &edits, known, project);
 }
 

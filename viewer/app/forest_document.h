@@ -3,7 +3,6 @@
 
 #include "grammar/base/outcome.h"
 #include "runtime/pipeline/forest.h"
-#include "viewer/app/forest_edits.h"
 #include "viewer/app/options.h"
 #include "viewer/scene/forest_model.h"
 
@@ -27,13 +26,14 @@ struct ForestDocument {
 [[nodiscard]] Outcome<std::shared_ptr<ForestDocument>>
 make_forest_document(const ViewOptions& options, const Project& project);
 
-/// The same for a window: with what was set there, and with all trees that were placed. Those that
-/// `scene.painting` says were erased or painted come and go later. Heroes that `known`, which may
-/// be null, has are taken from there.
-[[nodiscard]] Outcome<std::shared_ptr<ForestDocument>> make_live_forest(const ViewOptions& options,
-                                                                        const ForestEdits& edits,
-                                                                        const ForestDocument* known,
-                                                                        const Project& project);
+/// Makes the forest of a window: `edits` of the window are applied after those of `options`, and
+/// all placed trees are there: what `scene.painting` erases and adds is up to ForestPainting.
+/// Heroes are taken from `known`, which may be null, where it has them.
+[[nodiscard]] Outcome<std::shared_ptr<ForestDocument>>
+make_unpainted_forest(const ViewOptions& options,
+                      const SceneOverrides& edits,
+                      const ForestDocument* known,
+                      const Project& project);
 
 /// Where a forest is seen from if nobody says: from beside and above, all of it in view.
 [[nodiscard]] Camera overview(const ForestDocument& document, float aspect);

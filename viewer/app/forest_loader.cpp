@@ -23,7 +23,7 @@ ForestOutcome make_forest(const ForestRequest& request, const std::atomic<bool>&
     const Stopwatch making;
     bool has_memory = false;
     try {
-        auto made = make_live_forest(request.options, request.edits, known, project);
+        auto made = make_unpainted_forest(request.options, request.edits, known, project);
         outcome.messages = std::move(made.messages());
         if (made) {
             outcome.document = std::move(made.value());

@@ -13,7 +13,7 @@ namespace lsys::view {
 
 struct ForestRequest {
     ViewOptions options;
-    ForestEdits edits;
+    SceneOverrides edits; // after options.overrides
     /// What is shown, whose heroes may be used again; none: all files are to be read.
     std::shared_ptr<const ForestDocument> known;
     SteadyClock::time_point since;

@@ -175,14 +175,14 @@ std::string draw_species(LiveForest& view) {
                                i < 2 ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None)) {
             continue;
         }
-        SpeciesEdit& edit = view.settings.edits.of(species.name);
+        SpeciesOverrides& edit = view.settings.edits.species[species.name];
         edit_length("share", placed.share, edit.share, 0.0, 1000.0, "%.3g");
         const auto scale = [](float& value) {
             return ImGui::DragFloat("##value", &value, 0.005F, 0.01F, 100.0F, "%.3g",
                                     ImGuiSliderFlags_AlwaysClamp);
         };
-        draw_edit("least scale", placed.least_scale, edit.least_scale, scale);
-        draw_edit("most scale", placed.greatest_scale, edit.greatest_scale, scale);
+        draw_edit("least scale", placed.least_scale, edit.min_scale, scale);
+        draw_edit("most scale", placed.greatest_scale, edit.max_scale, scale);
         edit_whole("heroes", species.cache.heroes, edit.heroes, 1U, 50U);
         draw_edit("rho", species.rho, edit.rho, [](float& value) {
             return ImGui::SliderFloat("##value", &value, 0.0F, 1.0F, "%.2f",
@@ -194,6 +194,9 @@ std::string draw_species(LiveForest& view) {
         }
         ImGui::TreePop();
     }
+    // Species without edits, as edits of two moments are compared.
+    std::erase_if(view.settings.edits.species,
+                  [](const auto& each) { return each.second == SpeciesOverrides{}; });
     return wanted;
 }
 
@@ -202,7 +205,7 @@ void draw_placement(LiveForest& view) {
     if (document == nullptr || !ImGui::CollapsingHeader("Placement")) {
         return;
     }
-    ForestEdits& edits = view.settings.edits;
+    SceneOverrides& edits = view.settings.edits;
     const PlacementOptions& placement = document->scene.placement;
     auto method = static_cast<int>(edits.method.value_or(placement.method));
     if (ImGui::Combo("method", &method,
@@ -234,15 +237,15 @@ void draw_ground(LiveForest& view) {
         line("a height map: " + terrain.map.path);
         return;
     }
-    ForestEdits& edits = view.settings.edits;
-    int kind = static_cast<int>(edits.ground.value_or(terrain.kind));
+    SceneOverrides& edits = view.settings.edits;
+    int kind = static_cast<int>(edits.terrain.value_or(terrain.kind));
     if (ImGui::Combo("kind", &kind, "flat\0hills\0")) {
-        edits.ground = static_cast<TerrainKind>(kind);
+        edits.terrain = static_cast<TerrainKind>(kind);
     }
     if (terrain.kind == TerrainKind::Noise) {
         constexpr std::uint64_t kMostSeeds = ~std::uint64_t{0};
         edit_length("height", terrain.noise.height, edits.hill_height, 0.0, 5000.0, "%.3g m");
-        edit_length("hill to hill", terrain.noise.feature, edits.hill_feature, 1.0, 50'000.0,
+        edit_length("hill to hill", terrain.noise.feature, edits.hill_spacing, 1.0, 50'000.0,
                     "%.3g m");
         edit_whole("seed", terrain.noise.seed, edits.hill_seed, 0, kMostSeeds);
     }
@@ -254,8 +257,9 @@ void draw_cache(LiveForest& view) {
         return;
     }
     constexpr std::uint32_t kMostKept = 64;
-    edit_whole("most of a key", document->scene.species.front().cache.cap, view.settings.edits.cap,
-               0U, kMostKept, document->scene.species.front().cache.cap == 0 ? "any" : "%u");
+    edit_whole("most of a key", document->scene.species.front().cache.cap,
+               view.settings.edits.cache_cap, 0U, kMostKept,
+               document->scene.species.front().cache.cap == 0 ? "any" : "%u");
     for (const CacheNumbers& each : view.stats().caches) {
         line(fmt::format("{}, {} generations:", each.species, each.generations));
         line(fmt::format("  {} heroes, {} branches", each.heroes, grouped(each.branches)));

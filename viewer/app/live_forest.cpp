@@ -138,7 +138,7 @@ bool LiveForest::update() {
         settings.camera = above_ground(settings.camera, *document_->grown.terrain);
     }
     show_outline();
-    if (!asked_ || !asked_->is_same(settings.edits)) {
+    if (asked_ != settings.edits) {
         ask();
     }
     return has_news;
@@ -276,7 +276,7 @@ void LiveForest::grow() {
     }
     const double passed = std::chrono::duration<double>(now - last_growth_).count();
     const double years_passed = passed * static_cast<double>(settings.years_per_second);
-    const bool is_made = asked_ && asked_->is_same(settings.edits) && !loader_.is_busy();
+    const bool is_made = asked_ == settings.edits && !loader_.is_busy();
     if (!is_made || years_passed < 1.0) {
         return;
     }
@@ -412,11 +412,8 @@ void LiveForest::save() {
         return;
     }
     saved_text_ = painting_.saved_text();
-    const SceneOverrides& given = options_.overrides;
-    const bool is_other_placement = settings.edits.changes_placement() || given.key ||
-                                    given.method || given.count || given.size || given.spacing ||
-                                    given.density || given.years || given.tile ||
-                                    !given.density_map.empty();
+    const bool is_other_placement =
+        settings.edits.changes_placement() || options_.overrides.changes_placement();
     // Their numbers are all that the file has of them.
     const bool is_doubtful = is_other_placement && painting_.has_erased();
     say(fmt::format("saved {}{}", file(),

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "viewer/app/file_watch.h"
-#include "viewer/app/forest_edits.h"
 #include "viewer/app/forest_loader.h"
 #include "viewer/app/forest_painting.h"
 #include "viewer/app/live_screen.h"
@@ -24,7 +23,7 @@ inline constexpr float kGreatestBrush = 500.0F; // m, its radius
 
 /// What a user can change while the forest is shown.
 struct ForestSettings {
-    ForestEdits edits; // another forest is made when these change
+    SceneOverrides edits; // after those of the command line; a change makes another forest
 
     Camera camera;
     bool shadows = true;
@@ -135,7 +134,7 @@ private:
     bool frames_next_ = false; // the next forest's view
     bool tells_shown_ = false;
     bool has_portraits_ = true;
-    std::optional<ForestEdits> asked_;
+    std::optional<SceneOverrides> asked_;
     std::uint32_t usual_years_ = 0;
     SteadyClock::time_point since_; // of the forest that is shown
     SteadyClock::time_point last_growth_;

@@ -13,17 +13,10 @@ namespace {
 
 constexpr double kMilliseconds = 1e3;
 
-bool operator==(const Definition& a, const Definition& b) {
-    return a.name == b.name && a.value == b.value;
-}
-
 /// They are made into the same plant.
 bool make_the_same(const LiveSettings& a, const LiveSettings& b) {
     return a.file == b.file && a.generations == b.generations && a.seed == b.seed &&
-           a.mesh == b.mesh &&
-           std::equal(a.definitions.begin(), a.definitions.end(), b.definitions.begin(),
-                      b.definitions.end(),
-                      [](const Definition& one, const Definition& other) { return one == other; });
+           a.mesh == b.mesh && a.definitions == b.definitions;
 }
 
 bool is_same(const Bending& a, const Bending& b) {

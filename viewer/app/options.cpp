@@ -145,13 +145,6 @@ void add_bending(CLI::App& app, ViewOptions& options) {
         ->group("Bending");
 }
 
-/// Whether any option is of forests alone.
-bool asks_for_forest(const SceneOverrides& forest) {
-    return forest.key || forest.heroes || forest.rho || forest.cache_cap || forest.tolerance ||
-           forest.method || forest.count || forest.size || forest.spacing || forest.density ||
-           forest.years || forest.tile || !forest.density_map.empty();
-}
-
 } // namespace
 
 ParsedOptions parse_options(std::span<const std::string> arguments) {
@@ -191,7 +184,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     }
     options.file = options.files.front();
     options.is_forest =
-        options.files.size() > 1 || is_scene(options.file) || asks_for_forest(options.overrides);
+        options.files.size() > 1 || is_scene(options.file) || options.overrides != SceneOverrides{};
     if (options.is_forest && options.gravity) {
         return UsageError{"--gravity bends a plant, not a forest", "leave it out"};
     }

@@ -228,13 +228,13 @@ TEST_CASE("what is set in the window takes the place of what the scene says") {
     const WoodFolder files(wood(100));
     Viewed viewed(options_of(files.scene));
     REQUIRE(viewed.until_swaps(1));
-    ForestEdits& edits = viewed.forest().settings.edits;
+    SceneOverrides& edits = viewed.forest().settings.edits;
     edits.count = 40;
     REQUIRE(viewed.until_trees(40));
-    edits.of("bush").heroes = 5;
+    edits.species["bush"].heroes = 5;
     REQUIRE(viewed.until([&] { return viewed.forest().stats().caches[0].heroes == 5; }));
-    edits.of("bush").least_scale = 2.0F;
-    edits.of("bush").greatest_scale = 2.0F;
+    edits.species["bush"].min_scale = 2.0F;
+    edits.species["bush"].max_scale = 2.0F;
     REQUIRE(viewed.until(
         [&] { return viewed.forest().document()->grown.forest.trees[0].scale == 2.0F; }));
     choose_method(edits, PlacementMethod::PoissonDisk, viewed.forest().document()->scene);
@@ -243,7 +243,7 @@ TEST_CASE("what is set in the window takes the place of what the scene says") {
     }));
     CHECK(viewed.forest().painting().tree_count() > 25); // of 40
     CHECK(viewed.forest().painting().tree_count() < 60);
-    edits.ground = TerrainKind::Flat;
+    edits.terrain = TerrainKind::Flat;
     REQUIRE(viewed.until(
         [&] { return viewed.forest().document()->grown.forest.trees[0].position.y == 0.0F; }));
     edits.spacing = -1.0;
