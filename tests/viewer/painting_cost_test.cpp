@@ -4,7 +4,7 @@
 #include "tests/support/forest.h"
 #include "viewer/gl/headless.h"
 #include "viewer/gl/renderer.h"
-#include "viewer/scene/forest_view.h"
+#include "viewer/scene/forest_lod.h"
 #include "viewer/scene/painter.h"
 
 #include <catch2/catch.hpp>

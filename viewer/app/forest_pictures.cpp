@@ -42,14 +42,14 @@ std::string stats_text(const ViewOptions& options,
     stats["samples"] = options.samples;
     stats["camera"] = to_text(camera);
     stats["trees"] = sizes.trees;
-    nlohmann::ordered_json& rings = stats["trees_drawn"];
+    nlohmann::ordered_json& drawn = stats["trees_drawn"];
     for (std::size_t level = 0; level < frame.trees_of_level.size(); ++level) {
-        rings[fmt::format("level_{}", level)] = frame.trees_of_level[level];
+        drawn[fmt::format("level_{}", level)] = frame.trees_of_level[level];
     }
-    rings["impostors"] = frame.far_trees;
-    rings["in_cells"] = frame.horizon_trees;
-    rings["blended"] = frame.blended_trees;
-    rings["behind_ground"] = frame.hidden_trees;
+    drawn["impostors"] = frame.far_trees;
+    drawn["in_cells"] = frame.horizon_trees;
+    drawn["blended"] = frame.blended_trees;
+    drawn["behind_ground"] = frame.hidden_trees;
     stats["cells_drawn"] = frame.horizon_cells;
     stats["branches_drawn"] = frame.drawn_branches;
     stats["trees_expanded"] = frame.expanded_trees;

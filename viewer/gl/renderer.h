@@ -126,7 +126,7 @@ public:
     /// Whether all are there.
     [[nodiscard]] virtual bool make_portraits(double seconds) = 0;
     /// A tree of the forest that is shown comes or goes, at a cost that does not grow with the
-    /// forest: ForestView::change_tree().
+    /// forest: ForestLod::change_tree().
     virtual void change_tree(std::uint32_t index, const Tree& tree, bool alive) = 0;
     /// Of what is shown.
     [[nodiscard]] virtual const Bounds& bounds() const = 0;

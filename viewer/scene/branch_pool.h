@@ -19,7 +19,7 @@ struct PoolBranch {
     float scale = 1.0F;
     std::array<std::int16_t, 4> rotation{}; // x, y, z, w in 1/32767
     std::uint32_t mesh = 0;                 // instance in its form's cache
-    std::uint32_t tree = 0;                 // in ForestView::trees()
+    std::uint32_t tree = 0;                 // in ForestLod::trees()
 
     /// Where the branch has a place of its hero.
     [[nodiscard]] glm::vec3 at(const glm::vec3& place) const;

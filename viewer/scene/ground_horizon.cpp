@@ -26,11 +26,11 @@ float steps_to(float distance) {
 
 } // namespace
 
-void GroundHorizon::look(const TerrainView& ground, const glm::vec3& eye) {
+void GroundHorizon::look(const TerrainLod& ground, const glm::vec3& eye) {
     // From below the ground is not seen.
     ground_ = ground.eye_height() > 0.0F ? &ground : nullptr;
     eye_ = eye;
-    const float reach = TerrainView::range(ground.levels() - 1);
+    const float reach = TerrainLod::range(ground.levels() - 1);
     steps_ = static_cast<std::uint32_t>(steps_to(reach));
     for (Sector& sector : sectors_) {
         sector.known = false;
@@ -40,12 +40,12 @@ void GroundHorizon::look(const TerrainView& ground, const glm::vec3& eye) {
 float GroundHorizon::lowest_between(std::uint32_t sector, float distance) const {
     const float away = std::hypot(distance, ground_->eye_height());
     std::uint32_t level = 0;
-    while (away >= TerrainView::range(level)) {
+    while (away >= TerrainLod::range(level)) {
         if (++level == ground_->levels()) {
             return -std::numeric_limits<float>::infinity(); // no ground is drawn there
         }
     }
-    const float cell = TerrainView::cell(level);
+    const float cell = TerrainLod::cell(level);
     const auto at = [&](std::uint32_t direction) {
         const float angle = kTurn / kDirections * static_cast<float>(direction);
         return glm::vec2(eye_.x + distance * std::sin(angle), eye_.z + distance * std::cos(angle)) /

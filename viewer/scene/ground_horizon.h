@@ -3,7 +3,7 @@
 // seen. No OpenGL.
 #pragma once
 
-#include "viewer/scene/terrain_view.h"
+#include "viewer/scene/terrain_lod.h"
 #include "viewer/scene/view_volume.h"
 
 #include <array>
@@ -15,7 +15,7 @@ namespace lsys::view {
 class GroundHorizon {
 public:
     /// For the eye that `ground` was selected for. What is found goes with the next call.
-    void look(const TerrainView& ground, const glm::vec3& eye);
+    void look(const TerrainLod& ground, const glm::vec3& eye);
     /// Whether the ground hides all of a box, m.
     [[nodiscard]] bool hides(const glm::vec3& low, const glm::vec3& high);
 
@@ -32,7 +32,7 @@ private:
     [[nodiscard]] const std::vector<float>& slopes_of(std::uint32_t sector);
     [[nodiscard]] float lowest_between(std::uint32_t sector, float distance) const;
 
-    const TerrainView* ground_ = nullptr; // none: hides nothing
+    const TerrainLod* ground_ = nullptr; // none: hides nothing
     glm::vec3 eye_{};
     std::uint32_t steps_ = 0;
     std::array<Sector, kDirections> sectors_;

@@ -21,10 +21,10 @@ float drawn(std::uint32_t a, std::uint32_t b) {
 }
 
 /// The mean scale of the trees of each form; 0 if it has none.
-std::vector<float> mean_scales(const ForestView& view) {
-    std::vector<double> sums(view.model().forms.size());
+std::vector<float> mean_scales(const ForestLod& lod) {
+    std::vector<double> sums(lod.model().forms.size());
     std::vector<double> counts(sums.size());
-    for (const ViewTree& tree : view.trees()) {
+    for (const ViewTree& tree : lod.trees()) {
         sums[tree.form] += static_cast<double>(tree.scale);
         counts[tree.form] += 1.0;
     }
@@ -37,9 +37,9 @@ std::vector<float> mean_scales(const ForestView& view) {
 
 } // namespace
 
-PortraitPlan plan_portraits(const ForestView& view) {
+PortraitPlan plan_portraits(const ForestLod& lod) {
     PortraitPlan plan;
-    const std::vector<TreeForm>& forms = view.model().forms;
+    const std::vector<TreeForm>& forms = lod.model().forms;
     for (std::uint32_t f = 0; f < forms.size(); ++f) {
         const TreeForm& form = forms[f];
         plan.forms.push_back(
@@ -52,15 +52,15 @@ PortraitPlan plan_portraits(const ForestView& view) {
             plan.layers.push_back({f, level, {tree}});
         }
     }
-    plan.has_cells = view.trees().size() >= kTreesForCells;
+    plan.has_cells = lod.trees().size() >= kTreesForCells;
     if (!plan.has_cells) {
         return plan;
     }
-    const std::vector<float> scales = mean_scales(view);
+    const std::vector<float> scales = mean_scales(lod);
     for (std::uint32_t f = 0; f < forms.size(); ++f) {
         const TreeForm& form = forms[f];
         const float side =
-            static_cast<float>(view.cell_size()) / (scales[f] > 0.0F ? scales[f] : 1.0F);
+            static_cast<float>(lod.cell_size()) / (scales[f] > 0.0F ? scales[f] : 1.0F);
         const float step = side / static_cast<float>(kRow);
         plan.forms.push_back(
             {{0.5F * side * std::numbers::sqrt2_v<float> + form.radius, form.low, form.high},

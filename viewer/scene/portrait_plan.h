@@ -2,7 +2,7 @@
 // of a whole cell of trees of each form for the horizon. What is in them; gl/ draws them.
 #pragma once
 
-#include "viewer/scene/forest_view.h"
+#include "viewer/scene/forest_lod.h"
 
 #include <cstdint>
 #include <vector>
@@ -42,6 +42,6 @@ inline constexpr float kPortraitMargin = 1.04F;
 /// Cells are drawn only where a forest has so many trees.
 inline constexpr std::size_t kTreesForCells = 2000;
 
-[[nodiscard]] PortraitPlan plan_portraits(const ForestView& view);
+[[nodiscard]] PortraitPlan plan_portraits(const ForestLod& lod);
 
 } // namespace lsys::view

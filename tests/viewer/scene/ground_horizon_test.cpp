@@ -22,7 +22,7 @@ namespace {
 constexpr float kReach = 1500.0F; // m
 
 /// Whether the ground lies above the line between two points somewhere.
-bool is_blocked(const TerrainView& ground, const glm::vec3& eye, const glm::vec3& at) {
+bool is_blocked(const TerrainLod& ground, const glm::vec3& eye, const glm::vec3& at) {
     const float length = glm::distance(eye, at);
     for (float way = 1.0F; way < length; way += 0.2F + 0.002F * way) {
         const glm::vec3 on_line = eye + (at - eye) * (way / length);
@@ -53,7 +53,7 @@ Box box_on(const Terrain& terrain, std::mt19937& draws, const glm::vec3& eye) {
 
 TEST_CASE("what the ground hides cannot be seen") {
     const Terrain terrain = hills(1000.0F);
-    TerrainView ground(terrain, kReach);
+    TerrainLod ground(terrain, kReach);
     GroundHorizon horizon;
     std::mt19937 draws(4);
     std::uniform_real_distribution<float> part(0.0F, 1.0F);
@@ -89,11 +89,11 @@ TEST_CASE("what the ground hides cannot be seen") {
 
 TEST_CASE("level ground hides nothing, and from below there is none") {
     const Terrain flat = Terrain::flat({0.0, 0.0, 1000.0, 1000.0}).value();
-    TerrainView level(flat, kReach);
+    TerrainLod level(flat, kReach);
     GroundHorizon horizon;
     CHECK_FALSE(horizon.hides({10.0F, -1.0F, 10.0F}, {20.0F, 5.0F, 20.0F}));
     std::mt19937 draws(5);
-    const auto look = [&](TerrainView& ground, const glm::vec3& eye) {
+    const auto look = [&](TerrainLod& ground, const glm::vec3& eye) {
         ground.select(view_volume({eye, eye + glm::vec3(1.0F, 0.0F, 0.0F), 60.0F}, 64, 36));
         horizon.look(ground, eye);
     };
@@ -104,7 +104,7 @@ TEST_CASE("level ground hides nothing, and from below there is none") {
         REQUIRE_FALSE(horizon.hides(box.low, box.high + glm::vec3(0.0F, 0.1F, 0.0F)));
     }
     const Terrain terrain = hills(1000.0F);
-    TerrainView ground(terrain, kReach);
+    TerrainLod ground(terrain, kReach);
     const glm::vec3 below(500.0F, terrain.height(500.0F, 500.0F) - 2.0F, 500.0F);
     look(ground, below);
     for (int i = 0; i < 300; ++i) {
@@ -116,8 +116,8 @@ TEST_CASE("level ground hides nothing, and from below there is none") {
 TEST_CASE("trees behind the ground are left out, and no others") {
     const auto wood = make_wood_on_hills(6000, 600.0F);
     const TreeForm& form = wood->model.forms[0];
-    ForestView view(wood->model);
-    TerrainView ground(*wood->terrain, kReach);
+    ForestLod lod(wood->model);
+    TerrainLod ground(*wood->terrain, kReach);
     GroundHorizon horizon;
     std::uint64_t hidden = 0;
     for (const glm::vec2& at :
@@ -127,8 +127,8 @@ TEST_CASE("trees behind the ground are left out, and no others") {
         const ViewVolume volume = view_volume(camera, 640, 480);
         ground.select(volume);
         horizon.look(ground, eye);
-        const ForestLists all = view.select(volume, wood_rings());
-        const ForestLists& some = view.select(volume, wood_rings(), &horizon);
+        const ForestLists all = lod.select(volume, wood_lod());
+        const ForestLists& some = lod.select(volume, wood_lod(), &horizon);
         CHECK(all.hidden == 0);
         hidden += some.hidden;
         std::set<std::uint32_t> left;
@@ -137,7 +137,7 @@ TEST_CASE("trees behind the ground are left out, and no others") {
                 take(tree.number);
             }
             for (const Listed& clump : lists.clumps) {
-                const ForestCell& cell = view.cells()[clump.number];
+                const ForestCell& cell = lod.cells()[clump.number];
                 for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
                     take(t);
                 }
@@ -150,7 +150,7 @@ TEST_CASE("trees behind the ground are left out, and no others") {
                 return;
             }
             ++missing;
-            const ViewTree& seen = view.view_tree(tree);
+            const ViewTree& seen = lod.view_tree(tree);
             for (const float height : {form.low, form.high}) {
                 const glm::vec3 place = seen.position + glm::vec3(0.0F, seen.scale * height, 0.0F);
                 CAPTURE(tree, height);

@@ -257,21 +257,21 @@ void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
     glVertexArrayElementBuffer(array_.name(), indices_.name());
 }
 
-void ForestBuffers::upload_trees(const ForestView& view) {
-    const std::span<const ViewTree> trees = view.trees();
+void ForestBuffers::upload_trees(const ForestLod& lod) {
+    const std::span<const ViewTree> trees = lod.trees();
     drawn_->trees.reserve((trees.size() + kRoomForTrees) * sizeof(TreeRecord));
     constexpr std::size_t kPiece = std::size_t{1} << 16U;
     std::vector<TreeRecord> records;
     for (std::size_t first = 0; first < trees.size(); first += kPiece) {
         records.clear();
         for (std::size_t t = first; t < std::min(first + kPiece, trees.size()); ++t) {
-            records.push_back(record_of(trees[t], view.model().forest->trees[trees[t].tree]));
+            records.push_back(record_of(trees[t], lod.model().forest->trees[trees[t].tree]));
         }
         drawn_->trees.write(std::span<const TreeRecord>(records), first * sizeof(TreeRecord));
     }
-    const auto forms = static_cast<std::uint32_t>(view.model().forms.size());
+    const auto forms = static_cast<std::uint32_t>(lod.model().forms.size());
     records.clear();
-    for (const ForestCell& cell : view.cells()) {
+    for (const ForestCell& cell : lod.cells()) {
         const auto number = static_cast<std::uint32_t>(records.size());
         // Turned by quarters, so that squares stay squares.
         const std::uint32_t drawn = golden_multiple(number);
@@ -282,13 +282,13 @@ void ForestBuffers::upload_trees(const ForestView& view) {
     cells_.fill(std::span<const TreeRecord>(records));
 }
 
-void ForestBuffers::upload_tree(const ForestView& view, std::uint32_t number) {
+void ForestBuffers::upload_tree(const ForestLod& lod, std::uint32_t number) {
     const std::size_t offset = std::size_t{number} * sizeof(TreeRecord);
     Buffer& trees = drawn_->trees;
     if (offset + sizeof(TreeRecord) > trees.capacity()) {
         trees.grow(offset + kRoomForTrees * sizeof(TreeRecord));
     }
-    const TreeRecord record = record_of(view.view_tree(number), view.tree_of(number));
+    const TreeRecord record = record_of(lod.view_tree(number), lod.tree_of(number));
     trees.write(std::span<const TreeRecord>(&record, 1), offset);
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "viewer/gl/impl/objects.h"
-#include "viewer/scene/forest_view.h"
+#include "viewer/scene/forest_lod.h"
 #include "viewer/scene/portrait_plan.h"
 
 #include <glm/vec4.hpp>
@@ -48,11 +48,11 @@ public:
     /// Gives the meshes of the model back.
     void upload(ForestModel& model, const PortraitPlan& plan);
     /// With the cells as trees of the forms that stand for them.
-    void upload_trees(const ForestView& view);
+    void upload_trees(const ForestLod& lod);
     /// Puts branches that the pool has written where shaders find them.
     void upload_branches(BranchPool& pool);
     /// One tree, of those that were added too.
-    void upload_tree(const ForestView& view, std::uint32_t number);
+    void upload_tree(const ForestLod& lod, std::uint32_t number);
     /// Trees from elsewhere than a forest, for portraits.
     void set_trees(std::span<const Tree> trees, std::uint32_t form);
     /// Branches from elsewhere than a pool, for portraits.

@@ -91,14 +91,14 @@ Result<Done> ForestPass::reload(const ShaderSource& shaders) {
 void ForestPass::show(ForestModel model) {
     const Clock::time_point start = Clock::now();
     lists_ = nullptr;
-    view_.reset();
+    lod_.reset();
     model_ = std::move(model);
-    view_ = std::make_unique<ForestView>(model_);
-    PortraitPlan plan = plan_portraits(*view_);
+    lod_ = std::make_unique<ForestLod>(model_);
+    PortraitPlan plan = plan_portraits(*lod_);
     has_cells_ = plan.has_cells;
     buffers_.upload(model_, plan);
     portraits_.begin(model_, std::move(plan), buffers_);
-    buffers_.upload_trees(*view_);
+    buffers_.upload_trees(*lod_);
     const Region& region = model_.terrain->region();
     terrain_.show(*model_.terrain,
                   static_cast<float>(std::hypot(region.width, region.depth)) + kGroundBeyond);
@@ -119,9 +119,9 @@ bool ForestPass::make_portraits(double seconds, MaterialTextures& textures) {
 }
 
 void ForestPass::change_tree(std::uint32_t index, const Tree& tree, bool alive) {
-    const std::uint32_t number = view_->change_tree(index, tree, alive);
-    if (alive && number >= view_->trees().size()) {
-        buffers_.upload_tree(*view_, number);
+    const std::uint32_t number = lod_->change_tree(index, tree, alive);
+    if (alive && number >= lod_->trees().size()) {
+        buffers_.upload_tree(*lod_, number);
     }
 }
 
@@ -160,20 +160,20 @@ Bounds ForestPass::lit_bounds(const Frame& frame) const {
 void ForestPass::prepare(const Frame& frame) {
     const Clock::time_point start = Clock::now();
     volume_ = view_volume(frame.camera, frame.width, frame.height);
-    RingOptions rings;
-    rings.most_triangles = frame.most_triangles;
-    rings.most_expansions = frame.most_expansions;
-    rings.wind = frame.wind;
+    LodOptions options;
+    options.most_triangles = frame.most_triangles;
+    options.most_expansions = frame.most_expansions;
+    options.wind = frame.wind;
     constexpr float kStill = 1e-4F; // m/s
     is_windy_ = glm::length(frame.wind.velocity) >= kStill;
-    rings.horizon_pixels = has_cells_ ? rings.horizon_pixels : 0.0F;
+    options.horizon_pixels = has_cells_ ? options.horizon_pixels : 0.0F;
     terrain_.prepare(volume_);
     // Edges of triangles hide nothing.
     const bool hides = frame.style != PlantStyle::Wireframe;
-    horizon_.look(*terrain_.view(), volume_.eye);
-    lists_ = &view_->select(volume_, rings, hides ? &horizon_ : nullptr);
+    horizon_.look(*terrain_.lod(), volume_.eye);
+    lists_ = &lod_->select(volume_, options, hides ? &horizon_ : nullptr);
     cull_seconds_ = seconds_since(start);
-    buffers_.upload_branches(view_->pool());
+    buffers_.upload_branches(lod_->pool());
     buffers_.command(*lists_);
 }
 
@@ -218,7 +218,7 @@ ForestPass::draw_quads(const ProgramObject& program, std::size_t first, std::siz
 
 void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats) {
     std::vector<std::uint32_t> numbers;
-    view_->find_within(casters_of(shadow_from_world, bounds().low.y, bounds().high.y), numbers);
+    lod_->find_within(casters_of(shadow_from_world, bounds().low.y, bounds().high.y), numbers);
     std::vector<Listed> trees;
     trees.reserve(numbers.size());
     for (const std::uint32_t number : numbers) {
@@ -276,9 +276,9 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
 
 ForestSizes ForestPass::sizes() const {
     ForestSizes sizes;
-    sizes.trees = view_->alive_count();
+    sizes.trees = lod_->alive_count();
     sizes.tree_bytes =
-        view_->byte_count() + buffers_.tree_bytes() + model_.forest->trees.size() * sizeof(Tree);
+        lod_->byte_count() + buffers_.tree_bytes() + model_.forest->trees.size() * sizeof(Tree);
     sizes.branch_bytes = buffers_.branch_bytes();
     sizes.mesh_bytes = buffers_.mesh_bytes();
     sizes.texture_bytes = portraits_.texture_bytes() + terrain_.texture_bytes();

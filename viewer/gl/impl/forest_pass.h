@@ -9,7 +9,7 @@
 #include "viewer/gl/impl/portraits.h"
 #include "viewer/gl/impl/terrain_pass.h"
 #include "viewer/gl/renderer.h"
-#include "viewer/scene/forest_view.h"
+#include "viewer/scene/forest_lod.h"
 #include "viewer/scene/ground_horizon.h"
 
 #include <glm/mat4x4.hpp>
@@ -33,10 +33,10 @@ public:
     void show(ForestModel model);
     /// Draws portraits that are missing, for about so long. Whether all are there.
     [[nodiscard]] bool make_portraits(double seconds, MaterialTextures& textures);
-    /// A tree comes or goes, as ForestView::change_tree() has it.
+    /// A tree comes or goes, as ForestLod::change_tree() has it.
     void change_tree(std::uint32_t index, const Tree& tree, bool alive);
-    [[nodiscard]] bool shows() const { return view_ != nullptr; }
-    [[nodiscard]] const Bounds& bounds() const { return view_->bounds(); }
+    [[nodiscard]] bool shows() const { return lod_ != nullptr; }
+    [[nodiscard]] const Bounds& bounds() const { return lod_->bounds(); }
 
     /// What the sun is asked for around a camera. The same until the camera has gone some way.
     [[nodiscard]] Bounds lit_bounds(const Frame& frame) const;
@@ -61,7 +61,7 @@ private:
     std::array<ForestPrograms, 2> programs_; // still, and windy
     bool is_windy_ = false;
     ForestModel model_;
-    std::unique_ptr<ForestView> view_;
+    std::unique_ptr<ForestLod> lod_;
     ForestBuffers buffers_;
     Portraits portraits_;
     TerrainPass terrain_;

@@ -1,11 +1,11 @@
 // TerrainPass: the ground of a forest on the device: heights around the camera as a texture, and
-// one small grid that is drawn for each patch of a TerrainView.
+// one small grid that is drawn for each patch of a TerrainLod.
 #pragma once
 
 #include "grammar/base/result.h"
 #include "viewer/gl/impl/objects.h"
 #include "viewer/gl/renderer.h"
-#include "viewer/scene/terrain_view.h"
+#include "viewer/scene/terrain_lod.h"
 
 #include <cstdint>
 #include <memory>
@@ -25,14 +25,14 @@ public:
     /// What was selected.
     FrameStats draw();
 
-    [[nodiscard]] const TerrainView* view() const { return view_.get(); }
+    [[nodiscard]] const TerrainLod* lod() const { return lod_.get(); }
     [[nodiscard]] std::uint64_t texture_bytes() const;
     /// A level's heights as the device has them, by rows.
     [[nodiscard]] std::vector<float> read_heights(std::uint32_t level) const;
 
 private:
     Device* device_;
-    std::unique_ptr<TerrainView> view_;
+    std::unique_ptr<TerrainLod> lod_;
     ProgramObject program_;
     TextureObject heights_;
     TextureObject noise_;

@@ -1,4 +1,4 @@
-#include "viewer/scene/forest_view.h"
+#include "viewer/scene/forest_lod.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -14,7 +14,7 @@ constexpr double kTreesOfCell = 16.0;
 
 } // namespace
 
-ForestView::ForestView(const ForestModel& model) : model_(model), added_(model.terrain->region()) {
+ForestLod::ForestLod(const ForestModel& model) : model_(model), added_(model.terrain->region()) {
     std::uint32_t meshes = 0;
     for (const TreeForm& form : model_.forms) {
         expanders_.emplace_back(*form.cache, model_.forest->key);
@@ -25,7 +25,7 @@ ForestView::ForestView(const ForestModel& model) : model_(model), added_(model.t
     sort_into_cells();
 }
 
-Ball ForestView::reach_of(const ViewTree& tree, float yaw) const {
+Ball ForestLod::reach_of(const ViewTree& tree, float yaw) const {
     const TreeForm& form = model_.forms[tree.form];
     const glm::vec3& c = form.reach.centre;
     const glm::vec3 turned(std::cos(yaw) * c.x + std::sin(yaw) * c.z, c.y,
@@ -33,13 +33,13 @@ Ball ForestView::reach_of(const ViewTree& tree, float yaw) const {
     return {tree.position + tree.scale * turned, tree.scale * form.reach.radius};
 }
 
-Ball ForestView::portrait_ball(const ViewTree& tree) const {
+Ball ForestLod::portrait_ball(const ViewTree& tree) const {
     const TreeForm& form = model_.forms[tree.form];
     return {tree.position + glm::vec3(0.0F, tree.scale * 0.5F * (form.low + form.high), 0.0F),
             tree.scale * std::hypot(form.radius, 0.5F * form.height())};
 }
 
-std::uint64_t ForestView::cell_of(const glm::vec3& place) const {
+std::uint64_t ForestLod::cell_of(const glm::vec3& place) const {
     const auto column =
         static_cast<std::uint64_t>(static_cast<double>(place.x - cells_low_.x) / cell_size_);
     const auto row =
@@ -47,7 +47,7 @@ std::uint64_t ForestView::cell_of(const glm::vec3& place) const {
     return std::min(row, rows_ - 1) * columns_ + std::min(column, columns_ - 1);
 }
 
-ViewTree ForestView::made_of(const Tree& tree, std::uint32_t index) {
+ViewTree ForestLod::made_of(const Tree& tree, std::uint32_t index) {
     ViewTree made;
     made.position = tree.position;
     made.scale = tree.scale;
@@ -58,7 +58,7 @@ ViewTree ForestView::made_of(const Tree& tree, std::uint32_t index) {
     return made;
 }
 
-void ForestView::sort_into_cells() {
+void ForestLod::sort_into_cells() {
     const LargeVector<Tree>& trees = model_.forest->trees;
     alive_count_ = trees.size();
     if (trees.empty()) {
@@ -123,7 +123,7 @@ void ForestView::sort_into_cells() {
     }
 }
 
-void ForestView::find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const {
+void ForestLod::find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const {
     for (const ForestCell& cell : cells_) {
         if (cell.count != 0 && cell.low.x <= box.high.x && cell.high.x >= box.low.x &&
             cell.low.z <= box.high.z && cell.high.z >= box.low.z) {
@@ -142,7 +142,7 @@ void ForestView::find_within(const Bounds& box, std::vector<std::uint32_t>& tree
         [&](std::uint32_t slot) { trees.push_back(first_added() + slot); });
 }
 
-std::uint32_t ForestView::change_tree(std::uint32_t index, const Tree& tree, bool alive) {
+std::uint32_t ForestLod::change_tree(std::uint32_t index, const Tree& tree, bool alive) {
     if (index >= trees_.size()) {
         const std::uint32_t slot = index - first_added();
         const bool was_alive = added_.is_alive(slot);
@@ -175,7 +175,7 @@ std::uint32_t ForestView::change_tree(std::uint32_t index, const Tree& tree, boo
     return number;
 }
 
-std::uint64_t ForestView::byte_count() const {
+std::uint64_t ForestLod::byte_count() const {
     return trees_.size() * sizeof(ViewTree) + cells_.size() * sizeof(ForestCell);
 }
 

@@ -1,4 +1,4 @@
-// TerrainView: which squares of the ground are drawn for a camera, how fine, and the heights there
+// TerrainLod: which squares of the ground are drawn for a camera, how fine, and the heights there
 // (CDLOD, Strugar 2010, "Continuous Distance-Dependent Level of Detail for Rendering Heightmaps").
 // The ground is a quadtree of squares without end. Each level has a grid of its own around the
 // camera, twice as coarse as that of the level before, with the terrain's heights at its corners,
@@ -45,10 +45,10 @@ struct HeightGrid {
     }
 };
 
-class TerrainView {
+class TerrainLod {
 public:
     /// The terrain outlives the view. `reach`: m from the camera, as far as ground is drawn.
-    TerrainView(const Terrain& terrain, float reach);
+    TerrainLod(const Terrain& terrain, float reach);
 
     /// Makes the heights that are needed for this camera and lists the patches in its view, near
     /// levels first.

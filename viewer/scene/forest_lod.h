@@ -1,4 +1,4 @@
-// ForestView: which trees of a forest are drawn as what, for a camera. Trees lie in cells of the
+// ForestLod: which trees of a forest are drawn as what, for a camera. Trees lie in cells of the
 // ground; each tree in view is in one ring, by how large it is in the picture:
 //   near     its branches, finest level
 //   middle   its branches, coarser levels
@@ -23,7 +23,7 @@
 
 namespace lsys::view {
 
-struct RingOptions {
+struct LodOptions {
     /// Heights of a tree in pixels from which on it is drawn as each level of branches.
     std::array<float, kTreeLevels> level_pixels{860.0F, 430.0F, 260.0F, 150.0F};
     /// Below this, cells are drawn as one.
@@ -100,7 +100,7 @@ struct ForestLists {
     std::vector<ListedBranch> branches; // by run
     std::vector<BranchRun> runs;
     // Whole ones first, of those near ones first.
-    std::vector<Listed> trees;                               // far: numbers of ForestView::trees()
+    std::vector<Listed> trees;                               // far: numbers of ForestLod::trees()
     std::vector<Listed> clumps;                              // horizon: cells
     std::array<std::uint32_t, kTreeLevels> trees_of_level{}; // with branches in view
     std::uint64_t far_trees = 0;     // of `trees`, without those that have branches too
@@ -115,7 +115,7 @@ struct ForestLists {
 
 /// A square of the ground.
 struct ForestCell {
-    std::uint32_t first = 0; // in ForestView::trees()
+    std::uint32_t first = 0; // in ForestLod::trees()
     std::uint32_t count = 0;
     glm::vec3 low{}; // around its trees, radii included
     glm::vec3 high{};
@@ -126,10 +126,10 @@ struct ForestCell {
     std::uint32_t gone = 0; // trees that were taken away; with any, all are drawn by themselves
 };
 
-class ForestView {
+class ForestLod {
 public:
     /// The model outlives the view.
-    explicit ForestView(const ForestModel& model);
+    explicit ForestLod(const ForestModel& model);
 
     /// A tree comes or goes, in time that does not grow with the forest. `index`: in Forest::trees,
     /// or behind them, of trees that are added one after the other; one that is gone may be
@@ -138,7 +138,7 @@ public:
 
     /// What `ground` hides is left out.
     [[nodiscard]] const ForestLists&
-    select(const ViewVolume& volume, const RingOptions& options, GroundHorizon* ground = nullptr);
+    select(const ViewVolume& volume, const LodOptions& options, GroundHorizon* ground = nullptr);
 
     [[nodiscard]] const ForestModel& model() const { return model_; }
     /// Those of the forest. Numbers of trees go on behind them: of trees that were added.
@@ -189,15 +189,15 @@ private:
     /// `part`: of its impostor, if it is far.
     void visit_tree(std::uint32_t number,
                     const ViewVolume& volume,
-                    const RingOptions& options,
+                    const LodOptions& options,
                     Part part = kWhole);
     /// Lists a cell as one, or its trees, or both.
     void visit_cell(std::uint32_t index,
                     float distance,
                     const ViewVolume& volume,
-                    const RingOptions& options);
+                    const LodOptions& options);
     /// A tree's branches in the pool; they are made if need be. Count 0: they have to wait.
-    [[nodiscard]] PoolSpan branches_of(std::uint32_t number, const RingOptions& options);
+    [[nodiscard]] PoolSpan branches_of(std::uint32_t number, const LodOptions& options);
     /// The branches that are seen, sorted into runs.
     void list_runs();
     [[nodiscard]] float sway_of(const ViewTree& tree) const; // m
@@ -213,9 +213,9 @@ private:
                       std::uint32_t part_steps,
                       const ViewVolume& volume);
     /// kTreeLevels: none, an impostor.
-    [[nodiscard]] static std::uint32_t level_of(float pixels, const RingOptions& options);
-    [[nodiscard]] float fitting_detail(const RingOptions& options) const;
-    void list_branches(const ViewVolume& volume, const RingOptions& options);
+    [[nodiscard]] static std::uint32_t level_of(float pixels, const LodOptions& options);
+    [[nodiscard]] float fitting_detail(const LodOptions& options) const;
+    void list_branches(const ViewVolume& volume, const LodOptions& options);
 
     const ForestModel& model_;
     LargeVector<ViewTree> trees_;

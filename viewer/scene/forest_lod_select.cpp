@@ -1,5 +1,5 @@
-// Which trees are in which ring of a picture: ForestView::select().
-#include "viewer/scene/forest_view.h"
+// The LOD band of each tree of a picture: ForestLod::select().
+#include "viewer/scene/forest_lod.h"
 #include "viewer/scene/portrait_plan.h"
 
 #include <glm/common.hpp>
@@ -23,10 +23,10 @@ float pixels_of(const ViewVolume& volume, const glm::vec3& place, float height) 
     return height * volume.pixels / std::max(glm::distance(volume.eye, place), kNearest);
 }
 
-/// Where between two rings something is that is `pixels` large, 0 to 1: from the size where the
-/// smaller ring ends to `blend` times that.
-float between_rings(float pixels, float ring, float blend) {
-    return blend > 1.0F ? std::clamp((pixels / ring - 1.0F) / (blend - 1.0F), 0.0F, 1.0F) : 1.0F;
+/// Weight of the finer of two LOD bands for a height of `pixels`: 0 up to the height `limit` where
+/// the coarser one ends, 1 from `blend` times that on.
+float finer_weight(float pixels, float limit, float blend) {
+    return blend > 1.0F ? std::clamp((pixels / limit - 1.0F) / (blend - 1.0F), 0.0F, 1.0F) : 1.0F;
 }
 
 /// How far wind moves trees in a box, which is at least as high and wide as each of them; m.
@@ -55,7 +55,7 @@ Sway sway_in(const Wind& wind) {
 }
 
 const ForestLists&
-ForestView::select(const ViewVolume& volume, const RingOptions& options, GroundHorizon* ground) {
+ForestLod::select(const ViewVolume& volume, const LodOptions& options, GroundHorizon* ground) {
     lists_.branches.clear();
     lists_.runs.clear();
     lists_.trees.clear();
@@ -110,17 +110,17 @@ ForestView::select(const ViewVolume& volume, const RingOptions& options, GroundH
     return lists_;
 }
 
-float ForestView::sway_of(const ViewTree& tree) const {
+float ForestLod::sway_of(const ViewTree& tree) const {
     const TreeForm& form = model_.forms[tree.form];
     const float width = glm::length(form.reach.centre) + form.reach.radius;
     return sway_.of(tree.scale * form.height(), tree.scale * width);
 }
 
-Ball ForestView::swaying(const Ball& ball, const ViewTree& tree) const {
+Ball ForestLod::swaying(const Ball& ball, const ViewTree& tree) const {
     return {ball.centre, ball.radius + sway_of(tree)};
 }
 
-Bounds ForestView::portrait_box(const ViewTree& tree, const glm::vec3& eye) const {
+Bounds ForestLod::portrait_box(const ViewTree& tree, const glm::vec3& eye) const {
     // Pictures have a margin, and those from above lean back: shaders/impostor.glsl.
     constexpr float kLevel = 0.3F; // sine, below which they are seen from the side
     const Ball ball = portrait_ball(tree);
@@ -133,21 +133,21 @@ Bounds ForestView::portrait_box(const ViewTree& tree, const glm::vec3& eye) cons
     return {ball.centre - half, ball.centre + half, false};
 }
 
-bool ForestView::is_behind_ground(const Bounds& box, float sway) const {
+bool ForestLod::is_behind_ground(const Bounds& box, float sway) const {
     return ground_ != nullptr && ground_->hides(box.low - sway, box.high + sway);
 }
 
-void ForestView::visit_cell(std::uint32_t index,
-                            float distance,
-                            const ViewVolume& volume,
-                            const RingOptions& options) {
+void ForestLod::visit_cell(std::uint32_t index,
+                           float distance,
+                           const ViewVolume& volume,
+                           const LodOptions& options) {
     const ForestCell& cell = cells_[index];
     Part part = kWhole; // of its trees
     if (cell.count >= kFewTrees && cell.gone == 0 && options.horizon_pixels > 0.0F) {
         const float pixels = cell.tallest * volume.pixels / std::max(distance, kNearest);
         part = pixels < options.horizon_pixels
                    ? 0.0F
-                   : between_rings(pixels, options.horizon_pixels, options.blend);
+                   : finer_weight(pixels, options.horizon_pixels, options.blend);
     }
     if (part < kWhole) {
         lists_.clumps.push_back({index, part > 0.0F ? part - 1.0F : kWhole});
@@ -164,10 +164,10 @@ void ForestView::visit_cell(std::uint32_t index,
     }
 }
 
-void ForestView::visit_tree(std::uint32_t number,
-                            const ViewVolume& volume,
-                            const RingOptions& options,
-                            Part part) {
+void ForestLod::visit_tree(std::uint32_t number,
+                           const ViewVolume& volume,
+                           const LodOptions& options,
+                           Part part) {
     const ViewTree& tree = view_tree(number);
     const Ball portrait = portrait_ball(tree);
     const float pixels =
@@ -185,7 +185,7 @@ void ForestView::visit_tree(std::uint32_t number,
     }
 }
 
-std::uint32_t ForestView::level_of(float pixels, const RingOptions& options) {
+std::uint32_t ForestLod::level_of(float pixels, const LodOptions& options) {
     std::uint32_t level = 0;
     while (level < kTreeLevels && pixels < options.level_pixels[level]) {
         ++level;
@@ -193,7 +193,7 @@ std::uint32_t ForestView::level_of(float pixels, const RingOptions& options) {
     return level;
 }
 
-float ForestView::fitting_detail(const RingOptions& options) const {
+float ForestLod::fitting_detail(const LodOptions& options) const {
     const auto fits = [&](float detail) {
         double triangles = 0.0;
         for (const Candidate& candidate : candidates_) {
@@ -217,11 +217,11 @@ float ForestView::fitting_detail(const RingOptions& options) const {
     return most;
 }
 
-void ForestView::see_branches(const PoolSpan& span,
-                              const ViewTree& tree,
-                              float yaw,
-                              std::uint32_t part_steps,
-                              const ViewVolume& volume) {
+void ForestLod::see_branches(const PoolSpan& span,
+                             const ViewTree& tree,
+                             float yaw,
+                             std::uint32_t part_steps,
+                             const ViewVolume& volume) {
     const Ball whole = swaying(reach_of(tree, yaw), tree);
     const bool is_within = volume.holds(whole);
     const float sway = whole.radius - tree.scale * model_.forms[tree.form].reach.radius;
@@ -239,7 +239,7 @@ void ForestView::see_branches(const PoolSpan& span,
     }
 }
 
-PoolSpan ForestView::branches_of(std::uint32_t number, const RingOptions& options) {
+PoolSpan ForestLod::branches_of(std::uint32_t number, const LodOptions& options) {
     const PoolSpan span = pool_.find(number);
     if (span.count != 0 || lists_.expanded >= options.most_expansions) {
         return span;
@@ -255,7 +255,7 @@ PoolSpan ForestView::branches_of(std::uint32_t number, const RingOptions& option
     return made;
 }
 
-void ForestView::list_branches(const ViewVolume& volume, const RingOptions& options) {
+void ForestLod::list_branches(const ViewVolume& volume, const LodOptions& options) {
     seen_branches_.clear();
     seen_trees_.clear();
     std::fill(mesh_counts_.begin(), mesh_counts_.end(), 0);
@@ -274,7 +274,7 @@ void ForestView::list_branches(const ViewVolume& volume, const RingOptions& opti
         }
         std::uint32_t steps = kAll;
         if (level + 1 == kTreeLevels) {
-            const float part = between_rings(pixels, options.level_pixels.back(), options.blend);
+            const float part = finer_weight(pixels, options.level_pixels.back(), options.blend);
             steps = static_cast<std::uint32_t>(std::lround(part * static_cast<float>(kAll)));
         }
         const auto instances =
@@ -301,7 +301,7 @@ void ForestView::list_branches(const ViewVolume& volume, const RingOptions& opti
     list_runs();
 }
 
-void ForestView::list_runs() {
+void ForestLod::list_runs() {
     // Finer levels first: they are nearer, and hide what comes behind.
     std::uint32_t first = 0;
     for (std::uint32_t group = 0; group <= kBlending; ++group) {

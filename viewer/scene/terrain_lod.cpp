@@ -1,4 +1,4 @@
-#include "viewer/scene/terrain_view.h"
+#include "viewer/scene/terrain_lod.h"
 
 #include "runtime/base/workers.h"
 
@@ -28,21 +28,21 @@ std::int64_t floor_to(double value, std::int64_t step) {
 
 } // namespace
 
-float TerrainView::range(std::uint32_t level) {
+float TerrainLod::range(std::uint32_t level) {
     return kNearestRange * static_cast<float>(1U << level);
 }
 
-float TerrainView::morph_start(std::uint32_t level) {
+float TerrainLod::morph_start(std::uint32_t level) {
     return kMorphStart * range(level);
 }
 
-TerrainView::TerrainView(const Terrain& terrain, float reach) : terrain_(terrain) {
+TerrainLod::TerrainLod(const Terrain& terrain, float reach) : terrain_(terrain) {
     while (levels_ < kTerrainLevels && range(levels_ - 1) < reach) {
         ++levels_;
     }
 }
 
-void TerrainView::make_grid(std::uint32_t level, const glm::vec3& eye) {
+void TerrainLod::make_grid(std::uint32_t level, const glm::vec3& eye) {
     const auto size = static_cast<double>(cell(level));
     const auto half = static_cast<std::int64_t>(kHeightTexels) / 2 - kGridStep / 2;
     const glm::ivec2 origin(floor_to(static_cast<double>(eye.x) / size, kGridStep) - half,
@@ -72,7 +72,7 @@ void TerrainView::make_grid(std::uint32_t level, const glm::vec3& eye) {
     changed_.push_back(level);
 }
 
-void TerrainView::select(const ViewVolume& volume) {
+void TerrainLod::select(const ViewVolume& volume) {
     patches_.clear();
     changed_.clear();
     eye_ = volume.eye;
@@ -98,7 +98,7 @@ void TerrainView::select(const ViewVolume& volume) {
         [](const TerrainPatch& a, const TerrainPatch& b) { return a.level < b.level; });
 }
 
-float TerrainView::distance_to(const Node& node) const {
+float TerrainLod::distance_to(const Node& node) const {
     const float size = cell(node.level) * static_cast<float>(kNodeCells);
     const glm::vec2 low(static_cast<float>(node.x) * size, static_cast<float>(node.z) * size);
     const glm::vec2 eye(eye_.x, eye_.z);
@@ -106,9 +106,9 @@ float TerrainView::distance_to(const Node& node) const {
     return glm::length(glm::vec3(away, eye_height_));
 }
 
-bool TerrainView::is_seen(const TerrainPatch& at,
-                          std::int32_t cells,
-                          const ViewVolume& volume) const {
+bool TerrainLod::is_seen(const TerrainPatch& at,
+                         std::int32_t cells,
+                         const ViewVolume& volume) const {
     const HeightGrid& grid = grids_[at.level];
     const float size = cell(at.level);
     const glm::vec3 low(static_cast<float>(at.x) * size, grid.lowest,
@@ -123,7 +123,7 @@ bool TerrainView::is_seen(const TerrainPatch& at,
     });
 }
 
-bool TerrainView::visit(const Node& node, const ViewVolume& volume) {
+bool TerrainLod::visit(const Node& node, const ViewVolume& volume) {
     if (distance_to(node) >= range(node.level)) {
         return false;
     }

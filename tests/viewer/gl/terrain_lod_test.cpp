@@ -3,7 +3,7 @@
 #include "tests/viewer/wood.h"
 #include "viewer/gl/headless.h"
 #include "viewer/gl/impl/terrain_pass.h"
-#include "viewer/scene/terrain_view.h"
+#include "viewer/scene/terrain_lod.h"
 
 #include <catch2/catch.hpp>
 
@@ -31,11 +31,11 @@ std::vector<Camera> cameras() {
 
 TEST_CASE("corners lie on the terrain") {
     const Terrain terrain = hills(240.0F);
-    TerrainView view(terrain, 3000.0F);
+    TerrainLod lod(terrain, 3000.0F);
     for (const Camera& camera : cameras()) {
-        view.select(view_volume(camera, 1280, 720));
-        for (std::uint32_t level = 0; level < view.levels(); ++level) {
-            const HeightGrid& grid = view.grid(level);
+        lod.select(view_volume(camera, 1280, 720));
+        for (std::uint32_t level = 0; level < lod.levels(); ++level) {
+            const HeightGrid& grid = lod.grid(level);
             if (!grid.there) {
                 continue;
             }
@@ -43,8 +43,8 @@ TEST_CASE("corners lie on the terrain") {
                 const auto column = static_cast<std::int32_t>(i % kHeightTexels);
                 const auto row = static_cast<std::int32_t>(i / kHeightTexels);
                 const float x =
-                    static_cast<float>(grid.origin.x + column) * TerrainView::cell(level);
-                const float z = static_cast<float>(grid.origin.y + row) * TerrainView::cell(level);
+                    static_cast<float>(grid.origin.x + column) * TerrainLod::cell(level);
+                const float z = static_cast<float>(grid.origin.y + row) * TerrainLod::cell(level);
                 REQUIRE(grid.heights[i] == terrain.height(x, z));
             }
         }
@@ -53,17 +53,17 @@ TEST_CASE("corners lie on the terrain") {
 
 TEST_CASE("patches cover the ground once, and their heights are there") {
     const Terrain terrain = hills(240.0F);
-    TerrainView view(terrain, 3000.0F);
+    TerrainLod lod(terrain, 3000.0F);
     for (const Camera& camera : cameras()) {
         ViewVolume everywhere = view_volume(camera, 1280, 720);
         for (glm::vec4& plane : everywhere.planes) {
             plane = glm::vec4(0.0F, 0.0F, 0.0F, 1.0F);
         }
-        view.select(everywhere);
-        REQUIRE(!view.patches().empty());
+        lod.select(everywhere);
+        REQUIRE(!lod.patches().empty());
         std::map<std::pair<std::int64_t, std::int64_t>, int> covered; // squares of 4 m near the eye
-        for (const TerrainPatch& patch : view.patches()) {
-            const HeightGrid& grid = view.grid(patch.level);
+        for (const TerrainPatch& patch : lod.patches()) {
+            const HeightGrid& grid = lod.grid(patch.level);
             REQUIRE(grid.there);
             // A cell more on each side, for normals.
             constexpr auto kCells = static_cast<std::int32_t>(kPatchCells);
@@ -91,25 +91,25 @@ TEST_CASE("patches cover the ground once, and their heights are there") {
 
 TEST_CASE("nothing in view is left out") {
     const Terrain terrain = hills(240.0F);
-    TerrainView view(terrain, 3000.0F);
+    TerrainLod lod(terrain, 3000.0F);
     for (const Camera& camera : cameras()) {
         const ViewVolume volume = view_volume(camera, 1280, 720);
-        view.select(volume);
-        const std::vector<TerrainPatch> seen = view.patches();
+        lod.select(volume);
+        const std::vector<TerrainPatch> seen = lod.patches();
         ViewVolume everywhere = volume;
         for (glm::vec4& plane : everywhere.planes) {
             plane = glm::vec4(0.0F, 0.0F, 0.0F, 1.0F);
         }
-        view.select(everywhere);
-        CHECK(view.patches().size() > seen.size());
-        for (const TerrainPatch& patch : view.patches()) {
+        lod.select(everywhere);
+        CHECK(lod.patches().size() > seen.size());
+        for (const TerrainPatch& patch : lod.patches()) {
             if (std::find(seen.begin(), seen.end(), patch) != seen.end()) {
                 continue;
             }
-            const HeightGrid& grid = view.grid(patch.level);
+            const HeightGrid& grid = lod.grid(patch.level);
             for (std::int32_t z = 0; z <= static_cast<int>(kPatchCells); ++z) {
                 for (std::int32_t x = 0; x <= static_cast<int>(kPatchCells); ++x) {
-                    const float size = TerrainView::cell(patch.level);
+                    const float size = TerrainLod::cell(patch.level);
                     const glm::vec3 at(static_cast<float>(patch.x + x) * size,
                                        grid.at(patch.x + x, patch.z + z),
                                        static_cast<float>(patch.z + z) * size);
@@ -124,9 +124,9 @@ TEST_CASE("nothing in view is left out") {
 // farther away stays within 0.25 % of the distance, a pixel or two.
 TEST_CASE("the surface that is drawn is near the terrain") {
     const Terrain terrain = hills(240.0F);
-    TerrainView view(terrain, 3000.0F);
+    TerrainLod lod(terrain, 3000.0F);
     const glm::vec3 eye = cameras()[0].eye;
-    view.select(view_volume(cameras()[0], 1280, 720));
+    lod.select(view_volume(cameras()[0], 1280, 720));
     std::mt19937 draws(2);
     std::uniform_real_distribution<float> around(-1.0F, 1.0F);
     for (const float reach : {5.0F, 20.0F, 60.0F, 200.0F}) {
@@ -134,7 +134,7 @@ TEST_CASE("the surface that is drawn is near the terrain") {
         for (int i = 0; i < 4000; ++i) {
             const float x = 120.0F + reach * around(draws);
             const float z = 120.0F + reach * around(draws);
-            const float height = drawn_height(view, eye, x, z);
+            const float height = drawn_height(lod, eye, x, z);
             REQUIRE(std::isfinite(height));
             worst = std::max(worst, std::abs(height - terrain.height(x, z)));
         }
@@ -146,8 +146,8 @@ TEST_CASE("the surface that is drawn is near the terrain") {
 
 TEST_CASE("the ground is the same wherever the camera was before") {
     const Terrain terrain = hills(240.0F);
-    TerrainView fresh(terrain, 3000.0F);
-    TerrainView used(terrain, 3000.0F);
+    TerrainLod fresh(terrain, 3000.0F);
+    TerrainLod used(terrain, 3000.0F);
     const ViewVolume volume = view_volume(cameras()[0], 1280, 720);
     fresh.select(volume);
     for (const Camera& camera : cameras()) {
@@ -175,8 +175,8 @@ TEST_CASE("the device has the heights of the terrain") {
     pass.show(terrain, 3000.0F);
     pass.prepare(view_volume(cameras()[0], 1280, 720));
     pass.prepare(view_volume(cameras()[1], 1280, 720));
-    for (std::uint32_t level = 0; level < pass.view()->levels(); ++level) {
-        const HeightGrid& grid = pass.view()->grid(level);
+    for (std::uint32_t level = 0; level < pass.lod()->levels(); ++level) {
+        const HeightGrid& grid = pass.lod()->grid(level);
         if (!grid.there) {
             continue;
         }
@@ -184,8 +184,8 @@ TEST_CASE("the device has the heights of the terrain") {
         for (std::size_t i = 0; i < heights.size(); i += 101) {
             const auto column = static_cast<std::int32_t>(i % kHeightTexels);
             const auto row = static_cast<std::int32_t>(i / kHeightTexels);
-            const float x = static_cast<float>(grid.origin.x + column) * TerrainView::cell(level);
-            const float z = static_cast<float>(grid.origin.y + row) * TerrainView::cell(level);
+            const float x = static_cast<float>(grid.origin.x + column) * TerrainLod::cell(level);
+            const float z = static_cast<float>(grid.origin.y + row) * TerrainLod::cell(level);
             REQUIRE(std::abs(heights[i] - terrain.height(x, z)) < 0.001F);
         }
     }

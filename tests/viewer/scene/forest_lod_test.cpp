@@ -33,18 +33,18 @@ std::vector<Camera> cameras() {
             looking({-3000, 50, 100}, {100, 0, 100}, 20.0F)};
 }
 
-/// Trees with branches in view.
+/// Trees with branches in lod.
 std::uint64_t branch_trees(const ForestLists& lists) {
     return std::accumulate(lists.trees_of_level.begin(), lists.trees_of_level.end(),
                            std::uint64_t{0});
 }
 
 /// What is drawn as branches: tree, instance, level.
-std::vector<std::array<std::uint32_t, 3>> branches_of(ForestView& view, const ForestLists& lists) {
+std::vector<std::array<std::uint32_t, 3>> branches_of(ForestLod& lod, const ForestLists& lists) {
     std::vector<std::array<std::uint32_t, 3>> branches;
     for (const BranchRun& run : lists.runs) {
         for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
-            const PoolBranch& branch = view.pool().branches()[lists.branches[i].place()];
+            const PoolBranch& branch = lod.pool().branches()[lists.branches[i].place()];
             CHECK(branch.mesh == run.instance);
             branches.push_back({branch.tree, branch.mesh, run.level});
         }
@@ -54,20 +54,20 @@ std::vector<std::array<std::uint32_t, 3>> branches_of(ForestView& view, const Fo
 
 } // namespace
 
-TEST_CASE("every pixel of a tree in view is of exactly one ring") {
+TEST_CASE("every pixel of a tree in view is of exactly one LOD band") {
     const auto wood = make_wood(3000, 200.0F);
-    ForestView view(wood->model);
-    CHECK(view.trees().size() == 3000);
+    ForestLod lod(wood->model);
+    CHECK(lod.trees().size() == 3000);
     std::uint64_t blended = 0;
     for (const Camera& camera : cameras()) {
         const ViewVolume volume = view_volume(camera, 640, 480);
-        const ForestLists& lists = view.select(volume, wood_rings());
+        const ForestLists& lists = lod.select(volume, wood_lod());
         std::map<std::uint32_t, Part> near;
         std::map<std::uint32_t, std::set<std::uint32_t>> levels;
         for (const BranchRun& run : lists.runs) {
             for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
                 const ListedBranch branch = lists.branches[i];
-                const std::uint32_t tree = view.pool().branches()[branch.place()].tree;
+                const std::uint32_t tree = lod.pool().branches()[branch.place()].tree;
                 const Part part = static_cast<float>(branch.steps()) /
                                   static_cast<float>(ListedBranch::kPartSteps);
                 CHECK(run.blends == (part < kWhole));
@@ -79,7 +79,7 @@ TEST_CASE("every pixel of a tree in view is of exactly one ring") {
             CHECK(of_tree.size() == 1);
         }
         CHECK(near.size() == branch_trees(lists));
-        std::vector<std::vector<Part>> parts(view.trees().size());
+        std::vector<std::vector<Part>> parts(lod.trees().size());
         for (const auto& [tree, part] : near) {
             if (part > 0.0F) {
                 parts[tree].push_back(part);
@@ -90,7 +90,7 @@ TEST_CASE("every pixel of a tree in view is of exactly one ring") {
         }
         std::uint64_t clumped = 0;
         for (const Listed& clump : lists.clumps) {
-            const ForestCell& cell = view.cells()[clump.number];
+            const ForestCell& cell = lod.cells()[clump.number];
             clumped += clump.part == kWhole ? cell.count : 0;
             for (std::uint32_t i = 0; i < cell.count; ++i) {
                 parts[cell.first + i].push_back(clump.part);
@@ -108,9 +108,9 @@ TEST_CASE("every pixel of a tree in view is of exactly one ring") {
         // One by one: nothing that is in view is left out, and nothing is drawn twice.
         const glm::mat4 matrix =
             projection_matrix(camera, 640.0F / 480.0F, 0.1F) * view_matrix(camera);
-        for (std::uint32_t t = 0; t < view.trees().size(); ++t) {
+        for (std::uint32_t t = 0; t < lod.trees().size(); ++t) {
             const TreeForm& form = wood->model.forms[0];
-            const ViewTree& tree = view.trees()[t];
+            const ViewTree& tree = lod.trees()[t];
             bool seen = false;
             for (const float height : {form.low, 0.5F * (form.low + form.high), form.high}) {
                 const glm::vec4 clip =
@@ -134,30 +134,30 @@ TEST_CASE("every pixel of a tree in view is of exactly one ring") {
     CHECK(blended > 0);
 }
 
-TEST_CASE("what comes nearer turns from one ring to the next bit by bit") {
+TEST_CASE("what comes nearer blends from one LOD band to the next") {
     const auto wood = make_wood(200, 5.0F);
-    ForestView view(wood->model);
+    ForestLod lod(wood->model);
     constexpr float kStep = 1.004F;
-    const RingOptions rings = wood_rings();
-    const float most = 1.5F * (kStep - 1.0F) * rings.blend / (rings.blend - 1.0F) + 0.01F;
+    const LodOptions options = wood_lod();
+    const float most = 1.5F * (kStep - 1.0F) * options.blend / (options.blend - 1.0F) + 0.01F;
     std::map<std::uint32_t, float> branches_before;
     float horizon_before = 0.0F;
     float largest = 0.0F;
     bool is_first = true;
     for (float away = 2000.0F; away > 20.0F; away /= kStep) {
-        const ForestLists& lists = view.select(
-            view_volume(looking({2.5F, 1, 2.5F + away}, {2.5F, 1, 2.5F}), 640, 480), rings);
+        const ForestLists& lists = lod.select(
+            view_volume(looking({2.5F, 1, 2.5F + away}, {2.5F, 1, 2.5F}), 640, 480), options);
         // How much of each tree are branches, and how much of the forest are cells.
         std::map<std::uint32_t, float> branches;
         for (const ListedBranch branch : lists.branches) {
-            branches[view.pool().branches()[branch.place()].tree] =
+            branches[lod.pool().branches()[branch.place()].tree] =
                 static_cast<float>(branch.steps()) / static_cast<float>(ListedBranch::kPartSteps);
         }
         float horizon = 0.0F;
         for (const Listed& clump : lists.clumps) {
-            horizon += std::abs(clump.part) / static_cast<float>(view.cells().size());
+            horizon += std::abs(clump.part) / static_cast<float>(lod.cells().size());
         }
-        for (std::uint32_t tree = 0; tree < view.trees().size() && !is_first; ++tree) {
+        for (std::uint32_t tree = 0; tree < lod.trees().size() && !is_first; ++tree) {
             const float change = std::abs(branches[tree] - branches_before[tree]);
             largest = std::max(largest, change);
             REQUIRE(change <= most);
@@ -178,15 +178,15 @@ TEST_CASE("every corner in view of a tree with branches is of a branch that is d
     const TreeForm& form = wood->model.forms[0];
     const InstanceCache& cache = *form.cache;
     TreeExpander expander(cache, wood->forest.key);
-    ForestView view(wood->model);
+    ForestLod lod(wood->model);
     std::size_t left_out = 0;
     for (const Camera& camera : cameras()) {
-        const ForestLists& lists = view.select(view_volume(camera, 640, 480), wood_rings());
+        const ForestLists& lists = lod.select(view_volume(camera, 640, 480), wood_lod());
         std::map<std::uint32_t, std::uint32_t> levels;
         std::set<std::array<float, 4>> drawn; // places of branches and their trees
         for (const BranchRun& run : lists.runs) {
             for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
-                const PoolBranch& branch = view.pool().branches()[lists.branches[i].place()];
+                const PoolBranch& branch = lod.pool().branches()[lists.branches[i].place()];
                 levels[branch.tree] = run.level;
                 drawn.insert({branch.position.x, branch.position.y, branch.position.z,
                               static_cast<float>(branch.mesh)});
@@ -197,7 +197,7 @@ TEST_CASE("every corner in view of a tree with branches is of a branch that is d
         for (const auto& [number, level] : levels) {
             const InstanceMeshes& meshes = (*form.meshes)[level];
             const LargeVector<std::uint32_t> indices = meshes.mesh.indices.expanded();
-            expander.expand(view.tree_of(number), [&](const BranchInstance& branch) {
+            expander.expand(lod.tree_of(number), [&](const BranchInstance& branch) {
                 const Instance& instance = cache.instances[branch.instance];
                 const InstancePose pose = pose_of(branch, instance);
                 const PoolBranch packed = pool_branch(branch, instance, number);
@@ -228,14 +228,14 @@ TEST_CASE("every corner in view of a tree with branches is of a branch that is d
 
 TEST_CASE("what wind moves into the view is drawn") {
     const auto wood = make_wood(3000, 200.0F);
-    ForestView view(wood->model);
-    RingOptions calm = wood_rings();
-    RingOptions windy = calm;
+    ForestLod lod(wood->model);
+    LodOptions calm = wood_lod();
+    LodOptions windy = calm;
     windy.wind = {{30.0F, 0.0F, 0.0F}, 0.5F};
     for (const Camera& camera : cameras()) {
         const ViewVolume volume = view_volume(camera, 640, 480);
-        const ForestLists still = view.select(volume, calm);
-        const ForestLists moved = view.select(volume, windy);
+        const ForestLists still = lod.select(volume, calm);
+        const ForestLists moved = lod.select(volume, windy);
         CHECK(moved.trees.size() >= still.trees.size());
         CHECK(moved.branches.size() >= still.branches.size());
         CHECK(moved.clumps.size() >= still.clumps.size());
@@ -247,12 +247,12 @@ TEST_CASE("what wind moves into the view is drawn") {
 
 TEST_CASE("all corners of a tree lie within its ball") {
     const auto wood = make_wood(200, 50.0F);
-    ForestView view(wood->model);
+    ForestLod lod(wood->model);
     const TreeForm& form = wood->model.forms[0];
     const std::vector<Bounds> bounds = bounds_of(*form.cache, (*form.meshes)[0]);
     TreeExpander expander(*form.cache, wood->forest.key);
-    for (const ViewTree& tree : view.trees()) {
-        const Ball ball = view.reach_of(tree, view.model().forest->trees[tree.tree].yaw);
+    for (const ViewTree& tree : lod.trees()) {
+        const Ball ball = lod.reach_of(tree, lod.model().forest->trees[tree.tree].yaw);
         expander.expand(wood->forest.trees[tree.tree], [&](const BranchInstance& branch) {
             const Bounds& box = bounds[branch.instance];
             if (box.empty) {
@@ -279,15 +279,15 @@ TEST_CASE("what is listed does not know what was looked at before") {
     std::vector<Camera> all = cameras();
     for (std::size_t last = 0; last < all.size(); ++last) {
         const ViewVolume volume = view_volume(all[last], 800, 450);
-        ForestView fresh(wood->model);
-        const ForestLists first = fresh.select(volume, wood_rings());
+        ForestLod fresh(wood->model);
+        const ForestLists first = fresh.select(volume, wood_lod());
         const auto expected = branches_of(fresh, first);
-        ForestView used(wood->model);
+        ForestLod used(wood->model);
         for (std::size_t i = 0; i < 3 * all.size(); ++i) {
             static_cast<void>(
-                used.select(view_volume(all[(i * 5 + last) % all.size()], 800, 450), wood_rings()));
+                used.select(view_volume(all[(i * 5 + last) % all.size()], 800, 450), wood_lod()));
         }
-        const ForestLists& again = used.select(volume, wood_rings());
+        const ForestLists& again = used.select(volume, wood_lod());
         CHECK(branches_of(used, again) == expected);
         CHECK(again.trees == first.trees);
         CHECK(again.clumps == first.clumps);
@@ -297,18 +297,18 @@ TEST_CASE("what is listed does not know what was looked at before") {
 
 TEST_CASE("places of trees never overlap, and are used again") {
     const auto wood = make_wood(2000, 100.0F);
-    ForestView view(wood->model);
-    RingOptions options = wood_rings();
+    ForestLod lod(wood->model);
+    LodOptions options = wood_lod();
     options.level_pixels = {400.0F, 200.0F, 100.0F, 30.0F};
     std::uint64_t most = 0;
     for (std::uint32_t step = 0; step < 200; ++step) {
         const float along = static_cast<float>(step % 100);
-        const ForestLists& lists = view.select(
-            view_volume(looking({along, 2, 50}, {along + 1, 2, 50}), 640, 480), options);
+        const ForestLists& lists =
+            lod.select(view_volume(looking({along, 2, 50}, {along + 1, 2, 50}), 640, 480), options);
         std::uint32_t end = 0;
         std::uint64_t used = 0;
         std::map<std::uint32_t, std::uint32_t> ordered; // by first place
-        for (const auto& [tree, span] : view.pool().spans()) {
+        for (const auto& [tree, span] : lod.pool().spans()) {
             CHECK(ordered.emplace(span.first, span.count).second);
         }
         for (const auto& [first, count] : ordered) {
@@ -316,14 +316,14 @@ TEST_CASE("places of trees never overlap, and are used again") {
             end = first + count;
             used += count;
         }
-        REQUIRE(end <= view.pool().branches().size());
-        REQUIRE(used == view.pool().used());
+        REQUIRE(end <= lod.pool().branches().size());
+        REQUIRE(used == lod.pool().used());
         most = std::max(most, used);
         for (const ListedBranch branch : lists.branches) {
             REQUIRE(branch.place() < end);
         }
     }
-    CHECK(view.pool().branches().size() < 2 * most);
+    CHECK(lod.pool().branches().size() < 2 * most);
 }
 
 TEST_CASE("a pool that is full forgets what is not in use, and then refuses") {
@@ -347,20 +347,20 @@ TEST_CASE("a pool that is full forgets what is not in use, and then refuses") {
 
 TEST_CASE("triangles are bounded, and trees wait where too many come near at once") {
     const auto wood = make_wood(3000, 200.0F);
-    ForestView view(wood->model);
+    ForestLod lod(wood->model);
     const ViewVolume volume = view_volume(cameras()[0], 1280, 720);
-    RingOptions options = wood_rings();
-    const std::uint64_t all = view.select(volume, options).triangles;
+    LodOptions options = wood_lod();
+    const std::uint64_t all = lod.select(volume, options).triangles;
     REQUIRE(all > 2000);
     options.most_triangles = all / 4;
-    const ForestLists bounded = view.select(volume, options);
+    const ForestLists bounded = lod.select(volume, options);
     CHECK(bounded.triangles <= all / 4 + all / 40); // trees are not like the mean of the portraits
     CHECK(bounded.detail < 1.0F);
     CHECK(branch_trees(bounded) > 0);
     options.most_triangles = 0;
-    CHECK(branch_trees(view.select(volume, options)) == 0);
-    ForestView other(wood->model);
-    options = wood_rings();
+    CHECK(branch_trees(lod.select(volume, options)) == 0);
+    ForestLod other(wood->model);
+    options = wood_lod();
     options.most_expansions = 3;
     const ForestLists first = other.select(volume, options);
     CHECK(branch_trees(first) == 3);
@@ -409,8 +409,8 @@ TEST_CASE("what is known of a forest is not meshed again") {
 
 TEST_CASE("portraits are of every hero, and cells of a form's trees fill their square") {
     const auto wood = make_wood(3000, 200.0F);
-    const ForestView view(wood->model);
-    const PortraitPlan plan = plan_portraits(view);
+    const ForestLod lod(wood->model);
+    const PortraitPlan plan = plan_portraits(lod);
     REQUIRE(plan.has_cells);
     REQUIRE(plan.forms.size() == 2);
     const TreeForm& form = wood->model.forms[0];
@@ -424,15 +424,15 @@ TEST_CASE("portraits are of every hero, and cells of a form's trees fill their s
               plan.forms[1].cylinder.radius);
     }
     const auto grove = make_wood(100, 40.0F);
-    CHECK_FALSE(plan_portraits(ForestView(grove->model)).has_cells);
+    CHECK_FALSE(plan_portraits(ForestLod(grove->model)).has_cells);
 }
 
 TEST_CASE("a forest without trees lists nothing") {
     const auto wood = make_wood(0, 20.0F);
-    ForestView view(wood->model);
-    const ForestLists& lists = view.select(view_volume(Camera{}, 64, 48), {});
+    ForestLod lod(wood->model);
+    const ForestLists& lists = lod.select(view_volume(Camera{}, 64, 48), {});
     CHECK(lists.branches.empty());
     CHECK(lists.trees.empty());
     CHECK(lists.clumps.empty());
-    CHECK(view.bounds().empty);
+    CHECK(lod.bounds().empty);
 }
