@@ -47,12 +47,12 @@ void zoom(Camera& camera, float wheel) {
 
 } // namespace
 
-void next_seed(LiveView& view) {
+void next_seed(PlantView& view) {
     const std::uint64_t shown = view.document() == nullptr ? 0 : view.document()->plant.seed;
     view.settings.seed = view.settings.seed.value_or(shown) + 1;
 }
 
-void step_generations(LiveView& view, int step) {
+void step_generations(PlantView& view, int step) {
     const std::uint32_t now = view.generations();
     view.settings.grows = false;
     if (step > 0 || now > 0) {
@@ -60,7 +60,7 @@ void step_generations(LiveView& view, int step) {
     }
 }
 
-void next_key(LiveForest& view) {
+void next_key(ForestView& view) {
     const std::uint64_t shown =
         view.document() == nullptr ? 0 : view.document()->scene.placement.key;
     view.settings.edits.key = shown + 1;
@@ -69,21 +69,22 @@ void next_key(LiveForest& view) {
 void Controls::apply(const WindowInput& input,
                      double seconds,
                      const PixelArea& area,
-                     LiveViews& views,
+                     ViewSwitcher& switcher,
                      PanelState& panels) {
     for (const std::string& file : input.dropped) {
-        views.open(file);
+        switcher.open(file);
     }
-    if (LiveForest* const forest = views.forest()) {
+    if (ForestView* const forest = switcher.forest()) {
         apply(input, seconds, area, *forest, panels);
-    } else if (LiveView* const plant = views.plant()) {
+    } else if (PlantView* const plant = switcher.plant()) {
         apply(input, seconds, static_cast<float>(area.height), *plant, panels);
     }
     if (input.closes || panels.quits) {
-        panels.quits = !views.shown().is_unsaved() || panels.asked_to_quit;
+        panels.quits = !switcher.shown().is_unsaved() || panels.asked_to_quit;
         if (!panels.quits) {
             panels.asked_to_quit = true;
-            views.shown().say("what was painted is not saved: Ctrl+S saves it, Ctrl+Q leaves it");
+            switcher.shown().say(
+                "what was painted is not saved: Ctrl+S saves it, Ctrl+Q leaves it");
         }
     } else if (!input.presses.empty()) {
         panels.asked_to_quit = false;
@@ -91,7 +92,7 @@ void Controls::apply(const WindowInput& input,
 }
 
 void Controls::apply(
-    const WindowInput& input, double seconds, float height, LiveView& view, PanelState& panels) {
+    const WindowInput& input, double seconds, float height, PlantView& view, PanelState& panels) {
     for (const KeyPress& one : input.presses) {
         press(one, view, panels);
     }
@@ -109,7 +110,7 @@ void Controls::apply(
 void Controls::apply(const WindowInput& input,
                      double seconds,
                      const PixelArea& area,
-                     LiveForest& view,
+                     ForestView& view,
                      PanelState& panels) {
     for (const KeyPress& one : input.presses) {
         press(one, view, panels);
@@ -132,7 +133,7 @@ void Controls::apply(const WindowInput& input,
     use_tool(input, area, view);
 }
 
-void Controls::use_tool(const WindowInput& input, const PixelArea& area, LiveForest& view) {
+void Controls::use_tool(const WindowInput& input, const PixelArea& area, ForestView& view) {
     // Pictures begin at the window's upper edge.
     const auto place = [&area](const glm::vec2& pixels) {
         const float half = 0.5F * static_cast<float>(area.height);
@@ -166,7 +167,7 @@ void Controls::fly(const WindowInput& input, float seconds, float height, Camera
               metres * held_way(input, Key::E, Key::Q), metres * held_way(input, Key::W, Key::S));
 }
 
-bool Controls::press_common(const KeyPress& press, LiveScreen& view, PanelState& panels) {
+bool Controls::press_common(const KeyPress& press, View& view, PanelState& panels) {
     if (press.control) {
         panels.quits = panels.quits || press.key == Key::Q;
         return press.key == Key::Q;
@@ -212,11 +213,11 @@ bool Controls::press_common(const KeyPress& press, LiveScreen& view, PanelState&
     }
 }
 
-void Controls::press(const KeyPress& press, LiveForest& view, PanelState& panels) {
+void Controls::press(const KeyPress& press, ForestView& view, PanelState& panels) {
     if (press_common(press, view, panels)) {
         return;
     }
-    ForestSettings& settings = view.settings;
+    ForestViewSettings& settings = view.settings;
     if (press.control) {
         switch (press.key) {
         case Key::Z:
@@ -288,11 +289,11 @@ void Controls::press(const KeyPress& press, LiveForest& view, PanelState& panels
     }
 }
 
-void Controls::press(const KeyPress& press, LiveView& view, PanelState& panels) {
+void Controls::press(const KeyPress& press, PlantView& view, PanelState& panels) {
     if (press_common(press, view, panels) || press.control) {
         return;
     }
-    LiveSettings& settings = view.settings;
+    PlantViewSettings& settings = view.settings;
     switch (press.key) {
     case Key::Space:
         view.play_or_pause();

@@ -1,7 +1,7 @@
 // Controls: what mouse and keyboard do to a view.
 #pragma once
 
-#include "viewer/app/live_views.h"
+#include "viewer/app/view_switcher.h"
 #include "viewer/gl/window.h"
 
 #include <array>
@@ -86,27 +86,29 @@ public:
     void apply(const WindowInput& input,
                double seconds,
                const PixelArea& area,
-               LiveViews& views,
+               ViewSwitcher& switcher,
                PanelState& panels);
     /// The same of one view of a plant; `height` of the picture.
-    void apply(
-        const WindowInput& input, double seconds, float height, LiveView& view, PanelState& panels);
+    void apply(const WindowInput& input,
+               double seconds,
+               float height,
+               PlantView& view,
+               PanelState& panels);
     /// And of a forest.
     void apply(const WindowInput& input,
                double seconds,
                const PixelArea& area,
-               LiveForest& view,
+               ForestView& view,
                PanelState& panels);
     /// Keys are held that move the camera.
     [[nodiscard]] bool is_moving() const { return is_moving_; }
 
 private:
-    void press(const KeyPress& press, LiveView& view, PanelState& panels);
-    void press(const KeyPress& press, LiveForest& view, PanelState& panels);
+    void press(const KeyPress& press, PlantView& view, PanelState& panels);
+    void press(const KeyPress& press, ForestView& view, PanelState& panels);
     /// Keys that every view has. Whether this was one.
-    [[nodiscard]] static bool
-    press_common(const KeyPress& press, LiveScreen& view, PanelState& panels);
-    void use_tool(const WindowInput& input, const PixelArea& area, LiveForest& view);
+    [[nodiscard]] static bool press_common(const KeyPress& press, View& view, PanelState& panels);
+    void use_tool(const WindowInput& input, const PixelArea& area, ForestView& view);
     void fly(const WindowInput& input, float seconds, float height, Camera& camera);
 
     float speed_ = 1.0F; // factor of flying
@@ -114,10 +116,10 @@ private:
 };
 
 /// Another seed than the one that is shown.
-void next_seed(LiveView& view);
+void next_seed(PlantView& view);
 /// Generations by `step` more or fewer.
-void step_generations(LiveView& view, int step);
+void step_generations(PlantView& view, int step);
 /// Another forest than the one that is shown.
-void next_key(LiveForest& view);
+void next_key(ForestView& view);
 
 } // namespace lsys::view

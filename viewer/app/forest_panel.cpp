@@ -69,7 +69,7 @@ void edit_length(const char* name,
     });
 }
 
-void draw_numbers(const LiveForest& view) {
+void draw_numbers(const ForestView& view) {
     line(std::filesystem::path(view.file()).filename().string());
     const ForestDocument* const document = view.document();
     if (document == nullptr) {
@@ -85,12 +85,12 @@ void draw_numbers(const LiveForest& view) {
     }
 }
 
-void draw_years(LiveForest& view) {
+void draw_years(ForestView& view) {
     const std::uint32_t usual = view.usual_years();
     if (usual == 0) {
         return;
     }
-    ForestSettings& settings = view.settings;
+    ForestViewSettings& settings = view.settings;
     auto years = static_cast<int>(view.years());
     if (ImGui::SliderInt("years", &years, 0,
                          static_cast<int>(std::max({2 * usual, view.years(), 1U})))) {
@@ -105,11 +105,11 @@ void draw_years(LiveForest& view) {
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
 }
 
-void draw_painting(LiveForest& view) {
+void draw_painting(ForestView& view) {
     if (!ImGui::CollapsingHeader("Painting", ImGuiTreeNodeFlags_DefaultOpen)) {
         return;
     }
-    ForestSettings& settings = view.settings;
+    ForestViewSettings& settings = view.settings;
     Brush& brush = settings.brush;
     constexpr std::array<std::pair<const char*, PaintTool>, 4> kTools = {
         {{"none", PaintTool::None},
@@ -160,7 +160,7 @@ void draw_painting(LiveForest& view) {
 }
 
 /// The grammar of a species that is to be shown alone; empty: none.
-std::string draw_species(LiveForest& view) {
+std::string draw_species(ForestView& view) {
     std::string wanted;
     const ForestDocument* const document = view.document();
     if (document == nullptr ||
@@ -200,7 +200,7 @@ std::string draw_species(LiveForest& view) {
     return wanted;
 }
 
-void draw_placement(LiveForest& view) {
+void draw_placement(ForestView& view) {
     const ForestDocument* const document = view.document();
     if (document == nullptr || !ImGui::CollapsingHeader("Placement")) {
         return;
@@ -227,7 +227,7 @@ void draw_placement(LiveForest& view) {
     edit_whole("key", placement.key, edits.key, 0, kMostKeys);
 }
 
-void draw_ground(LiveForest& view) {
+void draw_ground(ForestView& view) {
     const ForestDocument* const document = view.document();
     if (document == nullptr || !ImGui::CollapsingHeader("Ground")) {
         return;
@@ -251,7 +251,7 @@ void draw_ground(LiveForest& view) {
     }
 }
 
-void draw_cache(LiveForest& view) {
+void draw_cache(ForestView& view) {
     const ForestDocument* const document = view.document();
     if (document == nullptr || !ImGui::CollapsingHeader("Branches shared")) {
         return;
@@ -271,11 +271,11 @@ void draw_cache(LiveForest& view) {
     }
 }
 
-void draw_look(LiveForest& view) {
+void draw_look(ForestView& view) {
     if (!ImGui::CollapsingHeader("Look")) {
         return;
     }
-    ForestSettings& settings = view.settings;
+    ForestViewSettings& settings = view.settings;
     ImGui::Checkbox("shadows", &settings.shadows);
     ImGui::SameLine();
     ImGui::Checkbox("smooth", &settings.smooth);
@@ -292,7 +292,7 @@ void draw_look(LiveForest& view) {
 
 } // namespace
 
-std::string draw_forest_panel(LiveForest& view) {
+std::string draw_forest_panel(ForestView& view) {
     draw_numbers(view);
     ImGui::PushItemWidth(-kLabelWidth);
     draw_years(view);

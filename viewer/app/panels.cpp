@@ -38,8 +38,8 @@ void row(const char* name, double seconds) {
     line(fmt::format("{:<9}{:>8.1f} ms", name, kMilliseconds * seconds));
 }
 
-void draw_plant_times(const LiveView& view) {
-    const LiveStats& stats = view.stats();
+void draw_plant_times(const PlantView& view) {
+    const PlantViewStats& stats = view.stats();
     if (const PlantDocument* const document = view.document()) {
         row("compile", document->load_seconds);
         row("derive", document->plant.derive_seconds);
@@ -56,8 +56,8 @@ void draw_plant_times(const LiveView& view) {
     line(fmt::format("{} draws, {} triangles", stats.drawn.draws, stats.drawn.triangles));
 }
 
-void draw_forest_times(const LiveForest& view) {
-    const ForestStats& stats = view.stats();
+void draw_forest_times(const ForestView& view) {
+    const ForestViewStats& stats = view.stats();
     if (const ForestDocument* const document = view.document()) {
         row("heroes", document->grown.cache_seconds);
         row("place", document->grown.place_seconds);
@@ -79,16 +79,16 @@ void draw_forest_times(const LiveForest& view) {
     line(fmt::format("{} draws, {} triangles", stats.drawn.draws, stats.drawn.triangles));
 }
 
-void draw_statistics(LiveViews& views, const Area& area) {
+void draw_statistics(ViewSwitcher& switcher, const Area& area) {
     ImGui::SetNextWindowPos({area.high.x - 8.0F, 8.0F}, ImGuiCond_Always, {1.0F, 0.0F});
     ImGui::SetNextWindowBgAlpha(0.55F);
     if (ImGui::Begin("Statistics", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
-        if (const LiveForest* const forest = views.forest()) {
+        if (const ForestView* const forest = switcher.forest()) {
             draw_forest_times(*forest);
-        } else if (const LiveView* const plant = views.plant()) {
+        } else if (const PlantView* const plant = switcher.plant()) {
             draw_plant_times(*plant);
         }
-        const Renderer& renderer = views.shown().renderer();
+        const Renderer& renderer = switcher.shown().renderer();
         line(fmt::format("{} objects, {} errors of OpenGL", renderer.live_objects(),
                          renderer.errors().size()));
     }
@@ -118,7 +118,7 @@ void draw_message(const ShownMessage& message, int number, bool is_first) {
 }
 
 /// The messages of `lsc`, of the shaders and of OpenGL.
-void draw_messages(const LiveScreen& view, const Area& area) {
+void draw_messages(const View& view, const Area& area) {
     std::vector<ShownMessage> errors;
     if (!view.shader_message().empty()) {
         errors.push_back({Severity::Error, "error: " + view.shader_message(), {}});
@@ -163,7 +163,7 @@ void draw_help(std::span<const KeyHelp> keys, PanelState& panels, const Area& ar
     ImGui::End();
 }
 
-void draw_hint(const LiveScreen& view, const PanelState& panels, const Area& area) {
+void draw_hint(const View& view, const PanelState& panels, const Area& area) {
     std::string text = view.note();
     if (panels.flies) {
         text = "flying: Esc or Tab ends it";
@@ -188,7 +188,7 @@ float panel_width(float scale) {
     return kPanelWidth * scale;
 }
 
-void draw_panels(LiveViews& views, PanelState& panels, float scale) {
+void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
     const Area area = picture_area(panels, scale);
     std::string wanted;
     if (panels.panels) {
@@ -198,9 +198,9 @@ void draw_panels(LiveViews& views, PanelState& panels, float scale) {
                          ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                              ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                              ImGuiWindowFlags_NoTitleBar)) {
-            if (LiveForest* const forest = views.forest()) {
+            if (ForestView* const forest = switcher.forest()) {
                 wanted = draw_forest_panel(*forest);
-            } else if (LiveView* const plant = views.plant()) {
+            } else if (PlantView* const plant = switcher.plant()) {
                 draw_plant_panel(*plant);
             }
             ImGui::Separator();
@@ -211,27 +211,27 @@ void draw_panels(LiveViews& views, PanelState& panels, float scale) {
             }
             ImGui::SameLine();
             if (ImGui::Button("all in view")) {
-                views.shown().frame_all();
+                switcher.shown().frame_all();
             }
-            if (views.plant() != nullptr && !views.last_scene().empty() &&
+            if (switcher.plant() != nullptr && !switcher.last_scene().empty() &&
                 ImGui::Button("back to the forest")) {
-                wanted = views.last_scene();
+                wanted = switcher.last_scene();
             }
         }
         ImGui::End();
     }
     if (panels.statistics) {
-        draw_statistics(views, area);
+        draw_statistics(switcher, area);
     }
-    draw_messages(views.shown(), area);
-    draw_hint(views.shown(), panels, area);
+    draw_messages(switcher.shown(), area);
+    draw_hint(switcher.shown(), panels, area);
     if (panels.help) {
-        draw_help(views.forest() != nullptr ? std::span<const KeyHelp>(kForestKeys)
-                                            : std::span<const KeyHelp>(kPlantKeys),
+        draw_help(switcher.forest() != nullptr ? std::span<const KeyHelp>(kForestKeys)
+                                               : std::span<const KeyHelp>(kPlantKeys),
                   panels, area);
     }
     if (!wanted.empty()) {
-        views.open(wanted);
+        switcher.open(wanted);
     }
 }
 

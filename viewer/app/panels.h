@@ -2,7 +2,7 @@
 #pragma once
 
 #include "viewer/app/controls.h"
-#include "viewer/app/live_views.h"
+#include "viewer/app/view_switcher.h"
 
 namespace lsys::view {
 
@@ -10,6 +10,6 @@ namespace lsys::view {
 [[nodiscard]] float panel_width(float scale);
 
 /// Between Window::begin_panels() and show(). `scale`: how much larger than usual text is.
-void draw_panels(LiveViews& views, PanelState& panels, float scale);
+void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale);
 
 } // namespace lsys::view

@@ -15,7 +15,7 @@ namespace lsys::view {
 
 namespace {
 
-void draw_numbers(const LiveView& view) {
+void draw_numbers(const PlantView& view) {
     line(std::filesystem::path(view.settings.file).filename().string());
     const PlantDocument* const document = view.document();
     if (document == nullptr) {
@@ -29,8 +29,8 @@ void draw_numbers(const LiveView& view) {
                      name_of(document->grammar.bytecode.settings.turtle)));
 }
 
-void draw_growth(LiveView& view) {
-    LiveSettings& settings = view.settings;
+void draw_growth(PlantView& view) {
+    PlantViewSettings& settings = view.settings;
     auto generation = static_cast<int>(view.generations());
     const auto last =
         static_cast<int>(std::max(view.usual_generations(), std::max(view.generations(), 1U)));
@@ -69,12 +69,13 @@ void draw_growth(LiveView& view) {
 }
 
 /// The place among the definitions of what is set here.
-std::vector<Definition>::iterator find_definition(LiveSettings& settings, const std::string& name) {
+std::vector<Definition>::iterator find_definition(PlantViewSettings& settings,
+                                                  const std::string& name) {
     return std::find_if(settings.definitions.begin(), settings.definitions.end(),
                         [&name](const Definition& one) { return one.name == name; });
 }
 
-void draw_constant(LiveSettings& settings, const Constant& constant, const std::string& name) {
+void draw_constant(PlantViewSettings& settings, const Constant& constant, const std::string& name) {
     const auto set = find_definition(settings, name);
     const bool is_set = set != settings.definitions.end();
     float value = is_set ? set->value : constant.value;
@@ -112,7 +113,7 @@ void draw_constant(LiveSettings& settings, const Constant& constant, const std::
     ImGui::PopID();
 }
 
-void draw_constants(LiveView& view) {
+void draw_constants(PlantView& view) {
     const PlantDocument* const document = view.document();
     if (document == nullptr || !document->grammar.program) {
         return;
@@ -132,7 +133,7 @@ void draw_constants(LiveView& view) {
     }
 }
 
-void draw_look(LiveSettings& settings) {
+void draw_look(PlantViewSettings& settings) {
     if (!ImGui::CollapsingHeader("Look", ImGuiTreeNodeFlags_DefaultOpen)) {
         return;
     }
@@ -152,7 +153,7 @@ void draw_look(LiveSettings& settings) {
     draw_camera(settings.camera);
 }
 
-void draw_mesh(LiveSettings& settings) {
+void draw_mesh(PlantViewSettings& settings) {
     if (!ImGui::CollapsingHeader("Mesh")) {
         return;
     }
@@ -178,7 +179,7 @@ void draw_mesh(LiveSettings& settings) {
     ImGui::SliderFloat("droop", &mesh.droop, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
 }
 
-void draw_bending(LiveSettings& settings) {
+void draw_bending(PlantViewSettings& settings) {
     if (!ImGui::CollapsingHeader("Bending", ImGuiTreeNodeFlags_DefaultOpen)) {
         return;
     }
@@ -194,7 +195,7 @@ void draw_bending(LiveSettings& settings) {
 
 } // namespace
 
-void draw_plant_panel(LiveView& view) {
+void draw_plant_panel(PlantView& view) {
     draw_numbers(view);
     ImGui::PushItemWidth(-kLabelWidth);
     draw_growth(view);

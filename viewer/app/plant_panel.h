@@ -2,10 +2,10 @@
 #pragma once
 
 #include "viewer/app/controls.h"
-#include "viewer/app/live_view.h"
+#include "viewer/app/plant_view.h"
 
 namespace lsys::view {
 
-void draw_plant_panel(LiveView& view);
+void draw_plant_panel(PlantView& view);
 
 } // namespace lsys::view

@@ -1,11 +1,11 @@
-// LiveForest: what a window shows of a forest, without the window. The scene, its grammars and what
+// ForestView: what a window shows of a forest, without the window. The scene, its grammars and what
 // they include are watched; forests are made on another thread and exchanged between two pictures.
 #pragma once
 
 #include "viewer/app/file_watch.h"
 #include "viewer/app/forest_loader.h"
 #include "viewer/app/forest_painting.h"
-#include "viewer/app/live_screen.h"
+#include "viewer/app/view.h"
 
 #include <glm/vec2.hpp>
 
@@ -22,7 +22,7 @@ namespace lsys::view {
 inline constexpr float kGreatestBrush = 500.0F; // m, its radius
 
 /// What a user can change while the forest is shown.
-struct ForestSettings {
+struct ForestViewSettings {
     SceneOverrides edits; // after those of the command line; a change makes another forest
 
     Camera camera;
@@ -54,7 +54,7 @@ struct CacheNumbers {
 };
 
 /// Of the forest that is shown.
-struct ForestStats {
+struct ForestViewStats {
     double make_seconds = 0.0;   // of all that the loader does
     double upload_seconds = 0.0; // of the exchange
     double swap_seconds = 0.0;   // from the change to the exchange
@@ -65,16 +65,16 @@ struct ForestStats {
     std::vector<CacheNumbers> caches;
 };
 
-class LiveForest final : public LiveScreen {
+class ForestView final : public View {
 public:
     /// `wake` is called on any thread when update() has something to do.
-    LiveForest(const ViewOptions& options,
+    ForestView(const ViewOptions& options,
                const Console& console,
                Renderer& renderer,
                std::function<void()> wake);
-    ~LiveForest() override;
+    ~ForestView() override;
 
-    ForestSettings settings;
+    ForestViewSettings settings;
 
     bool update() override;
     bool draw(std::uint32_t width, std::uint32_t height) override;
@@ -109,7 +109,7 @@ public:
 
     /// The last forest without errors; none: there was none yet.
     [[nodiscard]] const ForestDocument* document() const { return document_.get(); }
-    [[nodiscard]] const ForestStats& stats() const { return stats_; }
+    [[nodiscard]] const ForestViewStats& stats() const { return stats_; }
     [[nodiscard]] const ForestPainting& painting() const { return painting_; }
     /// The last picture is of fewer triangles and samples than asked for, because something moves.
     [[nodiscard]] bool is_coarse() const { return is_coarse_; }
@@ -148,7 +148,7 @@ private:
     bool is_coarse_ = false;
     std::uint64_t coarse_triangles_ = 200'000;
     SteadyClock::time_point last_motion_;
-    ForestStats stats_;
+    ForestViewStats stats_;
 
     std::mutex saved_mutex_;
     std::string saved_text_; // as this view has written the scene itself

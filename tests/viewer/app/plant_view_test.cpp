@@ -2,7 +2,7 @@
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
 #include "viewer/app/controls.h"
-#include "viewer/app/live_view.h"
+#include "viewer/app/plant_view.h"
 #include "viewer/gl/headless.h"
 
 #include <catch2/catch.hpp>
@@ -77,7 +77,7 @@ private:
 
 public:
     std::unique_ptr<Renderer> renderer;
-    LiveView view;
+    PlantView view;
 };
 
 std::string plant(int segments) {
@@ -212,7 +212,7 @@ TEST_CASE("another file is opened with all in view") {
 TEST_CASE("keys change what is shown, letters move while flying") {
     Viewed viewed(options_of(sample("teach-param")));
     REQUIRE(viewed.until_swaps(1));
-    LiveSettings& settings = viewed.view.settings;
+    PlantViewSettings& settings = viewed.view.settings;
     Controls controls;
     PanelState panels;
     const auto press = [&](Key key, bool control = false) {

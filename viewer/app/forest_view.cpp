@@ -1,4 +1,4 @@
-#include "viewer/app/live_forest.h"
+#include "viewer/app/forest_view.h"
 
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/stopwatch.h"
@@ -24,8 +24,8 @@ constexpr double kSlowPicture = 0.12;
 constexpr double kRest = 0.25;
 constexpr std::uint64_t kFewestTriangles = 20'000;
 
-ForestSettings first_settings(const ViewOptions& options) {
-    ForestSettings settings;
+ForestViewSettings first_settings(const ViewOptions& options) {
+    ForestViewSettings settings;
     settings.shadows = options.shadows;
     settings.smooth = options.samples > 1;
     settings.wireframe = options.style == PlantStyle::Wireframe;
@@ -58,13 +58,12 @@ std::vector<CacheNumbers> cache_numbers(const Forest& forest) {
     return numbers;
 }
 
-LiveForest::LiveForest(const ViewOptions& options,
+ForestView::ForestView(const ViewOptions& options,
                        const Console& console,
                        Renderer& renderer,
                        std::function<void()> wake)
-    : LiveScreen(options, console, renderer), settings(first_settings(options)),
-      wake_(std::move(wake)), painting_(renderer), frames_next_(options.camera.empty()),
-      loader_(make_forest, wake_),
+    : View(options, console, renderer), settings(first_settings(options)), wake_(std::move(wake)),
+      painting_(renderer), frames_next_(options.camera.empty()), loader_(make_forest, wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
                  files_changed(files, since);
@@ -73,13 +72,13 @@ LiveForest::LiveForest(const ViewOptions& options,
     watch_files();
 }
 
-LiveForest::~LiveForest() {
+ForestView::~ForestView() {
     renderer_->show_lines({});
     renderer_->show_plant(Mesh{}); // what it shows goes with this
 }
 
 /// On a thread of the watch.
-void LiveForest::files_changed(const std::vector<std::string>& files,
+void ForestView::files_changed(const std::vector<std::string>& files,
                                SteadyClock::time_point since) {
     const auto shaders = std::count_if(files.begin(), files.end(),
                                        [this](const std::string& each) { return is_shader(each); });
@@ -101,24 +100,24 @@ void LiveForest::files_changed(const std::vector<std::string>& files,
     loader_.repeat(since);
 }
 
-void LiveForest::watch_files() {
+void ForestView::watch_files() {
     watch_.watch(watched(files_));
 }
 
-std::uint32_t LiveForest::usual_years() const {
+std::uint32_t ForestView::usual_years() const {
     return usual_years_;
 }
 
-std::uint32_t LiveForest::years() const {
+std::uint32_t ForestView::years() const {
     return settings.edits.years.value_or(usual_years_);
 }
 
-void LiveForest::set_years(std::uint32_t years) {
+void ForestView::set_years(std::uint32_t years) {
     settings.edits.years = years;
     settings.grows = false;
 }
 
-bool LiveForest::update() {
+bool ForestView::update() {
     bool has_news = false;
     if (reload_shaders()) {
         has_portraits_ = false;
@@ -144,13 +143,13 @@ bool LiveForest::update() {
     return has_news;
 }
 
-void LiveForest::ask() {
+void ForestView::ask() {
     asked_ = settings.edits;
     // What is in error may lie in files that are not read again.
     loader_.request({options_, settings.edits, failed() ? nullptr : document_, SteadyClock::now()});
 }
 
-void LiveForest::take_outcome(ForestOutcome outcome) {
+void ForestView::take_outcome(ForestOutcome outcome) {
     if (outcome.request.options.files != options_.files) {
         return; // another one is on its way
     }
@@ -170,7 +169,7 @@ void LiveForest::take_outcome(ForestOutcome outcome) {
     watch_files();
 }
 
-void LiveForest::swap(ForestOutcome outcome) {
+void ForestView::swap(ForestOutcome outcome) {
     const SteadyClock::time_point start = SteadyClock::now();
     const std::shared_ptr<ForestDocument> before = document_;
     const std::shared_ptr<ForestDocument> document = std::move(outcome.document);
@@ -209,7 +208,7 @@ void LiveForest::swap(ForestOutcome outcome) {
     changed_ = true;
 }
 
-bool LiveForest::draw(std::uint32_t width, std::uint32_t height) {
+bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
     Frame frame;
     frame.camera = settings.camera;
     frame.width = width;
@@ -247,7 +246,7 @@ bool LiveForest::draw(std::uint32_t width, std::uint32_t height) {
     return true;
 }
 
-void LiveForest::shown(double draw_seconds) {
+void ForestView::shown(double draw_seconds) {
     stats_.draw_seconds = draw_seconds;
     if (!is_coarse_) {
         is_slow_ = draw_seconds > kSlowPicture;
@@ -268,7 +267,7 @@ void LiveForest::shown(double draw_seconds) {
         kMilliseconds * stats_.shown_seconds));
 }
 
-void LiveForest::grow() {
+void ForestView::grow() {
     const SteadyClock::time_point now = SteadyClock::now();
     if (!settings.grows || document_ == nullptr) {
         last_growth_ = now;
@@ -288,7 +287,7 @@ void LiveForest::grow() {
     settings.edits.years = std::min(next, usual_years_);
 }
 
-void LiveForest::play_or_pause() {
+void ForestView::play_or_pause() {
     if (usual_years_ == 0) {
         say("only a placement by domination grows");
         return;
@@ -299,7 +298,7 @@ void LiveForest::play_or_pause() {
     }
 }
 
-void LiveForest::open(const std::string& file) {
+void ForestView::open(const std::string& file) {
     options_.file = file;
     options_.overrides = {};
     options_.files = {file};
@@ -311,28 +310,28 @@ void LiveForest::open(const std::string& file) {
     watch_files();
 }
 
-void LiveForest::reload() {
+void ForestView::reload() {
     loader_.repeat(SteadyClock::now());
     if (!options_.shaders.empty()) {
         ask_for_shaders();
     }
 }
 
-void LiveForest::frame_all() {
+void ForestView::frame_all() {
     settings.camera = framing(settings.camera, renderer_->bounds(), aspect_);
 }
 
-std::optional<glm::dvec3> LiveForest::ground_at(const glm::vec2& place) {
+std::optional<glm::dvec3> ForestView::ground_at(const glm::vec2& place) {
     const Camera& camera = settings.camera;
     return painting_.pick(
         {glm::dvec3(camera.eye), glm::dvec3(direction_at(camera, place.x, place.y))});
 }
 
-void LiveForest::point_at(const glm::vec2& place) {
+void ForestView::point_at(const glm::vec2& place) {
     pointed_ = place;
 }
 
-void LiveForest::show_outline() {
+void ForestView::show_outline() {
     std::optional<glm::dvec3> place;
     if (settings.tool != PaintTool::None && document_ != nullptr) {
         if (!pointed_) {
@@ -353,7 +352,7 @@ void LiveForest::show_outline() {
     has_outline_ = place.has_value();
 }
 
-void LiveForest::work_at(const glm::vec2& place, bool begins, bool erases) {
+void ForestView::work_at(const glm::vec2& place, bool begins, bool erases) {
     begins_stroke_ = begins_stroke_ || begins;
     if (const std::optional<glm::dvec3> ground = ground_at(place)) {
         painting_.go_over(*ground, std::exchange(begins_stroke_, false),
@@ -364,7 +363,7 @@ void LiveForest::work_at(const glm::vec2& place, bool begins, bool erases) {
     }
 }
 
-std::string LiveForest::painted_text(const char* what) const {
+std::string ForestView::painted_text(const char* what) const {
     const auto trees = [](std::uint64_t count) {
         return fmt::format("{} {}", count, count == 1 ? "tree" : "trees");
     };
@@ -373,14 +372,14 @@ std::string LiveForest::painted_text(const char* what) const {
                        trees(painting_.tree_count()));
 }
 
-void LiveForest::end_stroke() {
+void ForestView::end_stroke() {
     begins_stroke_ = false;
     if (std::exchange(has_stroke_, false)) {
         say(painted_text(""));
     }
 }
 
-void LiveForest::undo() {
+void ForestView::undo() {
     if (!painting_.can_undo()) {
         say("there is nothing to undo");
         return;
@@ -390,7 +389,7 @@ void LiveForest::undo() {
     say(painted_text("undone: "));
 }
 
-void LiveForest::redo() {
+void ForestView::redo() {
     if (!painting_.can_redo()) {
         say("there is nothing to redo");
         return;
@@ -400,7 +399,7 @@ void LiveForest::redo() {
     say(painted_text("done again: "));
 }
 
-void LiveForest::save() {
+void ForestView::save() {
     if (!is_scene(file())) {
         say("this forest is of no scene file, so there is nothing to save it into");
         return;
@@ -422,7 +421,7 @@ void LiveForest::save() {
                                 : ""));
 }
 
-bool LiveForest::is_busy() const {
+bool ForestView::is_busy() const {
     return loader_.is_busy() || settings.grows || settings.windy || !has_portraits_ || is_coarse_;
 }
 

@@ -1,4 +1,4 @@
-#include "viewer/app/live_views.h"
+#include "viewer/app/view_switcher.h"
 
 #include "runtime/pipeline/forest.h"
 
@@ -6,30 +6,30 @@
 
 namespace lsys::view {
 
-LiveViews::LiveViews(const ViewOptions& options,
-                     const Console& console,
-                     Renderer& renderer,
-                     std::function<void()> wake)
+ViewSwitcher::ViewSwitcher(const ViewOptions& options,
+                           const Console& console,
+                           Renderer& renderer,
+                           std::function<void()> wake)
     : options_(options), console_(console), renderer_(&renderer), wake_(std::move(wake)) {
     make(options_);
 }
 
-void LiveViews::make(const ViewOptions& options) {
+void ViewSwitcher::make(const ViewOptions& options) {
     plant_ = nullptr;
     forest_ = nullptr;
     shown_.reset(); // before the other one watches files and draws
     if (options.is_forest) {
-        auto forest = std::make_unique<LiveForest>(options, console_, *renderer_, wake_);
+        auto forest = std::make_unique<ForestView>(options, console_, *renderer_, wake_);
         forest_ = forest.get();
         shown_ = std::move(forest);
     } else {
-        auto plant = std::make_unique<LiveView>(options, console_, *renderer_, wake_);
+        auto plant = std::make_unique<PlantView>(options, console_, *renderer_, wake_);
         plant_ = plant.get();
         shown_ = std::move(plant);
     }
 }
 
-void LiveViews::open(const std::string& file) {
+void ViewSwitcher::open(const std::string& file) {
     if (shown_->is_unsaved() && refused_ != file) {
         refused_ = file;
         shown_->say("what was painted is not saved: Ctrl+S saves it; ask again to leave it");

@@ -1,4 +1,4 @@
-// LiveScreen: what every view of the window has: the last picture, what there is to say, the
+// View: what every view of the window has: the last picture, what there is to say, the
 // shaders. A context has to be current whenever it is called.
 #pragma once
 
@@ -22,12 +22,12 @@ struct ShownMessage {
     std::string text; // the whole, with the lines of the source that it speaks of
 };
 
-class LiveScreen {
+class View {
 public:
-    LiveScreen(const ViewOptions& options, const Console& console, Renderer& renderer);
-    LiveScreen(const LiveScreen&) = delete;
-    LiveScreen& operator=(const LiveScreen&) = delete;
-    virtual ~LiveScreen() = default;
+    View(const ViewOptions& options, const Console& console, Renderer& renderer);
+    View(const View&) = delete;
+    View& operator=(const View&) = delete;
+    virtual ~View() = default;
 
     /// Between two pictures: takes what was made, asks for what the settings want. Returns whether
     /// there is something else to say.

@@ -2,7 +2,7 @@
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
 #include "viewer/app/controls.h"
-#include "viewer/app/live_views.h"
+#include "viewer/app/view_switcher.h"
 #include "viewer/gl/headless.h"
 
 #include <catch2/catch.hpp>
@@ -51,7 +51,7 @@ public:
           renderer(std::move(Renderer::make(built_in_shader).value())),
           views(options, console_, *renderer, [] {}) {}
 
-    LiveForest& forest() { return *views.forest(); }
+    ForestView& forest() { return *views.forest(); }
 
     /// One picture, as a window makes it. `seconds` that it is said to have taken.
     bool step(double seconds = 0.0) {
@@ -110,7 +110,7 @@ private:
 
 public:
     std::unique_ptr<Renderer> renderer;
-    LiveViews views;
+    ViewSwitcher views;
 };
 
 /// A scene and its grammar in a folder of their own.
@@ -278,7 +278,7 @@ TEST_CASE("trees are painted, undone, saved, and read again") {
     const WoodFolder files(wood(50));
     Viewed viewed(options_of(files.scene));
     REQUIRE(viewed.until_swaps(1));
-    LiveForest& forest = viewed.forest();
+    ForestView& forest = viewed.forest();
     forest.settings.tool = PaintTool::OneTree;
     for (int i = 0; i < 10; ++i) {
         viewed.look_at(5.0F + 5.0F * static_cast<float>(i), 30.0F);
@@ -317,7 +317,7 @@ TEST_CASE("trees erased from another placement than the file's are told when the
     const WoodFolder files(wood(200));
     Viewed viewed(options_of(files.scene));
     REQUIRE(viewed.until_swaps(1));
-    LiveForest& forest = viewed.forest();
+    ForestView& forest = viewed.forest();
     viewed.look_at(30.0F, 30.0F);
     forest.settings.tool = PaintTool::Eraser;
     forest.settings.brush.radius = 10.0F;
@@ -335,7 +335,7 @@ TEST_CASE("a brush and an eraser work along the way of the mouse") {
     const WoodFolder files(wood(1));
     Viewed viewed(options_of(files.scene));
     REQUIRE(viewed.until_swaps(1));
-    LiveForest& forest = viewed.forest();
+    ForestView& forest = viewed.forest();
     forest.settings.tool = PaintTool::Brush;
     forest.settings.brush.radius = 3.0F;
     forest.settings.brush.density = 0.3F;
@@ -367,7 +367,7 @@ TEST_CASE("what is painted outlives a grammar that changes, and can still be und
     const WoodFolder files(wood(50));
     Viewed viewed(options_of(files.scene));
     REQUIRE(viewed.until_swaps(1));
-    LiveForest& forest = viewed.forest();
+    ForestView& forest = viewed.forest();
     forest.settings.tool = PaintTool::OneTree;
     viewed.look_at(30.0F, 30.0F);
     viewed.press();
@@ -397,7 +397,7 @@ TEST_CASE("slow pictures are coarser while something moves, and whole when all r
     const WoodFolder files(wood(50));
     Viewed viewed(options_of(files.scene));
     REQUIRE(viewed.until_swaps(1));
-    LiveForest& forest = viewed.forest();
+    ForestView& forest = viewed.forest();
     viewed.look_at(30.0F, 30.0F);
     const std::vector<std::uint8_t> whole = viewed.picture();
     forest.settings.camera = moved(forest.settings.camera, 1.0F, 0.0F, 0.0F);
@@ -452,7 +452,7 @@ TEST_CASE("keys and mouse choose and use the tools of a forest") {
     Viewed viewed(options_of(files.scene));
     REQUIRE(viewed.until_swaps(1));
     viewed.look_at(30.0F, 30.0F);
-    ForestSettings& settings = viewed.forest().settings;
+    ForestViewSettings& settings = viewed.forest().settings;
     Controls controls;
     PanelState panels;
     const PixelArea area{100, 0, kWidth, kHeight};

@@ -1,4 +1,4 @@
-#include "viewer/app/live_view.h"
+#include "viewer/app/plant_view.h"
 
 #include "runtime/pipeline/stopwatch.h"
 
@@ -14,7 +14,7 @@ namespace {
 constexpr double kMilliseconds = 1e3;
 
 /// They are made into the same plant.
-bool make_the_same(const LiveSettings& a, const LiveSettings& b) {
+bool make_the_same(const PlantViewSettings& a, const PlantViewSettings& b) {
     return a.file == b.file && a.generations == b.generations && a.seed == b.seed &&
            a.mesh == b.mesh && a.definitions == b.definitions;
 }
@@ -24,8 +24,8 @@ bool is_same(const Bending& a, const Bending& b) {
            a.forces.wind == b.forces.wind && a.forces.damping == b.forces.damping;
 }
 
-LiveSettings first_settings(const ViewOptions& options) {
-    LiveSettings settings;
+PlantViewSettings first_settings(const ViewOptions& options) {
+    PlantViewSettings settings;
     settings.file = options.file;
     settings.definitions = options.grammar.definitions;
     settings.generations = options.grammar.generations;
@@ -47,12 +47,12 @@ LiveSettings first_settings(const ViewOptions& options) {
 
 } // namespace
 
-LiveView::LiveView(const ViewOptions& options,
-                   const Console& console,
-                   Renderer& renderer,
-                   std::function<void()> wake)
-    : LiveScreen(options, console, renderer), settings(first_settings(options)),
-      wake_(std::move(wake)), frames_next_(options.camera.empty()), loader_(wake_),
+PlantView::PlantView(const ViewOptions& options,
+                     const Console& console,
+                     Renderer& renderer,
+                     std::function<void()> wake)
+    : View(options, console, renderer), settings(first_settings(options)), wake_(std::move(wake)),
+      frames_next_(options.camera.empty()), loader_(wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
                  const auto shaders =
@@ -70,7 +70,7 @@ LiveView::LiveView(const ViewOptions& options,
     watch_files();
 }
 
-ViewOptions LiveView::wanted() const {
+ViewOptions PlantView::wanted() const {
     ViewOptions wanted = options_;
     wanted.file = settings.file;
     wanted.grammar.definitions = {};
@@ -81,17 +81,17 @@ ViewOptions LiveView::wanted() const {
     return wanted;
 }
 
-std::uint32_t LiveView::usual_generations() const {
+std::uint32_t PlantView::usual_generations() const {
     const std::uint32_t own =
         document_ == nullptr ? 0 : document_->grammar.bytecode.generations.value_or(0);
     return options_.file == settings.file ? options_.grammar.generations.value_or(own) : own;
 }
 
-std::uint32_t LiveView::generations() const {
+std::uint32_t PlantView::generations() const {
     return settings.generations.value_or(usual_generations());
 }
 
-bool LiveView::update() {
+bool PlantView::update() {
     bool has_news = false;
     if (reload_shaders()) {
         watch_files();
@@ -113,7 +113,7 @@ bool LiveView::update() {
     return has_news;
 }
 
-void LiveView::take_outcome(LoadOutcome outcome) {
+void PlantView::take_outcome(LoadOutcome outcome) {
     if (outcome.options.file != settings.file) {
         return; // another one is on its way
     }
@@ -134,7 +134,7 @@ void LiveView::take_outcome(LoadOutcome outcome) {
 }
 
 /// Forgets values of constants that the file no longer has.
-void LiveView::drop_unknown_definitions() {
+void PlantView::drop_unknown_definitions() {
     if (!document_->grammar.program) {
         return;
     }
@@ -149,7 +149,7 @@ void LiveView::drop_unknown_definitions() {
     }
 }
 
-void LiveView::swap(LoadOutcome outcome) {
+void PlantView::swap(LoadOutcome outcome) {
     const SteadyClock::time_point start = SteadyClock::now();
     document_ = outcome.document;
     drop_unknown_definitions();
@@ -172,7 +172,7 @@ void LiveView::swap(LoadOutcome outcome) {
     changed_ = true;
 }
 
-void LiveView::show_lines() {
+void PlantView::show_lines() {
     shown_lines_ = settings.lines;
     const PlantDocument* const plant = document();
     if (plant == nullptr) {
@@ -184,11 +184,11 @@ void LiveView::show_lines() {
     changed_ = true;
 }
 
-void LiveView::watch_files() {
+void PlantView::watch_files() {
     watch_.watch(watched(files_));
 }
 
-void LiveView::grow() {
+void PlantView::grow() {
     const SteadyClock::time_point now = SteadyClock::now();
     if (!settings.grows || document_ == nullptr) {
         last_growth_ = now;
@@ -206,14 +206,14 @@ void LiveView::grow() {
     settings.generations = std::min(next, end);
 }
 
-void LiveView::play_or_pause() {
+void PlantView::play_or_pause() {
     settings.grows = !settings.grows;
     if (settings.grows && generations() >= usual_generations()) {
         settings.generations = 0;
     }
 }
 
-void LiveView::bend() {
+void PlantView::bend() {
     if (document_ == nullptr || (!settings.bends && motion_ == nullptr)) {
         return;
     }
@@ -247,7 +247,7 @@ void LiveView::bend() {
     }
 }
 
-bool LiveView::draw(std::uint32_t width, std::uint32_t height) {
+bool PlantView::draw(std::uint32_t width, std::uint32_t height) {
     Frame frame;
     frame.camera = settings.camera;
     frame.width = width;
@@ -263,7 +263,7 @@ bool LiveView::draw(std::uint32_t width, std::uint32_t height) {
     return true;
 }
 
-void LiveView::shown(double draw_seconds) {
+void PlantView::shown(double draw_seconds) {
     stats_.draw_seconds = draw_seconds;
     if (!std::exchange(tells_shown_, false)) {
         return;
@@ -277,7 +277,7 @@ void LiveView::shown(double draw_seconds) {
                     kMilliseconds * stats_.make_seconds, kMilliseconds * stats_.shown_seconds));
 }
 
-void LiveView::open(const std::string& file) {
+void PlantView::open(const std::string& file) {
     settings.file = file;
     settings.definitions.clear();
     settings.generations.reset();
@@ -290,18 +290,18 @@ void LiveView::open(const std::string& file) {
     watch_files();
 }
 
-void LiveView::reload() {
+void PlantView::reload() {
     loader_.repeat(SteadyClock::now());
     if (!options_.shaders.empty()) {
         ask_for_shaders();
     }
 }
 
-void LiveView::frame_all() {
+void PlantView::frame_all() {
     settings.camera = framing(settings.camera, renderer_->bounds(), aspect_);
 }
 
-bool LiveView::is_busy() const {
+bool PlantView::is_busy() const {
     return loader_.is_busy() || settings.grows || motion_ != nullptr;
 }
 

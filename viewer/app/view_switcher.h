@@ -1,8 +1,8 @@
-// LiveViews: the view that a window shows: of a plant or of a forest, by the file.
+// ViewSwitcher: the view that a window shows: of a plant or of a forest, by the file.
 #pragma once
 
-#include "viewer/app/live_forest.h"
-#include "viewer/app/live_view.h"
+#include "viewer/app/forest_view.h"
+#include "viewer/app/plant_view.h"
 
 #include <functional>
 #include <memory>
@@ -10,17 +10,17 @@
 
 namespace lsys::view {
 
-class LiveViews {
+class ViewSwitcher {
 public:
-    LiveViews(const ViewOptions& options,
-              const Console& console,
-              Renderer& renderer,
-              std::function<void()> wake);
+    ViewSwitcher(const ViewOptions& options,
+                 const Console& console,
+                 Renderer& renderer,
+                 std::function<void()> wake);
 
-    [[nodiscard]] LiveScreen& shown() { return *shown_; }
+    [[nodiscard]] View& shown() { return *shown_; }
     /// Null if the other is shown.
-    [[nodiscard]] LiveView* plant() { return plant_; }
-    [[nodiscard]] LiveForest* forest() { return forest_; }
+    [[nodiscard]] PlantView* plant() { return plant_; }
+    [[nodiscard]] ForestView* forest() { return forest_; }
 
     /// Shows another file, all in view: a scene as a forest, a grammar as a plant. Not while
     /// something is unsaved: that is said, and asking once more shows it.
@@ -37,9 +37,9 @@ private:
     std::function<void()> wake_;
     std::string last_scene_;
     std::string refused_; // because something is unsaved
-    LiveView* plant_ = nullptr;
-    LiveForest* forest_ = nullptr;
-    std::unique_ptr<LiveScreen> shown_;
+    PlantView* plant_ = nullptr;
+    ForestView* forest_ = nullptr;
+    std::unique_ptr<View> shown_;
 };
 
 } // namespace lsys::view

@@ -1,12 +1,12 @@
-// LiveView: what a window shows, without the window. Settings go in, as from sliders; files are
+// PlantView: what a window shows, without the window. Settings go in, as from sliders; files are
 // watched, plants are made on other threads and exchanged between two pictures. A context has to
 // be current whenever it is called.
 #pragma once
 
 #include "viewer/app/file_watch.h"
-#include "viewer/app/live_screen.h"
 #include "viewer/app/plant_loader.h"
 #include "viewer/app/plant_motion.h"
+#include "viewer/app/view.h"
 #include "viewer/gl/renderer.h"
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 namespace lsys::view {
 
 /// What a user can change while the plant is shown.
-struct LiveSettings {
+struct PlantViewSettings {
     // What the plant is made of: another one is made when these change.
     std::string file;
     std::vector<Definition> definitions; // instead of constants of the grammar
@@ -43,7 +43,7 @@ struct LiveSettings {
 };
 
 /// Of the plant that is shown.
-struct LiveStats {
+struct PlantViewStats {
     double upload_seconds = 0.0;
     double make_seconds = 0.0;  // of all that the loader does
     double swap_seconds = 0.0;  // from the change to the exchange
@@ -55,15 +55,15 @@ struct LiveStats {
     std::uint64_t swaps = 0;
 };
 
-class LiveView final : public LiveScreen {
+class PlantView final : public View {
 public:
     /// `wake` is called on any thread when update() has something to do.
-    LiveView(const ViewOptions& options,
-             const Console& console,
-             Renderer& renderer,
-             std::function<void()> wake);
+    PlantView(const ViewOptions& options,
+              const Console& console,
+              Renderer& renderer,
+              std::function<void()> wake);
 
-    LiveSettings settings;
+    PlantViewSettings settings;
 
     bool update() override;
     bool draw(std::uint32_t width, std::uint32_t height) override;
@@ -81,7 +81,7 @@ public:
 
     /// The last plant without errors; none: there was none yet.
     [[nodiscard]] const PlantDocument* document() const { return document_.get(); }
-    [[nodiscard]] const LiveStats& stats() const { return stats_; }
+    [[nodiscard]] const PlantViewStats& stats() const { return stats_; }
     /// How far the plant grows if nothing else is asked for.
     [[nodiscard]] std::uint32_t usual_generations() const;
     [[nodiscard]] std::uint32_t generations() const;
@@ -104,9 +104,9 @@ private:
     bool frames_next_ = false; // the next plant's view
     bool is_new_file_ = true;  // whose own damping counts
     bool tells_shown_ = false;
-    LiveStats stats_;
+    PlantViewStats stats_;
 
-    std::optional<LiveSettings> asked_; // of the last request
+    std::optional<PlantViewSettings> asked_; // of the last request
     LineKind shown_lines_ = LineKind::None;
     SteadyClock::time_point last_growth_;
     BentPlant bent_;

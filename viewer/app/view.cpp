@@ -1,4 +1,4 @@
-#include "viewer/app/live_screen.h"
+#include "viewer/app/view.h"
 
 #include "runtime/meshing/texture.h"
 #include "runtime/program/files.h"
@@ -13,7 +13,7 @@
 
 namespace lsys::view {
 
-LiveScreen::LiveScreen(const ViewOptions& options, const Console& console, Renderer& renderer)
+View::View(const ViewOptions& options, const Console& console, Renderer& renderer)
     : options_(options), console_(console), renderer_(&renderer) {}
 
 namespace {
@@ -48,7 +48,7 @@ std::vector<ShownMessage> entries_of(const Messages& messages) {
 
 } // namespace
 
-void LiveScreen::take_messages(const Messages& messages, bool fine) {
+void View::take_messages(const Messages& messages, bool fine) {
     std::string text = messages_text(messages, options_.messages, "lsview");
     if (text != text_) {
         text_ = std::move(text);
@@ -58,7 +58,7 @@ void LiveScreen::take_messages(const Messages& messages, bool fine) {
     failed_ = !fine;
 }
 
-bool LiveScreen::reload_shaders() {
+bool View::reload_shaders() {
     if (!shaders_changed_.exchange(false)) {
         return false;
     }
@@ -73,17 +73,17 @@ bool LiveScreen::reload_shaders() {
     return true;
 }
 
-bool LiveScreen::is_shader(const std::string& file) const {
+bool View::is_shader(const std::string& file) const {
     return !options_.shaders.empty() && std::filesystem::path(file).extension() == ".glsl";
 }
 
-std::vector<std::string> LiveScreen::watched(std::vector<std::string> files) const {
+std::vector<std::string> View::watched(std::vector<std::string> files) const {
     const std::vector<std::string> shaders = shader_files(options_.shaders);
     files.insert(files.end(), shaders.begin(), shaders.end());
     return files;
 }
 
-bool LiveScreen::draw_frame(const Frame& frame) {
+bool View::draw_frame(const Frame& frame) {
     aspect_ = static_cast<float>(frame.width) / static_cast<float>(frame.height);
     if (!changed_ && frame_ == frame) {
         return false;
@@ -94,7 +94,7 @@ bool LiveScreen::draw_frame(const Frame& frame) {
     return true;
 }
 
-void LiveScreen::write_screenshot() {
+void View::write_screenshot() {
     if (!frame_) {
         return;
     }
@@ -112,7 +112,7 @@ void LiveScreen::write_screenshot() {
     say(written ? fmt::format("wrote {}", name) : written.error().message);
 }
 
-void LiveScreen::say(const std::string& note) {
+void View::say(const std::string& note) {
     note_ = note;
     console_.info(note);
 }
