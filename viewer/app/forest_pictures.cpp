@@ -78,7 +78,7 @@ std::string stats_text(const ViewOptions& options,
     milliseconds["place"] = 1e3 * document.grown.place_seconds;
     milliseconds["mesh"] = 1e3 * document.mesh_seconds;
     milliseconds["upload"] = sizes.upload_milliseconds;
-    milliseconds["portraits"] = sizes.portrait_milliseconds;
+    milliseconds["impostors"] = sizes.impostor_milliseconds;
     milliseconds["first_draw"] = series.draw.empty() ? 0.0 : series.draw.front();
     milliseconds["cull"] = median(cull);
     milliseconds["draw"] = median(series.draw);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMilliseconds = 1e3;
 // So long pictures of far trees are made between two looks at what the user does, s.
-constexpr double kPortraitTime = 0.02;
+constexpr double kBakeTime = 0.02;
 // Trees whose branches are made for one picture, so that a camera that flies does not halt.
 constexpr std::uint32_t kMostExpansions = 1000;
 // A picture that takes longer is drawn coarser while something moves, and again when all has been
@@ -120,7 +120,7 @@ void ForestView::set_years(std::uint32_t years) {
 bool ForestView::update() {
     bool has_news = false;
     if (reload_shaders()) {
-        has_portraits_ = false;
+        has_impostors_ = false;
         watch_files();
         has_news = true;
     }
@@ -128,9 +128,9 @@ bool ForestView::update() {
         take_outcome(std::move(*outcome));
         has_news = true;
     }
-    if (!has_portraits_ && document_ != nullptr) {
-        has_portraits_ = renderer_->make_portraits(kPortraitTime);
-        changed_ = changed_ || has_portraits_;
+    if (!has_impostors_ && document_ != nullptr) {
+        has_impostors_ = renderer_->bake_impostors(kBakeTime);
+        changed_ = changed_ || has_impostors_;
     }
     grow();
     if (document_ != nullptr) {
@@ -180,7 +180,7 @@ void ForestView::swap(ForestOutcome outcome) {
         return;
     }
     document_ = document;
-    has_portraits_ = false;
+    has_impostors_ = false;
     if (std::exchange(frames_next_, false)) {
         settings.camera = overall;
     }
@@ -422,7 +422,7 @@ void ForestView::save() {
 }
 
 bool ForestView::is_busy() const {
-    return loader_.is_busy() || settings.grows || settings.windy || !has_portraits_ || is_coarse_;
+    return loader_.is_busy() || settings.grows || settings.windy || !has_impostors_ || is_coarse_;
 }
 
 } // namespace lsys::view

@@ -114,7 +114,7 @@ public:
     /// The last picture is of fewer triangles and samples than asked for, because something moves.
     [[nodiscard]] bool is_coarse() const { return is_coarse_; }
     /// Whether pictures of far trees are still being made.
-    [[nodiscard]] bool has_portraits() const { return has_portraits_; }
+    [[nodiscard]] bool has_impostors() const { return has_impostors_; }
 
 private:
     void take_outcome(ForestOutcome outcome);
@@ -133,7 +133,7 @@ private:
     std::vector<std::string> files_;
     bool frames_next_ = false; // the next forest's view
     bool tells_shown_ = false;
-    bool has_portraits_ = true;
+    bool has_impostors_ = true;
     std::optional<SceneOverrides> asked_;
     std::uint32_t usual_years_ = 0;
     SteadyClock::time_point since_; // of the forest that is shown

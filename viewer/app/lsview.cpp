@@ -71,7 +71,7 @@ run_forest_pictures(const ViewOptions& options, const Camera& camera, const Cons
     if (const Result<Done> shown = made.renderer->show_forest(std::move(document.model)); !shown) {
         return report_error(shown.error(), console);
     }
-    static_cast<void>(made.renderer->make_portraits(std::numeric_limits<double>::infinity()));
+    static_cast<void>(made.renderer->bake_impostors(std::numeric_limits<double>::infinity()));
     return take_forest_pictures(options, from, document, *made.renderer, console);
 }
 

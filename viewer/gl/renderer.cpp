@@ -91,11 +91,11 @@ public:
         is_forest_ = true;
         return Done{};
     }
-    bool make_portraits(double seconds) override {
+    bool bake_impostors(double seconds) override {
         if (!is_forest_) {
             return true;
         }
-        const bool all = forest_.make_portraits(seconds, textures_);
+        const bool all = forest_.bake_impostors(seconds, textures_);
         shadow_.invalidate();
         return all;
     }

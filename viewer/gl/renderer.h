@@ -103,7 +103,7 @@ struct ForestSizes {
     std::uint64_t mesh_bytes = 0;
     std::uint64_t texture_bytes = 0;
     double upload_milliseconds = 0.0;
-    double portrait_milliseconds = 0.0;
+    double impostor_milliseconds = 0.0;
 };
 
 class Renderer {
@@ -120,11 +120,11 @@ public:
     virtual void show_lines(std::span<const LineVertex> lines) = 0;
     /// The forest that is shown from now on instead. Its forest and terrain outlive what is shown.
     /// The pictures that stand for far trees are those of the forest before, where there was one,
-    /// until make_portraits() has made others. Error: a shader does not compile.
+    /// until bake_impostors() has made others. Error: a shader does not compile.
     [[nodiscard]] virtual Result<Done> show_forest(ForestModel model) = 0;
     /// Makes pictures of far trees that are missing, for about so many seconds; some each time.
     /// Whether all are there.
-    [[nodiscard]] virtual bool make_portraits(double seconds) = 0;
+    [[nodiscard]] virtual bool bake_impostors(double seconds) = 0;
     /// A tree of the forest that is shown comes or goes, at a cost that does not grow with the
     /// forest: ForestLod::change_tree().
     virtual void change_tree(std::uint32_t index, const Tree& tree, bool alive) = 0;

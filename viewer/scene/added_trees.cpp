@@ -39,7 +39,7 @@ void AddedTrees::put(std::uint32_t slot,
         std::erase(cells_[cell_of(added_[slot].tree.position)].trees, slot);
     } else {
         Added none;
-        none.made.portrait = ViewTree::kGone;
+        none.made.impostor = ViewTree::kGone;
         added_.resize(std::size_t{slot} + 1, none);
     }
     added_[slot] = {tree, made};
@@ -57,7 +57,7 @@ void AddedTrees::put(std::uint32_t slot,
 
 void AddedTrees::set_alive(std::uint32_t slot, bool alive) {
     if (slot < added_.size() && added_[slot].made.gone() == alive) {
-        added_[slot].made.portrait ^= ViewTree::kGone;
+        added_[slot].made.impostor ^= ViewTree::kGone;
     }
 }
 

@@ -14,16 +14,16 @@ namespace lsys::view {
 
 /// A tree as it is looked for.
 struct ViewTree {
-    /// In `portrait`: the tree was taken away.
+    /// In `impostor`: the tree was taken away.
     static constexpr std::uint16_t kGone = 0x8000;
 
     glm::vec3 position{};
     float scale = 1.0F;
     std::uint32_t tree = 0; // in Forest::trees
     std::uint16_t form = 0;
-    std::uint16_t portrait = 0; // in TreeForm::portraits; and kGone
+    std::uint16_t impostor = 0; // in TreeForm::impostor_trees; and kGone
 
-    [[nodiscard]] bool gone() const { return (portrait & kGone) != 0; }
+    [[nodiscard]] bool gone() const { return (impostor & kGone) != 0; }
 };
 static_assert(sizeof(ViewTree) == 24);
 

@@ -33,7 +33,7 @@ Ball ForestLod::reach_of(const ViewTree& tree, float yaw) const {
     return {tree.position + tree.scale * turned, tree.scale * form.reach.radius};
 }
 
-Ball ForestLod::portrait_ball(const ViewTree& tree) const {
+Ball ForestLod::impostor_ball(const ViewTree& tree) const {
     const TreeForm& form = model_.forms[tree.form];
     return {tree.position + glm::vec3(0.0F, tree.scale * 0.5F * (form.low + form.high), 0.0F),
             tree.scale * std::hypot(form.radius, 0.5F * form.height())};
@@ -53,8 +53,8 @@ ViewTree ForestLod::made_of(const Tree& tree, std::uint32_t index) {
     made.scale = tree.scale;
     made.tree = index;
     made.form = static_cast<std::uint16_t>(model_.form_of(tree));
-    made.portrait = static_cast<std::uint16_t>(
-        model_.forms[made.form].portrait_of[expanders_[made.form].root_instance(tree)]);
+    made.impostor = static_cast<std::uint16_t>(
+        model_.forms[made.form].impostor_of[expanders_[made.form].root_instance(tree)]);
     return made;
 }
 
@@ -100,8 +100,8 @@ void ForestLod::sort_into_cells() {
         for (std::uint32_t i = 0; i < cell.count; ++i) {
             const ViewTree& tree = trees_[cell.first + i];
             const Ball reach = reach_of(tree, trees[tree.tree].yaw);
-            const Ball portrait = portrait_ball(tree);
-            for (const Ball& ball : {reach, portrait}) {
+            const Ball impostor = impostor_ball(tree);
+            for (const Ball& ball : {reach, impostor}) {
                 box.add(ball.centre - ball.radius);
                 box.add(ball.centre + ball.radius);
             }
@@ -150,7 +150,7 @@ std::uint32_t ForestLod::change_tree(std::uint32_t index, const Tree& tree, bool
             pool_.forget(index);
             const ViewTree made = made_of(tree, index);
             Bounds box;
-            for (const Ball& ball : {reach_of(made, tree.yaw), portrait_ball(made)}) {
+            for (const Ball& ball : {reach_of(made, tree.yaw), impostor_ball(made)}) {
                 box.add(ball.centre - ball.radius);
                 box.add(ball.centre + ball.radius);
             }
@@ -168,7 +168,7 @@ std::uint32_t ForestLod::change_tree(std::uint32_t index, const Tree& tree, bool
         ++number;
     }
     if (trees_[number].gone() == alive) {
-        trees_[number].portrait ^= ViewTree::kGone;
+        trees_[number].impostor ^= ViewTree::kGone;
         cell.gone += alive ? ~std::uint32_t{0} : 1U;
         alive_count_ += alive ? 1 : ~std::uint64_t{0};
     }

@@ -161,7 +161,7 @@ public:
     /// Around a tree, whatever branches it has.
     [[nodiscard]] Ball reach_of(const ViewTree& tree, float yaw) const;
     /// Around its impostor.
-    [[nodiscard]] Ball portrait_ball(const ViewTree& tree) const;
+    [[nodiscard]] Ball impostor_ball(const ViewTree& tree) const;
     [[nodiscard]] std::uint64_t byte_count() const;
 
 private:
@@ -202,7 +202,7 @@ private:
     void list_runs();
     [[nodiscard]] float sway_of(const ViewTree& tree) const; // m
     /// Around its impostor as it is seen from `eye`.
-    [[nodiscard]] Bounds portrait_box(const ViewTree& tree, const glm::vec3& eye) const;
+    [[nodiscard]] Bounds impostor_box(const ViewTree& tree, const glm::vec3& eye) const;
     [[nodiscard]] bool is_behind_ground(const Bounds& box, float sway) const;
     /// What a ball around a part of a tree becomes in the wind.
     [[nodiscard]] Ball swaying(const Ball& ball, const ViewTree& tree) const;

@@ -1,6 +1,6 @@
 // The LOD band of each tree of a picture: ForestLod::select().
 #include "viewer/scene/forest_lod.h"
-#include "viewer/scene/portrait_plan.h"
+#include "viewer/scene/impostor_plan.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -120,15 +120,15 @@ Ball ForestLod::swaying(const Ball& ball, const ViewTree& tree) const {
     return {ball.centre, ball.radius + sway_of(tree)};
 }
 
-Bounds ForestLod::portrait_box(const ViewTree& tree, const glm::vec3& eye) const {
+Bounds ForestLod::impostor_box(const ViewTree& tree, const glm::vec3& eye) const {
     // Pictures have a margin, and those from above lean back: shaders/impostor.glsl.
     constexpr float kLevel = 0.3F; // sine, below which they are seen from the side
-    const Ball ball = portrait_ball(tree);
-    const float wide = kPortraitMargin * ball.radius;
+    const Ball ball = impostor_ball(tree);
+    const float wide = kImpostorMargin * ball.radius;
     const bool is_level =
         std::abs(eye.y - ball.centre.y) < kLevel * glm::distance(eye, ball.centre);
     const float high =
-        is_level ? kPortraitMargin * 0.5F * tree.scale * model_.forms[tree.form].height() : wide;
+        is_level ? kImpostorMargin * 0.5F * tree.scale * model_.forms[tree.form].height() : wide;
     const glm::vec3 half(wide, high, wide);
     return {ball.centre - half, ball.centre + half, false};
 }
@@ -169,15 +169,15 @@ void ForestLod::visit_tree(std::uint32_t number,
                            const LodOptions& options,
                            Part part) {
     const ViewTree& tree = view_tree(number);
-    const Ball portrait = portrait_ball(tree);
+    const Ball impostor = impostor_ball(tree);
     const float pixels =
-        pixels_of(volume, portrait.centre, tree.scale * model_.forms[tree.form].height());
+        pixels_of(volume, impostor.centre, tree.scale * model_.forms[tree.form].height());
     if (pixels >= options.level_pixels.back()) {
         if (volume.meets(swaying(reach_of(tree, tree_of(number).yaw), tree))) {
             candidates_.push_back({number, pixels});
         }
-    } else if (volume.meets(swaying(portrait, tree))) {
-        if (is_behind_ground(portrait_box(tree, volume.eye), sway_of(tree))) {
+    } else if (volume.meets(swaying(impostor, tree))) {
+        if (is_behind_ground(impostor_box(tree, volume.eye), sway_of(tree))) {
             ++lists_.hidden;
             return;
         }

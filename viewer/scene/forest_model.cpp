@@ -18,14 +18,14 @@ constexpr std::array<float, kTreeLevels> kThinnest = {0.0F, 0.0F, 0.0008F, 0.001
 /// Of how many leaves a level shows one.
 constexpr std::array<std::uint32_t, kTreeLevels> kLeavesOfOne = {1, 1, 2, 4};
 /// Of all forms together, unless there are more forms.
-constexpr std::size_t kAllPortraits = 16;
+constexpr std::size_t kAllImpostors = 16;
 /// With fewer, all are shown.
 constexpr std::size_t kFewLeaves = 24;
 
 /// Of a form.
-std::size_t most_portraits_of(std::size_t forms) {
-    return std::clamp<std::size_t>(kAllPortraits / std::max<std::size_t>(forms, 1), 1,
-                                   kMostPortraits);
+std::size_t max_impostors_of(std::size_t forms) {
+    return std::clamp<std::size_t>(kAllImpostors / std::max<std::size_t>(forms, 1), 1,
+                                   kMaxImpostors);
 }
 
 bool is_leaf(const PlacedObject& object) {
@@ -61,7 +61,7 @@ Ball joined(const Ball& a, const Ball& b) {
 }
 
 /// The first tree whose whole plant is `instance`.
-bool find_portrait(const InstanceCache& cache,
+bool find_impostor(const InstanceCache& cache,
                    std::uint64_t key,
                    std::uint32_t instance,
                    Tree& tree) {
@@ -75,34 +75,34 @@ bool find_portrait(const InstanceCache& cache,
     return false;
 }
 
-void find_portraits(TreeForm& form, std::uint64_t key, std::size_t most) {
+void find_impostors(TreeForm& form, std::uint64_t key, std::size_t most) {
     const InstanceCache& cache = *form.cache;
     const InstanceSlot& whole = cache.slots[0];
-    form.portrait_of.assign(cache.instances.size(), 0);
+    form.impostor_of.assign(cache.instances.size(), 0);
     for (std::uint32_t v = 0; v < whole.variant_count; ++v) {
         const std::uint32_t instance = cache.variants[whole.first_variant + v];
         Tree tree;
-        if (form.portraits.size() < most && find_portrait(cache, key, instance, tree)) {
-            form.portrait_of[instance] = static_cast<std::uint32_t>(form.portraits.size());
-            form.portraits.push_back(tree);
+        if (form.impostor_trees.size() < most && find_impostor(cache, key, instance, tree)) {
+            form.impostor_of[instance] = static_cast<std::uint32_t>(form.impostor_trees.size());
+            form.impostor_trees.push_back(tree);
         } else {
-            form.portrait_of[instance] = static_cast<std::uint32_t>(v % most);
+            form.impostor_of[instance] = static_cast<std::uint32_t>(v % most);
         }
     }
-    for (std::uint32_t& portrait : form.portrait_of) {
-        portrait = std::min(portrait, static_cast<std::uint32_t>(form.portraits.size()) - 1);
+    for (std::uint32_t& impostor : form.impostor_of) {
+        impostor = std::min(impostor, static_cast<std::uint32_t>(form.impostor_trees.size()) - 1);
     }
 }
 
-/// The cylinder about the portraits, and how many branches they have. `seen`: the surface of what a
+/// The cylinder about the impostors, and how many branches they have. `seen`: the surface of what a
 /// tree is drawn of.
-void measure_portraits(TreeForm& form, std::uint64_t key, const InstanceMeshes& seen) {
+void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& seen) {
     const LargeVector<std::uint32_t> indices = seen.mesh.indices.expanded();
     const LargeVector<glm::vec3>& positions = seen.mesh.positions;
     TreeExpander expander(*form.cache, key);
-    const auto count = static_cast<double>(form.portraits.size());
+    const auto count = static_cast<double>(form.impostor_trees.size());
     float radius2 = 0.0F;
-    for (const Tree& tree : form.portraits) {
+    for (const Tree& tree : form.impostor_trees) {
         expander.expand(tree, [&](const BranchInstance& branch) {
             form.branches += 1.0 / count;
             const InstancePose pose = pose_of(branch, form.cache->instances[branch.instance]);
@@ -156,7 +156,7 @@ InstanceMeshStatus make_form(const InstanceCache& cache,
                              std::uint64_t key,
                              const std::vector<UserMesh>& user_meshes,
                              const MeshOptions& options,
-                             std::size_t most_portraits,
+                             std::size_t max_impostors,
                              TreeForm& form) {
     form.cache = &cache;
     const auto meshes = std::make_shared<TreeMeshes>();
@@ -169,8 +169,8 @@ InstanceMeshStatus make_form(const InstanceCache& cache,
     if (status != InstanceMeshStatus::Ok) {
         return status;
     }
-    find_portraits(form, key, most_portraits);
-    measure_portraits(form, key, levels[0]);
+    find_impostors(form, key, max_impostors);
+    measure_impostors(form, key, levels[0]);
     for (std::uint32_t level = 1; level < kTreeLevels; ++level) {
         level_options.level = options.level + level;
         status = make_instance_meshes(coarsened(cache, level, form.height()), user_meshes,
@@ -190,8 +190,8 @@ InstanceMeshStatus make_form(const InstanceCache& cache,
     form.reach = reaches_of(cache, bounds)[0];
     form.mesh_balls = balls_in_heroes(cache, bounds);
     TreeExpander expander(cache, key);
-    const auto count = static_cast<double>(form.portraits.size());
-    for (const Tree& tree : form.portraits) {
+    const auto count = static_cast<double>(form.impostor_trees.size());
+    for (const Tree& tree : form.impostor_trees) {
         expander.expand(tree, [&](const BranchInstance& branch) {
             for (std::uint32_t level = 0; level < kTreeLevels; ++level) {
                 form.triangles[level] += form.mesh_triangles[level][branch.instance] / count;
@@ -326,10 +326,10 @@ InstanceMeshStatus make_forest_model(const Forest& forest,
     for (const ForestSpecies& species : forest.species) {
         forms += species.stages.size();
     }
-    const std::size_t most_portraits = most_portraits_of(forms);
+    const std::size_t max_impostors = max_impostors_of(forms);
     const bool knows = known.model != nullptr && known.key == forest.key &&
                        known.options == options &&
-                       most_portraits == most_portraits_of(known.model->forms.size());
+                       max_impostors == max_impostors_of(known.model->forms.size());
     for (std::size_t s = 0; s < forest.species.size(); ++s) {
         model.first_form.push_back(static_cast<std::uint32_t>(model.forms.size()));
         if (knows && known.species[s]) {
@@ -342,7 +342,7 @@ InstanceMeshStatus make_forest_model(const Forest& forest,
         }
         for (const ForestStage& stage : forest.species[s].stages) {
             const InstanceMeshStatus status =
-                make_form(stage.cache, forest.key, user_meshes[s], options, most_portraits,
+                make_form(stage.cache, forest.key, user_meshes[s], options, max_impostors,
                           model.forms.emplace_back());
             if (status != InstanceMeshStatus::Ok) {
                 return status;

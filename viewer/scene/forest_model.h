@@ -16,7 +16,7 @@ namespace lsys::view {
 
 inline constexpr std::uint32_t kTreeLevels = 4; // 0 is the finest
 /// Trees of a form that impostors are made of, at most.
-inline constexpr std::uint32_t kMostPortraits = 4;
+inline constexpr std::uint32_t kMaxImpostors = 4;
 
 struct Ball {
     glm::vec3 centre{};
@@ -35,18 +35,18 @@ struct TreeForm {
     /// Around the triangles of each instance at any level, where its hero has them; radius below 0:
     /// there are none.
     std::vector<Ball> mesh_balls;
-    std::array<double, kTreeLevels> triangles{}; // of a tree, the mean of the portraits
+    std::array<double, kTreeLevels> triangles{}; // of a tree, the mean of the impostors
     double branches = 0.0;                       // the same
     /// Holds every tree, whatever branches it is of, at yaw 0.
     Ball reach;
-    /// Of the portraits: a cylinder about +Y.
+    /// Of the impostors: a cylinder about +Y.
     float radius = 0.0F;
     float low = 0.0F;
     float high = 0.0F;
     /// Trees that stand for all whose whole plant (first branch) is of the same hero, at the
     /// origin, with yaw 0 and scale 1.
-    std::vector<Tree> portraits;
-    std::vector<std::uint32_t> portrait_of; // by instance: of whole plants; 0 for others
+    std::vector<Tree> impostor_trees;
+    std::vector<std::uint32_t> impostor_of; // by instance: of whole plants; 0 for others
 
     [[nodiscard]] float height() const { return high - low; }
 };

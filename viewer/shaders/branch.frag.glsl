@@ -10,7 +10,7 @@ in vec2 uv;
 flat in vec3 tint;
 flat in uint kind; // bits: 1 textured, 2 of light through it
 in vec3 part;
-#ifdef PORTRAIT
+#ifdef BAKE
 in vec3 place;
 // Seen from outside, for impostors: what light does is not known yet.
 layout(location = 2) uniform vec4 middle; // of the picture, m; its depth
@@ -54,7 +54,7 @@ void main() {
     if (is_through) {
         normal = leaf_normal(normal, part);
     }
-#ifdef PORTRAIT
+#ifdef BAKE
     albedo_out = vec4(sqrt(albedo), 1.0);
     float depth = dot(place - middle.xyz, to_eye) / middle.w;
     normal_out = vec4(projected(normal), 0.5 + 0.5 * depth, is_through ? 1.0 : 0.0);

@@ -28,7 +28,7 @@ flat out vec3 tint;
 flat out uint kind;
 out vec3 part; // from the middle of the crown, as parts of its axes
 #endif
-#if defined(PORTRAIT)
+#if defined(BAKE)
 out vec3 place;
 #elif !defined(LIT_AT_CORNERS)
 out vec3 sun_map;
@@ -73,7 +73,7 @@ void main() {
     kind = look.kind;
     part = in_crown;
 #endif
-#if defined(PORTRAIT)
+#if defined(BAKE)
     place = world;
 #elif !defined(LIT_AT_CORNERS)
     sun_map = in_sun_map(world, frame.to_sun.xyz);

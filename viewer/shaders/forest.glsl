@@ -6,7 +6,7 @@ struct Branch {
 };
 struct Form {
     vec4 cylinder; // of trees of scale 1: radius, low, high; size of a vertex of 1, m
-    vec4 pictures; // first layer of its portraits; 1: of a cell of trees
+    vec4 pictures; // first layer of its impostors; 1: of a cell of trees
 };
 layout(std430, binding = 0) readonly buffer Branches { Branch branches[]; };
 layout(std430, binding = 1) readonly buffer Trees { uvec2 trees[]; }; // three each
@@ -17,7 +17,7 @@ struct TreeAt {
     float scale;
     float yaw;
     uint form;
-    uint portrait;
+    uint impostor;
     float phase; // 0 to 1
 };
 
@@ -29,7 +29,7 @@ TreeAt tree_at(uint index) {
     tree.yaw = float(third.x & 0xFFFFu) * (6.2831853 / 65536.0);
     tree.phase = float(third.x >> 16) / 65536.0;
     tree.form = third.y & 0xFFFFu;
-    tree.portrait = third.y >> 16;
+    tree.impostor = third.y >> 16;
     return tree;
 }
 

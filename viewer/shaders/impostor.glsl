@@ -1,5 +1,5 @@
 #include "forest.glsl"
-// Pictures of trees: how their layers are laid out. The C++ side is gl/portraits.h.
+// Pictures of trees: how their layers are laid out. The C++ side is gl/impl/impostor_atlas.h.
 const int kYaws = 8;
 const float kElevations[3] = float[](0.0, 0.6108652, 1.3089969); // 0, 35 and 75 degrees
 const float kMargin = 1.04;

@@ -37,7 +37,7 @@ void main() {
     int view = int(floor(fract(turns) * float(kYaws) + 0.5 + early + float(kYaws))) % kYaws;
     vec3 right = normalize(vec3(eye.z, 0.0, -eye.x) + vec3(1e-6, 0.0, 0.0));
     vec3 up = cross(eye, right);
-    uint tile = (uint(forms[tree.form].pictures.x) + tree.portrait) * uint(3 * kYaws) +
+    uint tile = (uint(forms[tree.form].pictures.x) + tree.impostor) * uint(3 * kYaws) +
                 uint(elevation * kYaws + view);
     vec2 at = mix(boxes[tile].xy, boxes[tile].zw, vec2(gl_VertexID & 1, gl_VertexID >> 1));
     vec3 size = tree.scale * picture_size(tree.form, elevation);
@@ -45,7 +45,7 @@ void main() {
     vec3 still = place;
     place = in_wind(place, tree, 0.0);
     corner = vec3((vec2(view, elevation) + at) / vec2(kYaws, 3),
-                  forms[tree.form].pictures.x + float(tree.portrait));
+                  forms[tree.form].pictures.x + float(tree.impostor));
     nearer = mat3(frame.shadow_from_world) * (eye * size.z);
 #ifdef SHADOW
     sun_map = (frame.shadow_from_world * vec4(place, 1.0)).xyz;

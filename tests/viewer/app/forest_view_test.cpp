@@ -75,11 +75,11 @@ public:
         return false;
     }
     bool until_swaps(std::uint64_t count) {
-        return until([&] { return forest().stats().swaps >= count && forest().has_portraits(); });
+        return until([&] { return forest().stats().swaps >= count && forest().has_impostors(); });
     }
     bool until_trees(std::uint64_t count) {
         return until(
-            [&] { return forest().painting().tree_count() == count && forest().has_portraits(); });
+            [&] { return forest().painting().tree_count() == count && forest().has_impostors(); });
     }
     std::vector<std::uint8_t> picture() {
         REQUIRE(until([&] { return !forest().is_coarse(); }));

@@ -1,6 +1,6 @@
 // Which trees are drawn as what, beside the same found one by one.
 #include "tests/viewer/wood.h"
-#include "viewer/scene/portrait_plan.h"
+#include "viewer/scene/impostor_plan.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -267,8 +267,8 @@ TEST_CASE("all corners of a tree lie within its ball") {
         const std::uint32_t root = expander.root_instance(wood->forest.trees[tree.tree]);
         CHECK(cache.instances[root].slot == 0);
         // The tree that stands for it is of the same hero, if there is one for each.
-        const std::uint32_t other = expander.root_instance(form.portraits[tree.portrait]);
-        if (cache.slots[0].variant_count <= kMostPortraits) {
+        const std::uint32_t other = expander.root_instance(form.impostor_trees[tree.impostor]);
+        if (cache.slots[0].variant_count <= kMaxImpostors) {
             CHECK(other == root);
         }
     }
@@ -354,7 +354,7 @@ TEST_CASE("triangles are bounded, and trees wait where too many come near at onc
     REQUIRE(all > 2000);
     options.most_triangles = all / 4;
     const ForestLists bounded = lod.select(volume, options);
-    CHECK(bounded.triangles <= all / 4 + all / 40); // trees are not like the mean of the portraits
+    CHECK(bounded.triangles <= all / 4 + all / 40); // trees are not like the mean of the impostors
     CHECK(bounded.detail < 1.0F);
     CHECK(branch_trees(bounded) > 0);
     options.most_triangles = 0;
@@ -407,16 +407,16 @@ TEST_CASE("what is known of a forest is not meshed again") {
     CHECK(made().forms[0].meshes != wood->model.forms[0].meshes);
 }
 
-TEST_CASE("portraits are of every hero, and cells of a form's trees fill their square") {
+TEST_CASE("impostors are of every hero, and cells of a form's trees fill their square") {
     const auto wood = make_wood(3000, 200.0F);
     const ForestLod lod(wood->model);
-    const PortraitPlan plan = plan_portraits(lod);
+    const ImpostorPlan plan = plan_impostors(lod);
     REQUIRE(plan.has_cells);
     REQUIRE(plan.forms.size() == 2);
     const TreeForm& form = wood->model.forms[0];
-    CHECK(form.portraits.size() == kMostPortraits);
-    REQUIRE(plan.layers.size() == kMostPortraits + 1);
-    CHECK(plan.forms[1].first_layer == kMostPortraits);
+    CHECK(form.impostor_trees.size() == kMaxImpostors);
+    REQUIRE(plan.layers.size() == kMaxImpostors + 1);
+    CHECK(plan.forms[1].first_layer == kMaxImpostors);
     const std::vector<Tree>& cell = plan.layers.back().trees;
     CHECK(cell.size() == 16);
     for (const Tree& tree : cell) {
@@ -424,7 +424,7 @@ TEST_CASE("portraits are of every hero, and cells of a form's trees fill their s
               plan.forms[1].cylinder.radius);
     }
     const auto grove = make_wood(100, 40.0F);
-    CHECK_FALSE(plan_portraits(ForestLod(grove->model)).has_cells);
+    CHECK_FALSE(plan_impostors(ForestLod(grove->model)).has_cells);
 }
 
 TEST_CASE("a forest without trees lists nothing") {

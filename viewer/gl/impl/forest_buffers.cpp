@@ -49,7 +49,7 @@ struct TreeRecord {
     glm::vec3 root{};
     float scale = 1.0F;
     std::uint32_t yaw_phase = 0;
-    std::uint32_t form_portrait = 0;
+    std::uint32_t form_impostor = 0;
 };
 static_assert(sizeof(TreeRecord) == 24);
 
@@ -60,8 +60,8 @@ TreeRecord record_of(const ViewTree& tree, const Tree& full) {
     const float turns = full.yaw / (2.0F * std::numbers::pi_v<float>);
     const auto yaw = static_cast<std::uint32_t>(65536.0F * (turns - std::floor(turns))) & 0xFFFFU;
     const std::uint32_t phase = golden_multiple(full.number) >> 16U;
-    const auto portrait = static_cast<std::uint32_t>(tree.portrait & ~ViewTree::kGone);
-    return {tree.position, tree.scale, phase << 16U | yaw, portrait << 16U | tree.form};
+    const auto impostor = static_cast<std::uint32_t>(tree.impostor & ~ViewTree::kGone);
+    return {tree.position, tree.scale, phase << 16U | yaw, impostor << 16U | tree.form};
 }
 
 /// Tells whether two are alike.
@@ -141,7 +141,7 @@ ForestBuffers::Drawn ForestBuffers::make_drawn(Device& device) {
 
 ForestBuffers::ForestBuffers(Device& device)
     : array_(make_vertex_array(device)), vertices_(device), indices_(device), looks_(device),
-      forms_(device), cells_(device), forest_(make_drawn(device)), portrait_(make_drawn(device)) {
+      forms_(device), cells_(device), forest_(make_drawn(device)), impostor_(make_drawn(device)) {
     const GLuint array = array_.name();
     for (GLuint i = 0; i <= kBranchAttribute; ++i) {
         glEnableVertexArrayAttrib(array, i);
@@ -157,10 +157,10 @@ ForestBuffers::ForestBuffers(Device& device)
 }
 
 void ForestBuffers::turn_to(Subject subject) {
-    drawn_ = subject == Subject::Forest ? &forest_ : &portrait_;
+    drawn_ = subject == Subject::Forest ? &forest_ : &impostor_;
 }
 
-void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
+void ForestBuffers::upload(ForestModel& model, const ImpostorPlan& plan) {
     std::vector<Look> looks;
     std::vector<FormRecord> forms;
     std::uint64_t vertex_count = 0;
@@ -179,7 +179,7 @@ void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
         boxes.push_back(box);
     }
     for (std::size_t f = 0; f < plan.forms.size(); ++f) {
-        const PictureForm& form = plan.forms[f];
+        const ImpostorForm& form = plan.forms[f];
         forms.push_back(
             {{form.cylinder.radius, form.cylinder.low, form.cylinder.high, boxes[f % boxes.size()]},
              {static_cast<float>(form.first_layer), f < boxes.size() ? 0.0F : 1.0F, 0.0F, 0.0F}});

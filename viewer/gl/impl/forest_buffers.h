@@ -4,7 +4,7 @@
 
 #include "viewer/gl/impl/objects.h"
 #include "viewer/scene/forest_lod.h"
-#include "viewer/scene/portrait_plan.h"
+#include "viewer/scene/impostor_plan.h"
 
 #include <glm/vec4.hpp>
 
@@ -24,8 +24,8 @@ enum class BranchClass : std::uint8_t {
 };
 inline constexpr std::size_t kBranchClasses = 4;
 
-/// What trees, branches and commands are of: portraits are drawn between pictures of the forest.
-enum class Subject : std::uint8_t { Forest, Portrait };
+/// What trees, branches and commands are of: impostors are drawn between pictures of the forest.
+enum class Subject : std::uint8_t { Forest, Impostor };
 
 struct DrawCommand { // as OpenGL has it
     std::uint32_t count = 0;
@@ -46,16 +46,16 @@ public:
     void turn_to(Subject subject);
 
     /// Gives the meshes of the model back.
-    void upload(ForestModel& model, const PortraitPlan& plan);
+    void upload(ForestModel& model, const ImpostorPlan& plan);
     /// With the cells as trees of the forms that stand for them.
     void upload_trees(const ForestLod& lod);
     /// Puts branches that the pool has written where shaders find them.
     void upload_branches(BranchPool& pool);
     /// One tree, of those that were added too.
     void upload_tree(const ForestLod& lod, std::uint32_t number);
-    /// Trees from elsewhere than a forest, for portraits.
+    /// Trees from elsewhere than a forest, for impostors.
     void set_trees(std::span<const Tree> trees, std::uint32_t form);
-    /// Branches from elsewhere than a pool, for portraits.
+    /// Branches from elsewhere than a pool, for impostors.
     void set_branches(std::span<const PoolBranch> branches);
     /// The commands of each class for lists of branches; uploads both.
     void command(const ForestLists& lists);
@@ -108,7 +108,7 @@ private:
     Buffer forms_;
     Buffer cells_;
     Drawn forest_;
-    Drawn portrait_;
+    Drawn impostor_;
     Drawn* drawn_ = &forest_;
     std::vector<std::uint64_t> mesh_digests_; // by form
     std::vector<std::array<FormLevel, kTreeLevels>> form_levels_;

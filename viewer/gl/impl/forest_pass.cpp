@@ -58,7 +58,7 @@ double seconds_since(Clock::time_point start) {
 } // namespace
 
 ForestPass::ForestPass(Device& device)
-    : device_(&device), buffers_(device), portraits_(device), terrain_(device),
+    : device_(&device), buffers_(device), impostors_(device), terrain_(device),
       quads_(make_vertex_array(device)), quad_trees_(device) {
     glVertexArrayAttribIFormat(quads_.name(), 0, 1, GL_UNSIGNED_INT, offsetof(Listed, number));
     glVertexArrayAttribFormat(quads_.name(), 1, 1, GL_FLOAT, GL_FALSE, offsetof(Listed, part));
@@ -78,7 +78,7 @@ Result<Done> ForestPass::reload(const ShaderSource& shaders) {
         }
         programs[windy ? 1 : 0] = std::move(made.value());
     }
-    if (Result<Done> done = portraits_.reload(shaders); !done) {
+    if (Result<Done> done = impostors_.reload(shaders); !done) {
         return done;
     }
     if (Result<Done> done = terrain_.reload(shaders); !done) {
@@ -94,10 +94,10 @@ void ForestPass::show(ForestModel model) {
     lod_.reset();
     model_ = std::move(model);
     lod_ = std::make_unique<ForestLod>(model_);
-    PortraitPlan plan = plan_portraits(*lod_);
+    ImpostorPlan plan = plan_impostors(*lod_);
     has_cells_ = plan.has_cells;
     buffers_.upload(model_, plan);
-    portraits_.begin(model_, std::move(plan), buffers_);
+    impostors_.begin(model_, std::move(plan), buffers_);
     buffers_.upload_trees(*lod_);
     const Region& region = model_.terrain->region();
     terrain_.show(*model_.terrain,
@@ -106,16 +106,16 @@ void ForestPass::show(ForestModel model) {
     bake_seconds_ = 0.0;
 }
 
-bool ForestPass::make_portraits(double seconds, MaterialTextures& textures) {
+bool ForestPass::bake_impostors(double seconds, MaterialTextures& textures) {
     const Clock::time_point start = Clock::now();
-    while (!portraits_.is_done()) {
-        portraits_.step(model_, buffers_, textures);
+    while (!impostors_.is_done()) {
+        impostors_.step(model_, buffers_, textures);
         if (seconds_since(start) >= seconds) {
             break;
         }
     }
     bake_seconds_ += seconds_since(start);
-    return portraits_.is_done();
+    return impostors_.is_done();
 }
 
 void ForestPass::change_tree(std::uint32_t index, const Tree& tree, bool alive) {
@@ -207,9 +207,9 @@ ForestPass::draw_quads(const ProgramObject& program, std::size_t first, std::siz
     }
     glVertexArrayVertexBuffer(quads_.name(), 0, quad_trees_.name(), 0, sizeof(Listed));
     glUseProgram(program.name());
-    glBindTextureUnit(kAlbedos, portraits_.albedos());
-    glBindTextureUnit(kNormals, portraits_.normals());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBoxes, portraits_.boxes());
+    glBindTextureUnit(kAlbedos, impostors_.albedos());
+    glBindTextureUnit(kNormals, impostors_.normals());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBoxes, impostors_.boxes());
     glBindVertexArray(quads_.name());
     glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count),
                                       static_cast<GLuint>(first));
@@ -281,9 +281,9 @@ ForestSizes ForestPass::sizes() const {
         lod_->byte_count() + buffers_.tree_bytes() + model_.forest->trees.size() * sizeof(Tree);
     sizes.branch_bytes = buffers_.branch_bytes();
     sizes.mesh_bytes = buffers_.mesh_bytes();
-    sizes.texture_bytes = portraits_.texture_bytes() + terrain_.texture_bytes();
+    sizes.texture_bytes = impostors_.texture_bytes() + terrain_.texture_bytes();
     sizes.upload_milliseconds = 1e3 * upload_seconds_;
-    sizes.portrait_milliseconds = 1e3 * bake_seconds_;
+    sizes.impostor_milliseconds = 1e3 * bake_seconds_;
     return sizes;
 }
 

@@ -5,8 +5,8 @@
 #include "grammar/base/result.h"
 #include "viewer/gl/impl/forest_buffers.h"
 #include "viewer/gl/impl/forest_programs.h"
+#include "viewer/gl/impl/impostor_atlas.h"
 #include "viewer/gl/impl/material_textures.h"
-#include "viewer/gl/impl/portraits.h"
 #include "viewer/gl/impl/terrain_pass.h"
 #include "viewer/gl/renderer.h"
 #include "viewer/scene/forest_lod.h"
@@ -28,11 +28,11 @@ public:
 
     /// Error: a shader does not compile; those before stay.
     [[nodiscard]] Result<Done> reload(const ShaderSource& shaders);
-    /// The forest that is drawn from now on, with the portraits that were there until others are
+    /// The forest that is drawn from now on, with the impostors that were there until others are
     /// made. Forest and terrain outlive the pass or the next call.
     void show(ForestModel model);
-    /// Draws portraits that are missing, for about so long. Whether all are there.
-    [[nodiscard]] bool make_portraits(double seconds, MaterialTextures& textures);
+    /// Draws impostors that are missing, for about so long. Whether all are there.
+    [[nodiscard]] bool bake_impostors(double seconds, MaterialTextures& textures);
     /// A tree comes or goes, as ForestLod::change_tree() has it.
     void change_tree(std::uint32_t index, const Tree& tree, bool alive);
     [[nodiscard]] bool shows() const { return lod_ != nullptr; }
@@ -63,7 +63,7 @@ private:
     ForestModel model_;
     std::unique_ptr<ForestLod> lod_;
     ForestBuffers buffers_;
-    Portraits portraits_;
+    ImpostorAtlas impostors_;
     TerrainPass terrain_;
     VertexArray quads_;
     Buffer quad_trees_;

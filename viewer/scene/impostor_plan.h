@@ -1,4 +1,4 @@
-// Portraits: the pictures that stand for trees that are far away: of some trees of each form, and
+// Impostors: the pictures that stand for trees that are far away: of some trees of each form, and
 // of a whole cell of trees of each form for the horizon. What is in them; gl/ draws them.
 #pragma once
 
@@ -17,31 +17,31 @@ struct Cylinder {
 };
 
 /// One layer of pictures, from many sides.
-struct Portrait {
+struct ImpostorLayer {
     std::uint32_t form = 0;
     std::uint32_t level = 0; // of the branches that it is drawn of
     std::vector<Tree> trees;
 };
 
 /// What an impostor of a tree, or of a cell, has to know. Lengths are of scale 1.
-struct PictureForm {
+struct ImpostorForm {
     Cylinder cylinder;
     std::uint32_t first_layer = 0;
 };
 
-struct PortraitPlan {
-    std::vector<Portrait> layers;
+struct ImpostorPlan {
+    std::vector<ImpostorLayer> layers;
     /// Of each form of trees, then of a cell of each.
-    std::vector<PictureForm> forms;
+    std::vector<ImpostorForm> forms;
     bool has_cells = false;
 };
 
-/// By which portraits are larger than what they show; shaders/impostor.glsl has the same.
-inline constexpr float kPortraitMargin = 1.04F;
+/// By which impostors are larger than what they show; shaders/impostor.glsl has the same.
+inline constexpr float kImpostorMargin = 1.04F;
 
 /// Cells are drawn only where a forest has so many trees.
 inline constexpr std::size_t kTreesForCells = 2000;
 
-[[nodiscard]] PortraitPlan plan_portraits(const ForestLod& lod);
+[[nodiscard]] ImpostorPlan plan_impostors(const ForestLod& lod);
 
 } // namespace lsys::view

@@ -1,5 +1,5 @@
 // What there is of tiles, beside the same found texel by texel.
-#include "viewer/scene/portrait_picture.h"
+#include "viewer/scene/impostor_texels.h"
 
 #include <catch2/catch.hpp>
 

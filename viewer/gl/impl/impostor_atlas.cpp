@@ -1,4 +1,4 @@
-#include "viewer/gl/impl/portraits.h"
+#include "viewer/gl/impl/impostor_atlas.h"
 
 #include "grammar/base/hash.h"
 #include "viewer/gl/impl/frame_block.h"
@@ -20,10 +20,10 @@ namespace lsys::view {
 namespace {
 
 constexpr std::uint32_t kFiner = 2; // texels drawn for one that is kept, along a side
-constexpr std::uint32_t kWidth = Portraits::kYaws * Portraits::kTile;
-constexpr std::uint32_t kHeight = Portraits::kElevations * Portraits::kTile;
+constexpr std::uint32_t kWidth = ImpostorAtlas::kYaws * ImpostorAtlas::kTile;
+constexpr std::uint32_t kHeight = ImpostorAtlas::kElevations * ImpostorAtlas::kTile;
 constexpr GLsizei kLevels = 6; // the last tile has 4 texels a side
-constexpr std::array<float, Portraits::kElevations> kElevation = {0.0F, 0.6108652F, 1.3089969F};
+constexpr std::array<float, ImpostorAtlas::kElevations> kElevation = {0.0F, 0.6108652F, 1.3089969F};
 /// Texels about what is opaque in a tile: in coarser levels it reaches over edges of fine texels.
 constexpr float kBoxMargin = 2.5F;
 constexpr GLint kMiddle = 2;
@@ -32,25 +32,25 @@ constexpr GLint kRight = 4;
 constexpr GLint kUp = 5;
 
 /// The last one that begins no later: layers of a form follow one another.
-const Cylinder& cylinder_of(const PortraitPlan& plan, std::uint32_t layer) {
+const Cylinder& cylinder_of(const ImpostorPlan& plan, std::uint32_t layer) {
     return std::find_if(plan.forms.rbegin(), plan.forms.rend(),
-                        [layer](const PictureForm& each) { return each.first_layer <= layer; })
+                        [layer](const ImpostorForm& each) { return each.first_layer <= layer; })
         ->cylinder;
 }
 
-/// Changes with what is seen in a portrait; never 0.
-std::uint64_t key_of(const Portrait& portrait,
+/// Changes with what is seen in a impostor; never 0.
+std::uint64_t key_of(const ImpostorLayer& impostor,
                      const Cylinder& cylinder,
                      const ForestModel& model,
                      std::uint64_t meshes) {
     std::uint64_t key = combine(meshes, model.forest->key);
     const auto add = [&key](std::uint64_t word) { key = combine(key, word); };
     const auto add_length = [&add](float length) { add(std::bit_cast<std::uint32_t>(length)); };
-    add(portrait.level);
+    add(impostor.level);
     for (const float length : {cylinder.radius, cylinder.low, cylinder.high}) {
         add_length(length);
     }
-    for (const Tree& tree : portrait.trees) {
+    for (const Tree& tree : impostor.trees) {
         add(tree.number);
         for (const float length :
              {tree.position.x, tree.position.y, tree.position.z, tree.yaw, tree.scale}) {
@@ -60,7 +60,7 @@ std::uint64_t key_of(const Portrait& portrait,
     return key | 1U;
 }
 
-/// The branches of a portrait as lists of a level.
+/// The branches of a impostor as lists of a level.
 ForestLists lists_of(const TreeForm& form,
                      std::uint32_t form_index,
                      std::uint32_t level,
@@ -85,15 +85,15 @@ ForestLists lists_of(const TreeForm& form,
 
 } // namespace
 
-Result<Done> Portraits::reload(const ShaderSource& shaders) {
-    Result<ProgramObject> solid = make_program(*device_, shaders, "branch.vert.glsl",
-                                               "branch.frag.glsl", "#define PORTRAIT\n");
+Result<Done> ImpostorAtlas::reload(const ShaderSource& shaders) {
+    Result<ProgramObject> solid =
+        make_program(*device_, shaders, "branch.vert.glsl", "branch.frag.glsl", "#define BAKE\n");
     if (!solid) {
         return solid.error();
     }
     Result<ProgramObject> cut_out =
         make_program(*device_, shaders, "branch.vert.glsl", "branch.frag.glsl",
-                     "#define PORTRAIT\n#define CUT_OUT\n");
+                     "#define BAKE\n#define CUT_OUT\n");
     if (!cut_out) {
         return cut_out.error();
     }
@@ -104,7 +104,7 @@ Result<Done> Portraits::reload(const ShaderSource& shaders) {
     return Done{};
 }
 
-void Portraits::look_for_missing() {
+void ImpostorAtlas::look_for_missing() {
     work_.reset();
     pending_.clear();
     for (std::uint32_t layer = layers_; layer-- > 0;) {
@@ -114,15 +114,15 @@ void Portraits::look_for_missing() {
     }
 }
 
-void Portraits::draw_row(const Cylinder& form,
-                         std::uint32_t e,
-                         const ForestBuffers& buffers,
-                         Buffer& frame) const {
+void ImpostorAtlas::draw_row(const Cylinder& form,
+                             std::uint32_t e,
+                             const ForestBuffers& buffers,
+                             Buffer& frame) const {
     const float half_height = 0.5F * (form.high - form.low);
     const glm::vec3 middle(0.0F, 0.5F * (form.low + form.high), 0.0F);
-    const float deep = kPortraitMargin * std::hypot(form.radius, half_height);
-    const float wide = kPortraitMargin * form.radius;
-    const float high = kPortraitMargin * (half_height * std::cos(kElevation[e]) +
+    const float deep = kImpostorMargin * std::hypot(form.radius, half_height);
+    const float wide = kImpostorMargin * form.radius;
+    const float high = kImpostorMargin * (half_height * std::cos(kElevation[e]) +
                                           form.radius * std::sin(kElevation[e]));
     for (std::uint32_t y = 0; y < kYaws; ++y) {
         const float yaw =
@@ -160,7 +160,7 @@ void Portraits::draw_row(const Cylinder& form,
     }
 }
 
-void Portraits::upload_layer(std::uint32_t layer, PortraitPicture picture) {
+void ImpostorAtlas::upload_layer(std::uint32_t layer, ImpostorTexels picture) {
     const double wanted = coverage_of(picture);
     for (GLint level = 0; level < kLevels; ++level) {
         spread(picture, 2);
@@ -179,7 +179,7 @@ void Portraits::upload_layer(std::uint32_t layer, PortraitPicture picture) {
     }
 }
 
-void Portraits::find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos) {
+void ImpostorAtlas::find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos) {
     for (std::uint32_t e = 0; e < kElevations; ++e) {
         for (std::uint32_t y = 0; y < kYaws; ++y) {
             boxes_[layer][std::size_t{e} * kYaws + y] =
@@ -189,7 +189,7 @@ void Portraits::find_boxes(std::uint32_t layer, std::span<const std::uint8_t> al
     box_buffer_.write(std::span<const LayerBoxes>(&boxes_[layer], 1), layer * sizeof(LayerBoxes));
 }
 
-void Portraits::make_layers(const std::vector<std::uint64_t>& keys) {
+void ImpostorAtlas::make_layers(const std::vector<std::uint64_t>& keys) {
     const auto count = static_cast<std::uint32_t>(keys.size());
     if (count == layers_ && albedos_) {
         return;
@@ -233,19 +233,21 @@ void Portraits::make_layers(const std::vector<std::uint64_t>& keys) {
     box_buffer_.fill(std::span<const LayerBoxes>(boxes_));
 }
 
-void Portraits::begin(const ForestModel& model, PortraitPlan plan, const ForestBuffers& buffers) {
+void ImpostorAtlas::begin(const ForestModel& model,
+                          ImpostorPlan plan,
+                          const ForestBuffers& buffers) {
     plan_ = std::move(plan);
     wanted_.clear();
     for (std::uint32_t layer = 0; layer < plan_.layers.size(); ++layer) {
-        const Portrait& portrait = plan_.layers[layer];
+        const ImpostorLayer& impostor = plan_.layers[layer];
         wanted_.push_back(
-            key_of(portrait, cylinder_of(plan_, layer), model, buffers.mesh_digest(portrait.form)));
+            key_of(impostor, cylinder_of(plan_, layer), model, buffers.mesh_digest(impostor.form)));
     }
     make_layers(wanted_);
     look_for_missing();
 }
 
-Portraits::Work Portraits::make_work() const {
+ImpostorAtlas::Work ImpostorAtlas::make_work() const {
     Work work;
     const auto width = static_cast<GLsizei>(kWidth * kFiner);
     const auto height = static_cast<GLsizei>(kTile * kFiner); // one elevation at a time
@@ -267,24 +269,26 @@ Portraits::Work Portraits::make_work() const {
     return work;
 }
 
-void Portraits::begin_layer(std::uint32_t layer,
-                            const ForestModel& model,
-                            ForestBuffers& buffers) const {
-    const Portrait& portrait = plan_.layers[layer];
-    const TreeForm& form = model.forms[portrait.form];
+void ImpostorAtlas::begin_layer(std::uint32_t layer,
+                                const ForestModel& model,
+                                ForestBuffers& buffers) const {
+    const ImpostorLayer& impostor = plan_.layers[layer];
+    const TreeForm& form = model.forms[impostor.form];
     std::vector<PoolBranch> branches;
     TreeExpander expander(*form.cache, model.forest->key);
-    for (std::uint32_t t = 0; t < portrait.trees.size(); ++t) {
-        expander.expand(portrait.trees[t], [&](const BranchInstance& branch) {
+    for (std::uint32_t t = 0; t < impostor.trees.size(); ++t) {
+        expander.expand(impostor.trees[t], [&](const BranchInstance& branch) {
             branches.push_back(pool_branch(branch, form.cache->instances[branch.instance], t));
         });
     }
-    buffers.set_trees(portrait.trees, portrait.form);
+    buffers.set_trees(impostor.trees, impostor.form);
     buffers.set_branches(branches);
-    buffers.command(lists_of(form, portrait.form, portrait.level, branches));
+    buffers.command(lists_of(form, impostor.form, impostor.level, branches));
 }
 
-void Portraits::step(const ForestModel& model, ForestBuffers& buffers, MaterialTextures& textures) {
+void ImpostorAtlas::step(const ForestModel& model,
+                         ForestBuffers& buffers,
+                         MaterialTextures& textures) {
     if (pending_.empty()) {
         return;
     }
@@ -293,7 +297,7 @@ void Portraits::step(const ForestModel& model, ForestBuffers& buffers, MaterialT
         work_ = make_work();
     }
     Work& work = *work_;
-    buffers.turn_to(Subject::Portrait);
+    buffers.turn_to(Subject::Impostor);
     if (work.elevation == 0) {
         work.all = {kWidth, kHeight, {}, {}};
     }
@@ -322,7 +326,7 @@ void Portraits::step(const ForestModel& model, ForestBuffers& buffers, MaterialT
     glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, work.row.normals.data());
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     buffers.turn_to(Subject::Forest);
-    const PortraitPicture half = halved(work.row);
+    const ImpostorTexels half = halved(work.row);
     work.all.albedos.insert(work.all.albedos.end(), half.albedos.begin(), half.albedos.end());
     work.all.normals.insert(work.all.normals.end(), half.normals.begin(), half.normals.end());
     if (++work.elevation < kElevations) {

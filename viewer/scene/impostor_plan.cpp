@@ -1,4 +1,4 @@
-#include "viewer/scene/portrait_plan.h"
+#include "viewer/scene/impostor_plan.h"
 
 #include "grammar/base/hash.h"
 
@@ -10,7 +10,7 @@ namespace lsys::view {
 
 namespace {
 
-/// The finest level that portraits are drawn of, while a tree has at most so many triangles.
+/// The finest level that impostors are drawn of, while a tree has at most so many triangles.
 constexpr std::uint32_t kFinestLevel = 1;
 constexpr double kMostTriangles = 70'000.0;
 constexpr std::uint32_t kRow = 4; // trees of a cell along a side
@@ -37,8 +37,8 @@ std::vector<float> mean_scales(const ForestLod& lod) {
 
 } // namespace
 
-PortraitPlan plan_portraits(const ForestLod& lod) {
-    PortraitPlan plan;
+ImpostorPlan plan_impostors(const ForestLod& lod) {
+    ImpostorPlan plan;
     const std::vector<TreeForm>& forms = lod.model().forms;
     for (std::uint32_t f = 0; f < forms.size(); ++f) {
         const TreeForm& form = forms[f];
@@ -48,7 +48,7 @@ PortraitPlan plan_portraits(const ForestLod& lod) {
         while (level + 1 < kTreeLevels && form.triangles[level] > kMostTriangles) {
             ++level;
         }
-        for (const Tree& tree : form.portraits) {
+        for (const Tree& tree : form.impostor_trees) {
             plan.layers.push_back({f, level, {tree}});
         }
     }
@@ -65,11 +65,11 @@ PortraitPlan plan_portraits(const ForestLod& lod) {
         plan.forms.push_back(
             {{0.5F * side * std::numbers::sqrt2_v<float> + form.radius, form.low, form.high},
              static_cast<std::uint32_t>(plan.layers.size())});
-        Portrait& cell = plan.layers.emplace_back();
+        ImpostorLayer& cell = plan.layers.emplace_back();
         cell.form = f;
         cell.level = kTreeLevels - 1;
         for (std::uint32_t i = 0; i < kRow * kRow; ++i) {
-            Tree tree = form.portraits[i % form.portraits.size()];
+            Tree tree = form.impostor_trees[i % form.impostor_trees.size()];
             const std::uint32_t row = i / kRow;
             tree.yaw = 2.0F * std::numbers::pi_v<float> * drawn(i, 1);
             tree.position.x =

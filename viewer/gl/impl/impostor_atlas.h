@@ -1,5 +1,5 @@
-// Portraits: pictures of trees from many sides, which stand for trees that are far away. A layer
-// for each portrait of a form, kYaws by kElevations tiles in it; shaders/impostor.glsl has the same
+// Impostors: pictures of trees from many sides, which stand for trees that are far away. A layer
+// for each impostor of a form, kYaws by kElevations tiles in it; shaders/impostor.glsl has the same
 // numbers.
 #pragma once
 
@@ -8,8 +8,8 @@
 #include "viewer/gl/impl/material_textures.h"
 #include "viewer/gl/renderer.h"
 #include "viewer/scene/forest_model.h"
-#include "viewer/scene/portrait_picture.h"
-#include "viewer/scene/portrait_plan.h"
+#include "viewer/scene/impostor_plan.h"
+#include "viewer/scene/impostor_texels.h"
 
 #include <glm/vec4.hpp>
 
@@ -21,19 +21,19 @@
 
 namespace lsys::view {
 
-class Portraits {
+class ImpostorAtlas {
 public:
     static constexpr std::uint32_t kYaws = 8;
     static constexpr std::uint32_t kElevations = 3;
     static constexpr std::uint32_t kTile = 128; // texels
 
-    explicit Portraits(Device& device) : device_(&device), box_buffer_(device) {}
+    explicit ImpostorAtlas(Device& device) : device_(&device), box_buffer_(device) {}
 
-    /// Portraits that are there stay until they are drawn anew.
+    /// Impostors that are there stay until they are drawn anew.
     [[nodiscard]] Result<Done> reload(const ShaderSource& shaders);
     /// From now on the layers are those of a plan. What is in them stays until it is drawn anew;
     /// layers that were not there are empty. Those that are as before are not drawn.
-    void begin(const ForestModel& model, PortraitPlan plan, const ForestBuffers& buffers);
+    void begin(const ForestModel& model, ImpostorPlan plan, const ForestBuffers& buffers);
     [[nodiscard]] bool is_done() const { return pending_.empty(); }
     /// Draws a part of what is missing: one elevation of a layer. Other shaders, programs and
     /// targets are bound afterwards.
@@ -52,8 +52,8 @@ private:
         Framebuffer target;
         std::array<Renderbuffer, 3> storage; // albedos, normals, depths
         Buffer frame;
-        PortraitPicture row; // of an elevation, finer
-        PortraitPicture all; // of the layer, as far as it is made
+        ImpostorTexels row; // of an elevation, finer
+        ImpostorTexels all; // of the layer, as far as it is made
         std::uint32_t elevation = 0;
     };
 
@@ -69,7 +69,7 @@ private:
                   std::uint32_t elevation,
                   const ForestBuffers& buffers,
                   Buffer& frame) const;
-    void upload_layer(std::uint32_t layer, PortraitPicture picture);
+    void upload_layer(std::uint32_t layer, ImpostorTexels picture);
     void find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos);
 
     Device* device_;
@@ -79,7 +79,7 @@ private:
     TextureObject normals_;
     std::vector<LayerBoxes> boxes_; // by layer
     Buffer box_buffer_;
-    PortraitPlan plan_;
+    ImpostorPlan plan_;
     std::vector<std::uint64_t> keys_;    // of what is in each layer; 0: nothing
     std::vector<std::uint64_t> wanted_;  // of what is to be in it
     std::vector<std::uint32_t> pending_; // layers, the next one last

@@ -1,4 +1,4 @@
-#include "viewer/scene/portrait_picture.h"
+#include "viewer/scene/impostor_texels.h"
 
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
@@ -16,8 +16,8 @@ constexpr std::uint8_t kOpaque = 128;
 
 } // namespace
 
-PortraitPicture halved(const PortraitPicture& from) {
-    PortraitPicture half{from.width / 2, from.height / 2, {}, {}};
+ImpostorTexels halved(const ImpostorTexels& from) {
+    ImpostorTexels half{from.width / 2, from.height / 2, {}, {}};
     half.albedos.resize(std::size_t{4} * half.width * half.height);
     half.normals.resize(half.albedos.size());
     for (std::uint32_t y = 0; y < half.height; ++y) {
@@ -50,7 +50,7 @@ PortraitPicture halved(const PortraitPicture& from) {
     return half;
 }
 
-void spread(PortraitPicture& picture, std::uint32_t rounds) {
+void spread(ImpostorTexels& picture, std::uint32_t rounds) {
     std::vector<std::uint8_t> known(std::size_t{picture.width} * picture.height);
     for (std::size_t i = 0; i < known.size(); ++i) {
         known[i] = picture.albedos[4 * i + 3] != 0 ? 1 : 0;
@@ -87,7 +87,7 @@ void spread(PortraitPicture& picture, std::uint32_t rounds) {
 
 /// The opacities of a picture, multiplied so that the part of it that is there is `wanted`, or
 /// trees would thin out with the distance (Castano 2010, "Computing Alpha Mipmaps").
-std::vector<std::uint8_t> with_coverage(const PortraitPicture& picture, double wanted) {
+std::vector<std::uint8_t> with_coverage(const ImpostorTexels& picture, double wanted) {
     std::array<std::size_t, 256> counts{};
     const std::size_t texels = picture.albedos.size() / 4;
     for (std::size_t i = 0; i < texels; ++i) {
@@ -109,7 +109,7 @@ std::vector<std::uint8_t> with_coverage(const PortraitPicture& picture, double w
     return scaled;
 }
 
-double coverage_of(const PortraitPicture& picture) {
+double coverage_of(const ImpostorTexels& picture) {
     double sum = 0.0;
     for (std::size_t i = 3; i < picture.albedos.size(); i += 4) {
         sum += static_cast<double>(picture.albedos[i]) / 255.0;
