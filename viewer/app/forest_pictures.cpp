@@ -47,10 +47,10 @@ std::string stats_text(const ViewOptions& options,
         drawn[fmt::format("level_{}", level)] = frame.trees_of_level[level];
     }
     drawn["impostors"] = frame.far_trees;
-    drawn["in_cells"] = frame.horizon_trees;
+    drawn["in_cells"] = frame.clustered_trees;
     drawn["blended"] = frame.blended_trees;
     drawn["behind_ground"] = frame.hidden_trees;
-    stats["cells_drawn"] = frame.horizon_cells;
+    stats["cells_drawn"] = frame.clusters;
     stats["branches_drawn"] = frame.drawn_branches;
     stats["trees_expanded"] = frame.expanded_trees;
     stats["detail"] = frame.detail;

@@ -73,7 +73,7 @@ void draw_forest_times(const ForestView& view) {
         }
         line(fmt::format("{} trees as branches", near));
         line(fmt::format("{} trees as pictures", frame.far_trees));
-        line(fmt::format("{} trees in {} cells", frame.horizon_trees, frame.horizon_cells));
+        line(fmt::format("{} trees in {} cells", frame.clustered_trees, frame.clusters));
         line(view.has_impostors() ? "pictures of trees are made" : "pictures of trees: at work");
     }
     line(fmt::format("{} draws, {} triangles", stats.drawn.draws, stats.drawn.triangles));

@@ -80,8 +80,8 @@ struct FrameStats {
 struct ForestFrameStats {
     std::array<std::uint32_t, kTreeLevels> trees_of_level{}; // drawn as branches
     std::uint64_t far_trees = 0;                             // as impostors
-    std::uint64_t horizon_trees = 0;                         // with others of their cell
-    std::uint64_t horizon_cells = 0;
+    std::uint64_t clustered_trees = 0;                       // with others of their cell
+    std::uint64_t clusters = 0;
     std::uint64_t blended_trees = 0; // of those, drawn as what comes next too
     std::uint64_t hidden_trees = 0;  // in view, but behind the ground
     std::uint64_t drawn_branches = 0;

@@ -27,7 +27,7 @@ struct LodOptions {
     /// Heights of a tree in pixels from which on it is drawn as each level of branches.
     std::array<float, kTreeLevels> level_pixels{860.0F, 430.0F, 260.0F, 150.0F};
     /// Below this, cells are drawn as one.
-    float horizon_pixels = 8.0F; // 0: never
+    float cluster_pixels = 8.0F; // 0: never
     /// What is up to so many times as large as impostors, or cells, may be is drawn as both: a part
     /// of the pixels as each, so that none comes or goes at once.
     float blend = 1.25F;
@@ -51,66 +51,71 @@ struct Sway {
 };
 [[nodiscard]] Sway sway_in(const Wind& wind);
 
-/// A part of the pixels of what is drawn. Every pixel has a number from 0 to 1
-/// (shaders/blend.glsl): positive parts are those whose number is below it, negative ones those
-/// whose number is not below 1 more than it.
-using Part = float;
-inline constexpr Part kWhole = 1.0F;
+/// Pixels that an object draws while it blends with another: those whose number, 0 to 1, lies in
+/// [low, high). pixel_number() in shaders/blend.glsl numbers the pixels.
+struct BlendRange {
+    float low = 0.0F;
+    float high = 1.0F;
 
-/// A tree, or a cell, and how much of its impostor is drawn.
-struct Listed {
-    std::uint32_t number = 0;
-    Part part = kWhole;
-
-    friend bool operator==(const Listed&, const Listed&) = default;
+    [[nodiscard]] bool is_whole() const { return low <= 0.0F && high >= 1.0F; }
+    friend bool operator==(const BlendRange&, const BlendRange&) = default;
 };
 
-/// A branch in the list: its place in the pool and the part of it that is drawn.
-class ListedBranch {
+/// An impostor of a tree, or of a cell.
+struct DrawEntry {
+    std::uint32_t index = 0;
+    BlendRange range;
+
+    friend bool operator==(const DrawEntry&, const DrawEntry&) = default;
+};
+
+/// A branch: its slot in the pool and the weight of its blending, packed as
+/// shaders/branch.vert.glsl reads them.
+class BranchEntry {
 public:
-    static constexpr std::uint32_t kPlaceBits = 24; // as shaders/branch.vert.glsl has it
-    static constexpr std::uint32_t kPartSteps = 255;
+    static constexpr std::uint32_t kSlotBits = 24;
+    static constexpr std::uint32_t kBlendSteps = 255;
 
-    ListedBranch() = default;
-    /// `steps`: the part in 1/kPartSteps.
-    explicit ListedBranch(std::uint32_t place, std::uint32_t steps = kPartSteps)
-        : bits_(steps << kPlaceBits | place) {}
-    [[nodiscard]] std::uint32_t place() const { return bits_ & ((1U << kPlaceBits) - 1); }
-    [[nodiscard]] std::uint32_t steps() const { return bits_ >> kPlaceBits; }
+    BranchEntry() = default;
+    /// `steps`: weight in 1/kBlendSteps; pixels with numbers below it are drawn.
+    explicit BranchEntry(std::uint32_t slot, std::uint32_t steps = kBlendSteps)
+        : bits_(steps << kSlotBits | slot) {}
+    [[nodiscard]] std::uint32_t slot() const { return bits_ & ((1U << kSlotBits) - 1); }
+    [[nodiscard]] std::uint32_t steps() const { return bits_ >> kSlotBits; }
 
-    friend bool operator==(const ListedBranch&, const ListedBranch&) = default;
+    friend bool operator==(const BranchEntry&, const BranchEntry&) = default;
 
 private:
     std::uint32_t bits_ = 0;
 };
-static_assert(sizeof(ListedBranch) == 4);
-static_assert(BranchPool::kMostBranches <= 1U << ListedBranch::kPlaceBits);
+static_assert(sizeof(BranchEntry) == 4);
+static_assert(BranchPool::kMostBranches <= 1U << BranchEntry::kSlotBits);
 
 /// Branches of one instance and level.
 struct BranchRun {
     std::uint32_t form = 0;
     std::uint32_t level = 0;
     std::uint32_t instance = 0;
-    std::uint32_t first = 0; // in ForestLists::branches
+    std::uint32_t first = 0; // in DrawLists::branches
     std::uint32_t count = 0;
     bool blends = false; // of trees that are drawn as impostors too
 };
 
-struct ForestLists {
-    std::vector<ListedBranch> branches; // by run
+struct DrawLists {
+    std::vector<BranchEntry> branches; // by run
     std::vector<BranchRun> runs;
     // Whole ones first, of those near ones first.
-    std::vector<Listed> trees;                               // far: numbers of ForestLod::trees()
-    std::vector<Listed> clumps;                              // horizon: cells
+    std::vector<DrawEntry> trees;                            // far: numbers of ForestLod::trees()
+    std::vector<DrawEntry> clusters;                         // horizon: cells
     std::array<std::uint32_t, kTreeLevels> trees_of_level{}; // with branches in view
-    std::uint64_t far_trees = 0;     // of `trees`, without those that have branches too
-    std::uint64_t clumped_trees = 0; // of `clumps`, without those of `trees`
-    std::uint64_t blended = 0;       // trees that are drawn as two things
-    std::uint64_t hidden = 0;        // behind the ground
-    std::uint64_t triangles = 0;     // of branches
-    std::uint32_t expanded = 0;      // trees whose branches were made for this
-    std::uint32_t waiting = 0;       // that should have branches but are far for now
-    float detail = 1.0F;             // factor of sizes, so that most_triangles is kept
+    std::uint64_t far_trees = 0;       // of `trees`, without those that have branches too
+    std::uint64_t clustered_trees = 0; // of `clusters`, without those of `trees`
+    std::uint64_t blended = 0;         // trees that are drawn as two things
+    std::uint64_t hidden = 0;          // behind the ground
+    std::uint64_t triangles = 0;       // of branches
+    std::uint32_t expanded = 0;        // trees whose branches were made for this
+    std::uint32_t waiting = 0;         // that should have branches but are far for now
+    float detail = 1.0F;               // factor of sizes, so that most_triangles is kept
 };
 
 /// A square of the ground.
@@ -137,7 +142,7 @@ public:
     std::uint32_t change_tree(std::uint32_t index, const Tree& tree, bool alive);
 
     /// What `ground` hides is left out.
-    [[nodiscard]] const ForestLists&
+    [[nodiscard]] const DrawLists&
     select(const ViewVolume& volume, const LodOptions& options, GroundHorizon* ground = nullptr);
 
     [[nodiscard]] const ForestModel& model() const { return model_; }
@@ -186,11 +191,11 @@ private:
     }
     [[nodiscard]] std::uint64_t cell_of(const glm::vec3& place) const;
     [[nodiscard]] ViewTree made_of(const Tree& tree, std::uint32_t index);
-    /// `part`: of its impostor, if it is far.
+    /// `weight`: of its impostor, if it is drawn as one.
     void visit_tree(std::uint32_t number,
                     const ViewVolume& volume,
                     const LodOptions& options,
-                    Part part = kWhole);
+                    float weight = 1.0F);
     /// Lists a cell as one, or its trees, or both.
     void visit_cell(std::uint32_t index,
                     float distance,
@@ -210,7 +215,7 @@ private:
     void see_branches(const PoolSpan& span,
                       const ViewTree& tree,
                       float yaw,
-                      std::uint32_t part_steps,
+                      std::uint32_t blend_steps,
                       const ViewVolume& volume);
     /// kTreeLevels: none, an impostor.
     [[nodiscard]] static std::uint32_t level_of(float pixels, const LodOptions& options);
@@ -230,10 +235,10 @@ private:
     BranchPool pool_;
     std::vector<TreeExpander> expanders_;   // by form
     std::vector<std::uint32_t> first_mesh_; // of each form: instances times levels and one
-    ForestLists lists_;
+    DrawLists lists_;
     std::vector<Candidate> candidates_;
-    std::vector<Listed> far_;
-    std::vector<ListedBranch> seen_branches_;
+    std::vector<DrawEntry> far_;
+    std::vector<BranchEntry> seen_branches_;
     std::vector<PoolBranch> made_branches_;
     std::vector<SeenTree> seen_trees_; // whose branches those are
     Sway sway_;

@@ -54,15 +54,15 @@ Sway sway_in(const Wind& wind) {
             std::min(push, kMostFlutter) * std::numbers::sqrt3_v<float>};
 }
 
-const ForestLists&
+const DrawLists&
 ForestLod::select(const ViewVolume& volume, const LodOptions& options, GroundHorizon* ground) {
     lists_.branches.clear();
     lists_.runs.clear();
     lists_.trees.clear();
-    lists_.clumps.clear();
+    lists_.clusters.clear();
     lists_.trees_of_level = {};
     lists_.far_trees = 0;
-    lists_.clumped_trees = 0;
+    lists_.clustered_trees = 0;
     lists_.blended = 0;
     lists_.hidden = 0;
     lists_.triangles = 0;
@@ -103,9 +103,9 @@ ForestLod::select(const ViewVolume& volume, const LodOptions& options, GroundHor
     list_branches(volume, options);
     lists_.far_trees += far_.size();
     lists_.trees.insert(lists_.trees.end(), far_.begin(), far_.end());
-    for (std::vector<Listed>* list : {&lists_.trees, &lists_.clumps}) {
+    for (std::vector<DrawEntry>* list : {&lists_.trees, &lists_.clusters}) {
         std::stable_partition(list->begin(), list->end(),
-                              [](const Listed& each) { return each.part == kWhole; });
+                              [](const DrawEntry& each) { return each.range.is_whole(); });
     }
     return lists_;
 }
@@ -142,24 +142,24 @@ void ForestLod::visit_cell(std::uint32_t index,
                            const ViewVolume& volume,
                            const LodOptions& options) {
     const ForestCell& cell = cells_[index];
-    Part part = kWhole; // of its trees
-    if (cell.count >= kFewTrees && cell.gone == 0 && options.horizon_pixels > 0.0F) {
+    float weight = 1.0F; // of its trees
+    if (cell.count >= kFewTrees && cell.gone == 0 && options.cluster_pixels > 0.0F) {
         const float pixels = cell.tallest * volume.pixels / std::max(distance, kNearest);
-        part = pixels < options.horizon_pixels
-                   ? 0.0F
-                   : finer_weight(pixels, options.horizon_pixels, options.blend);
+        weight = pixels < options.cluster_pixels
+                     ? 0.0F
+                     : finer_weight(pixels, options.cluster_pixels, options.blend);
     }
-    if (part < kWhole) {
-        lists_.clumps.push_back({index, part > 0.0F ? part - 1.0F : kWhole});
+    if (weight < 1.0F) {
+        lists_.clusters.push_back({index, {weight, 1.0F}});
     }
-    if (part <= 0.0F) {
-        lists_.clumped_trees += cell.count;
+    if (weight <= 0.0F) {
+        lists_.clustered_trees += cell.count;
         return;
     }
-    lists_.blended += part < kWhole ? cell.count : 0;
+    lists_.blended += weight < 1.0F ? cell.count : 0;
     for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
         if (!trees_[t].gone()) {
-            visit_tree(t, volume, options, part);
+            visit_tree(t, volume, options, weight);
         }
     }
 }
@@ -167,7 +167,7 @@ void ForestLod::visit_cell(std::uint32_t index,
 void ForestLod::visit_tree(std::uint32_t number,
                            const ViewVolume& volume,
                            const LodOptions& options,
-                           Part part) {
+                           float weight) {
     const ViewTree& tree = view_tree(number);
     const Ball impostor = impostor_ball(tree);
     const float pixels =
@@ -181,7 +181,7 @@ void ForestLod::visit_tree(std::uint32_t number,
             ++lists_.hidden;
             return;
         }
-        far_.push_back({number, part});
+        far_.push_back({number, {0.0F, weight}});
     }
 }
 
@@ -220,7 +220,7 @@ float ForestLod::fitting_detail(const LodOptions& options) const {
 void ForestLod::see_branches(const PoolSpan& span,
                              const ViewTree& tree,
                              float yaw,
-                             std::uint32_t part_steps,
+                             std::uint32_t blend_steps,
                              const ViewVolume& volume) {
     const Ball whole = swaying(reach_of(tree, yaw), tree);
     const bool is_within = volume.holds(whole);
@@ -234,7 +234,7 @@ void ForestLod::see_branches(const PoolSpan& span,
         }
         if (is_within ||
             volume.meets({branch.at(ball.centre), branch.scale * ball.radius + sway})) {
-            seen_branches_.emplace_back(place, part_steps);
+            seen_branches_.emplace_back(place, blend_steps);
         }
     }
 }
@@ -259,7 +259,7 @@ void ForestLod::list_branches(const ViewVolume& volume, const LodOptions& option
     seen_branches_.clear();
     seen_trees_.clear();
     std::fill(mesh_counts_.begin(), mesh_counts_.end(), 0);
-    constexpr std::uint32_t kAll = ListedBranch::kPartSteps;
+    constexpr std::uint32_t kAll = BranchEntry::kBlendSteps;
     for (const Candidate& candidate : candidates_) {
         const ViewTree& tree = view_tree(candidate.tree);
         const float pixels = candidate.pixels * lists_.detail;
@@ -267,15 +267,15 @@ void ForestLod::list_branches(const ViewVolume& volume, const LodOptions& option
         const PoolSpan span =
             level == kTreeLevels ? PoolSpan{} : branches_of(candidate.tree, options);
         if (span.count == 0) {
-            lists_.trees.push_back({candidate.tree, kWhole});
+            lists_.trees.push_back({candidate.tree, {}});
             ++lists_.far_trees;
             lists_.waiting += level == kTreeLevels ? 0 : 1;
             continue;
         }
         std::uint32_t steps = kAll;
         if (level + 1 == kTreeLevels) {
-            const float part = finer_weight(pixels, options.level_pixels.back(), options.blend);
-            steps = static_cast<std::uint32_t>(std::lround(part * static_cast<float>(kAll)));
+            const float weight = finer_weight(pixels, options.level_pixels.back(), options.blend);
+            steps = static_cast<std::uint32_t>(std::lround(weight * static_cast<float>(kAll)));
         }
         const auto instances =
             static_cast<std::uint32_t>(model_.forms[tree.form].cache->instances.size());
@@ -286,15 +286,15 @@ void ForestLod::list_branches(const ViewVolume& volume, const LodOptions& option
         }
         ++lists_.trees_of_level[level];
         if (steps != kAll) {
-            const Part part = static_cast<float>(steps) / static_cast<float>(kAll);
-            lists_.trees.push_back({candidate.tree, steps == 0 ? kWhole : part - 1.0F});
+            const float weight = static_cast<float>(steps) / static_cast<float>(kAll);
+            lists_.trees.push_back({candidate.tree, {weight, 1.0F}});
             ++lists_.blended;
         }
         seen_trees_.push_back(
             {first, static_cast<std::uint32_t>(seen_branches_.size()),
              first_mesh_[tree.form] + (steps == kAll ? level : kBlending) * instances});
         for (std::uint32_t i = first; i < seen_branches_.size(); ++i) {
-            const std::uint32_t mesh = pool_.branches()[seen_branches_[i].place()].mesh;
+            const std::uint32_t mesh = pool_.branches()[seen_branches_[i].slot()].mesh;
             ++mesh_counts_[seen_trees_.back().first_mesh + mesh];
         }
     }
@@ -323,8 +323,8 @@ void ForestLod::list_runs() {
     lists_.branches.resize(seen_branches_.size());
     for (const SeenTree& tree : seen_trees_) {
         for (std::uint32_t i = tree.first; i < tree.end; ++i) {
-            const ListedBranch branch = seen_branches_[i];
-            const std::uint32_t mesh = pool_.branches()[branch.place()].mesh;
+            const BranchEntry branch = seen_branches_[i];
+            const std::uint32_t mesh = pool_.branches()[branch.slot()].mesh;
             lists_.branches[mesh_counts_[tree.first_mesh + mesh]++] = branch;
         }
     }

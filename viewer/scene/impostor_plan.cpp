@@ -52,8 +52,8 @@ ImpostorPlan plan_impostors(const ForestLod& lod) {
             plan.layers.push_back({f, level, {tree}});
         }
     }
-    plan.has_cells = lod.trees().size() >= kTreesForCells;
-    if (!plan.has_cells) {
+    plan.has_clusters = lod.trees().size() >= kMinTreesForClusters;
+    if (!plan.has_clusters) {
         return plan;
     }
     const std::vector<float> scales = mean_scales(lod);

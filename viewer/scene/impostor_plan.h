@@ -33,14 +33,14 @@ struct ImpostorPlan {
     std::vector<ImpostorLayer> layers;
     /// Of each form of trees, then of a cell of each.
     std::vector<ImpostorForm> forms;
-    bool has_cells = false;
+    bool has_clusters = false;
 };
 
 /// By which impostors are larger than what they show; shaders/impostor.glsl has the same.
 inline constexpr float kImpostorMargin = 1.04F;
 
 /// Cells are drawn only where a forest has so many trees.
-inline constexpr std::size_t kTreesForCells = 2000;
+inline constexpr std::size_t kMinTreesForClusters = 2000;
 
 [[nodiscard]] ImpostorPlan plan_impostors(const ForestLod& lod);
 

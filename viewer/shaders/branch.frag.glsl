@@ -1,7 +1,7 @@
 #include "light.glsl"
 #ifdef BLENDS
 #include "blend.glsl"
-flat in float shown;
+flat in vec2 blend_range;
 #endif
 layout(binding = 1) uniform sampler2D bark_texture;
 layout(binding = 2) uniform sampler2D leaf_texture;
@@ -32,7 +32,7 @@ out vec4 colour;
 #endif
 void main() {
 #ifdef BLENDS
-    keep_part(shown);
+    keep_range(blend_range);
 #endif
     vec3 albedo = tint;
     bool is_through = (kind & 2u) != 0u;

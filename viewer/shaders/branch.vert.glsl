@@ -12,7 +12,7 @@ layout(location = 2) in vec2 normal;    // octahedral
 layout(location = 3) in vec2 texture_coordinate;
 layout(location = 4) in uint branch;    // in branches; the upper 8 bits: the part of it
 #ifdef BLENDS
-flat out float shown;
+flat out vec2 blend_range;
 #endif
 out vec2 uv;
 // What varies little along a triangle is found at its corners: of leaves, all light.
@@ -37,7 +37,7 @@ out vec2 air;
 void main() {
     Branch at = branches[branch & 0xFFFFFFu];
 #ifdef BLENDS
-    shown = float(branch >> 24) / 255.0;
+    blend_range = vec2(0.0, float(branch >> 24) / 255.0);
 #endif
     TreeAt tree = tree_at(at.turn.w);
     vec4 turn = vec4(unpackSnorm2x16(at.turn.x), unpackSnorm2x16(at.turn.y));

@@ -3,7 +3,7 @@ layout(binding = 3) uniform sampler2DArray albedos; // square roots; opacity
 layout(binding = 4) uniform sampler2DArray normals; // normal, depth, of light through it
 #ifdef BLENDS
 #include "blend.glsl"
-flat in float shown; // the part of it that is drawn
+flat in vec2 blend_range;
 #endif
 in vec3 corner;
 in vec3 sun_map;     // of the picture's middle plane
@@ -13,7 +13,7 @@ in vec2 air;
 in vec3 within;
 flat in vec3 deeper;
 flat in mat3 turn; // of what is seen in the picture
-flat in int of_cell;
+flat in int is_cluster;
 #endif
 #if !defined(SHADOW) && !defined(DEPTH)
 layout(early_fragment_tests) in; // where the depth is that of the tree
@@ -27,7 +27,7 @@ void main() {
     }
 #endif
 #ifdef BLENDS
-    keep_part(shown);
+    keep_range(blend_range);
 #endif
 #ifndef DEPTH
     vec4 shape = texture(normals, corner);
@@ -39,12 +39,12 @@ void main() {
     float away = dot(at, at);
     vec3 n = turn * (vec3(2.0 * at, 1.0 - away) / (1.0 + away));
     vec3 part = within + deeper * depth;
-    if (of_cell != 0) {
+    if (is_cluster != 0) {
         // Within the crown of one of its trees, whose leaves face outwards.
         part = vec3(0.25 * n.x, 0.05 + 0.85 * part.y, 0.25 * n.z);
     }
     float lit = sun_within(part);
-    if (of_cell == 0) {
+    if (is_cluster == 0) {
         lit = sunlight_at(sun_map + nearer * depth, lit);
     }
     colour = displayed(through_air(

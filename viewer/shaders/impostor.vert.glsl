@@ -2,11 +2,11 @@
 #include "impostor.glsl"
 layout(std430, binding = 4) readonly buffer Boxes { vec4 boxes[]; }; // what is there of each tile
 layout(location = 0) in uint index; // of the tree
-layout(location = 1) in float part;
+layout(location = 1) in vec2 range;
 #ifdef BLENDS
-flat out float shown;
+flat out vec2 blend_range;
 #endif
-flat out int of_cell;
+flat out int is_cluster;
 invariant gl_Position; // depths are drawn first, and compared
 out vec3 corner;      // in its layer, which goes along
 out vec3 sun_map;     // of the picture's middle plane
@@ -19,7 +19,7 @@ flat out mat3 turn;   // of what is seen in the picture
 #endif
 void main() {
 #ifdef BLENDS
-    shown = part;
+    blend_range = range;
 #endif
     TreeAt tree = tree_at(index);
     vec3 middle = middle_of(tree);
@@ -31,9 +31,9 @@ void main() {
     float upwards = asin(clamp(eye.y, 0.0, 1.0));
     int elevation = upwards < 0.3054 ? 0 : upwards < 0.9599 ? 1 : 2;
     float turns = (atan(eye.x, eye.z) - tree.yaw) / 6.2831853;
-    of_cell = int(forms[tree.form].pictures.y);
+    is_cluster = int(forms[tree.form].pictures.y);
     // Cells stand side by side: the next view does not take over of all of them along one line.
-    float early = of_cell != 0 ? 0.8 * (tree.phase - 0.5) : 0.0;
+    float early = is_cluster != 0 ? 0.8 * (tree.phase - 0.5) : 0.0;
     int view = int(floor(fract(turns) * float(kYaws) + 0.5 + early + float(kYaws))) % kYaws;
     vec3 right = normalize(vec3(eye.z, 0.0, -eye.x) + vec3(1e-6, 0.0, 0.0));
     vec3 up = cross(eye, right);

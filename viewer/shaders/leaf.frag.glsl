@@ -1,7 +1,7 @@
 #include "light.glsl"
 #ifdef BLENDS
 #include "blend.glsl"
-flat in float shown;
+flat in vec2 blend_range;
 #endif
 // Leaves that are lit at the corners: of cards that they are cut out of, or of one colour.
 #ifdef CUT_OUT
@@ -17,7 +17,7 @@ in vec3 back;
 out vec4 colour;
 void main() {
 #ifdef BLENDS
-    keep_part(shown);
+    keep_range(blend_range);
 #endif
 #ifdef CUT_OUT
     vec4 texel = texture(leaf_texture, uv);

@@ -20,8 +20,8 @@ using Drawn = std::array<float, 4>;
 
 std::vector<Drawn> drawn_by(ForestLod& lod, const Camera& camera) {
     LodOptions options = wood_lod();
-    options.horizon_pixels = 0.0F;
-    const ForestLists& lists = lod.select(view_volume(camera, 640, 480), options);
+    options.cluster_pixels = 0.0F;
+    const DrawLists& lists = lod.select(view_volume(camera, 640, 480), options);
     std::vector<Drawn> drawn;
     const auto add = [&](std::uint32_t number, std::uint32_t level) {
         const glm::vec3& at = lod.view_tree(number).position;
@@ -29,11 +29,11 @@ std::vector<Drawn> drawn_by(ForestLod& lod, const Camera& camera) {
     };
     for (const BranchRun& run : lists.runs) {
         for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
-            add(lod.pool().branches()[lists.branches[i].place()].tree, run.level);
+            add(lod.pool().branches()[lists.branches[i].slot()].tree, run.level);
         }
     }
-    for (const Listed& tree : lists.trees) {
-        add(tree.number, kTreeLevels);
+    for (const DrawEntry& tree : lists.trees) {
+        add(tree.index, kTreeLevels);
     }
     std::sort(drawn.begin(), drawn.end());
     return drawn;

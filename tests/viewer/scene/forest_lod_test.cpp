@@ -34,17 +34,17 @@ std::vector<Camera> cameras() {
 }
 
 /// Trees with branches in lod.
-std::uint64_t branch_trees(const ForestLists& lists) {
+std::uint64_t branch_trees(const DrawLists& lists) {
     return std::accumulate(lists.trees_of_level.begin(), lists.trees_of_level.end(),
                            std::uint64_t{0});
 }
 
 /// What is drawn as branches: tree, instance, level.
-std::vector<std::array<std::uint32_t, 3>> branches_of(ForestLod& lod, const ForestLists& lists) {
+std::vector<std::array<std::uint32_t, 3>> branches_of(ForestLod& lod, const DrawLists& lists) {
     std::vector<std::array<std::uint32_t, 3>> branches;
     for (const BranchRun& run : lists.runs) {
         for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
-            const PoolBranch& branch = lod.pool().branches()[lists.branches[i].place()];
+            const PoolBranch& branch = lod.pool().branches()[lists.branches[i].slot()];
             CHECK(branch.mesh == run.instance);
             branches.push_back({branch.tree, branch.mesh, run.level});
         }
@@ -61,17 +61,17 @@ TEST_CASE("every pixel of a tree in view is of exactly one LOD band") {
     std::uint64_t blended = 0;
     for (const Camera& camera : cameras()) {
         const ViewVolume volume = view_volume(camera, 640, 480);
-        const ForestLists& lists = lod.select(volume, wood_lod());
-        std::map<std::uint32_t, Part> near;
+        const DrawLists& lists = lod.select(volume, wood_lod());
+        std::map<std::uint32_t, float> near; // weight of its branches
         std::map<std::uint32_t, std::set<std::uint32_t>> levels;
         for (const BranchRun& run : lists.runs) {
             for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
-                const ListedBranch branch = lists.branches[i];
-                const std::uint32_t tree = lod.pool().branches()[branch.place()].tree;
-                const Part part = static_cast<float>(branch.steps()) /
-                                  static_cast<float>(ListedBranch::kPartSteps);
-                CHECK(run.blends == (part < kWhole));
-                CHECK(near.emplace(tree, part).first->second == part);
+                const BranchEntry branch = lists.branches[i];
+                const std::uint32_t tree = lod.pool().branches()[branch.slot()].tree;
+                const float weight = static_cast<float>(branch.steps()) /
+                                     static_cast<float>(BranchEntry::kBlendSteps);
+                CHECK(run.blends == (weight < 1.0F));
+                CHECK(near.emplace(tree, weight).first->second == weight);
                 levels[tree].insert(run.level);
             }
         }
@@ -79,31 +79,32 @@ TEST_CASE("every pixel of a tree in view is of exactly one LOD band") {
             CHECK(of_tree.size() == 1);
         }
         CHECK(near.size() == branch_trees(lists));
-        std::vector<std::vector<Part>> parts(lod.trees().size());
-        for (const auto& [tree, part] : near) {
-            if (part > 0.0F) {
-                parts[tree].push_back(part);
+        std::vector<std::vector<BlendRange>> ranges(lod.trees().size());
+        for (const auto& [tree, weight] : near) {
+            if (weight > 0.0F) {
+                ranges[tree].push_back({0.0F, weight});
             }
         }
-        for (const Listed& tree : lists.trees) {
-            parts[tree.number].push_back(tree.part);
+        for (const DrawEntry& tree : lists.trees) {
+            ranges[tree.index].push_back(tree.range);
         }
-        std::uint64_t clumped = 0;
-        for (const Listed& clump : lists.clumps) {
-            const ForestCell& cell = lod.cells()[clump.number];
-            clumped += clump.part == kWhole ? cell.count : 0;
+        std::uint64_t clustered = 0;
+        for (const DrawEntry& cluster : lists.clusters) {
+            const ForestCell& cell = lod.cells()[cluster.index];
+            clustered += cluster.range.is_whole() ? cell.count : 0;
             for (std::uint32_t i = 0; i < cell.count; ++i) {
-                parts[cell.first + i].push_back(clump.part);
+                ranges[cell.first + i].push_back(cluster.range);
             }
         }
-        CHECK(clumped == lists.clumped_trees);
+        CHECK(clustered == lists.clustered_trees);
         std::uint64_t drawn = 0;
-        for (const std::vector<Part>& of_tree : parts) {
+        for (const std::vector<BlendRange>& of_tree : ranges) {
             drawn += of_tree.empty() ? 0U : 1U;
         }
         // Trees of a cell that blends may be out of view themselves.
-        CHECK(drawn >= branch_trees(lists) + lists.far_trees + lists.clumped_trees);
-        CHECK(drawn <= branch_trees(lists) + lists.far_trees + lists.clumped_trees + lists.blended);
+        CHECK(drawn >= branch_trees(lists) + lists.far_trees + lists.clustered_trees);
+        CHECK(drawn <=
+              branch_trees(lists) + lists.far_trees + lists.clustered_trees + lists.blended);
         blended += lists.blended;
         // One by one: nothing that is in view is left out, and nothing is drawn twice.
         const glm::mat4 matrix =
@@ -120,14 +121,14 @@ TEST_CASE("every pixel of a tree in view is of exactly one LOD band") {
                        (clip.w > 0.1F && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w);
             }
             CAPTURE(t, to_text(camera));
-            REQUIRE(parts[t].size() <= 2);
-            if (parts[t].size() == 2) {
-                // The numbers below one, and those that are not.
-                CHECK(parts[t][0] > 0.0F);
-                CHECK(parts[t][1] < 0.0F);
-                REQUIRE(parts[t][0] == Approx(1.0F + parts[t][1]));
+            REQUIRE(ranges[t].size() <= 2);
+            if (ranges[t].size() == 2) {
+                // Each pixel number is in one of them.
+                CHECK(ranges[t][0].low == 0.0F);
+                CHECK(ranges[t][1].high == 1.0F);
+                REQUIRE(ranges[t][0].high == ranges[t][1].low);
             } else if (seen) {
-                REQUIRE(parts[t] == std::vector<Part>{kWhole});
+                REQUIRE(ranges[t] == std::vector<BlendRange>{{}});
             }
         }
     }
@@ -145,17 +146,18 @@ TEST_CASE("what comes nearer blends from one LOD band to the next") {
     float largest = 0.0F;
     bool is_first = true;
     for (float away = 2000.0F; away > 20.0F; away /= kStep) {
-        const ForestLists& lists = lod.select(
+        const DrawLists& lists = lod.select(
             view_volume(looking({2.5F, 1, 2.5F + away}, {2.5F, 1, 2.5F}), 640, 480), options);
         // How much of each tree are branches, and how much of the forest are cells.
         std::map<std::uint32_t, float> branches;
-        for (const ListedBranch branch : lists.branches) {
-            branches[lod.pool().branches()[branch.place()].tree] =
-                static_cast<float>(branch.steps()) / static_cast<float>(ListedBranch::kPartSteps);
+        for (const BranchEntry branch : lists.branches) {
+            branches[lod.pool().branches()[branch.slot()].tree] =
+                static_cast<float>(branch.steps()) / static_cast<float>(BranchEntry::kBlendSteps);
         }
         float horizon = 0.0F;
-        for (const Listed& clump : lists.clumps) {
-            horizon += std::abs(clump.part) / static_cast<float>(lod.cells().size());
+        for (const DrawEntry& cluster : lists.clusters) {
+            horizon +=
+                (cluster.range.high - cluster.range.low) / static_cast<float>(lod.cells().size());
         }
         for (std::uint32_t tree = 0; tree < lod.trees().size() && !is_first; ++tree) {
             const float change = std::abs(branches[tree] - branches_before[tree]);
@@ -181,12 +183,12 @@ TEST_CASE("every corner in view of a tree with branches is of a branch that is d
     ForestLod lod(wood->model);
     std::size_t left_out = 0;
     for (const Camera& camera : cameras()) {
-        const ForestLists& lists = lod.select(view_volume(camera, 640, 480), wood_lod());
+        const DrawLists& lists = lod.select(view_volume(camera, 640, 480), wood_lod());
         std::map<std::uint32_t, std::uint32_t> levels;
         std::set<std::array<float, 4>> drawn; // places of branches and their trees
         for (const BranchRun& run : lists.runs) {
             for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
-                const PoolBranch& branch = lod.pool().branches()[lists.branches[i].place()];
+                const PoolBranch& branch = lod.pool().branches()[lists.branches[i].slot()];
                 levels[branch.tree] = run.level;
                 drawn.insert({branch.position.x, branch.position.y, branch.position.z,
                               static_cast<float>(branch.mesh)});
@@ -234,11 +236,11 @@ TEST_CASE("what wind moves into the view is drawn") {
     windy.wind = {{30.0F, 0.0F, 0.0F}, 0.5F};
     for (const Camera& camera : cameras()) {
         const ViewVolume volume = view_volume(camera, 640, 480);
-        const ForestLists still = lod.select(volume, calm);
-        const ForestLists moved = lod.select(volume, windy);
+        const DrawLists still = lod.select(volume, calm);
+        const DrawLists moved = lod.select(volume, windy);
         CHECK(moved.trees.size() >= still.trees.size());
         CHECK(moved.branches.size() >= still.branches.size());
-        CHECK(moved.clumps.size() >= still.clumps.size());
+        CHECK(moved.clusters.size() >= still.clusters.size());
     }
     const Sway sway = sway_in(windy.wind);
     CHECK(sway.of(10.0F, 5.0F) > 2.0F);
@@ -280,17 +282,17 @@ TEST_CASE("what is listed does not know what was looked at before") {
     for (std::size_t last = 0; last < all.size(); ++last) {
         const ViewVolume volume = view_volume(all[last], 800, 450);
         ForestLod fresh(wood->model);
-        const ForestLists first = fresh.select(volume, wood_lod());
+        const DrawLists first = fresh.select(volume, wood_lod());
         const auto expected = branches_of(fresh, first);
         ForestLod used(wood->model);
         for (std::size_t i = 0; i < 3 * all.size(); ++i) {
             static_cast<void>(
                 used.select(view_volume(all[(i * 5 + last) % all.size()], 800, 450), wood_lod()));
         }
-        const ForestLists& again = used.select(volume, wood_lod());
+        const DrawLists& again = used.select(volume, wood_lod());
         CHECK(branches_of(used, again) == expected);
         CHECK(again.trees == first.trees);
-        CHECK(again.clumps == first.clumps);
+        CHECK(again.clusters == first.clusters);
         CHECK(again.detail == first.detail);
     }
 }
@@ -303,7 +305,7 @@ TEST_CASE("places of trees never overlap, and are used again") {
     std::uint64_t most = 0;
     for (std::uint32_t step = 0; step < 200; ++step) {
         const float along = static_cast<float>(step % 100);
-        const ForestLists& lists =
+        const DrawLists& lists =
             lod.select(view_volume(looking({along, 2, 50}, {along + 1, 2, 50}), 640, 480), options);
         std::uint32_t end = 0;
         std::uint64_t used = 0;
@@ -319,8 +321,8 @@ TEST_CASE("places of trees never overlap, and are used again") {
         REQUIRE(end <= lod.pool().branches().size());
         REQUIRE(used == lod.pool().used());
         most = std::max(most, used);
-        for (const ListedBranch branch : lists.branches) {
-            REQUIRE(branch.place() < end);
+        for (const BranchEntry branch : lists.branches) {
+            REQUIRE(branch.slot() < end);
         }
     }
     CHECK(lod.pool().branches().size() < 2 * most);
@@ -353,7 +355,7 @@ TEST_CASE("triangles are bounded, and trees wait where too many come near at onc
     const std::uint64_t all = lod.select(volume, options).triangles;
     REQUIRE(all > 2000);
     options.most_triangles = all / 4;
-    const ForestLists bounded = lod.select(volume, options);
+    const DrawLists bounded = lod.select(volume, options);
     CHECK(bounded.triangles <= all / 4 + all / 40); // trees are not like the mean of the impostors
     CHECK(bounded.detail < 1.0F);
     CHECK(branch_trees(bounded) > 0);
@@ -362,11 +364,11 @@ TEST_CASE("triangles are bounded, and trees wait where too many come near at onc
     ForestLod other(wood->model);
     options = wood_lod();
     options.most_expansions = 3;
-    const ForestLists first = other.select(volume, options);
+    const DrawLists first = other.select(volume, options);
     CHECK(branch_trees(first) == 3);
     CHECK(first.expanded == 3);
     CHECK(first.waiting > 0);
-    const ForestLists second = other.select(volume, options);
+    const DrawLists second = other.select(volume, options);
     CHECK(branch_trees(second) == 6);
     CHECK(second.waiting + 3 == first.waiting);
 }
@@ -411,7 +413,7 @@ TEST_CASE("impostors are of every hero, and cells of a form's trees fill their s
     const auto wood = make_wood(3000, 200.0F);
     const ForestLod lod(wood->model);
     const ImpostorPlan plan = plan_impostors(lod);
-    REQUIRE(plan.has_cells);
+    REQUIRE(plan.has_clusters);
     REQUIRE(plan.forms.size() == 2);
     const TreeForm& form = wood->model.forms[0];
     CHECK(form.impostor_trees.size() == kMaxImpostors);
@@ -424,15 +426,15 @@ TEST_CASE("impostors are of every hero, and cells of a form's trees fill their s
               plan.forms[1].cylinder.radius);
     }
     const auto grove = make_wood(100, 40.0F);
-    CHECK_FALSE(plan_impostors(ForestLod(grove->model)).has_cells);
+    CHECK_FALSE(plan_impostors(ForestLod(grove->model)).has_clusters);
 }
 
 TEST_CASE("a forest without trees lists nothing") {
     const auto wood = make_wood(0, 20.0F);
     ForestLod lod(wood->model);
-    const ForestLists& lists = lod.select(view_volume(Camera{}, 64, 48), {});
+    const DrawLists& lists = lod.select(view_volume(Camera{}, 64, 48), {});
     CHECK(lists.branches.empty());
     CHECK(lists.trees.empty());
-    CHECK(lists.clumps.empty());
+    CHECK(lists.clusters.empty());
     CHECK(lod.bounds().empty);
 }

@@ -127,17 +127,17 @@ TEST_CASE("trees behind the ground are left out, and no others") {
         const ViewVolume volume = view_volume(camera, 640, 480);
         ground.select(volume);
         horizon.look(ground, eye);
-        const ForestLists all = lod.select(volume, wood_lod());
-        const ForestLists& some = lod.select(volume, wood_lod(), &horizon);
+        const DrawLists all = lod.select(volume, wood_lod());
+        const DrawLists& some = lod.select(volume, wood_lod(), &horizon);
         CHECK(all.hidden == 0);
         hidden += some.hidden;
         std::set<std::uint32_t> left;
-        const auto collect = [&](const ForestLists& lists, const auto& take) {
-            for (const Listed& tree : lists.trees) {
-                take(tree.number);
+        const auto collect = [&](const DrawLists& lists, const auto& take) {
+            for (const DrawEntry& tree : lists.trees) {
+                take(tree.index);
             }
-            for (const Listed& clump : lists.clumps) {
-                const ForestCell& cell = lod.cells()[clump.number];
+            for (const DrawEntry& cluster : lists.clusters) {
+                const ForestCell& cell = lod.cells()[cluster.index];
                 for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
                     take(t);
                 }

@@ -141,7 +141,8 @@ ForestBuffers::Drawn ForestBuffers::make_drawn(Device& device) {
 
 ForestBuffers::ForestBuffers(Device& device)
     : array_(make_vertex_array(device)), vertices_(device), indices_(device), looks_(device),
-      forms_(device), cells_(device), forest_(make_drawn(device)), impostor_(make_drawn(device)) {
+      forms_(device), clusters_(device), forest_(make_drawn(device)),
+      impostor_(make_drawn(device)) {
     const GLuint array = array_.name();
     for (GLuint i = 0; i <= kBranchAttribute; ++i) {
         glEnableVertexArrayAttrib(array, i);
@@ -279,7 +280,7 @@ void ForestBuffers::upload_trees(const ForestLod& lod) {
         const std::uint32_t phase = drawn & 0xFFFF0000U;
         records.push_back({cell.middle, cell.scale, phase | yaw, forms + cell.form});
     }
-    cells_.fill(std::span<const TreeRecord>(records));
+    clusters_.fill(std::span<const TreeRecord>(records));
 }
 
 void ForestBuffers::upload_tree(const ForestLod& lod, std::uint32_t number) {
@@ -292,8 +293,8 @@ void ForestBuffers::upload_tree(const ForestLod& lod, std::uint32_t number) {
     trees.write(std::span<const TreeRecord>(&record, 1), offset);
 }
 
-void ForestBuffers::bind_cells() const {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, cells_.name());
+void ForestBuffers::bind_clusters() const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, clusters_.name());
 }
 
 void ForestBuffers::set_trees(std::span<const Tree> trees, std::uint32_t form) {
@@ -317,9 +318,9 @@ void ForestBuffers::set_branches(std::span<const PoolBranch> branches) {
     drawn_->branches.fill(branches);
 }
 
-void ForestBuffers::command(const ForestLists& lists) {
-    drawn_->lists.fill(std::span<const ListedBranch>(lists.branches));
-    glVertexArrayVertexBuffer(array_.name(), 1, drawn_->lists.name(), 0, sizeof(ListedBranch));
+void ForestBuffers::command(const DrawLists& lists) {
+    drawn_->lists.fill(std::span<const BranchEntry>(lists.branches));
+    glVertexArrayVertexBuffer(array_.name(), 1, drawn_->lists.name(), 0, sizeof(BranchEntry));
     std::array<std::vector<DrawCommand>, 2 * kBranchClasses> commands;
     for (const BranchRun& run : lists.runs) {
         const FormLevel& level = form_levels_[run.form][run.level];

@@ -58,18 +58,18 @@ public:
     /// Branches from elsewhere than a pool, for impostors.
     void set_branches(std::span<const PoolBranch> branches);
     /// The commands of each class for lists of branches; uploads both.
-    void command(const ForestLists& lists);
+    void command(const DrawLists& lists);
 
     /// With a program of branch.*.glsl bound; returns draws. `blends`: those of trees that are
     /// drawn as impostors too, whose program has BLENDS.
     std::uint64_t draw(BranchClass kind, bool blends = false) const;
     void bind_storage() const;
     /// After bind_storage(): numbers of trees are those of cells from now on.
-    void bind_cells() const;
+    void bind_clusters() const;
 
     [[nodiscard]] std::uint64_t mesh_bytes() const { return mesh_bytes_; }
     [[nodiscard]] std::uint64_t tree_bytes() const {
-        return forest_.trees.capacity() + cells_.capacity();
+        return forest_.trees.capacity() + clusters_.capacity();
     }
     [[nodiscard]] std::uint64_t branch_bytes() const { return forest_.branches.capacity(); }
     /// Changes with any mesh of a form.
@@ -106,7 +106,7 @@ private:
     Buffer indices_;
     Buffer looks_;
     Buffer forms_;
-    Buffer cells_;
+    Buffer clusters_;
     Drawn forest_;
     Drawn impostor_;
     Drawn* drawn_ = &forest_;

@@ -60,8 +60,8 @@ double seconds_since(Clock::time_point start) {
 ForestPass::ForestPass(Device& device)
     : device_(&device), buffers_(device), impostors_(device), terrain_(device),
       quads_(make_vertex_array(device)), quad_trees_(device) {
-    glVertexArrayAttribIFormat(quads_.name(), 0, 1, GL_UNSIGNED_INT, offsetof(Listed, number));
-    glVertexArrayAttribFormat(quads_.name(), 1, 1, GL_FLOAT, GL_FALSE, offsetof(Listed, part));
+    glVertexArrayAttribIFormat(quads_.name(), 0, 1, GL_UNSIGNED_INT, offsetof(DrawEntry, index));
+    glVertexArrayAttribFormat(quads_.name(), 1, 2, GL_FLOAT, GL_FALSE, offsetof(DrawEntry, range));
     for (const GLuint attribute : {0U, 1U}) {
         glEnableVertexArrayAttrib(quads_.name(), attribute);
         glVertexArrayAttribBinding(quads_.name(), attribute, 0);
@@ -95,7 +95,7 @@ void ForestPass::show(ForestModel model) {
     model_ = std::move(model);
     lod_ = std::make_unique<ForestLod>(model_);
     ImpostorPlan plan = plan_impostors(*lod_);
-    has_cells_ = plan.has_cells;
+    has_clusters_ = plan.has_clusters;
     buffers_.upload(model_, plan);
     impostors_.begin(model_, std::move(plan), buffers_);
     buffers_.upload_trees(*lod_);
@@ -166,7 +166,7 @@ void ForestPass::prepare(const Frame& frame) {
     options.wind = frame.wind;
     constexpr float kStill = 1e-4F; // m/s
     is_windy_ = glm::length(frame.wind.velocity) >= kStill;
-    options.horizon_pixels = has_cells_ ? options.horizon_pixels : 0.0F;
+    options.cluster_pixels = has_clusters_ ? options.cluster_pixels : 0.0F;
     terrain_.prepare(volume_);
     // Edges of triangles hide nothing.
     const bool hides = frame.style != PlantStyle::Wireframe;
@@ -177,7 +177,7 @@ void ForestPass::prepare(const Frame& frame) {
     buffers_.command(*lists_);
 }
 
-void ForestPass::draw_impostors(std::span<const Listed> trees, FrameStats& stats) {
+void ForestPass::draw_impostors(std::span<const DrawEntry> trees, FrameStats& stats) {
     if (trees.empty()) {
         return;
     }
@@ -187,7 +187,7 @@ void ForestPass::draw_impostors(std::span<const Listed> trees, FrameStats& stats
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     const auto whole = static_cast<std::size_t>(
         std::partition_point(trees.begin(), trees.end(),
-                             [](const Listed& tree) { return tree.part == kWhole; }) -
+                             [](const DrawEntry& tree) { return tree.range.is_whole(); }) -
         trees.begin());
     stats.draws += draw_quads(programs().impostor_depth, 0, whole);
     stats.draws += draw_quads(programs().blending_impostor_depth, whole, trees.size() - whole);
@@ -205,7 +205,7 @@ ForestPass::draw_quads(const ProgramObject& program, std::size_t first, std::siz
     if (count == 0) {
         return 0;
     }
-    glVertexArrayVertexBuffer(quads_.name(), 0, quad_trees_.name(), 0, sizeof(Listed));
+    glVertexArrayVertexBuffer(quads_.name(), 0, quad_trees_.name(), 0, sizeof(DrawEntry));
     glUseProgram(program.name());
     glBindTextureUnit(kAlbedos, impostors_.albedos());
     glBindTextureUnit(kNormals, impostors_.normals());
@@ -219,15 +219,15 @@ ForestPass::draw_quads(const ProgramObject& program, std::size_t first, std::siz
 void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats) {
     std::vector<std::uint32_t> numbers;
     lod_->find_within(casters_of(shadow_from_world, bounds().low.y, bounds().high.y), numbers);
-    std::vector<Listed> trees;
+    std::vector<DrawEntry> trees;
     trees.reserve(numbers.size());
     for (const std::uint32_t number : numbers) {
-        trees.push_back({number, kWhole});
+        trees.push_back({number, {}});
     }
     buffers_.bind_storage();
     glDisable(GL_CULL_FACE);
     if (!trees.empty()) {
-        quad_trees_.fill(std::span<const Listed>(trees));
+        quad_trees_.fill(std::span<const DrawEntry>(trees));
         stats.shadow.draws += draw_quads(programs().impostor_shadow, 0, trees.size());
         stats.shadow.triangles += 2 * trees.size();
     }
@@ -253,9 +253,9 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     stats.branches.triangles += lists_->triangles;
     glDisable(GL_CULL_FACE);
     draw_impostors(lists_->trees, stats.impostors);
-    if (!lists_->clumps.empty()) {
-        buffers_.bind_cells();
-        draw_impostors(lists_->clumps, stats.impostors);
+    if (!lists_->clusters.empty()) {
+        buffers_.bind_clusters();
+        draw_impostors(lists_->clusters, stats.impostors);
         buffers_.bind_storage();
     }
     const FrameStats ground = terrain_.draw();
@@ -265,8 +265,8 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     stats.far_trees = lists_->far_trees;
     stats.blended_trees = lists_->blended;
     stats.hidden_trees = lists_->hidden;
-    stats.horizon_trees = lists_->clumped_trees;
-    stats.horizon_cells = lists_->clumps.size();
+    stats.clustered_trees = lists_->clustered_trees;
+    stats.clusters = lists_->clusters.size();
     stats.drawn_branches = lists_->branches.size();
     stats.expanded_trees = lists_->expanded;
     stats.waiting_trees = lists_->waiting;

@@ -53,7 +53,7 @@ private:
     [[nodiscard]] const ForestPrograms& programs() const { return programs_[is_windy_ ? 1 : 0]; }
     void draw_branches(const BranchPrograms& programs, bool blends, FrameStats& stats);
     /// The pictures of trees, or of cells.
-    void draw_impostors(std::span<const Listed> trees, FrameStats& stats);
+    void draw_impostors(std::span<const DrawEntry> trees, FrameStats& stats);
     /// Quads of what quad_trees_ holds; returns draws.
     std::uint64_t draw_quads(const ProgramObject& program, std::size_t first, std::size_t count);
 
@@ -69,8 +69,8 @@ private:
     Buffer quad_trees_;
     ViewVolume volume_;
     GroundHorizon horizon_;
-    const ForestLists* lists_ = nullptr;
-    bool has_cells_ = false; // as pictures of their own, for the horizon
+    const DrawLists* lists_ = nullptr;
+    bool has_clusters_ = false; // as pictures of their own, for the horizon
     double bake_seconds_ = 0.0;
     double upload_seconds_ = 0.0;
     double cull_seconds_ = 0.0;

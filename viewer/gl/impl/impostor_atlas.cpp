@@ -61,15 +61,15 @@ std::uint64_t key_of(const ImpostorLayer& impostor,
 }
 
 /// The branches of a impostor as lists of a level.
-ForestLists lists_of(const TreeForm& form,
-                     std::uint32_t form_index,
-                     std::uint32_t level,
-                     const std::vector<PoolBranch>& branches) {
+DrawLists lists_of(const TreeForm& form,
+                   std::uint32_t form_index,
+                   std::uint32_t level,
+                   const std::vector<PoolBranch>& branches) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> by_mesh;
     for (std::uint32_t i = 0; i < branches.size(); ++i) {
         by_mesh[branches[i].mesh].push_back(i);
     }
-    ForestLists lists;
+    DrawLists lists;
     for (const auto& [mesh, places] : by_mesh) {
         if (form.mesh_triangles[level][mesh] != 0) {
             lists.runs.push_back({form_index, level, mesh,
