@@ -1,8 +1,8 @@
-// ForestLoader: makes forests on a thread of its own, by the rules of NewestMaker.
+// ForestLoader: makes forests on a thread of its own, by the rules of LatestRequestWorker.
 #pragma once
 
 #include "viewer/app/forest_document.h"
-#include "viewer/app/newest_maker.h"
+#include "viewer/app/latest_request_worker.h"
 
 #include <functional>
 #include <memory>
@@ -29,8 +29,8 @@ struct ForestOutcome {
 };
 
 [[nodiscard]] ForestOutcome make_forest(const ForestRequest& request,
-                                        const std::atomic<bool>& given_up);
+                                        const std::atomic<bool>& cancelled);
 
-using ForestLoader = NewestMaker<ForestRequest, ForestOutcome>;
+using ForestLoader = LatestRequestWorker<ForestRequest, ForestOutcome>;
 
 } // namespace lsys::view

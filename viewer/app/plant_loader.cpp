@@ -41,6 +41,6 @@ LoadOutcome make(const LoadRequest& request, const std::atomic<bool>& cancelled)
 
 } // namespace
 
-PlantLoader::PlantLoader(std::function<void()> done) : maker_(make, std::move(done)) {}
+PlantLoader::PlantLoader(std::function<void()> done) : worker_(make, std::move(done)) {}
 
 } // namespace lsys::view

@@ -1,7 +1,7 @@
-// PlantLoader: makes plants on a thread of its own, by the rules of NewestMaker.
+// PlantLoader: makes plants on a thread of its own, by the rules of LatestRequestWorker.
 #pragma once
 
-#include "viewer/app/newest_maker.h"
+#include "viewer/app/latest_request_worker.h"
 #include "viewer/app/options.h"
 #include "viewer/app/plant_document.h"
 
@@ -35,14 +35,14 @@ public:
     explicit PlantLoader(std::function<void()> done);
 
     void request(const ViewOptions& options, SteadyClock::time_point since) {
-        maker_.request({options, since, false});
+        worker_.request({options, since, false});
     }
-    void repeat(SteadyClock::time_point since) { maker_.repeat(since); }
-    [[nodiscard]] std::optional<LoadOutcome> take() { return maker_.take(); }
-    [[nodiscard]] bool is_busy() const { return maker_.is_busy(); }
+    void repeat(SteadyClock::time_point since) { worker_.repeat(since); }
+    [[nodiscard]] std::optional<LoadOutcome> take() { return worker_.take(); }
+    [[nodiscard]] bool is_busy() const { return worker_.is_busy(); }
 
 private:
-    NewestMaker<LoadRequest, LoadOutcome> maker_;
+    LatestRequestWorker<LoadRequest, LoadOutcome> worker_;
 };
 
 } // namespace lsys::view

@@ -1,5 +1,5 @@
-// NewestMaker: makes things on a thread of its own. The newest request wins: one that waits is
-// replaced by it, and one that is being made and takes long is given up.
+// LatestRequestWorker: makes things on a thread of its own. The newest request wins: one that waits
+// is replaced by it, and one that is being made and takes long is given up.
 #pragma once
 
 #include <atomic>
@@ -18,23 +18,23 @@ using SteadyClock = std::chrono::steady_clock;
 /// `Request` has `since`, when it came up, and `again`: it is a repetition because files have
 /// changed.
 template <typename Request, typename Outcome>
-class NewestMaker {
+class LatestRequestWorker {
 public:
     /// How long something is made although something newer waits.
     static constexpr std::chrono::milliseconds kPatience{100};
-    using Make = std::function<Outcome(const Request& request, const std::atomic<bool>& given_up)>;
+    using Run = std::function<Outcome(const Request& request, const std::atomic<bool>& cancelled)>;
 
     /// `done` is called on the maker's thread whenever there is something to take().
-    NewestMaker(Make make, std::function<void()> done)
-        : make_(std::move(make)), done_(std::move(done)), thread_([this] { run(); }) {}
-    NewestMaker(const NewestMaker&) = delete;
-    NewestMaker& operator=(const NewestMaker&) = delete;
+    LatestRequestWorker(Run run, std::function<void()> done)
+        : run_request_(std::move(run)), done_(std::move(done)), thread_([this] { loop(); }) {}
+    LatestRequestWorker(const LatestRequestWorker&) = delete;
+    LatestRequestWorker& operator=(const LatestRequestWorker&) = delete;
     /// Gives up what is being made.
-    ~NewestMaker() {
+    ~LatestRequestWorker() {
         {
             const std::lock_guard lock(mutex_);
             stops_ = true;
-            given_up_ = true;
+            cancelled_ = true;
             changed_.notify_one();
         }
         thread_.join();
@@ -42,87 +42,87 @@ public:
 
     void request(Request request) {
         const std::lock_guard lock(mutex_);
-        put(std::move(request));
+        enqueue(std::move(request));
     }
     /// The last request once more, from any thread: a file has changed, so what is being made is
     /// given up. Nothing if there was none.
     void repeat(SteadyClock::time_point since) {
         const std::lock_guard lock(mutex_);
         if (last_) {
-            given_up_ = is_making_;
+            cancelled_ = is_running_;
             Request request = *last_;
             request.since = since;
             request.again = true;
-            put(std::move(request));
+            enqueue(std::move(request));
         }
     }
     /// What was made last and not yet taken. Gives up what is being made if something newer waits
     /// and it has taken long: a slider that is dragged shows things on the way.
     [[nodiscard]] std::optional<Outcome> take() {
         const std::lock_guard lock(mutex_);
-        if (waiting_ && is_making_ && SteadyClock::now() - began_ > kPatience) {
-            given_up_ = true;
+        if (pending_ && is_running_ && SteadyClock::now() - began_ > kPatience) {
+            cancelled_ = true;
         }
-        return std::exchange(made_, std::nullopt);
+        return std::exchange(outcome_, std::nullopt);
     }
     /// Something waits, is being made or was not taken yet.
     [[nodiscard]] bool is_busy() const {
         const std::lock_guard lock(mutex_);
-        return is_making_ || waiting_ || made_;
+        return is_running_ || pending_ || outcome_;
     }
 
 private:
-    void put(Request request) {
+    void enqueue(Request request) {
         // Files that have changed have to be read, whatever else is asked for before that was
         // taken.
-        request.again = request.again || (waiting_ && waiting_->again) ||
-                        (making_again_ && (is_making_ || made_));
+        request.again = request.again || (pending_ && pending_->again) ||
+                        (running_again_ && (is_running_ || outcome_));
         last_ = request;
-        waiting_ = std::move(request);
+        pending_ = std::move(request);
         changed_.notify_one();
     }
 
-    void run() {
+    void loop() {
         while (true) {
             std::optional<Request> request;
             {
                 std::unique_lock lock(mutex_);
-                is_making_ = false;
-                changed_.wait(lock, [this] { return waiting_ || stops_; });
+                is_running_ = false;
+                changed_.wait(lock, [this] { return pending_ || stops_; });
                 if (stops_) {
                     return;
                 }
-                request = std::exchange(waiting_, std::nullopt);
-                is_making_ = true;
-                making_again_ = request->again;
+                request = std::exchange(pending_, std::nullopt);
+                is_running_ = true;
+                running_again_ = request->again;
                 began_ = SteadyClock::now();
-                given_up_ = false;
+                cancelled_ = false;
             }
-            Outcome outcome = make_(*request, given_up_);
+            Outcome outcome = run_request_(*request, cancelled_);
             {
                 const std::lock_guard lock(mutex_);
-                if (given_up_) {
+                if (cancelled_) {
                     continue;
                 }
-                made_ = std::move(outcome);
-                is_making_ = false;
+                outcome_ = std::move(outcome);
+                is_running_ = false;
             }
             done_();
         }
     }
 
-    Make make_;
+    Run run_request_;
     std::function<void()> done_;
     mutable std::mutex mutex_; // of what follows
     std::condition_variable changed_;
-    std::optional<Request> waiting_;
+    std::optional<Request> pending_;
     std::optional<Request> last_;
-    std::optional<Outcome> made_;
-    bool is_making_ = false;
-    bool making_again_ = false;
+    std::optional<Outcome> outcome_;
+    bool is_running_ = false;
+    bool running_again_ = false;
     bool stops_ = false;
     SteadyClock::time_point began_;
-    std::atomic<bool> given_up_{false};
+    std::atomic<bool> cancelled_{false};
     std::thread thread_; // goes last: it uses the others
 };
 
