@@ -12,8 +12,8 @@
 #include "viewer/scene/added_trees.h"
 #include "viewer/scene/branch_pool.h"
 #include "viewer/scene/forest_model.h"
+#include "viewer/scene/frustum.h"
 #include "viewer/scene/ground_horizon.h"
-#include "viewer/scene/view_volume.h"
 
 #include <array>
 #include <cstdint>
@@ -143,7 +143,7 @@ public:
 
     /// What `ground` hides is left out.
     [[nodiscard]] const DrawLists&
-    select(const ViewVolume& volume, const LodOptions& options, GroundHorizon* ground = nullptr);
+    select(const Frustum& frustum, const LodOptions& options, GroundHorizon* ground = nullptr);
 
     [[nodiscard]] const ForestModel& model() const { return model_; }
     /// Those of the forest. Numbers of trees go on behind them: of trees that were added.
@@ -193,13 +193,13 @@ private:
     [[nodiscard]] ViewTree made_of(const Tree& tree, std::uint32_t index);
     /// `weight`: of its impostor, if it is drawn as one.
     void visit_tree(std::uint32_t number,
-                    const ViewVolume& volume,
+                    const Frustum& frustum,
                     const LodOptions& options,
                     float weight = 1.0F);
     /// Lists a cell as one, or its trees, or both.
     void visit_cell(std::uint32_t index,
                     float distance,
-                    const ViewVolume& volume,
+                    const Frustum& frustum,
                     const LodOptions& options);
     /// A tree's branches in the pool; they are made if need be. Count 0: they have to wait.
     [[nodiscard]] PoolSpan branches_of(std::uint32_t number, const LodOptions& options);
@@ -216,11 +216,11 @@ private:
                       const ViewTree& tree,
                       float yaw,
                       std::uint32_t blend_steps,
-                      const ViewVolume& volume);
+                      const Frustum& frustum);
     /// kTreeLevels: none, an impostor.
     [[nodiscard]] static std::uint32_t level_of(float pixels, const LodOptions& options);
     [[nodiscard]] float fitting_detail(const LodOptions& options) const;
-    void list_branches(const ViewVolume& volume, const LodOptions& options);
+    void list_branches(const Frustum& frustum, const LodOptions& options);
 
     const ForestModel& model_;
     LargeVector<ViewTree> trees_;

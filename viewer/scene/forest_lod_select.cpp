@@ -19,8 +19,8 @@ constexpr std::uint32_t kTurnsKept = 32;
 constexpr int kDetailSteps = 24;
 constexpr float kNearest = 0.1F; // m: distances below count as this
 
-float pixels_of(const ViewVolume& volume, const glm::vec3& place, float height) {
-    return height * volume.pixels / std::max(glm::distance(volume.eye, place), kNearest);
+float pixels_of(const Frustum& frustum, const glm::vec3& place, float height) {
+    return height * frustum.pixels / std::max(glm::distance(frustum.eye, place), kNearest);
 }
 
 /// Weight of the finer of two LOD bands for a height of `pixels`: 0 up to the height `limit` where
@@ -55,7 +55,7 @@ Sway sway_in(const Wind& wind) {
 }
 
 const DrawLists&
-ForestLod::select(const ViewVolume& volume, const LodOptions& options, GroundHorizon* ground) {
+ForestLod::select(const Frustum& frustum, const LodOptions& options, GroundHorizon* ground) {
     lists_.branches.clear();
     lists_.runs.clear();
     lists_.trees.clear();
@@ -78,9 +78,9 @@ ForestLod::select(const ViewVolume& volume, const LodOptions& options, GroundHor
         if (cell.count == 0) {
             continue;
         }
-        if (volume.meets(swaying_box(cell.low, cell.high, sway_))) {
+        if (frustum.intersects(swaying_box(cell.low, cell.high, sway_))) {
             seen_cells_.emplace_back(
-                glm::distance(volume.eye, glm::clamp(volume.eye, cell.low, cell.high)), c);
+                glm::distance(frustum.eye, glm::clamp(frustum.eye, cell.low, cell.high)), c);
         }
     }
     std::sort(seen_cells_.begin(), seen_cells_.end());
@@ -91,16 +91,16 @@ ForestLod::select(const ViewVolume& volume, const LodOptions& options, GroundHor
             lists_.hidden += cell.count;
             continue;
         }
-        visit_cell(c, distance, volume, options);
+        visit_cell(c, distance, frustum, options);
     }
     added_.visit(
         [&](const AddedTrees::Cell& cell) {
-            return volume.meets(swaying_box(cell.low, cell.high, sway_));
+            return frustum.intersects(swaying_box(cell.low, cell.high, sway_));
         },
-        [&](std::uint32_t slot) { visit_tree(first_added() + slot, volume, options); });
+        [&](std::uint32_t slot) { visit_tree(first_added() + slot, frustum, options); });
     lists_.detail = fitting_detail(options);
     pool_.begin_turn(kTurnsKept);
-    list_branches(volume, options);
+    list_branches(frustum, options);
     lists_.far_trees += far_.size();
     lists_.trees.insert(lists_.trees.end(), far_.begin(), far_.end());
     for (std::vector<DrawEntry>* list : {&lists_.trees, &lists_.clusters}) {
@@ -139,12 +139,12 @@ bool ForestLod::is_behind_ground(const Bounds& box, float sway) const {
 
 void ForestLod::visit_cell(std::uint32_t index,
                            float distance,
-                           const ViewVolume& volume,
+                           const Frustum& frustum,
                            const LodOptions& options) {
     const ForestCell& cell = cells_[index];
     float weight = 1.0F; // of its trees
     if (cell.count >= kFewTrees && cell.gone == 0 && options.cluster_pixels > 0.0F) {
-        const float pixels = cell.tallest * volume.pixels / std::max(distance, kNearest);
+        const float pixels = cell.tallest * frustum.pixels / std::max(distance, kNearest);
         weight = pixels < options.cluster_pixels
                      ? 0.0F
                      : finer_weight(pixels, options.cluster_pixels, options.blend);
@@ -159,25 +159,25 @@ void ForestLod::visit_cell(std::uint32_t index,
     lists_.blended += weight < 1.0F ? cell.count : 0;
     for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
         if (!trees_[t].gone()) {
-            visit_tree(t, volume, options, weight);
+            visit_tree(t, frustum, options, weight);
         }
     }
 }
 
 void ForestLod::visit_tree(std::uint32_t number,
-                           const ViewVolume& volume,
+                           const Frustum& frustum,
                            const LodOptions& options,
                            float weight) {
     const ViewTree& tree = view_tree(number);
     const Ball impostor = impostor_ball(tree);
     const float pixels =
-        pixels_of(volume, impostor.centre, tree.scale * model_.forms[tree.form].height());
+        pixels_of(frustum, impostor.centre, tree.scale * model_.forms[tree.form].height());
     if (pixels >= options.level_pixels.back()) {
-        if (volume.meets(swaying(reach_of(tree, tree_of(number).yaw), tree))) {
+        if (frustum.intersects(swaying(reach_of(tree, tree_of(number).yaw), tree))) {
             candidates_.push_back({number, pixels});
         }
-    } else if (volume.meets(swaying(impostor, tree))) {
-        if (is_behind_ground(impostor_box(tree, volume.eye), sway_of(tree))) {
+    } else if (frustum.intersects(swaying(impostor, tree))) {
+        if (is_behind_ground(impostor_box(tree, frustum.eye), sway_of(tree))) {
             ++lists_.hidden;
             return;
         }
@@ -221,9 +221,9 @@ void ForestLod::see_branches(const PoolSpan& span,
                              const ViewTree& tree,
                              float yaw,
                              std::uint32_t blend_steps,
-                             const ViewVolume& volume) {
+                             const Frustum& frustum) {
     const Ball whole = swaying(reach_of(tree, yaw), tree);
-    const bool is_within = volume.holds(whole);
+    const bool is_within = frustum.contains(whole);
     const float sway = whole.radius - tree.scale * model_.forms[tree.form].reach.radius;
     const std::vector<Ball>& balls = model_.forms[tree.form].mesh_balls;
     for (std::uint32_t place = span.first; place < span.first + span.count; ++place) {
@@ -233,7 +233,7 @@ void ForestLod::see_branches(const PoolSpan& span,
             continue;
         }
         if (is_within ||
-            volume.meets({branch.at(ball.centre), branch.scale * ball.radius + sway})) {
+            frustum.intersects({branch.at(ball.centre), branch.scale * ball.radius + sway})) {
             seen_branches_.emplace_back(place, blend_steps);
         }
     }
@@ -255,7 +255,7 @@ PoolSpan ForestLod::branches_of(std::uint32_t number, const LodOptions& options)
     return made;
 }
 
-void ForestLod::list_branches(const ViewVolume& volume, const LodOptions& options) {
+void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options) {
     seen_branches_.clear();
     seen_trees_.clear();
     std::fill(mesh_counts_.begin(), mesh_counts_.end(), 0);
@@ -280,7 +280,7 @@ void ForestLod::list_branches(const ViewVolume& volume, const LodOptions& option
         const auto instances =
             static_cast<std::uint32_t>(model_.forms[tree.form].cache->instances.size());
         const auto first = static_cast<std::uint32_t>(seen_branches_.size());
-        see_branches(span, tree, tree_of(candidate.tree).yaw, steps, volume);
+        see_branches(span, tree, tree_of(candidate.tree).yaw, steps, frustum);
         if (seen_branches_.size() == first) {
             continue;
         }

@@ -3,8 +3,8 @@
 // seen. No OpenGL.
 #pragma once
 
+#include "viewer/scene/frustum.h"
 #include "viewer/scene/terrain_lod.h"
-#include "viewer/scene/view_volume.h"
 
 #include <array>
 #include <cstdint>

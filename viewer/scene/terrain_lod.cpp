@@ -72,10 +72,10 @@ void TerrainLod::make_grid(std::uint32_t level, const glm::vec3& eye) {
     changed_.push_back(level);
 }
 
-void TerrainLod::select(const ViewVolume& volume) {
+void TerrainLod::select(const Frustum& frustum) {
     patches_.clear();
     changed_.clear();
-    eye_ = volume.eye;
+    eye_ = frustum.eye;
     eye_height_ = std::max(eye_.y - terrain_.height(eye_.x, eye_.z), 0.0F);
     for (std::uint32_t level = 0; level < levels_; ++level) {
         if (range(level) > eye_height_ || level + 1 == levels_) {
@@ -90,7 +90,7 @@ void TerrainLod::select(const ViewVolume& volume) {
          z <= index(static_cast<double>(eye_.z) + reach); ++z) {
         for (std::int64_t x = index(static_cast<double>(eye_.x) - reach);
              x <= index(static_cast<double>(eye_.x) + reach); ++x) {
-            visit({x, z, top}, volume);
+            visit({x, z, top}, frustum);
         }
     }
     std::stable_sort(
@@ -106,16 +106,14 @@ float TerrainLod::distance_to(const Node& node) const {
     return glm::length(glm::vec3(away, eye_height_));
 }
 
-bool TerrainLod::is_seen(const TerrainPatch& at,
-                         std::int32_t cells,
-                         const ViewVolume& volume) const {
+bool TerrainLod::is_seen(const TerrainPatch& at, std::int32_t cells, const Frustum& frustum) const {
     const HeightGrid& grid = grids_[at.level];
     const float size = cell(at.level);
     const glm::vec3 low(static_cast<float>(at.x) * size, grid.lowest,
                         static_cast<float>(at.z) * size);
     const glm::vec3 high(static_cast<float>(at.x + cells) * size, grid.highest,
                          static_cast<float>(at.z + cells) * size);
-    return std::all_of(volume.planes.begin(), volume.planes.end(), [&](const glm::vec4& plane) {
+    return std::all_of(frustum.planes.begin(), frustum.planes.end(), [&](const glm::vec4& plane) {
         // The corner that lies farthest inside.
         const glm::vec3 corner(plane.x > 0.0F ? high.x : low.x, plane.y > 0.0F ? high.y : low.y,
                                plane.z > 0.0F ? high.z : low.z);
@@ -123,24 +121,24 @@ bool TerrainLod::is_seen(const TerrainPatch& at,
     });
 }
 
-bool TerrainLod::visit(const Node& node, const ViewVolume& volume) {
+bool TerrainLod::visit(const Node& node, const Frustum& frustum) {
     if (distance_to(node) >= range(node.level)) {
         return false;
     }
     const TerrainPatch all{static_cast<std::int32_t>(node.x) * kNodeCells,
                            static_cast<std::int32_t>(node.z) * kNodeCells, node.level};
-    if (!is_seen(all, kNodeCells, volume)) {
+    if (!is_seen(all, kNodeCells, frustum)) {
         return true;
     }
     for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
         const bool finer = node.level != 0 && visit({2 * node.x + (quarter & 1U),
                                                      2 * node.z + (quarter >> 1U), node.level - 1},
-                                                    volume);
+                                                    frustum);
         constexpr auto kCells = static_cast<std::int32_t>(kPatchCells);
         const TerrainPatch patch{all.x + static_cast<std::int32_t>(quarter & 1U) * kCells,
                                  all.z + static_cast<std::int32_t>(quarter >> 1U) * kCells,
                                  node.level};
-        if (!finer && is_seen(patch, kCells, volume)) {
+        if (!finer && is_seen(patch, kCells, frustum)) {
             patches_.push_back(patch);
         }
     }

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "runtime/terrain/terrain.h"
-#include "viewer/scene/view_volume.h"
+#include "viewer/scene/frustum.h"
 
 #include <glm/vec2.hpp>
 
@@ -52,7 +52,7 @@ public:
 
     /// Makes the heights that are needed for this camera and lists the patches in its view, near
     /// levels first.
-    void select(const ViewVolume& volume);
+    void select(const Frustum& frustum);
     [[nodiscard]] const std::vector<TerrainPatch>& patches() const { return patches_; }
     [[nodiscard]] const HeightGrid& grid(std::uint32_t level) const { return grids_[level]; }
     /// Levels whose heights were made anew by the last select().
@@ -79,10 +79,10 @@ private:
     };
     void make_grid(std::uint32_t level, const glm::vec3& eye);
     /// Whether the node was drawn, in whole or by its children.
-    bool visit(const Node& node, const ViewVolume& volume);
+    bool visit(const Node& node, const Frustum& frustum);
     [[nodiscard]] float distance_to(const Node& node) const;
     [[nodiscard]] bool
-    is_seen(const TerrainPatch& at, std::int32_t cells, const ViewVolume& volume) const;
+    is_seen(const TerrainPatch& at, std::int32_t cells, const Frustum& frustum) const;
 
     const Terrain& terrain_;
     std::uint32_t levels_ = 1;

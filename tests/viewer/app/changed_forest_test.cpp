@@ -21,7 +21,7 @@ using Drawn = std::array<float, 4>;
 std::vector<Drawn> drawn_by(ForestLod& lod, const Camera& camera) {
     LodOptions options = wood_lod();
     options.cluster_pixels = 0.0F;
-    const DrawLists& lists = lod.select(view_volume(camera, 640, 480), options);
+    const DrawLists& lists = lod.select(make_frustum(camera, 640, 480), options);
     std::vector<Drawn> drawn;
     const auto add = [&](std::uint32_t number, std::uint32_t level) {
         const glm::vec3& at = lod.view_tree(number).position;

@@ -33,7 +33,7 @@ TEST_CASE("corners lie on the terrain") {
     const Terrain terrain = hills(240.0F);
     TerrainLod lod(terrain, 3000.0F);
     for (const Camera& camera : cameras()) {
-        lod.select(view_volume(camera, 1280, 720));
+        lod.select(make_frustum(camera, 1280, 720));
         for (std::uint32_t level = 0; level < lod.levels(); ++level) {
             const HeightGrid& grid = lod.grid(level);
             if (!grid.there) {
@@ -55,7 +55,7 @@ TEST_CASE("patches cover the ground once, and their heights are there") {
     const Terrain terrain = hills(240.0F);
     TerrainLod lod(terrain, 3000.0F);
     for (const Camera& camera : cameras()) {
-        ViewVolume everywhere = view_volume(camera, 1280, 720);
+        Frustum everywhere = make_frustum(camera, 1280, 720);
         for (glm::vec4& plane : everywhere.planes) {
             plane = glm::vec4(0.0F, 0.0F, 0.0F, 1.0F);
         }
@@ -93,10 +93,10 @@ TEST_CASE("nothing in view is left out") {
     const Terrain terrain = hills(240.0F);
     TerrainLod lod(terrain, 3000.0F);
     for (const Camera& camera : cameras()) {
-        const ViewVolume volume = view_volume(camera, 1280, 720);
-        lod.select(volume);
+        const Frustum frustum = make_frustum(camera, 1280, 720);
+        lod.select(frustum);
         const std::vector<TerrainPatch> seen = lod.patches();
-        ViewVolume everywhere = volume;
+        Frustum everywhere = frustum;
         for (glm::vec4& plane : everywhere.planes) {
             plane = glm::vec4(0.0F, 0.0F, 0.0F, 1.0F);
         }
@@ -113,7 +113,7 @@ TEST_CASE("nothing in view is left out") {
                     const glm::vec3 at(static_cast<float>(patch.x + x) * size,
                                        grid.at(patch.x + x, patch.z + z),
                                        static_cast<float>(patch.z + z) * size);
-                    REQUIRE(!volume.meets({at, 0.0F}));
+                    REQUIRE(!frustum.intersects({at, 0.0F}));
                 }
             }
         }
@@ -126,7 +126,7 @@ TEST_CASE("the surface that is drawn is near the terrain") {
     const Terrain terrain = hills(240.0F);
     TerrainLod lod(terrain, 3000.0F);
     const glm::vec3 eye = cameras()[0].eye;
-    lod.select(view_volume(cameras()[0], 1280, 720));
+    lod.select(make_frustum(cameras()[0], 1280, 720));
     std::mt19937 draws(2);
     std::uniform_real_distribution<float> around(-1.0F, 1.0F);
     for (const float reach : {5.0F, 20.0F, 60.0F, 200.0F}) {
@@ -148,12 +148,12 @@ TEST_CASE("the ground is the same wherever the camera was before") {
     const Terrain terrain = hills(240.0F);
     TerrainLod fresh(terrain, 3000.0F);
     TerrainLod used(terrain, 3000.0F);
-    const ViewVolume volume = view_volume(cameras()[0], 1280, 720);
-    fresh.select(volume);
+    const Frustum frustum = make_frustum(cameras()[0], 1280, 720);
+    fresh.select(frustum);
     for (const Camera& camera : cameras()) {
-        used.select(view_volume(camera, 1280, 720));
+        used.select(make_frustum(camera, 1280, 720));
     }
-    used.select(volume);
+    used.select(frustum);
     CHECK(used.patches() == fresh.patches());
     for (std::uint32_t level = 0; level < fresh.levels(); ++level) {
         if (fresh.grid(level).there) {
@@ -162,7 +162,7 @@ TEST_CASE("the ground is the same wherever the camera was before") {
         }
     }
     // A step of the camera leaves the heights as they are.
-    used.select(volume);
+    used.select(frustum);
     CHECK(used.changed().empty());
 }
 
@@ -173,8 +173,8 @@ TEST_CASE("the device has the heights of the terrain") {
     Device device;
     TerrainPass pass(device);
     pass.show(terrain, 3000.0F);
-    pass.prepare(view_volume(cameras()[0], 1280, 720));
-    pass.prepare(view_volume(cameras()[1], 1280, 720));
+    pass.prepare(make_frustum(cameras()[0], 1280, 720));
+    pass.prepare(make_frustum(cameras()[1], 1280, 720));
     for (std::uint32_t level = 0; level < pass.lod()->levels(); ++level) {
         const HeightGrid& grid = pass.lod()->grid(level);
         if (!grid.there) {

@@ -60,8 +60,8 @@ TEST_CASE("every pixel of a tree in view is of exactly one LOD band") {
     CHECK(lod.trees().size() == 3000);
     std::uint64_t blended = 0;
     for (const Camera& camera : cameras()) {
-        const ViewVolume volume = view_volume(camera, 640, 480);
-        const DrawLists& lists = lod.select(volume, wood_lod());
+        const Frustum frustum = make_frustum(camera, 640, 480);
+        const DrawLists& lists = lod.select(frustum, wood_lod());
         std::map<std::uint32_t, float> near; // weight of its branches
         std::map<std::uint32_t, std::set<std::uint32_t>> levels;
         for (const BranchRun& run : lists.runs) {
@@ -147,7 +147,7 @@ TEST_CASE("what comes nearer blends from one LOD band to the next") {
     bool is_first = true;
     for (float away = 2000.0F; away > 20.0F; away /= kStep) {
         const DrawLists& lists = lod.select(
-            view_volume(looking({2.5F, 1, 2.5F + away}, {2.5F, 1, 2.5F}), 640, 480), options);
+            make_frustum(looking({2.5F, 1, 2.5F + away}, {2.5F, 1, 2.5F}), 640, 480), options);
         // How much of each tree are branches, and how much of the forest are cells.
         std::map<std::uint32_t, float> branches;
         for (const BranchEntry branch : lists.branches) {
@@ -183,7 +183,7 @@ TEST_CASE("every corner in view of a tree with branches is of a branch that is d
     ForestLod lod(wood->model);
     std::size_t left_out = 0;
     for (const Camera& camera : cameras()) {
-        const DrawLists& lists = lod.select(view_volume(camera, 640, 480), wood_lod());
+        const DrawLists& lists = lod.select(make_frustum(camera, 640, 480), wood_lod());
         std::map<std::uint32_t, std::uint32_t> levels;
         std::set<std::array<float, 4>> drawn; // places of branches and their trees
         for (const BranchRun& run : lists.runs) {
@@ -235,9 +235,9 @@ TEST_CASE("what wind moves into the view is drawn") {
     LodOptions windy = calm;
     windy.wind = {{30.0F, 0.0F, 0.0F}, 0.5F};
     for (const Camera& camera : cameras()) {
-        const ViewVolume volume = view_volume(camera, 640, 480);
-        const DrawLists still = lod.select(volume, calm);
-        const DrawLists moved = lod.select(volume, windy);
+        const Frustum frustum = make_frustum(camera, 640, 480);
+        const DrawLists still = lod.select(frustum, calm);
+        const DrawLists moved = lod.select(frustum, windy);
         CHECK(moved.trees.size() >= still.trees.size());
         CHECK(moved.branches.size() >= still.branches.size());
         CHECK(moved.clusters.size() >= still.clusters.size());
@@ -280,16 +280,16 @@ TEST_CASE("what is listed does not know what was looked at before") {
     const auto wood = make_wood(3000, 200.0F);
     std::vector<Camera> all = cameras();
     for (std::size_t last = 0; last < all.size(); ++last) {
-        const ViewVolume volume = view_volume(all[last], 800, 450);
+        const Frustum frustum = make_frustum(all[last], 800, 450);
         ForestLod fresh(wood->model);
-        const DrawLists first = fresh.select(volume, wood_lod());
+        const DrawLists first = fresh.select(frustum, wood_lod());
         const auto expected = branches_of(fresh, first);
         ForestLod used(wood->model);
         for (std::size_t i = 0; i < 3 * all.size(); ++i) {
             static_cast<void>(
-                used.select(view_volume(all[(i * 5 + last) % all.size()], 800, 450), wood_lod()));
+                used.select(make_frustum(all[(i * 5 + last) % all.size()], 800, 450), wood_lod()));
         }
-        const DrawLists& again = used.select(volume, wood_lod());
+        const DrawLists& again = used.select(frustum, wood_lod());
         CHECK(branches_of(used, again) == expected);
         CHECK(again.trees == first.trees);
         CHECK(again.clusters == first.clusters);
@@ -305,8 +305,8 @@ TEST_CASE("places of trees never overlap, and are used again") {
     std::uint64_t most = 0;
     for (std::uint32_t step = 0; step < 200; ++step) {
         const float along = static_cast<float>(step % 100);
-        const DrawLists& lists =
-            lod.select(view_volume(looking({along, 2, 50}, {along + 1, 2, 50}), 640, 480), options);
+        const DrawLists& lists = lod.select(
+            make_frustum(looking({along, 2, 50}, {along + 1, 2, 50}), 640, 480), options);
         std::uint32_t end = 0;
         std::uint64_t used = 0;
         std::map<std::uint32_t, std::uint32_t> ordered; // by first place
@@ -350,25 +350,25 @@ TEST_CASE("a pool that is full forgets what is not in use, and then refuses") {
 TEST_CASE("triangles are bounded, and trees wait where too many come near at once") {
     const auto wood = make_wood(3000, 200.0F);
     ForestLod lod(wood->model);
-    const ViewVolume volume = view_volume(cameras()[0], 1280, 720);
+    const Frustum frustum = make_frustum(cameras()[0], 1280, 720);
     LodOptions options = wood_lod();
-    const std::uint64_t all = lod.select(volume, options).triangles;
+    const std::uint64_t all = lod.select(frustum, options).triangles;
     REQUIRE(all > 2000);
     options.most_triangles = all / 4;
-    const DrawLists bounded = lod.select(volume, options);
+    const DrawLists bounded = lod.select(frustum, options);
     CHECK(bounded.triangles <= all / 4 + all / 40); // trees are not like the mean of the impostors
     CHECK(bounded.detail < 1.0F);
     CHECK(branch_trees(bounded) > 0);
     options.most_triangles = 0;
-    CHECK(branch_trees(lod.select(volume, options)) == 0);
+    CHECK(branch_trees(lod.select(frustum, options)) == 0);
     ForestLod other(wood->model);
     options = wood_lod();
     options.most_expansions = 3;
-    const DrawLists first = other.select(volume, options);
+    const DrawLists first = other.select(frustum, options);
     CHECK(branch_trees(first) == 3);
     CHECK(first.expanded == 3);
     CHECK(first.waiting > 0);
-    const DrawLists second = other.select(volume, options);
+    const DrawLists second = other.select(frustum, options);
     CHECK(branch_trees(second) == 6);
     CHECK(second.waiting + 3 == first.waiting);
 }
@@ -432,7 +432,7 @@ TEST_CASE("impostors are of every hero, and cells of a form's trees fill their s
 TEST_CASE("a forest without trees lists nothing") {
     const auto wood = make_wood(0, 20.0F);
     ForestLod lod(wood->model);
-    const DrawLists& lists = lod.select(view_volume(Camera{}, 64, 48), {});
+    const DrawLists& lists = lod.select(make_frustum(Camera{}, 64, 48), {});
     CHECK(lists.branches.empty());
     CHECK(lists.trees.empty());
     CHECK(lists.clusters.empty());

@@ -63,7 +63,7 @@ TEST_CASE("what the ground hides cannot be seen") {
         glm::vec3 eye(200.0F + 600.0F * part(draws), 0.0F, 200.0F + 600.0F * part(draws));
         eye.y = terrain.height(eye.x, eye.z) + (view % 4 == 3 ? 25.0F : 1.7F);
         const Camera camera{eye, eye + glm::vec3(1.0F, 0.0F, 0.3F), 60.0F};
-        ground.select(view_volume(camera, 640, 360));
+        ground.select(make_frustum(camera, 640, 360));
         horizon.look(ground, eye);
         for (int i = 0; i < 300; ++i) {
             const Box box = box_on(terrain, draws, eye);
@@ -94,7 +94,7 @@ TEST_CASE("level ground hides nothing, and from below there is none") {
     CHECK_FALSE(horizon.hides({10.0F, -1.0F, 10.0F}, {20.0F, 5.0F, 20.0F}));
     std::mt19937 draws(5);
     const auto look = [&](TerrainLod& ground, const glm::vec3& eye) {
-        ground.select(view_volume({eye, eye + glm::vec3(1.0F, 0.0F, 0.0F), 60.0F}, 64, 36));
+        ground.select(make_frustum({eye, eye + glm::vec3(1.0F, 0.0F, 0.0F), 60.0F}, 64, 36));
         horizon.look(ground, eye);
     };
     const glm::vec3 eye(500.0F, 1.7F, 500.0F);
@@ -124,11 +124,11 @@ TEST_CASE("trees behind the ground are left out, and no others") {
          {glm::vec2(300.0F, 300.0F), glm::vec2(100.0F, 420.0F), glm::vec2(510.0F, 80.0F)}) {
         const glm::vec3 eye(at.x, wood->terrain->height(at.x, at.y) + 1.7F, at.y);
         const Camera camera{eye, {300.0F, eye.y, 290.0F}, 60.0F};
-        const ViewVolume volume = view_volume(camera, 640, 480);
-        ground.select(volume);
+        const Frustum frustum = make_frustum(camera, 640, 480);
+        ground.select(frustum);
         horizon.look(ground, eye);
-        const DrawLists all = lod.select(volume, wood_lod());
-        const DrawLists& some = lod.select(volume, wood_lod(), &horizon);
+        const DrawLists all = lod.select(frustum, wood_lod());
+        const DrawLists& some = lod.select(frustum, wood_lod(), &horizon);
         CHECK(all.hidden == 0);
         hidden += some.hidden;
         std::set<std::uint32_t> left;

@@ -159,7 +159,7 @@ Bounds ForestPass::lit_bounds(const Frame& frame) const {
 
 void ForestPass::prepare(const Frame& frame) {
     const Clock::time_point start = Clock::now();
-    volume_ = view_volume(frame.camera, frame.width, frame.height);
+    frustum_ = make_frustum(frame.camera, frame.width, frame.height);
     LodOptions options;
     options.most_triangles = frame.most_triangles;
     options.most_expansions = frame.most_expansions;
@@ -167,11 +167,11 @@ void ForestPass::prepare(const Frame& frame) {
     constexpr float kStill = 1e-4F; // m/s
     is_windy_ = glm::length(frame.wind.velocity) >= kStill;
     options.cluster_pixels = has_clusters_ ? options.cluster_pixels : 0.0F;
-    terrain_.prepare(volume_);
+    terrain_.prepare(frustum_);
     // Edges of triangles hide nothing.
     const bool hides = frame.style != PlantStyle::Wireframe;
-    horizon_.look(*terrain_.lod(), volume_.eye);
-    lists_ = &lod_->select(volume_, options, hides ? &horizon_ : nullptr);
+    horizon_.look(*terrain_.lod(), frustum_.eye);
+    lists_ = &lod_->select(frustum_, options, hides ? &horizon_ : nullptr);
     cull_seconds_ = seconds_since(start);
     buffers_.upload_branches(lod_->pool());
     buffers_.command(*lists_);

@@ -67,7 +67,7 @@ private:
     TerrainPass terrain_;
     VertexArray quads_;
     Buffer quad_trees_;
-    ViewVolume volume_;
+    Frustum frustum_;
     GroundHorizon horizon_;
     const DrawLists* lists_ = nullptr;
     bool has_clusters_ = false; // as pictures of their own, for the horizon

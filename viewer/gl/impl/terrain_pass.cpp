@@ -129,8 +129,8 @@ void TerrainPass::show(const Terrain& terrain, float reach) {
     glTextureParameteri(heights_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-void TerrainPass::prepare(const ViewVolume& volume) {
-    lod_->select(volume);
+void TerrainPass::prepare(const Frustum& frustum) {
+    lod_->select(frustum);
     const auto size = static_cast<GLsizei>(kHeightTexels);
     for (const std::uint32_t level : lod_->changed()) {
         const std::vector<float>& heights = lod_->grid(level).heights;

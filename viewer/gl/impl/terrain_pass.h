@@ -21,7 +21,7 @@ public:
     /// The ground that is drawn from now on; it outlives the pass or the next call.
     void show(const Terrain& terrain, float reach);
     /// Selects for a camera and uploads what is new.
-    void prepare(const ViewVolume& volume);
+    void prepare(const Frustum& frustum);
     /// What was selected.
     FrameStats draw();
 

@@ -1,4 +1,4 @@
-// ViewVolume: what of the world is in a picture.
+// Frustum: what of the world is in a picture.
 #pragma once
 
 #include "viewer/scene/camera.h"
@@ -12,12 +12,12 @@
 namespace lsys::view {
 
 /// What a camera sees: to the inside of all planes. There is no far one.
-struct ViewVolume {
+struct Frustum {
     std::array<glm::vec4, 5> planes{}; // unit normals to the inside
     glm::vec3 eye{};
     float pixels = 1.0F; // of something as large as it is far away
 
-    [[nodiscard]] bool meets(const Ball& ball) const {
+    [[nodiscard]] bool intersects(const Ball& ball) const {
         for (const glm::vec4& plane : planes) {
             if (plane.x * ball.centre.x + plane.y * ball.centre.y + plane.z * ball.centre.z +
                     plane.w <
@@ -27,7 +27,7 @@ struct ViewVolume {
         }
         return true;
     }
-    [[nodiscard]] bool holds(const Ball& ball) const {
+    [[nodiscard]] bool contains(const Ball& ball) const {
         for (const glm::vec4& plane : planes) {
             if (plane.x * ball.centre.x + plane.y * ball.centre.y + plane.z * ball.centre.z +
                     plane.w <
@@ -38,7 +38,6 @@ struct ViewVolume {
         return true;
     }
 };
-[[nodiscard]] ViewVolume
-view_volume(const Camera& camera, std::uint32_t width, std::uint32_t height);
+[[nodiscard]] Frustum make_frustum(const Camera& camera, std::uint32_t width, std::uint32_t height);
 
 } // namespace lsys::view

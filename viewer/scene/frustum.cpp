@@ -1,4 +1,4 @@
-#include "viewer/scene/view_volume.h"
+#include "viewer/scene/frustum.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -7,7 +7,7 @@
 
 namespace lsys::view {
 
-ViewVolume view_volume(const Camera& camera, std::uint32_t width, std::uint32_t height) {
+Frustum make_frustum(const Camera& camera, std::uint32_t width, std::uint32_t height) {
     const float tangent = std::tan(0.5F * glm::radians(camera.field_of_view));
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
     const glm::vec3 along = forward_of(camera);
@@ -15,17 +15,17 @@ ViewVolume view_volume(const Camera& camera, std::uint32_t width, std::uint32_t 
     const glm::mat4 view = view_matrix(camera);
     const glm::vec3 across(view[0][0], view[1][0], view[2][0]);
     const glm::vec3 up(view[0][1], view[1][1], view[2][1]);
-    ViewVolume volume;
-    volume.eye = camera.eye;
-    volume.pixels = 0.5F * static_cast<float>(height) / tangent;
+    Frustum frustum;
+    frustum.eye = camera.eye;
+    frustum.pixels = 0.5F * static_cast<float>(height) / tangent;
     const std::array<glm::vec3, 5> normals = {glm::normalize(along * (tangent * aspect) + across),
                                               glm::normalize(along * (tangent * aspect) - across),
                                               glm::normalize(along * tangent + up),
                                               glm::normalize(along * tangent - up), along};
     for (std::size_t i = 0; i < normals.size(); ++i) {
-        volume.planes[i] = glm::vec4(normals[i], -glm::dot(normals[i], camera.eye));
+        frustum.planes[i] = glm::vec4(normals[i], -glm::dot(normals[i], camera.eye));
     }
-    return volume;
+    return frustum;
 }
 
 } // namespace lsys::view
