@@ -25,15 +25,15 @@ ForestLod::ForestLod(const ForestModel& model) : model_(model), added_(model.ter
     sort_into_cells();
 }
 
-Ball ForestLod::reach_of(const ViewTree& tree, float yaw) const {
+Sphere ForestLod::bounding_sphere(const ViewTree& tree, float yaw) const {
     const TreeForm& form = model_.forms[tree.form];
-    const glm::vec3& c = form.reach.centre;
+    const glm::vec3& c = form.sphere.centre;
     const glm::vec3 turned(std::cos(yaw) * c.x + std::sin(yaw) * c.z, c.y,
                            std::cos(yaw) * c.z - std::sin(yaw) * c.x);
-    return {tree.position + tree.scale * turned, tree.scale * form.reach.radius};
+    return {tree.position + tree.scale * turned, tree.scale * form.sphere.radius};
 }
 
-Ball ForestLod::impostor_ball(const ViewTree& tree) const {
+Sphere ForestLod::impostor_sphere(const ViewTree& tree) const {
     const TreeForm& form = model_.forms[tree.form];
     return {tree.position + glm::vec3(0.0F, tree.scale * 0.5F * (form.low + form.high), 0.0F),
             tree.scale * std::hypot(form.radius, 0.5F * form.height())};
@@ -99,11 +99,11 @@ void ForestLod::sort_into_cells() {
         glm::dvec4 total(0.0);
         for (std::uint32_t i = 0; i < cell.count; ++i) {
             const ViewTree& tree = trees_[cell.first + i];
-            const Ball reach = reach_of(tree, trees[tree.tree].yaw);
-            const Ball impostor = impostor_ball(tree);
-            for (const Ball& ball : {reach, impostor}) {
-                box.add(ball.centre - ball.radius);
-                box.add(ball.centre + ball.radius);
+            const Sphere reach = bounding_sphere(tree, trees[tree.tree].yaw);
+            const Sphere impostor = impostor_sphere(tree);
+            for (const Sphere& sphere : {reach, impostor}) {
+                box.add(sphere.centre - sphere.radius);
+                box.add(sphere.centre + sphere.radius);
             }
             cell.tallest = std::max(cell.tallest, tree.scale * model_.forms[tree.form].height());
             ++of_form[tree.form];
@@ -150,9 +150,9 @@ std::uint32_t ForestLod::change_tree(std::uint32_t index, const Tree& tree, bool
             pool_.forget(index);
             const ViewTree made = made_of(tree, index);
             Bounds box;
-            for (const Ball& ball : {reach_of(made, tree.yaw), impostor_ball(made)}) {
-                box.add(ball.centre - ball.radius);
-                box.add(ball.centre + ball.radius);
+            for (const Sphere& sphere : {bounding_sphere(made, tree.yaw), impostor_sphere(made)}) {
+                box.add(sphere.centre - sphere.radius);
+                box.add(sphere.centre + sphere.radius);
             }
             added_.put(slot, tree, made, box);
             bounds_.add(box.low);

@@ -164,9 +164,9 @@ public:
     /// Trees that stand in cells that meet a box seen from above, by cell.
     void find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const;
     /// Around a tree, whatever branches it has.
-    [[nodiscard]] Ball reach_of(const ViewTree& tree, float yaw) const;
+    [[nodiscard]] Sphere bounding_sphere(const ViewTree& tree, float yaw) const;
     /// Around its impostor.
-    [[nodiscard]] Ball impostor_ball(const ViewTree& tree) const;
+    [[nodiscard]] Sphere impostor_sphere(const ViewTree& tree) const;
     [[nodiscard]] std::uint64_t byte_count() const;
 
 private:
@@ -209,8 +209,8 @@ private:
     /// Around its impostor as it is seen from `eye`.
     [[nodiscard]] Bounds impostor_box(const ViewTree& tree, const glm::vec3& eye) const;
     [[nodiscard]] bool is_behind_ground(const Bounds& box, float sway) const;
-    /// What a ball around a part of a tree becomes in the wind.
-    [[nodiscard]] Ball swaying(const Ball& ball, const ViewTree& tree) const;
+    /// What a sphere around a part of a tree becomes in the wind.
+    [[nodiscard]] Sphere swaying(const Sphere& sphere, const ViewTree& tree) const;
     /// Lists the branches of a tree that are in view in seen_branches_.
     void see_branches(const PoolSpan& span,
                       const ViewTree& tree,

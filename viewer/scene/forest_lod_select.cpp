@@ -36,7 +36,7 @@ float sway_within(const glm::vec3& low, const glm::vec3& high, const Sway& sway)
 }
 
 /// Around a box of trees in the wind.
-Ball swaying_box(const glm::vec3& low, const glm::vec3& high, const Sway& sway) {
+Sphere swaying_box(const glm::vec3& low, const glm::vec3& high, const Sway& sway) {
     return {0.5F * (low + high), 0.5F * glm::distance(low, high) + sway_within(low, high, sway)};
 }
 
@@ -112,25 +112,25 @@ ForestLod::select(const Frustum& frustum, const LodOptions& options, GroundHoriz
 
 float ForestLod::sway_of(const ViewTree& tree) const {
     const TreeForm& form = model_.forms[tree.form];
-    const float width = glm::length(form.reach.centre) + form.reach.radius;
+    const float width = glm::length(form.sphere.centre) + form.sphere.radius;
     return sway_.of(tree.scale * form.height(), tree.scale * width);
 }
 
-Ball ForestLod::swaying(const Ball& ball, const ViewTree& tree) const {
-    return {ball.centre, ball.radius + sway_of(tree)};
+Sphere ForestLod::swaying(const Sphere& sphere, const ViewTree& tree) const {
+    return {sphere.centre, sphere.radius + sway_of(tree)};
 }
 
 Bounds ForestLod::impostor_box(const ViewTree& tree, const glm::vec3& eye) const {
     // Pictures have a margin, and those from above lean back: shaders/impostor.glsl.
     constexpr float kLevel = 0.3F; // sine, below which they are seen from the side
-    const Ball ball = impostor_ball(tree);
-    const float wide = kImpostorMargin * ball.radius;
+    const Sphere sphere = impostor_sphere(tree);
+    const float wide = kImpostorMargin * sphere.radius;
     const bool is_level =
-        std::abs(eye.y - ball.centre.y) < kLevel * glm::distance(eye, ball.centre);
+        std::abs(eye.y - sphere.centre.y) < kLevel * glm::distance(eye, sphere.centre);
     const float high =
         is_level ? kImpostorMargin * 0.5F * tree.scale * model_.forms[tree.form].height() : wide;
     const glm::vec3 half(wide, high, wide);
-    return {ball.centre - half, ball.centre + half, false};
+    return {sphere.centre - half, sphere.centre + half, false};
 }
 
 bool ForestLod::is_behind_ground(const Bounds& box, float sway) const {
@@ -169,11 +169,11 @@ void ForestLod::visit_tree(std::uint32_t number,
                            const LodOptions& options,
                            float weight) {
     const ViewTree& tree = view_tree(number);
-    const Ball impostor = impostor_ball(tree);
+    const Sphere impostor = impostor_sphere(tree);
     const float pixels =
         pixels_of(frustum, impostor.centre, tree.scale * model_.forms[tree.form].height());
     if (pixels >= options.level_pixels.back()) {
-        if (frustum.intersects(swaying(reach_of(tree, tree_of(number).yaw), tree))) {
+        if (frustum.intersects(swaying(bounding_sphere(tree, tree_of(number).yaw), tree))) {
             candidates_.push_back({number, pixels});
         }
     } else if (frustum.intersects(swaying(impostor, tree))) {
@@ -222,18 +222,18 @@ void ForestLod::see_branches(const PoolSpan& span,
                              float yaw,
                              std::uint32_t blend_steps,
                              const Frustum& frustum) {
-    const Ball whole = swaying(reach_of(tree, yaw), tree);
+    const Sphere whole = swaying(bounding_sphere(tree, yaw), tree);
     const bool is_within = frustum.contains(whole);
-    const float sway = whole.radius - tree.scale * model_.forms[tree.form].reach.radius;
-    const std::vector<Ball>& balls = model_.forms[tree.form].mesh_balls;
+    const float sway = whole.radius - tree.scale * model_.forms[tree.form].sphere.radius;
+    const std::vector<Sphere>& spheres = model_.forms[tree.form].mesh_spheres;
     for (std::uint32_t place = span.first; place < span.first + span.count; ++place) {
         const PoolBranch& branch = pool_.branches()[place];
-        const Ball& ball = balls[branch.mesh];
-        if (ball.radius < 0.0F) {
+        const Sphere& sphere = spheres[branch.mesh];
+        if (sphere.radius < 0.0F) {
             continue;
         }
         if (is_within ||
-            frustum.intersects({branch.at(ball.centre), branch.scale * ball.radius + sway})) {
+            frustum.intersects({branch.at(sphere.centre), branch.scale * sphere.radius + sway})) {
             seen_branches_.emplace_back(place, blend_steps);
         }
     }

@@ -39,15 +39,15 @@ bool is_shown(std::size_t leaf, std::uint32_t leaves_of_one) {
     return (mixed >> 40 & (leaves_of_one - 1)) == 0;
 }
 
-Ball ball_of(const Bounds& bounds) {
+Sphere sphere_around(const Bounds& bounds) {
     if (bounds.empty) {
         return {};
     }
     return {0.5F * (bounds.low + bounds.high), 0.5F * glm::distance(bounds.low, bounds.high)};
 }
 
-/// The smallest ball around both.
-Ball joined(const Ball& a, const Ball& b) {
+/// The smallest sphere around both.
+Sphere joined(const Sphere& a, const Sphere& b) {
     const float distance = glm::distance(a.centre, b.centre);
     if (distance + b.radius <= a.radius) {
         return a;
@@ -137,19 +137,20 @@ std::vector<Bounds> bounds_of_levels(const InstanceCache& cache, const TreeMeshe
 }
 
 /// Around boxes that are seen from the entries of instances, where the heroes have them.
-std::vector<Ball> balls_in_heroes(const InstanceCache& cache, const std::vector<Bounds>& bounds) {
-    std::vector<Ball> balls;
+std::vector<Sphere> spheres_in_heroes(const InstanceCache& cache,
+                                      const std::vector<Bounds>& bounds) {
+    std::vector<Sphere> spheres;
     for (std::size_t i = 0; i < bounds.size(); ++i) {
         if (bounds[i].empty) {
-            balls.push_back({{}, -1.0F});
+            spheres.push_back({{}, -1.0F});
             continue;
         }
         const Instance& instance = cache.instances[i];
-        const Ball ball = ball_of(bounds[i]);
-        balls.push_back(
-            {glm::vec3(instance.position) + glm::quat(instance.frame) * ball.centre, ball.radius});
+        const Sphere sphere = sphere_around(bounds[i]);
+        spheres.push_back({glm::vec3(instance.position) + glm::quat(instance.frame) * sphere.centre,
+                           sphere.radius});
     }
-    return balls;
+    return spheres;
 }
 
 InstanceMeshStatus make_form(const InstanceCache& cache,
@@ -187,8 +188,8 @@ InstanceMeshStatus make_form(const InstanceCache& cache,
         }
     }
     const std::vector<Bounds> bounds = bounds_of_levels(cache, levels);
-    form.reach = reaches_of(cache, bounds)[0];
-    form.mesh_balls = balls_in_heroes(cache, bounds);
+    form.sphere = bounding_spheres(cache, bounds)[0];
+    form.mesh_spheres = spheres_in_heroes(cache, bounds);
     TreeExpander expander(cache, key);
     const auto count = static_cast<double>(form.impostor_trees.size());
     for (const Tree& tree : form.impostor_trees) {
@@ -229,8 +230,9 @@ std::vector<Bounds> bounds_of(const InstanceCache& cache, const InstanceMeshes& 
     return bounds;
 }
 
-std::vector<Ball> reaches_of(const InstanceCache& cache, const std::vector<Bounds>& bounds) {
-    std::vector<Ball> reaches(cache.slots.size());
+std::vector<Sphere> bounding_spheres(const InstanceCache& cache,
+                                     const std::vector<Bounds>& bounds) {
+    std::vector<Sphere> spheres(cache.slots.size());
     std::vector<bool> known(cache.slots.size());
     // Depth first; what an exit leads to is known before what has the exit.
     std::vector<std::uint32_t> pending{0};
@@ -258,24 +260,24 @@ std::vector<Ball> reaches_of(const InstanceCache& cache, const std::vector<Bound
         if (waits) {
             continue;
         }
-        Ball all;
+        Sphere all;
         for (std::uint32_t v = 0; v < slot.variant_count; ++v) {
             const std::uint32_t i = cache.variants[slot.first_variant + v];
             const Instance& instance = cache.instances[i];
-            Ball ball = ball_of(bounds[i]);
+            Sphere sphere = sphere_around(bounds[i]);
             for (std::uint32_t e = 0; e < instance.exit_count; ++e) {
                 const InstanceExit& exit = cache.exits[instance.first_exit + e];
-                const Ball& further = reaches[exit.slot];
-                ball =
-                    joined(ball, {exit.position + exit.rotation * further.centre, further.radius});
+                const Sphere& further = spheres[exit.slot];
+                sphere = joined(sphere,
+                                {exit.position + exit.rotation * further.centre, further.radius});
             }
-            all = v == 0 ? ball : joined(all, ball);
+            all = v == 0 ? sphere : joined(all, sphere);
         }
-        reaches[index] = all;
+        spheres[index] = all;
         known[index] = true;
         pending.pop_back();
     }
-    return reaches;
+    return spheres;
 }
 
 InstanceCache coarsened(const InstanceCache& cache, std::uint32_t level, float height) {

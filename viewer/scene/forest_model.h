@@ -18,7 +18,7 @@ inline constexpr std::uint32_t kTreeLevels = 4; // 0 is the finest
 /// Trees of a form that impostors are made of, at most.
 inline constexpr std::uint32_t kMaxImpostors = 4;
 
-struct Ball {
+struct Sphere {
     glm::vec3 centre{};
     float radius = 0.0F; // m
 };
@@ -34,11 +34,11 @@ struct TreeForm {
     std::array<std::vector<std::uint32_t>, kTreeLevels> mesh_triangles; // of each instance
     /// Around the triangles of each instance at any level, where its hero has them; radius below 0:
     /// there are none.
-    std::vector<Ball> mesh_balls;
+    std::vector<Sphere> mesh_spheres;
     std::array<double, kTreeLevels> triangles{}; // of a tree, the mean of the impostors
     double branches = 0.0;                       // the same
     /// Holds every tree, whatever branches it is of, at yaw 0.
-    Ball reach;
+    Sphere sphere;
     /// Of the impostors: a cylinder about +Y.
     float radius = 0.0F;
     float low = 0.0F;
@@ -92,7 +92,7 @@ coarsened(const InstanceCache& cache, std::uint32_t level, float height);
 [[nodiscard]] std::vector<Bounds> bounds_of(const InstanceCache& cache,
                                             const InstanceMeshes& meshes);
 /// Around all that a slot can stand for, seen from its entry; by slot. `bounds`: by instance.
-[[nodiscard]] std::vector<Ball> reaches_of(const InstanceCache& cache,
-                                           const std::vector<Bounds>& bounds);
+[[nodiscard]] std::vector<Sphere> bounding_spheres(const InstanceCache& cache,
+                                                   const std::vector<Bounds>& bounds);
 
 } // namespace lsys::view

@@ -17,21 +17,21 @@ struct Frustum {
     glm::vec3 eye{};
     float pixels = 1.0F; // of something as large as it is far away
 
-    [[nodiscard]] bool intersects(const Ball& ball) const {
+    [[nodiscard]] bool intersects(const Sphere& sphere) const {
         for (const glm::vec4& plane : planes) {
-            if (plane.x * ball.centre.x + plane.y * ball.centre.y + plane.z * ball.centre.z +
+            if (plane.x * sphere.centre.x + plane.y * sphere.centre.y + plane.z * sphere.centre.z +
                     plane.w <
-                -ball.radius) {
+                -sphere.radius) {
                 return false;
             }
         }
         return true;
     }
-    [[nodiscard]] bool contains(const Ball& ball) const {
+    [[nodiscard]] bool contains(const Sphere& sphere) const {
         for (const glm::vec4& plane : planes) {
-            if (plane.x * ball.centre.x + plane.y * ball.centre.y + plane.z * ball.centre.z +
+            if (plane.x * sphere.centre.x + plane.y * sphere.centre.y + plane.z * sphere.centre.z +
                     plane.w <
-                ball.radius) {
+                sphere.radius) {
                 return false;
             }
         }

@@ -247,14 +247,14 @@ TEST_CASE("what wind moves into the view is drawn") {
     CHECK(sway_in(calm.wind).of(10.0F, 5.0F) == 0.0F);
 }
 
-TEST_CASE("all corners of a tree lie within its ball") {
+TEST_CASE("all corners of a tree lie within its sphere") {
     const auto wood = make_wood(200, 50.0F);
     ForestLod lod(wood->model);
     const TreeForm& form = wood->model.forms[0];
     const std::vector<Bounds> bounds = bounds_of(*form.cache, (*form.meshes)[0]);
     TreeExpander expander(*form.cache, wood->forest.key);
     for (const ViewTree& tree : lod.trees()) {
-        const Ball ball = lod.reach_of(tree, lod.model().forest->trees[tree.tree].yaw);
+        const Sphere sphere = lod.bounding_sphere(tree, lod.model().forest->trees[tree.tree].yaw);
         expander.expand(wood->forest.trees[tree.tree], [&](const BranchInstance& branch) {
             const Bounds& box = bounds[branch.instance];
             if (box.empty) {
@@ -262,7 +262,7 @@ TEST_CASE("all corners of a tree lie within its ball") {
             }
             for (const glm::vec3& corner : {box.low, box.high}) {
                 const glm::vec3 at = branch.position + branch.rotation * (branch.scale * corner);
-                REQUIRE(glm::distance(at, ball.centre) <= 1.001F * ball.radius);
+                REQUIRE(glm::distance(at, sphere.centre) <= 1.001F * sphere.radius);
             }
         });
         const InstanceCache& cache = *form.cache;
