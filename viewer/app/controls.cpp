@@ -141,14 +141,14 @@ void Controls::use_tool(const WindowInput& input, const PixelArea& area, ForestV
             (pixels.x - static_cast<float>(area.x) - 0.5F * static_cast<float>(area.width)) / half,
             (half - pixels.y) / half);
     };
-    for (const Touch& touch : input.touches) {
-        if (touch.kind == Touch::Kind::Release) {
+    for (const PointerEvent& event : input.pointer_events) {
+        if (event.kind == PointerEvent::Kind::Release) {
             view.end_stroke();
         } else {
-            view.work_at(place(touch.place), touch.kind == Touch::Kind::Press, touch.shift);
+            view.work_at(place(event.place), event.kind == PointerEvent::Kind::Press, event.shift);
         }
     }
-    if (input.over_picture && (input.any || !input.touches.empty())) {
+    if (input.over_picture && (input.any || !input.pointer_events.empty())) {
         view.point_at(place(input.mouse));
     }
 }

@@ -9,7 +9,7 @@
 #include "viewer/app/plant_document.h"
 #include "viewer/app/shader_folder.h"
 #include "viewer/app/window_run.h"
-#include "viewer/gl/headless.h"
+#include "viewer/gl/headless_context.h"
 #include "viewer/gl/renderer.h"
 
 #include <fmt/format.h>
@@ -28,12 +28,12 @@ namespace {
 
 /// A renderer without a window, and the context that it draws in.
 struct HiddenRenderer {
-    std::unique_ptr<Headless> context; // goes last
+    std::unique_ptr<HeadlessContext> context; // goes last
     std::unique_ptr<Renderer> renderer;
 };
 
 ExitStatus make_renderer(const ViewOptions& options, const Console& console, HiddenRenderer& made) {
-    Result<std::unique_ptr<Headless>> context = Headless::make();
+    Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::make();
     if (!context) {
         return report_error(context.error(), console);
     }

@@ -6,8 +6,8 @@
 #include "viewer/gl/impl/material_textures.h"
 #include "viewer/gl/impl/plant_mesh.h"
 #include "viewer/gl/impl/program.h"
+#include "viewer/gl/impl/render_target.h"
 #include "viewer/gl/impl/shadow_map.h"
-#include "viewer/gl/impl/target.h"
 
 #include <algorithm>
 #include <cmath>
@@ -243,7 +243,7 @@ private:
 
     Device device_; // outlives what follows
     Programs programs_;
-    Target target_;
+    RenderTarget target_;
     ShadowMap shadow_;
     MaterialTextures textures_;
     PlantMesh plant_;

@@ -77,16 +77,16 @@ struct Window::State {
         is_held = action == GLFW_PRESS && (captured || !ImGui::GetIO().WantCaptureMouse);
         if (button == GLFW_MOUSE_BUTTON_LEFT && is_held != was_held) {
             shift = (modifiers & GLFW_MOD_SHIFT) != 0;
-            touch(is_held ? Touch::Kind::Press : Touch::Kind::Release);
+            add_pointer_event(is_held ? PointerEvent::Kind::Press : PointerEvent::Kind::Release);
         }
     }
 
     /// Where the mouse is now: a press may come before any move.
-    void touch(Touch::Kind kind) {
+    void add_pointer_event(PointerEvent::Kind kind) {
         double x = 0.0;
         double y = 0.0;
         glfwGetCursorPos(window, &x, &y);
-        input.touches.push_back(
+        input.pointer_events.push_back(
             {pixels({static_cast<float>(x), static_cast<float>(y)}), kind, shift});
     }
 
@@ -112,7 +112,7 @@ struct Window::State {
             input.motion += way;
         } else if (held[GLFW_MOUSE_BUTTON_LEFT]) {
             input.left_drag += way;
-            input.touches.push_back({pixels(to), Touch::Kind::Move, shift});
+            input.pointer_events.push_back({pixels(to), PointerEvent::Kind::Move, shift});
         } else if (held[GLFW_MOUSE_BUTTON_RIGHT]) {
             input.right_drag += way;
         } else if (held[GLFW_MOUSE_BUTTON_MIDDLE]) {

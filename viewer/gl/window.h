@@ -53,7 +53,7 @@ struct KeyPress {
 };
 
 /// The left button over the picture.
-struct Touch {
+struct PointerEvent {
     enum class Kind : std::uint8_t { Press, Move, Release };
     glm::vec2 place{0.0F}; // pixels of the window, from its upper left corner
     Kind kind = Kind::Move;
@@ -67,11 +67,11 @@ struct WindowInput {
     glm::vec2 left_drag{0.0F}; // pixels, to the right and down
     glm::vec2 right_drag{0.0F};
     glm::vec2 middle_drag{0.0F};
-    std::vector<Touch> touches; // with each move while it is held
-    glm::vec2 mouse{0.0F};      // pixels, from the upper left corner
-    bool over_picture = false;  // the mouse, and not over a panel
-    glm::vec2 motion{0.0F};     // of a captured mouse
-    float wheel = 0.0F;         // away from the user
+    std::vector<PointerEvent> pointer_events; // with each move while it is held
+    glm::vec2 mouse{0.0F};                    // pixels, from the upper left corner
+    bool over_picture = false;                // the mouse, and not over a panel
+    glm::vec2 motion{0.0F};                   // of a captured mouse
+    float wheel = 0.0F;                       // away from the user
     std::vector<std::string> dropped;
     bool any = false;    // something happened, be it with the panels
     bool closes = false; // the user closed the window

@@ -30,16 +30,13 @@ bool AddedTrees::is_another(std::uint32_t slot, const Tree& tree) const {
            there.number != tree.number || there.species != tree.species;
 }
 
-void AddedTrees::put(std::uint32_t slot,
-                     const Tree& tree,
-                     const ViewTree& made,
-                     const Bounds& box) {
+void AddedTrees::put(std::uint32_t slot, const Tree& tree, const LodTree& made, const Bounds& box) {
     cells_.resize(std::size_t{kSide} * kSide);
     if (slot < added_.size()) {
         std::erase(cells_[cell_of(added_[slot].tree.position)].trees, slot);
     } else {
         Added none;
-        none.made.impostor = ViewTree::kGone;
+        none.made.impostor = LodTree::kGone;
         added_.resize(std::size_t{slot} + 1, none);
     }
     added_[slot] = {tree, made};
@@ -57,7 +54,7 @@ void AddedTrees::put(std::uint32_t slot,
 
 void AddedTrees::set_alive(std::uint32_t slot, bool alive) {
     if (slot < added_.size() && added_[slot].made.gone() == alive) {
-        added_[slot].made.impostor ^= ViewTree::kGone;
+        added_[slot].made.impostor ^= LodTree::kGone;
     }
 }
 

@@ -13,7 +13,7 @@
 namespace lsys::view {
 
 /// A tree as it is looked for.
-struct ViewTree {
+struct LodTree {
     /// In `impostor`: the tree was taken away.
     static constexpr std::uint16_t kGone = 0x8000;
 
@@ -25,7 +25,7 @@ struct ViewTree {
 
     [[nodiscard]] bool gone() const { return (impostor & kGone) != 0; }
 };
-static_assert(sizeof(ViewTree) == 24);
+static_assert(sizeof(LodTree) == 24);
 
 class AddedTrees {
 public:
@@ -40,13 +40,13 @@ public:
     /// One that has no place yet, or whose place another tree has now.
     [[nodiscard]] bool is_another(std::uint32_t slot, const Tree& tree) const;
     /// Slots are used one after the other. `box`: around the tree.
-    void put(std::uint32_t slot, const Tree& tree, const ViewTree& made, const Bounds& box);
+    void put(std::uint32_t slot, const Tree& tree, const LodTree& made, const Bounds& box);
     void set_alive(std::uint32_t slot, bool alive);
     [[nodiscard]] bool is_alive(std::uint32_t slot) const {
         return slot < added_.size() && !added_[slot].made.gone();
     }
 
-    [[nodiscard]] const ViewTree& at(std::uint32_t slot) const { return added_[slot].made; }
+    [[nodiscard]] const LodTree& at(std::uint32_t slot) const { return added_[slot].made; }
     [[nodiscard]] const Tree& tree(std::uint32_t slot) const { return added_[slot].tree; }
 
     /// visit(slot) of those that are alive in cells of which `wants` is true.
@@ -68,7 +68,7 @@ public:
 private:
     struct Added {
         Tree tree;
-        ViewTree made;
+        LodTree made;
     };
 
     [[nodiscard]] std::uint32_t cell_of(const glm::vec3& place) const;

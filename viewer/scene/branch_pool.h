@@ -37,7 +37,7 @@ struct PoolSpan {
 class BranchPool {
 public:
     /// Most branches at a time.
-    explicit BranchPool(std::uint32_t most = kMostBranches) : most_(most) {}
+    explicit BranchPool(std::uint32_t capacity = kMaxBranches) : capacity_(capacity) {}
 
     /// The branches of a tree that are there; count 0: none. They are in use for the current turn.
     [[nodiscard]] PoolSpan find(std::uint32_t tree);
@@ -45,7 +45,7 @@ public:
     /// is no room, even without those that are not in use.
     [[nodiscard]] PoolSpan add(std::uint32_t tree, std::span<const PoolBranch> branches);
     /// Begins a turn; forgets what was in use last more than `kept` turns ago.
-    void begin_turn(std::uint32_t kept);
+    void begin_frame(std::uint32_t kept);
     /// A tree is another one now, or gone.
     void forget(std::uint32_t tree);
     void clear();
@@ -58,20 +58,20 @@ public:
     /// Those in use or kept, by tree.
     [[nodiscard]] std::map<std::uint32_t, PoolSpan> spans() const;
 
-    static constexpr std::uint32_t kMostBranches = 2U << 20U; // 64 MiB
+    static constexpr std::uint32_t kMaxBranches = 2U << 20U; // 64 MiB
 
 private:
     struct Entry {
         PoolSpan span;
-        std::uint64_t turn = 0; // of its last use
+        std::uint64_t last_use = 0; // frame
     };
 
     void release(const PoolSpan& span);
-    bool take_room(std::uint32_t count, std::uint32_t& first);
-    void forget_before(std::uint64_t turn);
+    bool allocate(std::uint32_t count, std::uint32_t& first);
+    void forget_before(std::uint64_t frame);
 
-    std::uint32_t most_;
-    std::uint64_t turn_ = 0;
+    std::uint32_t capacity_;
+    std::uint64_t frame_ = 0;
     std::uint64_t used_ = 0;
     std::vector<PoolBranch> branches_;
     std::unordered_map<std::uint32_t, Entry> trees_;

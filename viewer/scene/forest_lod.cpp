@@ -25,7 +25,7 @@ ForestLod::ForestLod(const ForestModel& model) : model_(model), added_(model.ter
     sort_into_cells();
 }
 
-Sphere ForestLod::bounding_sphere(const ViewTree& tree, float yaw) const {
+Sphere ForestLod::bounding_sphere(const LodTree& tree, float yaw) const {
     const TreeForm& form = model_.forms[tree.form];
     const glm::vec3& c = form.sphere.centre;
     const glm::vec3 turned(std::cos(yaw) * c.x + std::sin(yaw) * c.z, c.y,
@@ -33,7 +33,7 @@ Sphere ForestLod::bounding_sphere(const ViewTree& tree, float yaw) const {
     return {tree.position + tree.scale * turned, tree.scale * form.sphere.radius};
 }
 
-Sphere ForestLod::impostor_sphere(const ViewTree& tree) const {
+Sphere ForestLod::impostor_sphere(const LodTree& tree) const {
     const TreeForm& form = model_.forms[tree.form];
     return {tree.position + glm::vec3(0.0F, tree.scale * 0.5F * (form.low + form.high), 0.0F),
             tree.scale * std::hypot(form.radius, 0.5F * form.height())};
@@ -47,8 +47,8 @@ std::uint64_t ForestLod::cell_of(const glm::vec3& place) const {
     return std::min(row, rows_ - 1) * columns_ + std::min(column, columns_ - 1);
 }
 
-ViewTree ForestLod::made_of(const Tree& tree, std::uint32_t index) {
-    ViewTree made;
+LodTree ForestLod::make_lod_tree(const Tree& tree, std::uint32_t index) {
+    LodTree made;
     made.position = tree.position;
     made.scale = tree.scale;
     made.tree = index;
@@ -90,7 +90,7 @@ void ForestLod::sort_into_cells() {
     trees_.resize(trees.size());
     for (std::uint32_t i = 0; i < trees.size(); ++i) {
         ForestCell& cell = cells_[cell_of(trees[i].position)];
-        trees_[cell.first + cell.count++] = made_of(trees[i], i);
+        trees_[cell.first + cell.count++] = make_lod_tree(trees[i], i);
     }
     std::vector<std::uint32_t> of_form(model_.forms.size());
     for (ForestCell& cell : cells_) {
@@ -98,7 +98,7 @@ void ForestLod::sort_into_cells() {
         std::fill(of_form.begin(), of_form.end(), 0);
         glm::dvec4 total(0.0);
         for (std::uint32_t i = 0; i < cell.count; ++i) {
-            const ViewTree& tree = trees_[cell.first + i];
+            const LodTree& tree = trees_[cell.first + i];
             const Sphere reach = bounding_sphere(tree, trees[tree.tree].yaw);
             const Sphere impostor = impostor_sphere(tree);
             for (const Sphere& sphere : {reach, impostor}) {
@@ -148,7 +148,7 @@ std::uint32_t ForestLod::change_tree(std::uint32_t index, const Tree& tree, bool
         const bool was_alive = added_.is_alive(slot);
         if (alive && added_.is_another(slot, tree)) {
             pool_.forget(index);
-            const ViewTree made = made_of(tree, index);
+            const LodTree made = make_lod_tree(tree, index);
             Bounds box;
             for (const Sphere& sphere : {bounding_sphere(made, tree.yaw), impostor_sphere(made)}) {
                 box.add(sphere.centre - sphere.radius);
@@ -168,7 +168,7 @@ std::uint32_t ForestLod::change_tree(std::uint32_t index, const Tree& tree, bool
         ++number;
     }
     if (trees_[number].gone() == alive) {
-        trees_[number].impostor ^= ViewTree::kGone;
+        trees_[number].impostor ^= LodTree::kGone;
         cell.gone += alive ? ~std::uint32_t{0} : 1U;
         alive_count_ += alive ? 1 : ~std::uint64_t{0};
     }
@@ -176,7 +176,7 @@ std::uint32_t ForestLod::change_tree(std::uint32_t index, const Tree& tree, bool
 }
 
 std::uint64_t ForestLod::byte_count() const {
-    return trees_.size() * sizeof(ViewTree) + cells_.size() * sizeof(ForestCell);
+    return trees_.size() * sizeof(LodTree) + cells_.size() * sizeof(ForestCell);
 }
 
 } // namespace lsys::view

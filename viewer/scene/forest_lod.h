@@ -89,7 +89,7 @@ private:
     std::uint32_t bits_ = 0;
 };
 static_assert(sizeof(BranchEntry) == 4);
-static_assert(BranchPool::kMostBranches <= 1U << BranchEntry::kSlotBits);
+static_assert(BranchPool::kMaxBranches <= 1U << BranchEntry::kSlotBits);
 
 /// Branches of one instance and level.
 struct BranchRun {
@@ -147,8 +147,8 @@ public:
 
     [[nodiscard]] const ForestModel& model() const { return model_; }
     /// Those of the forest. Numbers of trees go on behind them: of trees that were added.
-    [[nodiscard]] std::span<const ViewTree> trees() const { return trees_; }
-    [[nodiscard]] const ViewTree& view_tree(std::uint32_t number) const {
+    [[nodiscard]] std::span<const LodTree> trees() const { return trees_; }
+    [[nodiscard]] const LodTree& lod_tree(std::uint32_t number) const {
         return number < trees_.size() ? trees_[number] : added_.at(number - first_added());
     }
     [[nodiscard]] const Tree& tree_of(std::uint32_t number) const {
@@ -164,9 +164,9 @@ public:
     /// Trees that stand in cells that meet a box seen from above, by cell.
     void find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const;
     /// Around a tree, whatever branches it has.
-    [[nodiscard]] Sphere bounding_sphere(const ViewTree& tree, float yaw) const;
+    [[nodiscard]] Sphere bounding_sphere(const LodTree& tree, float yaw) const;
     /// Around its impostor.
-    [[nodiscard]] Sphere impostor_sphere(const ViewTree& tree) const;
+    [[nodiscard]] Sphere impostor_sphere(const LodTree& tree) const;
     [[nodiscard]] std::uint64_t byte_count() const;
 
 private:
@@ -190,7 +190,7 @@ private:
         return static_cast<std::uint32_t>(trees_.size());
     }
     [[nodiscard]] std::uint64_t cell_of(const glm::vec3& place) const;
-    [[nodiscard]] ViewTree made_of(const Tree& tree, std::uint32_t index);
+    [[nodiscard]] LodTree make_lod_tree(const Tree& tree, std::uint32_t index);
     /// `weight`: of its impostor, if it is drawn as one.
     void visit_tree(std::uint32_t number,
                     const Frustum& frustum,
@@ -205,15 +205,15 @@ private:
     [[nodiscard]] PoolSpan branches_of(std::uint32_t number, const LodOptions& options);
     /// The branches that are seen, sorted into runs.
     void list_runs();
-    [[nodiscard]] float sway_of(const ViewTree& tree) const; // m
+    [[nodiscard]] float sway_of(const LodTree& tree) const; // m
     /// Around its impostor as it is seen from `eye`.
-    [[nodiscard]] Bounds impostor_box(const ViewTree& tree, const glm::vec3& eye) const;
+    [[nodiscard]] Bounds impostor_box(const LodTree& tree, const glm::vec3& eye) const;
     [[nodiscard]] bool is_behind_ground(const Bounds& box, float sway) const;
     /// What a sphere around a part of a tree becomes in the wind.
-    [[nodiscard]] Sphere swaying(const Sphere& sphere, const ViewTree& tree) const;
+    [[nodiscard]] Sphere swaying(const Sphere& sphere, const LodTree& tree) const;
     /// Lists the branches of a tree that are in view in seen_branches_.
     void see_branches(const PoolSpan& span,
-                      const ViewTree& tree,
+                      const LodTree& tree,
                       float yaw,
                       std::uint32_t blend_steps,
                       const Frustum& frustum);
@@ -223,7 +223,7 @@ private:
     void list_branches(const Frustum& frustum, const LodOptions& options);
 
     const ForestModel& model_;
-    LargeVector<ViewTree> trees_;
+    LargeVector<LodTree> trees_;
     std::vector<ForestCell> cells_;
     Bounds bounds_;
     double cell_size_ = 1.0;

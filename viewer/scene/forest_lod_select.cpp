@@ -15,7 +15,7 @@ namespace lsys::view {
 namespace {
 
 constexpr std::uint32_t kFewTrees = 8; // a cell of fewer is never drawn as one
-constexpr std::uint32_t kTurnsKept = 32;
+constexpr std::uint32_t kFramesKept = 32;
 constexpr int kDetailSteps = 24;
 constexpr float kNearest = 0.1F; // m: distances below count as this
 
@@ -99,7 +99,7 @@ ForestLod::select(const Frustum& frustum, const LodOptions& options, GroundHoriz
         },
         [&](std::uint32_t slot) { visit_tree(first_added() + slot, frustum, options); });
     lists_.detail = fitting_detail(options);
-    pool_.begin_turn(kTurnsKept);
+    pool_.begin_frame(kFramesKept);
     list_branches(frustum, options);
     lists_.far_trees += far_.size();
     lists_.trees.insert(lists_.trees.end(), far_.begin(), far_.end());
@@ -110,17 +110,17 @@ ForestLod::select(const Frustum& frustum, const LodOptions& options, GroundHoriz
     return lists_;
 }
 
-float ForestLod::sway_of(const ViewTree& tree) const {
+float ForestLod::sway_of(const LodTree& tree) const {
     const TreeForm& form = model_.forms[tree.form];
     const float width = glm::length(form.sphere.centre) + form.sphere.radius;
     return sway_.of(tree.scale * form.height(), tree.scale * width);
 }
 
-Sphere ForestLod::swaying(const Sphere& sphere, const ViewTree& tree) const {
+Sphere ForestLod::swaying(const Sphere& sphere, const LodTree& tree) const {
     return {sphere.centre, sphere.radius + sway_of(tree)};
 }
 
-Bounds ForestLod::impostor_box(const ViewTree& tree, const glm::vec3& eye) const {
+Bounds ForestLod::impostor_box(const LodTree& tree, const glm::vec3& eye) const {
     // Pictures have a margin, and those from above lean back: shaders/impostor.glsl.
     constexpr float kLevel = 0.3F; // sine, below which they are seen from the side
     const Sphere sphere = impostor_sphere(tree);
@@ -168,7 +168,7 @@ void ForestLod::visit_tree(std::uint32_t number,
                            const Frustum& frustum,
                            const LodOptions& options,
                            float weight) {
-    const ViewTree& tree = view_tree(number);
+    const LodTree& tree = lod_tree(number);
     const Sphere impostor = impostor_sphere(tree);
     const float pixels =
         pixels_of(frustum, impostor.centre, tree.scale * model_.forms[tree.form].height());
@@ -199,7 +199,7 @@ float ForestLod::fitting_detail(const LodOptions& options) const {
         for (const Candidate& candidate : candidates_) {
             const std::uint32_t level = level_of(candidate.pixels * detail, options);
             if (level < kTreeLevels) {
-                triangles += model_.forms[view_tree(candidate.tree).form].triangles[level];
+                triangles += model_.forms[lod_tree(candidate.tree).form].triangles[level];
             }
         }
         return triangles <= static_cast<double>(options.most_triangles);
@@ -218,7 +218,7 @@ float ForestLod::fitting_detail(const LodOptions& options) const {
 }
 
 void ForestLod::see_branches(const PoolSpan& span,
-                             const ViewTree& tree,
+                             const LodTree& tree,
                              float yaw,
                              std::uint32_t blend_steps,
                              const Frustum& frustum) {
@@ -244,7 +244,7 @@ PoolSpan ForestLod::branches_of(std::uint32_t number, const LodOptions& options)
     if (span.count != 0 || lists_.expanded >= options.most_expansions) {
         return span;
     }
-    const std::uint32_t form = view_tree(number).form;
+    const std::uint32_t form = lod_tree(number).form;
     const InstanceCache& cache = *model_.forms[form].cache;
     made_branches_.clear();
     expanders_[form].expand(tree_of(number), [&](const BranchInstance& branch) {
@@ -261,7 +261,7 @@ void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options)
     std::fill(mesh_counts_.begin(), mesh_counts_.end(), 0);
     constexpr std::uint32_t kAll = BranchEntry::kBlendSteps;
     for (const Candidate& candidate : candidates_) {
-        const ViewTree& tree = view_tree(candidate.tree);
+        const LodTree& tree = lod_tree(candidate.tree);
         const float pixels = candidate.pixels * lists_.detail;
         const std::uint32_t level = level_of(pixels, options);
         const PoolSpan span =

@@ -26,7 +26,7 @@ float steps_to(float distance) {
 
 } // namespace
 
-void GroundHorizon::look(const TerrainLod& ground, const glm::vec3& eye) {
+void GroundHorizon::set_viewpoint(const TerrainLod& ground, const glm::vec3& eye) {
     // From below the ground is not seen.
     ground_ = ground.eye_height() > 0.0F ? &ground : nullptr;
     eye_ = eye;

@@ -15,7 +15,7 @@ namespace lsys::view {
 class GroundHorizon {
 public:
     /// For the eye that `ground` was selected for. What is found goes with the next call.
-    void look(const TerrainLod& ground, const glm::vec3& eye);
+    void set_viewpoint(const TerrainLod& ground, const glm::vec3& eye);
     /// Whether the ground hides all of a box, m.
     [[nodiscard]] bool hides(const glm::vec3& low, const glm::vec3& high);
 

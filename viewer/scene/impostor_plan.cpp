@@ -24,7 +24,7 @@ float drawn(std::uint32_t a, std::uint32_t b) {
 std::vector<float> mean_scales(const ForestLod& lod) {
     std::vector<double> sums(lod.model().forms.size());
     std::vector<double> counts(sums.size());
-    for (const ViewTree& tree : lod.trees()) {
+    for (const LodTree& tree : lod.trees()) {
         sums[tree.form] += static_cast<double>(tree.scale);
         counts[tree.form] += 1.0;
     }

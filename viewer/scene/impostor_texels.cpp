@@ -50,7 +50,7 @@ ImpostorTexels halved(const ImpostorTexels& from) {
     return half;
 }
 
-void spread(ImpostorTexels& picture, std::uint32_t rounds) {
+void dilate(ImpostorTexels& picture, std::uint32_t rounds) {
     std::vector<std::uint8_t> known(std::size_t{picture.width} * picture.height);
     for (std::size_t i = 0; i < known.size(); ++i) {
         known[i] = picture.albedos[4 * i + 3] != 0 ? 1 : 0;
@@ -117,8 +117,10 @@ double coverage_of(const ImpostorTexels& picture) {
     return 4.0 * sum / static_cast<double>(picture.albedos.size());
 }
 
-glm::vec4
-box_of(std::span<const std::uint8_t> picture, std::uint32_t width, const Tile& tile, float margin) {
+glm::vec4 opaque_box(std::span<const std::uint8_t> picture,
+                     std::uint32_t width,
+                     const Tile& tile,
+                     float margin) {
     const auto side = static_cast<float>(tile.side);
     glm::vec2 low(side);
     glm::vec2 high(0.0F);

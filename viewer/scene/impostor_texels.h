@@ -22,7 +22,7 @@ struct ImpostorTexels {
 [[nodiscard]] ImpostorTexels halved(const ImpostorTexels& from);
 
 /// Gives texels that are empty the colour of those beside them, so that filters find one there.
-void spread(ImpostorTexels& picture, std::uint32_t rounds);
+void dilate(ImpostorTexels& picture, std::uint32_t rounds);
 
 /// The part of a picture that is there.
 [[nodiscard]] double coverage_of(const ImpostorTexels& picture);
@@ -41,7 +41,9 @@ struct Tile {
 /// The box around the texels of a tile that are opaque and `margin` texels about them, within the
 /// tile: lowest x and y, highest x and y, as parts of its side. All 0 where nothing is opaque.
 /// `picture`: RGBA texels, `width` in a row.
-[[nodiscard]] glm::vec4
-box_of(std::span<const std::uint8_t> picture, std::uint32_t width, const Tile& tile, float margin);
+[[nodiscard]] glm::vec4 opaque_box(std::span<const std::uint8_t> picture,
+                                   std::uint32_t width,
+                                   const Tile& tile,
+                                   float margin);
 
 } // namespace lsys::view

@@ -24,7 +24,7 @@ std::vector<Drawn> drawn_by(ForestLod& lod, const Camera& camera) {
     const DrawLists& lists = lod.select(make_frustum(camera, 640, 480), options);
     std::vector<Drawn> drawn;
     const auto add = [&](std::uint32_t number, std::uint32_t level) {
-        const glm::vec3& at = lod.view_tree(number).position;
+        const glm::vec3& at = lod.lod_tree(number).position;
         drawn.push_back({at.x, at.y, at.z, static_cast<float>(level)});
     };
     for (const BranchRun& run : lists.runs) {

@@ -3,7 +3,7 @@
 #include "tests/viewer/lsview_run.h"
 #include "viewer/app/controls.h"
 #include "viewer/app/view_switcher.h"
-#include "viewer/gl/headless.h"
+#include "viewer/gl/headless_context.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -46,7 +46,7 @@ ViewOptions options_of(const std::string& file) {
 class Viewed {
 public:
     explicit Viewed(const ViewOptions& options)
-        : context_(std::move(Headless::make().value())),
+        : context_(std::move(HeadlessContext::make().value())),
           console_({in_, out_, err, false, nullptr, "lsview"}, options.messages),
           renderer(std::move(Renderer::make(built_in_shader).value())),
           views(options, console_, *renderer, [] {}) {}
@@ -98,7 +98,7 @@ public:
     }
 
 private:
-    std::unique_ptr<Headless> context_;
+    std::unique_ptr<HeadlessContext> context_;
     std::istringstream in_;
     std::ostringstream out_;
 
@@ -470,13 +470,13 @@ TEST_CASE("keys and mouse choose and use the tools of a forest") {
     CHECK(settings.tool == PaintTool::OneTree);
     WindowInput input;
     // The middle of a picture that begins 100 pixels from the left.
-    input.touches = {{{148.0F, 32.0F}, Touch::Kind::Press, false},
-                     {{149.0F, 32.0F}, Touch::Kind::Move, false},
-                     {{149.0F, 32.0F}, Touch::Kind::Release, false}};
+    input.pointer_events = {{{148.0F, 32.0F}, PointerEvent::Kind::Press, false},
+                            {{149.0F, 32.0F}, PointerEvent::Kind::Move, false},
+                            {{149.0F, 32.0F}, PointerEvent::Kind::Release, false}};
     controls.apply(input, 0.01, area, viewed.views, panels);
     CHECK(viewed.forest().painting().painted_count() == 1);
     CHECK(viewed.forest().note() == "1 tree came, 0 went; 11 trees");
-    input.touches[0].shift = true;
+    input.pointer_events[0].shift = true;
     settings.brush.radius = 1.0F;
     controls.apply(input, 0.01, area, viewed.views, panels);
     CHECK(viewed.forest().painting().painted_count() == 0);

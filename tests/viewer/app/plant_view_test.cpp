@@ -3,7 +3,7 @@
 #include "tests/viewer/lsview_run.h"
 #include "viewer/app/controls.h"
 #include "viewer/app/plant_view.h"
-#include "viewer/gl/headless.h"
+#include "viewer/gl/headless_context.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -31,7 +31,7 @@ ViewOptions options_of(const std::string& file) {
 class Viewed {
 public:
     explicit Viewed(const ViewOptions& options)
-        : context_(std::move(Headless::make().value())),
+        : context_(std::move(HeadlessContext::make().value())),
           console_({in_, out_, err, false, nullptr, "lsview"}, options.messages),
           renderer(std::move(Renderer::make(built_in_shader).value())),
           view(options, console_, *renderer, [] {}) {}
@@ -65,7 +65,7 @@ public:
     }
 
 private:
-    std::unique_ptr<Headless> context_;
+    std::unique_ptr<HeadlessContext> context_;
     std::istringstream in_;
     std::ostringstream out_;
 

@@ -1,7 +1,7 @@
 // Patches and heights of the ground that is drawn, beside the terrain itself.
 #include "tests/viewer/drawn_ground.h"
 #include "tests/viewer/wood.h"
-#include "viewer/gl/headless.h"
+#include "viewer/gl/headless_context.h"
 #include "viewer/gl/impl/terrain_pass.h"
 #include "viewer/scene/terrain_lod.h"
 
@@ -168,7 +168,7 @@ TEST_CASE("the ground is the same wherever the camera was before") {
 
 TEST_CASE("the device has the heights of the terrain") {
     const Terrain terrain = hills(240.0F);
-    const auto context = Headless::make();
+    const auto context = HeadlessContext::make();
     REQUIRE(context);
     Device device;
     TerrainPass pass(device);

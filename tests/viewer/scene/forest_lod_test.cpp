@@ -111,7 +111,7 @@ TEST_CASE("every pixel of a tree in view is of exactly one LOD band") {
             projection_matrix(camera, 640.0F / 480.0F, 0.1F) * view_matrix(camera);
         for (std::uint32_t t = 0; t < lod.trees().size(); ++t) {
             const TreeForm& form = wood->model.forms[0];
-            const ViewTree& tree = lod.trees()[t];
+            const LodTree& tree = lod.trees()[t];
             bool seen = false;
             for (const float height : {form.low, 0.5F * (form.low + form.high), form.high}) {
                 const glm::vec4 clip =
@@ -253,7 +253,7 @@ TEST_CASE("all corners of a tree lie within its sphere") {
     const TreeForm& form = wood->model.forms[0];
     const std::vector<Bounds> bounds = bounds_of(*form.cache, (*form.meshes)[0]);
     TreeExpander expander(*form.cache, wood->forest.key);
-    for (const ViewTree& tree : lod.trees()) {
+    for (const LodTree& tree : lod.trees()) {
         const Sphere sphere = lod.bounding_sphere(tree, lod.model().forest->trees[tree.tree].yaw);
         expander.expand(wood->forest.trees[tree.tree], [&](const BranchInstance& branch) {
             const Bounds& box = bounds[branch.instance];
@@ -331,17 +331,17 @@ TEST_CASE("places of trees never overlap, and are used again") {
 TEST_CASE("a pool that is full forgets what is not in use, and then refuses") {
     BranchPool pool(10);
     const std::vector<PoolBranch> four(4);
-    pool.begin_turn(1);
+    pool.begin_frame(1);
     CHECK(pool.add(1, four) == PoolSpan{0, 4});
     CHECK(pool.add(2, four) == PoolSpan{4, 4});
     CHECK(pool.add(3, four).count == 0);
-    pool.begin_turn(5);
+    pool.begin_frame(5);
     CHECK(pool.find(2).count == 4);
     CHECK(pool.add(3, four) == PoolSpan{0, 4}); // in place of 1
     CHECK(pool.find(1).count == 0);
     CHECK(pool.take_written() == std::vector<PoolSpan>{{0, 8}, {0, 4}});
-    pool.begin_turn(0);
-    pool.begin_turn(0);
+    pool.begin_frame(0);
+    pool.begin_frame(0);
     CHECK(pool.used() == 0);
     CHECK(pool.add(4, std::vector<PoolBranch>(10)) == PoolSpan{0, 10});
     CHECK(pool.add(5, std::vector<PoolBranch>(11)).count == 0);

@@ -64,7 +64,7 @@ TEST_CASE("what the ground hides cannot be seen") {
         eye.y = terrain.height(eye.x, eye.z) + (view % 4 == 3 ? 25.0F : 1.7F);
         const Camera camera{eye, eye + glm::vec3(1.0F, 0.0F, 0.3F), 60.0F};
         ground.select(make_frustum(camera, 640, 360));
-        horizon.look(ground, eye);
+        horizon.set_viewpoint(ground, eye);
         for (int i = 0; i < 300; ++i) {
             const Box box = box_on(terrain, draws, eye);
             if (!horizon.hides(box.low, box.high)) {
@@ -95,7 +95,7 @@ TEST_CASE("level ground hides nothing, and from below there is none") {
     std::mt19937 draws(5);
     const auto look = [&](TerrainLod& ground, const glm::vec3& eye) {
         ground.select(make_frustum({eye, eye + glm::vec3(1.0F, 0.0F, 0.0F), 60.0F}, 64, 36));
-        horizon.look(ground, eye);
+        horizon.set_viewpoint(ground, eye);
     };
     const glm::vec3 eye(500.0F, 1.7F, 500.0F);
     look(level, eye);
@@ -126,7 +126,7 @@ TEST_CASE("trees behind the ground are left out, and no others") {
         const Camera camera{eye, {300.0F, eye.y, 290.0F}, 60.0F};
         const Frustum frustum = make_frustum(camera, 640, 480);
         ground.select(frustum);
-        horizon.look(ground, eye);
+        horizon.set_viewpoint(ground, eye);
         const DrawLists all = lod.select(frustum, wood_lod());
         const DrawLists& some = lod.select(frustum, wood_lod(), &horizon);
         CHECK(all.hidden == 0);
@@ -150,7 +150,7 @@ TEST_CASE("trees behind the ground are left out, and no others") {
                 return;
             }
             ++missing;
-            const ViewTree& seen = lod.view_tree(tree);
+            const LodTree& seen = lod.lod_tree(tree);
             for (const float height : {form.low, form.high}) {
                 const glm::vec3 place = seen.position + glm::vec3(0.0F, seen.scale * height, 0.0F);
                 CAPTURE(tree, height);

@@ -42,7 +42,7 @@ TEST_CASE("the box of a tile holds what is opaque there, with a margin, and noth
             high_x = std::max(high_x, static_cast<float>(x + 1));
             high_y = std::max(high_y, static_cast<float>(y + 1));
         }
-        const glm::vec4 box = box_of(picture, kWidth, {kSide, 0, kSide}, kMargin);
+        const glm::vec4 box = opaque_box(picture, kWidth, {kSide, 0, kSide}, kMargin);
         const float side = kSide;
         CHECK(box.x == std::max(low_x - kMargin, 0.0F) / side);
         CHECK(box.y == std::max(low_y - kMargin, 0.0F) / side);
@@ -53,5 +53,5 @@ TEST_CASE("the box of a tile holds what is opaque there, with a margin, and noth
 
 TEST_CASE("the box of a tile without anything is empty") {
     std::vector<std::uint8_t> picture(std::size_t{4} * 16 * 16, 127);
-    CHECK(box_of(picture, 16, {0, 0, 16}, 3.0F) == glm::vec4(0.0F));
+    CHECK(opaque_box(picture, 16, {0, 0, 16}, 3.0F) == glm::vec4(0.0F));
 }

@@ -25,7 +25,7 @@ enum class BranchClass : std::uint8_t {
 inline constexpr std::size_t kBranchClasses = 4;
 
 /// What trees, branches and commands are of: impostors are drawn between pictures of the forest.
-enum class Subject : std::uint8_t { Forest, Impostor };
+enum class BufferSet : std::uint8_t { Forest, Impostor };
 
 struct DrawCommand { // as OpenGL has it
     std::uint32_t count = 0;
@@ -43,7 +43,7 @@ public:
     ForestBuffers& operator=(const ForestBuffers&) = delete;
 
     /// What the calls that follow are about.
-    void turn_to(Subject subject);
+    void use(BufferSet set);
 
     /// Gives the meshes of the model back.
     void upload(ForestModel& model, const ImpostorPlan& plan);
@@ -58,7 +58,7 @@ public:
     /// Branches from elsewhere than a pool, for impostors.
     void set_branches(std::span<const PoolBranch> branches);
     /// The commands of each class for lists of branches; uploads both.
-    void command(const DrawLists& lists);
+    void upload_commands(const DrawLists& lists);
 
     /// With a program of branch.*.glsl bound; returns draws. `blends`: those of trees that are
     /// drawn as impostors too, whose program has BLENDS.
@@ -79,37 +79,37 @@ public:
 
 private:
     /// Triangles of an instance at a level.
-    struct Piece {
+    struct IndexRanges {
         std::array<std::uint32_t, kBranchClasses> first{};
         std::array<std::uint32_t, kBranchClasses> count{};
     };
     struct FormLevel {
         std::int32_t base_vertex = 0;
-        std::vector<Piece> pieces; // by instance
+        std::vector<IndexRanges> ranges; // by instance
     };
 
     struct Commands {
         Buffer buffer;
         std::uint32_t count = 0;
     };
-    /// What is drawn of a subject.
-    struct Drawn {
+    /// What is drawn of a set.
+    struct DrawBuffers {
         Buffer trees;
         Buffer branches;
         Buffer lists;
         std::array<Commands, 2 * kBranchClasses> commands; // by class, then of what blends
     };
-    [[nodiscard]] static Drawn make_drawn(Device& device);
+    [[nodiscard]] static DrawBuffers make_draw_buffers(Device& device);
 
     VertexArray array_;
     Buffer vertices_;
     Buffer indices_;
-    Buffer looks_;
+    Buffer materials_;
     Buffer forms_;
     Buffer clusters_;
-    Drawn forest_;
-    Drawn impostor_;
-    Drawn* drawn_ = &forest_;
+    DrawBuffers forest_;
+    DrawBuffers impostor_;
+    DrawBuffers* current_ = &forest_;
     std::vector<std::uint64_t> mesh_digests_; // by form
     std::vector<std::array<FormLevel, kTreeLevels>> form_levels_;
     std::uint64_t mesh_bytes_ = 0;

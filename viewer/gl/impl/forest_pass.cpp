@@ -133,7 +133,7 @@ Bounds ForestPass::lit_bounds(const Frame& frame) const {
     while (half < kFarthestLit && half < 1.2F * above) {
         half *= 1.5F;
     }
-    // In front of the eye, or where it looks at from above.
+    // In front of the eye, or at what it looks from above.
     const glm::vec3 along = forward_of(camera);
     const glm::vec2 flat(along.x, along.z);
     const float length = glm::length(flat);
@@ -170,11 +170,11 @@ void ForestPass::prepare(const Frame& frame) {
     terrain_.prepare(frustum_);
     // Edges of triangles hide nothing.
     const bool hides = frame.style != PlantStyle::Wireframe;
-    horizon_.look(*terrain_.lod(), frustum_.eye);
+    horizon_.set_viewpoint(*terrain_.lod(), frustum_.eye);
     lists_ = &lod_->select(frustum_, options, hides ? &horizon_ : nullptr);
     cull_seconds_ = seconds_since(start);
     buffers_.upload_branches(lod_->pool());
-    buffers_.command(*lists_);
+    buffers_.upload_commands(*lists_);
 }
 
 void ForestPass::draw_impostors(std::span<const DrawEntry> trees, FrameStats& stats) {

@@ -163,7 +163,7 @@ void ImpostorAtlas::draw_row(const Cylinder& form,
 void ImpostorAtlas::upload_layer(std::uint32_t layer, ImpostorTexels picture) {
     const double wanted = coverage_of(picture);
     for (GLint level = 0; level < kLevels; ++level) {
-        spread(picture, 2);
+        dilate(picture, 2);
         const std::vector<std::uint8_t> scaled = with_coverage(picture, wanted);
         if (level == 0) {
             find_boxes(layer, scaled);
@@ -183,7 +183,7 @@ void ImpostorAtlas::find_boxes(std::uint32_t layer, std::span<const std::uint8_t
     for (std::uint32_t e = 0; e < kElevations; ++e) {
         for (std::uint32_t y = 0; y < kYaws; ++y) {
             boxes_[layer][std::size_t{e} * kYaws + y] =
-                box_of(albedos, kWidth, {y * kTile, e * kTile, kTile}, kBoxMargin);
+                opaque_box(albedos, kWidth, {y * kTile, e * kTile, kTile}, kBoxMargin);
         }
     }
     box_buffer_.write(std::span<const LayerBoxes>(&boxes_[layer], 1), layer * sizeof(LayerBoxes));
@@ -283,7 +283,7 @@ void ImpostorAtlas::begin_layer(std::uint32_t layer,
     }
     buffers.set_trees(impostor.trees, impostor.form);
     buffers.set_branches(branches);
-    buffers.command(lists_of(form, impostor.form, impostor.level, branches));
+    buffers.upload_commands(lists_of(form, impostor.form, impostor.level, branches));
 }
 
 void ImpostorAtlas::step(const ForestModel& model,
@@ -297,7 +297,7 @@ void ImpostorAtlas::step(const ForestModel& model,
         work_ = make_work();
     }
     Work& work = *work_;
-    buffers.turn_to(Subject::Impostor);
+    buffers.use(BufferSet::Impostor);
     if (work.elevation == 0) {
         work.all = {kWidth, kHeight, {}, {}};
     }
@@ -325,7 +325,7 @@ void ImpostorAtlas::step(const ForestModel& model,
     glReadBuffer(GL_COLOR_ATTACHMENT1);
     glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, work.row.normals.data());
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    buffers.turn_to(Subject::Forest);
+    buffers.use(BufferSet::Forest);
     const ImpostorTexels half = halved(work.row);
     work.all.albedos.insert(work.all.albedos.end(), half.albedos.begin(), half.albedos.end());
     work.all.normals.insert(work.all.normals.end(), half.normals.begin(), half.normals.end());

@@ -41,7 +41,7 @@ public:
 
     [[nodiscard]] GLuint albedos() const { return albedos_.name(); }
     [[nodiscard]] GLuint normals() const { return normals_.name(); }
-    /// What is there of each tile: box_of(), by layer, elevation and yaw.
+    /// What is there of each tile: opaque_box(), by layer, elevation and yaw.
     [[nodiscard]] GLuint boxes() const { return box_buffer_.name(); }
     [[nodiscard]] std::uint64_t texture_bytes() const { return texture_bytes_; }
     [[nodiscard]] std::uint32_t layers() const { return layers_; }

@@ -1,4 +1,4 @@
-#include "viewer/gl/impl/target.h"
+#include "viewer/gl/impl/render_target.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -21,7 +21,7 @@ Renderbuffer make_storage(Device& device,
 
 } // namespace
 
-void Target::begin(std::uint32_t width, std::uint32_t height, std::uint32_t samples) {
+void RenderTarget::begin(std::uint32_t width, std::uint32_t height, std::uint32_t samples) {
     if (width != width_ || height != height_ || samples != samples_) {
         width_ = width;
         height_ = height;
@@ -49,7 +49,7 @@ void Target::begin(std::uint32_t width, std::uint32_t height, std::uint32_t samp
     glClearNamedFramebufferfv(drawn_.name(), GL_DEPTH, 0, &kInfinitelyFar);
 }
 
-void Target::resolve() {
+void RenderTarget::resolve() {
     if (resolved_) {
         const auto width = static_cast<GLint>(width_);
         const auto height = static_cast<GLint>(height_);
@@ -58,7 +58,7 @@ void Target::resolve() {
     }
 }
 
-void Target::read(std::vector<std::uint8_t>& pixels) const {
+void RenderTarget::read(std::vector<std::uint8_t>& pixels) const {
     const std::size_t row = std::size_t{4} * width_;
     pixels.resize(row * height_);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_ ? resolved_.name() : drawn_.name());
@@ -74,7 +74,7 @@ void Target::read(std::vector<std::uint8_t>& pixels) const {
     }
 }
 
-void Target::present(const PixelArea& area) const {
+void RenderTarget::present(const PixelArea& area) const {
     const auto x = static_cast<GLint>(area.x);
     const auto y = static_cast<GLint>(area.y);
     const bool same_size = area.width == width_ && area.height == height_;

@@ -1,4 +1,4 @@
-#include "viewer/gl/headless.h"
+#include "viewer/gl/headless_context.h"
 
 #include <fmt/format.h>
 
@@ -38,7 +38,7 @@ bool has_extension(const char* list, std::string_view name) {
 
 } // namespace
 
-struct Headless::State {
+struct HeadlessContext::State {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
     GLFWwindow* window = nullptr;
@@ -140,14 +140,14 @@ struct Headless::State {
     }
 };
 
-Headless::Headless() : state_(std::make_unique<State>()) {}
+HeadlessContext::HeadlessContext() : state_(std::make_unique<State>()) {}
 
-Headless::~Headless() {
+HeadlessContext::~HeadlessContext() {
     state_->clear();
 }
 
-Result<std::unique_ptr<Headless>> Headless::make() {
-    std::unique_ptr<Headless> made(new Headless());
+Result<std::unique_ptr<HeadlessContext>> HeadlessContext::make() {
+    std::unique_ptr<HeadlessContext> made(new HeadlessContext());
     struct Way {
         const char* name;
         std::string (State::*use)();

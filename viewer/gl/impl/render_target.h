@@ -1,4 +1,4 @@
-// Target: the memory a picture is drawn into.
+// RenderTarget: the memory a picture is drawn into.
 #pragma once
 
 #include "viewer/gl/impl/objects.h"
@@ -9,9 +9,9 @@
 
 namespace lsys::view {
 
-class Target {
+class RenderTarget {
 public:
-    explicit Target(Device& device) : device_(&device) {}
+    explicit RenderTarget(Device& device) : device_(&device) {}
 
     /// Makes room for a picture and binds it; clears colour and depth.
     void begin(std::uint32_t width, std::uint32_t height, std::uint32_t samples);
