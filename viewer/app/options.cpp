@@ -86,8 +86,12 @@ void add_picture(CLI::App& app, ViewOptions& options) {
                    "Write counts and times of the pictures as JSON; `-` is standard output")
         ->type_name("FILE")
         ->group("Picture");
-    app.add_flag("!--no-shadows", options.shadows, "Without shadows")->group("Picture");
-    app.add_flag("!--no-ground", options.ground, "Without the ground under a plant")
+    app.add_flag_callback(
+           "--no-shadows", [&options] { options.shadows = false; }, "Without shadows")
+        ->group("Picture");
+    app.add_flag_callback(
+           "--no-ground", [&options] { options.ground = false; },
+           "Without the ground under a plant")
         ->group("Picture");
     add_choice<PlantStyle>(app, "--style", options.style,
                            {{"surface", PlantStyle::Surface},
