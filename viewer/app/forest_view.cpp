@@ -289,7 +289,7 @@ void ForestView::grow() {
 
 void ForestView::play_or_pause() {
     if (usual_years_ == 0) {
-        say("only a placement by domination grows");
+        say("only a forest placed by domination grows");
         return;
     }
     settings.grows = !settings.grows;
@@ -368,7 +368,7 @@ std::string ForestView::painted_text(const char* what) const {
         return fmt::format("{} {}", count, count == 1 ? "tree" : "trees");
     };
     const PaintCount& count = painting_.count();
-    return fmt::format("{}{} came, {} went; {}", what, trees(count.came), count.went,
+    return fmt::format("{}added {}, removed {}; {}", what, trees(count.came), count.went,
                        trees(painting_.tree_count()));
 }
 
@@ -381,27 +381,27 @@ void ForestView::end_stroke() {
 
 void ForestView::undo() {
     if (!painting_.can_undo()) {
-        say("there is nothing to undo");
+        say("nothing to undo");
         return;
     }
     painting_.undo();
     changed_ = true;
-    say(painted_text("undone: "));
+    say(painted_text("undo: "));
 }
 
 void ForestView::redo() {
     if (!painting_.can_redo()) {
-        say("there is nothing to redo");
+        say("nothing to redo");
         return;
     }
     painting_.redo();
     changed_ = true;
-    say(painted_text("done again: "));
+    say(painted_text("redo: "));
 }
 
 void ForestView::save() {
     if (!is_scene(file())) {
-        say("this forest is of no scene file, so there is nothing to save it into");
+        say("this forest has no scene file to save to");
         return;
     }
     const std::lock_guard lock(saved_mutex_);

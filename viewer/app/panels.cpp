@@ -33,50 +33,61 @@ Area picture_area(const PanelState& panels, float scale) {
     return {{left, 0.0F}, size};
 }
 
-void row(const char* name, double seconds) {
+constexpr int kNameWidth = 12; // characters
+
+void time_row(const char* name, double seconds) {
     constexpr double kMilliseconds = 1e3;
-    line(fmt::format("{:<9}{:>8.1f} ms", name, kMilliseconds * seconds));
+    line(fmt::format("{:<{}}{:>9.1f} ms", name, kNameWidth, kMilliseconds * seconds));
+}
+
+void count_row(const char* name, std::uint64_t count) {
+    line(fmt::format("{:<{}}{:>9}", name, kNameWidth, grouped(count)));
 }
 
 void draw_plant_times(const PlantView& view) {
     const PlantViewStats& stats = view.stats();
     if (const PlantDocument* const document = view.document()) {
-        row("compile", document->load_seconds);
-        row("derive", document->plant.derive_seconds);
-        row("turtle", document->plant.draw_seconds);
-        row("mesh", document->mesh_seconds);
-        row("upload", stats.upload_seconds);
-        row("swapped", stats.swap_seconds);
-        row("seen", stats.shown_seconds);
+        time_row("Compile", document->load_seconds);
+        time_row("Derive", document->plant.derive_seconds);
+        time_row("Turtle", document->plant.draw_seconds);
+        time_row("Mesh", document->mesh_seconds);
+        time_row("Upload", stats.upload_seconds);
+        time_row("Reload", stats.swap_seconds);
+        time_row("First frame", stats.shown_seconds);
         if (view.settings.bends) {
-            row("bend", stats.bend_seconds);
+            time_row("Simulate", stats.bend_seconds);
         }
-        row("picture", stats.draw_seconds);
+        time_row("Frame", stats.draw_seconds);
     }
-    line(fmt::format("{} draws, {} triangles", stats.drawn.draws, stats.drawn.triangles));
+    count_row("Draw calls", stats.drawn.draws);
+    count_row("Triangles", stats.drawn.triangles);
 }
 
 void draw_forest_times(const ForestView& view) {
     const ForestViewStats& stats = view.stats();
     if (const ForestDocument* const document = view.document()) {
-        row("heroes", document->grown.cache_seconds);
-        row("place", document->grown.place_seconds);
-        row("mesh", document->mesh_seconds);
-        row("upload", stats.upload_seconds);
-        row("swapped", stats.swap_seconds);
-        row("seen", stats.shown_seconds);
-        row("picture", stats.draw_seconds);
+        time_row("Heroes", document->grown.cache_seconds);
+        time_row("Placement", document->grown.place_seconds);
+        time_row("Mesh", document->mesh_seconds);
+        time_row("Upload", stats.upload_seconds);
+        time_row("Reload", stats.swap_seconds);
+        time_row("First frame", stats.shown_seconds);
+        time_row("Frame", stats.draw_seconds);
         const ForestFrameStats& frame = view.renderer().forest_stats();
         std::uint64_t near = 0;
         for (const std::uint32_t trees : frame.trees_of_level) {
             near += trees;
         }
-        line(fmt::format("{} trees as branches", near));
-        line(fmt::format("{} trees as pictures", frame.far_trees));
-        line(fmt::format("{} trees in {} cells", frame.clustered_trees, frame.clusters));
-        line(view.has_impostors() ? "pictures of trees are made" : "pictures of trees: at work");
+        count_row("Full trees", near);
+        count_row("Impostors", frame.far_trees);
+        count_row("Clusters", frame.clusters);
+        count_row("  trees", frame.clustered_trees);
+        if (!view.has_impostors()) {
+            line("Baking impostors");
+        }
     }
-    line(fmt::format("{} draws, {} triangles", stats.drawn.draws, stats.drawn.triangles));
+    count_row("Draw calls", stats.drawn.draws);
+    count_row("Triangles", stats.drawn.triangles);
 }
 
 void draw_statistics(ViewSwitcher& switcher, const Area& area) {
@@ -89,8 +100,8 @@ void draw_statistics(ViewSwitcher& switcher, const Area& area) {
             draw_plant_times(*plant);
         }
         const Renderer& renderer = switcher.shown().renderer();
-        line(fmt::format("{} objects, {} errors of OpenGL", renderer.live_objects(),
-                         renderer.errors().size()));
+        count_row("GL objects", renderer.live_objects());
+        count_row("GL errors", renderer.errors().size());
     }
     ImGui::End();
 }
@@ -166,9 +177,9 @@ void draw_help(std::span<const KeyHelp> keys, PanelState& panels, const Area& ar
 void draw_hint(const View& view, const PanelState& panels, const Area& area) {
     std::string text = view.note();
     if (panels.flies) {
-        text = "flying: Esc or Tab ends it";
+        text = "Flying: Esc or Tab to stop";
     } else if (!panels.panels && text.empty()) {
-        text = "H shows the panels, F1 the keys";
+        text = "H: panels, F1: keys";
     }
     if (text.empty()) {
         return;
@@ -204,17 +215,17 @@ void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
                 draw_plant_panel(*plant);
             }
             ImGui::Separator();
-            ImGui::Checkbox("statistics", &panels.statistics);
+            ImGui::Checkbox("Statistics", &panels.statistics);
             ImGui::SameLine();
-            if (ImGui::Button("keys (F1)")) {
+            if (ImGui::Button("Keys (F1)")) {
                 panels.help = !panels.help;
             }
             ImGui::SameLine();
-            if (ImGui::Button("all in view")) {
+            if (ImGui::Button("Frame all")) {
                 switcher.shown().frame_all();
             }
             if (switcher.plant() != nullptr && !switcher.last_scene().empty() &&
-                ImGui::Button("back to the forest")) {
+                ImGui::Button("Back to forest")) {
                 wanted = switcher.last_scene();
             }
         }

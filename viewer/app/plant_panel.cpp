@@ -19,7 +19,7 @@ void draw_numbers(const PlantView& view) {
     line(std::filesystem::path(view.settings.file).filename().string());
     const PlantDocument* const document = view.document();
     if (document == nullptr) {
-        line("no plant yet");
+        line("No plant yet");
         return;
     }
     const Plant& plant = document->plant;
@@ -34,11 +34,11 @@ void draw_growth(PlantView& view) {
     auto generation = static_cast<int>(view.generations());
     const auto last =
         static_cast<int>(std::max(view.usual_generations(), std::max(view.generations(), 1U)));
-    if (ImGui::SliderInt("generation", &generation, 0, last)) {
+    if (ImGui::SliderInt("Generation", &generation, 0, last)) {
         settings.generations = static_cast<std::uint32_t>(std::max(generation, 0));
         settings.grows = false;
     }
-    if (ImGui::Button(settings.grows ? "pause" : "play")) {
+    if (ImGui::Button(settings.grows ? "Pause" : "Play")) {
         view.play_or_pause();
     }
     ImGui::SameLine();
@@ -51,7 +51,7 @@ void draw_growth(PlantView& view) {
     }
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-kLabelWidth);
-    ImGui::SliderFloat("a second", &settings.generations_per_second, 0.25F, 20.0F, "%.2f",
+    ImGui::SliderFloat("Generations/s", &settings.generations_per_second, 0.25F, 20.0F, "%.2f",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     std::uint64_t seed =
         settings.seed.value_or(view.document() == nullptr ? 0 : view.document()->plant.seed);
@@ -61,11 +61,11 @@ void draw_growth(PlantView& view) {
         settings.seed = seed;
     }
     ImGui::SameLine();
-    if (ImGui::Button("next")) {
+    if (ImGui::Button("Next")) {
         next_seed(view);
     }
     ImGui::SameLine();
-    line("seed");
+    line("Seed");
 }
 
 /// The place among the definitions of what is set here.
@@ -83,7 +83,7 @@ void draw_constant(PlantViewSettings& settings, const Constant& constant, const 
     bool changed = false;
     if (constant.is_drawn && !is_set) {
         // Its value is another one in each run; a user may choose one.
-        changed = ImGui::Button("drawn by chance: set");
+        changed = ImGui::Button("Random: set");
         value = constant.is_param ? 0.5F * (constant.minimum + constant.maximum) : 0.0F;
         ImGui::SameLine();
     } else if (constant.is_param) {
@@ -134,22 +134,22 @@ void draw_constants(PlantView& view) {
 }
 
 void draw_look(PlantViewSettings& settings) {
-    if (!ImGui::CollapsingHeader("Look", ImGuiTreeNodeFlags_DefaultOpen)) {
+    if (!ImGui::CollapsingHeader("Display", ImGuiTreeNodeFlags_DefaultOpen)) {
         return;
     }
     int style = static_cast<int>(settings.style);
-    if (ImGui::Combo("style", &style, "surface\0wireframe\0none\0")) {
+    if (ImGui::Combo("Draw", &style, "Surface\0Wireframe\0None\0")) {
         settings.style = static_cast<PlantStyle>(style);
     }
     int lines = static_cast<int>(settings.lines);
-    if (ImGui::Combo("lines", &lines, "none\0skeleton\0turtle path\0")) {
+    if (ImGui::Combo("Lines", &lines, "None\0Skeleton\0Turtle path\0")) {
         settings.lines = static_cast<LineKind>(lines);
     }
-    ImGui::Checkbox("shadows", &settings.shadows);
+    ImGui::Checkbox("Shadows", &settings.shadows);
     ImGui::SameLine();
-    ImGui::Checkbox("ground", &settings.ground);
+    ImGui::Checkbox("Ground", &settings.ground);
     ImGui::SameLine();
-    ImGui::Checkbox("smooth", &settings.smooth);
+    ImGui::Checkbox("Antialiasing", &settings.smooth);
     draw_camera(settings.camera);
 }
 
@@ -159,7 +159,7 @@ void draw_mesh(PlantViewSettings& settings) {
     }
     MeshOptions& mesh = settings.mesh;
     int method = static_cast<int>(mesh.method);
-    if (ImGui::Combo("method", &method, "tubes\0cylinders\0boxes\0")) {
+    if (ImGui::Combo("Method", &method, "Tubes\0Cylinders\0Boxes\0")) {
         mesh.method = static_cast<MeshMethod>(method);
     }
     const auto slide = [](const char* name, std::uint32_t& value, std::uint32_t most,
@@ -170,13 +170,13 @@ void draw_mesh(PlantViewSettings& settings) {
     };
     constexpr std::uint32_t kMostLevels = 5;
     constexpr std::uint32_t kMostSides = 64;
-    slide("level", mesh.level, kMostLevels, "%u");
-    slide("sides", mesh.sides, kMostSides, mesh.sides == 0 ? "of the grammar" : "%u");
+    slide("Level", mesh.level, kMostLevels, "%u");
+    slide("Sides", mesh.sides, kMostSides, mesh.sides == 0 ? "from grammar" : "%u");
     // A tube has three sides at least.
     mesh.sides = mesh.sides == 0 ? 0 : std::max(mesh.sides, 3U);
-    ImGui::SliderFloat("bark noise", &mesh.bark_noise, 0.0F, 1.0F, "%.2f",
+    ImGui::SliderFloat("Bark noise", &mesh.bark_noise, 0.0F, 1.0F, "%.2f",
                        ImGuiSliderFlags_AlwaysClamp);
-    ImGui::SliderFloat("droop", &mesh.droop, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderFloat("Droop", &mesh.droop, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
 }
 
 void draw_bending(PlantViewSettings& settings) {
@@ -184,12 +184,12 @@ void draw_bending(PlantViewSettings& settings) {
         return;
     }
     PhysicsOptions& forces = settings.bending.forces;
-    ImGui::Checkbox("gravity and wind bend it", &settings.bends);
-    ImGui::SliderFloat("gravity", &forces.gravity, 0.0F, 30.0F, "%.2f m/s^2");
+    ImGui::Checkbox("Simulate", &settings.bends);
+    ImGui::SliderFloat("Gravity", &forces.gravity, 0.0F, 30.0F, "%.2f m/s^2");
     draw_wind(forces.wind);
-    ImGui::SliderFloat("stiffness", &settings.bending.stiffness, 0.01F, 100.0F, "%.3g times",
+    ImGui::SliderFloat("Stiffness", &settings.bending.stiffness, 0.01F, 100.0F, "x%.3g",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-    ImGui::SliderFloat("damping", &forces.damping, 0.001F, 1000.0F, "%.3g N m s",
+    ImGui::SliderFloat("Damping", &forces.damping, 0.001F, 1000.0F, "%.3g N m s/rad",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
 }
 

@@ -31,14 +31,15 @@ void draw_wind(Wind& wind) {
     float direction = speed > 0.0F ? std::atan2(wind.velocity.z, wind.velocity.x) * kDegrees : 0.0F;
     // No wind has no direction: that of the slider is kept by a wind that is next to none.
     constexpr float kLeast = 1e-4F;
-    bool changed = ImGui::SliderFloat("wind", &speed, 0.0F, 40.0F, "%.1f m/s");
-    changed |= ImGui::SliderFloat("to", &direction, -180.0F, 180.0F, "%.0f deg from +X");
+    bool changed = ImGui::SliderFloat("Wind speed", &speed, 0.0F, 40.0F, "%.1f m/s");
+    changed |=
+        ImGui::SliderFloat("Wind direction", &direction, -180.0F, 180.0F, "%.0f deg from +X");
     if (changed) {
         speed = std::max(speed, kLeast);
         wind.velocity = {speed * std::cos(direction / kDegrees), wind.velocity.y,
                          speed * std::sin(direction / kDegrees)};
     }
-    ImGui::SliderFloat("gusts", &wind.gust, 0.0F, 2.0F, "%.2f");
+    ImGui::SliderFloat("Gusts", &wind.gust, 0.0F, 2.0F, "%.2f");
 }
 
 void draw_camera(Camera& camera) {
@@ -52,7 +53,7 @@ void draw_camera(Camera& camera) {
         }
     }
     ImGui::SameLine();
-    if (ImGui::Button("copy camera")) {
+    if (ImGui::Button("Copy camera")) {
         ImGui::SetClipboardText(to_text(camera).c_str());
     }
 }
