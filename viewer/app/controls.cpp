@@ -239,9 +239,8 @@ void Controls::press(const KeyPress& press, ForestView& view, PanelState& panels
     constexpr float kBrushStep = 1.25F;
     const auto step = [&](bool more) {
         if (settings.tool != PaintTool::None) {
-            settings.brush.radius =
-                std::clamp(settings.brush.radius * (more ? kBrushStep : 1.0F / kBrushStep), 0.1F,
-                           kGreatestBrush);
+            settings.brush.radius = std::clamp(
+                settings.brush.radius * (more ? kBrushStep : 1.0F / kBrushStep), 0.1F, kMaxBrush);
         } else if (view.usual_years() != 0 && (more || view.years() > 0)) {
             view.set_years(more ? view.years() + 1 : view.years() - 1);
         }

@@ -14,9 +14,9 @@ namespace lsys::view {
 namespace {
 
 constexpr double kPickCell = 1.0; // m, of the ground as it is looked for, at least
-constexpr double kMostCells = 1024.0;
+constexpr double kMaxCells = 1024.0;
 constexpr float kStep = 0.5F; // of the radius: between places of a stroke
-constexpr std::uint32_t kMostSteps = 256;
+constexpr std::uint32_t kMaxSteps = 256;
 
 std::vector<std::string> names_of(const Scene& scene) {
     std::vector<std::string> names;
@@ -33,7 +33,7 @@ bool is_same_ground(const SceneTerrain& a, const SceneTerrain& b) {
 }
 
 std::uint32_t cells_along(double size) {
-    return static_cast<std::uint32_t>(std::clamp(size / kPickCell, 16.0, kMostCells));
+    return static_cast<std::uint32_t>(std::clamp(size / kPickCell, 16.0, kMaxCells));
 }
 
 /// Where the ray meets the ground itself, near where it meets the cells of a field.
@@ -182,7 +182,7 @@ void ForestPainting::go_over(const glm::dvec3& place,
         return; // a tree a press; and the brush has been here
     }
     const std::uint32_t steps =
-        std::min(static_cast<std::uint32_t>(std::min(way / step, 1e6F)), kMostSteps);
+        std::min(static_cast<std::uint32_t>(std::min(way / step, 1e6F)), kMaxSteps);
     for (std::uint32_t i = 1; i <= steps; ++i) {
         const float part = static_cast<float>(i) / static_cast<float>(steps);
         dab(from.x + part * (x - from.x), from.y + part * (z - from.y), tool, brush);

@@ -126,7 +126,7 @@ void draw_painting(ForestView& view) {
     }
     constexpr ImGuiSliderFlags kLogarithmic =
         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp;
-    ImGui::SliderFloat("Radius", &brush.radius, 0.1F, kGreatestBrush, "%.1f m", kLogarithmic);
+    ImGui::SliderFloat("Radius", &brush.radius, 0.1F, kMaxBrush, "%.1f m", kLogarithmic);
     ImGui::SliderFloat("Density", &brush.density, 0.0001F, 10.0F, "%.4g /m^2", kLogarithmic);
     if (const ForestDocument* const document = view.document()) {
         const std::vector<SceneSpecies>& species = document->scene.species;
@@ -213,18 +213,18 @@ void draw_placement(ForestView& view) {
                      "poisson-cells\0density-cells\0")) {
         choose_method(edits, static_cast<PlacementMethod>(method), document->scene);
     }
-    constexpr std::uint64_t kMostKeys = ~std::uint64_t{0};
-    constexpr double kMostDistance = 10'000.0;
+    constexpr std::uint64_t kMaxKeys = ~std::uint64_t{0};
+    constexpr double kMaxDistance = 10'000.0;
     if (reads_count(placement.method)) {
         edit_whole("Trees", placement.count, edits.count, 0, kMaxTrees);
     }
     if (reads_spacing(placement.method)) {
-        edit_length("Spacing", placement.spacing, edits.spacing, 0.05, kMostDistance, "%.3g m");
+        edit_length("Spacing", placement.spacing, edits.spacing, 0.05, kMaxDistance, "%.3g m");
     }
     if (reads_density(placement.method)) {
         edit_length("Trees per m^2", placement.density, edits.density, 1e-6, 100.0, "%.3g");
     }
-    edit_whole("Key", placement.key, edits.key, 0, kMostKeys);
+    edit_whole("Key", placement.key, edits.key, 0, kMaxKeys);
 }
 
 void draw_ground(ForestView& view) {
@@ -243,11 +243,11 @@ void draw_ground(ForestView& view) {
         edits.terrain = static_cast<TerrainKind>(kind);
     }
     if (terrain.kind == TerrainKind::Noise) {
-        constexpr std::uint64_t kMostSeeds = ~std::uint64_t{0};
+        constexpr std::uint64_t kMaxSeeds = ~std::uint64_t{0};
         edit_length("Height", terrain.noise.height, edits.hill_height, 0.0, 5000.0, "%.3g m");
         edit_length("Hill spacing", terrain.noise.feature, edits.hill_spacing, 1.0, 50'000.0,
                     "%.3g m");
-        edit_whole("Seed", terrain.noise.seed, edits.hill_seed, 0, kMostSeeds);
+        edit_whole("Seed", terrain.noise.seed, edits.hill_seed, 0, kMaxSeeds);
     }
 }
 
@@ -256,9 +256,9 @@ void draw_cache(ForestView& view) {
     if (document == nullptr || !ImGui::CollapsingHeader("Branch reuse")) {
         return;
     }
-    constexpr std::uint32_t kMostKept = 64;
+    constexpr std::uint32_t kMaxKept = 64;
     edit_whole("Max per key", document->scene.species.front().cache.cap,
-               view.settings.edits.cache_cap, 0U, kMostKept,
+               view.settings.edits.cache_cap, 0U, kMaxKept,
                document->scene.species.front().cache.cap == 0 ? "no limit" : "%u");
     for (const CacheNumbers& each : view.stats().caches) {
         line(fmt::format("{}, {} generations:", each.species, each.generations));
@@ -283,11 +283,10 @@ void draw_look(ForestView& view) {
     ImGui::Checkbox("Wireframe", &settings.wireframe);
     ImGui::Checkbox("Wind", &settings.windy);
     draw_wind(settings.wind);
-    constexpr std::uint64_t kLeast = 0;
-    constexpr std::uint64_t kMost = 20'000'000;
-    ImGui::SliderScalar("Max triangles", ImGuiDataType_U64, &settings.most_triangles, &kLeast,
-                        &kMost, nullptr,
-                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    constexpr std::uint64_t kMin = 0;
+    constexpr std::uint64_t kMax = 20'000'000;
+    ImGui::SliderScalar("Max triangles", ImGuiDataType_U64, &settings.max_triangles, &kMin, &kMax,
+                        nullptr, ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     draw_camera(settings.camera);
 }
 

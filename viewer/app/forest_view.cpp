@@ -17,7 +17,7 @@ constexpr double kMilliseconds = 1e3;
 // So long pictures of far trees are made between two looks at what the user does, s.
 constexpr double kBakeTime = 0.02;
 // Trees whose branches are made for one picture, so that a camera that flies does not halt.
-constexpr std::uint32_t kMostExpansions = 1000;
+constexpr std::uint32_t kMaxExpansions = 1000;
 // A picture that takes longer is drawn coarser while something moves, and again when all has been
 // at rest for a while, s.
 constexpr double kSlowPicture = 0.12;
@@ -31,7 +31,7 @@ ForestViewSettings first_settings(const ViewOptions& options) {
     settings.wireframe = options.style == PlantStyle::Wireframe;
     settings.windy = options.wind.has_value();
     settings.wind = options.wind.value_or(Wind{{5.0F, 0.0F, 0.0F}, 0.5F});
-    settings.most_triangles = options.most_triangles;
+    settings.max_triangles = options.max_triangles;
     return settings;
 }
 
@@ -216,8 +216,8 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
     frame.shadows = settings.shadows;
     frame.samples = settings.smooth ? 4 : 1;
     frame.style = settings.wireframe ? PlantStyle::Wireframe : PlantStyle::Surface;
-    frame.most_triangles = settings.most_triangles;
-    frame.most_expansions = kMostExpansions;
+    frame.max_triangles = settings.max_triangles;
+    frame.max_expansions = kMaxExpansions;
     if (settings.windy) {
         frame.wind = settings.wind;
         frame.time = seconds_since(start_);
@@ -236,7 +236,7 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
     is_coarse_ = is_slow_ && seconds_since(last_motion_) < kRest;
     if (is_coarse_) {
         frame.samples = 1;
-        frame.most_triangles = std::min(frame.most_triangles, coarse_triangles_);
+        frame.max_triangles = std::min(frame.max_triangles, coarse_triangles_);
     }
     if (!draw_frame(frame)) {
         return false;
@@ -253,7 +253,7 @@ void ForestView::shown(double draw_seconds) {
     } else if (draw_seconds > kSlowPicture) {
         coarse_triangles_ = std::max(coarse_triangles_ / 2, kFewestTriangles);
     } else if (draw_seconds < 0.25 * kSlowPicture) {
-        coarse_triangles_ = std::min(coarse_triangles_ * 2, settings.most_triangles);
+        coarse_triangles_ = std::min(coarse_triangles_ * 2, settings.max_triangles);
     }
     if (!std::exchange(tells_shown_, false)) {
         return;
@@ -281,8 +281,8 @@ void ForestView::grow() {
     }
     last_growth_ = now;
     // A picture that takes long leaves out years.
-    constexpr double kMostYears = 1000.0;
-    const auto next = years() + static_cast<std::uint32_t>(std::min(years_passed, kMostYears));
+    constexpr double kMaxYears = 1000.0;
+    const auto next = years() + static_cast<std::uint32_t>(std::min(years_passed, kMaxYears));
     settings.grows = next < usual_years_;
     settings.edits.years = std::min(next, usual_years_);
 }

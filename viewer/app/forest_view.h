@@ -19,7 +19,7 @@
 
 namespace lsys::view {
 
-inline constexpr float kGreatestBrush = 500.0F; // m, its radius
+inline constexpr float kMaxBrush = 500.0F; // m, its radius
 
 /// What a user can change while the forest is shown.
 struct ForestViewSettings {
@@ -31,7 +31,7 @@ struct ForestViewSettings {
     bool wireframe = false;
     bool windy = false; // it moves
     Wind wind;
-    std::uint64_t most_triangles = 1'500'000;
+    std::uint64_t max_triangles = 1'500'000;
 
     bool grows = false;
     float years_per_second = 5.0F;

@@ -42,8 +42,8 @@ struct ViewOptions {
     PlantStyle style = PlantStyle::Surface;
     LineKind lines = LineKind::None;
     std::uint32_t samples = 4;
-    std::uint64_t most_triangles = 1'500'000; // of the branches of a forest in a picture
-    std::string shaders;                      // a folder instead of the built-in ones
+    std::uint64_t max_triangles = 1'500'000; // of the branches of a forest in a picture
+    std::string shaders;                     // a folder instead of the built-in ones
 
     std::string screenshot;   // a picture instead of a window; `-`: standard output
     std::uint32_t frames = 0; // a numbered series; 0: one picture

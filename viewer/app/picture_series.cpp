@@ -73,7 +73,7 @@ Frame frame_of(const ViewOptions& options, const Camera& camera) {
     frame.style = options.style;
     frame.wind = options.wind.value_or(Wind{});
     frame.samples = options.samples;
-    frame.most_triangles = options.most_triangles;
+    frame.max_triangles = options.max_triangles;
     return frame;
 }
 

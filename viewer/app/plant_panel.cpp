@@ -164,14 +164,14 @@ void draw_mesh(PlantViewSettings& settings) {
     }
     const auto slide = [](const char* name, std::uint32_t& value, std::uint32_t most,
                           const char* format) {
-        constexpr std::uint32_t kLeast = 0;
-        ImGui::SliderScalar(name, ImGuiDataType_U32, &value, &kLeast, &most, format,
+        constexpr std::uint32_t kMin = 0;
+        ImGui::SliderScalar(name, ImGuiDataType_U32, &value, &kMin, &most, format,
                             ImGuiSliderFlags_AlwaysClamp);
     };
-    constexpr std::uint32_t kMostLevels = 5;
-    constexpr std::uint32_t kMostSides = 64;
-    slide("Level", mesh.level, kMostLevels, "%u");
-    slide("Sides", mesh.sides, kMostSides, mesh.sides == 0 ? "from grammar" : "%u");
+    constexpr std::uint32_t kMaxLevels = 5;
+    constexpr std::uint32_t kMaxSides = 64;
+    slide("Level", mesh.level, kMaxLevels, "%u");
+    slide("Sides", mesh.sides, kMaxSides, mesh.sides == 0 ? "from grammar" : "%u");
     // A tube has three sides at least.
     mesh.sides = mesh.sides == 0 ? 0 : std::max(mesh.sides, 3U);
     ImGui::SliderFloat("Bark noise", &mesh.bark_noise, 0.0F, 1.0F, "%.2f",

@@ -37,8 +37,8 @@ std::vector<ShownMessage> entries_of(const Messages& messages) {
             entry.head.erase(entry.head.find_last_not_of('\n') + 1);
             // The frame below the head repeats its first line.
             entry.text.erase(0, entry.text.find('\n') + 1);
-            constexpr std::size_t kMostEntries = 50; // as a terminal shows
-            if (entries.size() >= kMostEntries) {
+            constexpr std::size_t kMaxEntries = 50; // as a terminal shows
+            if (entries.size() >= kMaxEntries) {
                 return entries;
             }
         }

@@ -30,12 +30,12 @@ void draw_wind(Wind& wind) {
     float speed = std::hypot(wind.velocity.x, wind.velocity.z);
     float direction = speed > 0.0F ? std::atan2(wind.velocity.z, wind.velocity.x) * kDegrees : 0.0F;
     // No wind has no direction: that of the slider is kept by a wind that is next to none.
-    constexpr float kLeast = 1e-4F;
+    constexpr float kMin = 1e-4F;
     bool changed = ImGui::SliderFloat("Wind speed", &speed, 0.0F, 40.0F, "%.1f m/s");
     changed |=
         ImGui::SliderFloat("Wind direction", &direction, -180.0F, 180.0F, "%.0f deg from +X");
     if (changed) {
-        speed = std::max(speed, kLeast);
+        speed = std::max(speed, kMin);
         wind.velocity = {speed * std::cos(direction / kDegrees), wind.velocity.y,
                          speed * std::sin(direction / kDegrees)};
     }

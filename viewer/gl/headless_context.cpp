@@ -13,7 +13,7 @@ namespace lsys::view {
 
 namespace {
 
-/// The version that a context has, or why it is too old.
+/// Empty, or why the version of the context is too old.
 std::string why_too_old() {
     const int version = epoxy_gl_version();
     return version >= 45

@@ -11,13 +11,13 @@ namespace lsys::view {
 
 class HeadlessContext {
 public:
-    /// Makes it current on this thread. Error: why each way failed.
+    /// Makes a context and makes it current on this thread. Error: the reason of each failure.
     [[nodiscard]] static Result<std::unique_ptr<HeadlessContext>> make();
     HeadlessContext(const HeadlessContext&) = delete;
     HeadlessContext& operator=(const HeadlessContext&) = delete;
     ~HeadlessContext();
 
-    /// "EGL without a surface".
+    /// How the context was made, for example "EGL without a surface".
     [[nodiscard]] const std::string& way() const { return way_; }
 
 private:

@@ -21,10 +21,10 @@ namespace {
 constexpr std::uint32_t kShadowTexels = 2048;
 constexpr GLuint kFrameBinding = 0;
 constexpr GLuint kShadowTexture = 0;
-// What ground.*.glsl ask for.
+// Uniform locations of ground.*.glsl.
 constexpr GLint kDisc = 0;
 constexpr GLint kUnit = 1;
-constexpr float kDiscInRadii = 14.0F; // of the plant
+constexpr float kDiscInRadii = 14.0F; // radii of the plant
 
 struct Programs {
     ProgramObject sky;
@@ -57,7 +57,7 @@ Result<Programs> make_programs(Device& device, const ShaderSource& shaders) {
     return programs;
 }
 
-/// The plant and the ground that its shadow falls on.
+/// Bounds of a plant and the ground around it that receives its shadow.
 Bounds lit_bounds(const Bounds& plant) {
     Bounds bounds = plant;
     const float height = plant.high.y - plant.low.y;
@@ -152,7 +152,7 @@ public:
             draw_shadows(shadow_from_world, stats);
         }
         target_.begin(area.width, area.height, frame.samples);
-        glDepthFunc(GL_GEQUAL); // nearer is larger
+        glDepthFunc(GL_GEQUAL); // reversed depth
         glBindTextureUnit(kShadowTexture, shadow_.texture());
         if (is_forest_) {
             glPolygonMode(GL_FRONT_AND_BACK,
@@ -229,7 +229,7 @@ private:
         const Bounds& plant = bounds();
         const glm::vec3 size = plant.high - plant.low;
         const float radius = 0.5F * std::max(std::max(size.x, size.y), size.z);
-        // A power of ten: about ten lines along the plant.
+        // Power of ten: about ten lines along the plant.
         const float unit = std::pow(10.0F, std::floor(std::log10(std::max(radius, 1e-6F))));
         glUseProgram(programs_.ground.name());
         const float below = std::min(plant.low.y, 0.0F) - 1e-4F * radius;
@@ -241,7 +241,7 @@ private:
         stats.triangles += 2;
     }
 
-    Device device_; // outlives what follows
+    Device device_; // must outlive all below
     Programs programs_;
     RenderTarget target_;
     ShadowMap shadow_;
@@ -250,8 +250,8 @@ private:
     LineSet lines_;
     ForestPass forest_;
     ForestFrameStats forest_stats_;
-    bool is_forest_ = false; // what is shown
-    ShaderSource shaders_;   // those of forests are compiled when one is shown
+    bool is_forest_ = false; // a forest is shown
+    ShaderSource shaders_;   // of forests: compiled on first use
     bool has_forest_shaders_ = false;
     Buffer frame_;
     VertexArray empty_;

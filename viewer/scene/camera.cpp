@@ -18,12 +18,12 @@ namespace {
 
 constexpr glm::vec3 kUp{0.0F, 1.0F, 0.0F};
 constexpr float kSteepest = 1.553F; // radians above or below the horizon
-constexpr float kLeastField = 1.0F;
-constexpr float kGreatestField = 170.0F;
+constexpr float kMinField = 1.0F;
+constexpr float kMaxField = 170.0F;
 constexpr float kNearest = 0.02F;
 constexpr float kFarthest = 1e7F; // m, of eye and target
 
-/// Takes the next word off `text`.
+/// Removes the next word from `text`.
 std::string_view take_word(std::string_view& text) {
     const std::size_t begin = std::min(text.find_first_not_of(" \t"), text.size());
     const std::size_t end = std::min(text.find_first_of(" \t", begin), text.size());
@@ -85,8 +85,8 @@ Result<Camera> parse_camera(std::string_view text, const Camera& otherwise) {
                     fmt::format("a camera's {} is X,Y,Z in metres, not `{}`", word, value)};
             }
         } else if (word == "fov") {
-            if (!parse_float(value, camera.field_of_view) || camera.field_of_view < kLeastField ||
-                camera.field_of_view > kGreatestField) {
+            if (!parse_float(value, camera.field_of_view) || camera.field_of_view < kMinField ||
+                camera.field_of_view > kMaxField) {
                 return Error{
                     fmt::format("a camera's field of view is 1 to 170 degrees, not `{}`", value)};
             }
@@ -158,7 +158,7 @@ Camera framing(const Camera& camera, const Bounds& bounds, float aspect) {
     const glm::vec3 upwards = glm::cross(across, along);
     const float tangent = std::tan(0.5F * glm::radians(camera.field_of_view));
     result.target = 0.5F * (bounds.low + bounds.high);
-    // The nearest eye from which no corner of the box lies outside of the picture.
+    // Nearest eye with all corners of the box in the picture.
     float distance = 0.0F;
     for (unsigned corner = 0; corner < 8; ++corner) {
         const glm::vec3 at = {(corner & 1U) != 0 ? bounds.high.x : bounds.low.x,

@@ -14,28 +14,28 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint32_t kFewTrees = 8; // a cell of fewer is never drawn as one
+constexpr std::uint32_t kFewTrees = 8; // min trees of a cluster
 constexpr std::uint32_t kFramesKept = 32;
 constexpr int kDetailSteps = 24;
-constexpr float kNearest = 0.1F; // m: distances below count as this
+constexpr float kNearest = 0.1F; // m: min distance
 
 float pixels_of(const Frustum& frustum, const glm::vec3& place, float height) {
     return height * frustum.pixels / std::max(glm::distance(frustum.eye, place), kNearest);
 }
 
-/// Weight of the finer of two LOD bands for a height of `pixels`: 0 up to the height `limit` where
-/// the coarser one ends, 1 from `blend` times that on.
+/// Weight of the finer of two LOD bands for a height of `pixels`: 0 up to the `limit` of the
+/// coarser one, 1 from `blend` times the limit on.
 float finer_weight(float pixels, float limit, float blend) {
     return blend > 1.0F ? std::clamp((pixels / limit - 1.0F) / (blend - 1.0F), 0.0F, 1.0F) : 1.0F;
 }
 
-/// How far wind moves trees in a box, which is at least as high and wide as each of them; m.
+/// Max displacement by wind, m, of trees whose height and width are at most those of a box.
 float sway_within(const glm::vec3& low, const glm::vec3& high, const Sway& sway) {
     const glm::vec3 size = high - low;
     return sway.of(size.y, std::max(size.x, size.z));
 }
 
-/// Around a box of trees in the wind.
+/// Bounding sphere of a box of trees in the wind.
 Sphere swaying_box(const glm::vec3& low, const glm::vec3& high, const Sway& sway) {
     return {0.5F * (low + high), 0.5F * glm::distance(low, high) + sway_within(low, high, sway)};
 }
@@ -43,15 +43,15 @@ Sphere swaying_box(const glm::vec3& low, const glm::vec3& high, const Sway& sway
 } // namespace
 
 Sway sway_in(const Wind& wind) {
-    // The largest values of the terms of in_wind() in shaders/forest.glsl.
+    // Max values of the terms of in_wind() in shaders/forest.glsl.
     constexpr float kPush = 0.004F;
     constexpr float kTrunk = 1.35F * 1.2F * 1.2F;
     constexpr float kBoughs = 0.35F * 1.54F;
-    constexpr float kMostFlutter = 0.05F;
+    constexpr float kMaxFlutter = 0.05F;
     const float gust = 1.0F + std::abs(wind.gust);
     const float push = kPush * glm::length(wind.velocity) * gust;
     return {push * kTrunk, push * gust * kBoughs,
-            std::min(push, kMostFlutter) * std::numbers::sqrt3_v<float>};
+            std::min(push, kMaxFlutter) * std::numbers::sqrt3_v<float>};
 }
 
 const DrawLists&
@@ -121,8 +121,8 @@ Sphere ForestLod::swaying(const Sphere& sphere, const LodTree& tree) const {
 }
 
 Bounds ForestLod::impostor_box(const LodTree& tree, const glm::vec3& eye) const {
-    // Pictures have a margin, and those from above lean back: shaders/impostor.glsl.
-    constexpr float kLevel = 0.3F; // sine, below which they are seen from the side
+    // Impostors have a margin, and those seen from above lean back: shaders/impostor.glsl.
+    constexpr float kLevel = 0.3F; // sine of the max elevation of side views
     const Sphere sphere = impostor_sphere(tree);
     const float wide = kImpostorMargin * sphere.radius;
     const bool is_level =
@@ -202,13 +202,13 @@ float ForestLod::fitting_detail(const LodOptions& options) const {
                 triangles += model_.forms[lod_tree(candidate.tree).form].triangles[level];
             }
         }
-        return triangles <= static_cast<double>(options.most_triangles);
+        return triangles <= static_cast<double>(options.max_triangles);
     };
     if (fits(1.0F)) {
         return 1.0F;
     }
-    // Halving, so that a camera that moves a little changes the level of few trees.
-    float most = 0.0F; // that fits: nothing has branches
+    // Bisection, so that a small move of the camera changes the level of few trees.
+    float most = 0.0F; // fits: no tree has branches
     float least = 1.0F;
     for (int step = 0; step < kDetailSteps; ++step) {
         const float middle = 0.5F * (most + least);
@@ -241,7 +241,7 @@ void ForestLod::see_branches(const PoolSpan& span,
 
 PoolSpan ForestLod::branches_of(std::uint32_t number, const LodOptions& options) {
     const PoolSpan span = pool_.find(number);
-    if (span.count != 0 || lists_.expanded >= options.most_expansions) {
+    if (span.count != 0 || lists_.expanded >= options.max_expansions) {
         return span;
     }
     const std::uint32_t form = lod_tree(number).form;
@@ -302,7 +302,7 @@ void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options)
 }
 
 void ForestLod::list_runs() {
-    // Finer levels first: they are nearer, and hide what comes behind.
+    // Finer levels first: they are nearer, and occlude the rest.
     std::uint32_t first = 0;
     for (std::uint32_t group = 0; group <= kBlending; ++group) {
         const std::uint32_t level = std::min(group, kTreeLevels - 1);
@@ -311,7 +311,7 @@ void ForestLod::list_runs() {
             const auto instances = static_cast<std::uint32_t>(form.cache->instances.size());
             for (std::uint32_t i = 0; i < instances; ++i) {
                 std::uint32_t& place = mesh_counts_[first_mesh_[f] + group * instances + i];
-                const std::uint32_t count = std::exchange(place, first); // where its list goes on
+                const std::uint32_t count = std::exchange(place, first); // end of its list so far
                 if (count != 0) {
                     lists_.runs.push_back({f, level, i, first, count, group == kBlending});
                     lists_.triangles += std::uint64_t{count} * form.mesh_triangles[level][i];

@@ -13,16 +13,16 @@ namespace lsys::view {
 
 namespace {
 
-/// Radii of twigs that a level leaves out, as a part of the tree's height.
+/// Min radius of twigs by level, as a part of the tree's height.
 constexpr std::array<float, kTreeLevels> kThinnest = {0.0F, 0.0F, 0.0008F, 0.0016F};
-/// Of how many leaves a level shows one.
+/// Leaves per shown leaf by level.
 constexpr std::array<std::uint32_t, kTreeLevels> kLeavesOfOne = {1, 1, 2, 4};
-/// Of all forms together, unless there are more forms.
+/// Max impostors of all forms together, unless there are more forms.
 constexpr std::size_t kAllImpostors = 16;
-/// With fewer, all are shown.
+/// Below this count all leaves are shown.
 constexpr std::size_t kFewLeaves = 24;
 
-/// Of a form.
+/// Max impostors of a form.
 std::size_t max_impostors_of(std::size_t forms) {
     return std::clamp<std::size_t>(kAllImpostors / std::max<std::size_t>(forms, 1), 1,
                                    kMaxImpostors);
@@ -33,7 +33,7 @@ bool is_leaf(const PlacedObject& object) {
            object.kind == TurtleOperation::Flower;
 }
 
-/// Whether a leaf is one of those that are shown; those of a level are among those of a finer one.
+/// Whether a leaf is shown; a coarser level shows a subset of a finer one.
 bool is_shown(std::size_t leaf, std::uint32_t leaves_of_one) {
     const std::uint64_t mixed = golden_multiple(std::uint64_t{leaf} + 1);
     return (mixed >> 40 & (leaves_of_one - 1)) == 0;
@@ -46,7 +46,7 @@ Sphere sphere_around(const Bounds& bounds) {
     return {0.5F * (bounds.low + bounds.high), 0.5F * glm::distance(bounds.low, bounds.high)};
 }
 
-/// The smallest sphere around both.
+/// Smallest sphere around both.
 Sphere joined(const Sphere& a, const Sphere& b) {
     const float distance = glm::distance(a.centre, b.centre);
     if (distance + b.radius <= a.radius) {
@@ -57,17 +57,17 @@ Sphere joined(const Sphere& a, const Sphere& b) {
     }
     const float radius = 0.5F * (distance + a.radius + b.radius);
     return {a.centre + (b.centre - a.centre) * ((radius - a.radius) / distance),
-            radius * 1.0001F}; // and rounding
+            radius * 1.0001F}; // rounding
 }
 
-/// The first tree whose whole plant is `instance`.
+/// Finds the first tree whose whole plant is `instance`.
 bool find_impostor(const InstanceCache& cache,
                    std::uint64_t key,
                    std::uint32_t instance,
                    Tree& tree) {
-    constexpr std::uint32_t kMostTries = 4096;
+    constexpr std::uint32_t kMaxTries = 4096;
     TreeExpander expander(cache, key);
-    for (tree.number = 0; tree.number < kMostTries; ++tree.number) {
+    for (tree.number = 0; tree.number < kMaxTries; ++tree.number) {
         if (expander.root_instance(tree) == instance) {
             return true;
         }
@@ -94,8 +94,8 @@ void find_impostors(TreeForm& form, std::uint64_t key, std::size_t most) {
     }
 }
 
-/// The cylinder about the impostors, and how many branches they have. `seen`: the surface of what a
-/// tree is drawn of.
+/// Measures the bounding cylinder and the mean count of branches of the impostors. `seen`: surfaces
+/// of the branches.
 void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& seen) {
     const LargeVector<std::uint32_t> indices = seen.mesh.indices.expanded();
     const LargeVector<glm::vec3>& positions = seen.mesh.positions;
@@ -121,7 +121,7 @@ void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& 
     form.radius = std::sqrt(radius2);
 }
 
-/// Of the triangles of each instance at any level, seen from its entry.
+/// Bounding boxes of the triangles of each instance at any level, in the frame of its entry.
 std::vector<Bounds> bounds_of_levels(const InstanceCache& cache, const TreeMeshes& levels) {
     std::vector<Bounds> all(cache.instances.size());
     for (const InstanceMeshes& level : levels) {
@@ -136,7 +136,7 @@ std::vector<Bounds> bounds_of_levels(const InstanceCache& cache, const TreeMeshe
     return all;
 }
 
-/// Around boxes that are seen from the entries of instances, where the heroes have them.
+/// Bounding spheres in the heroes' frame of boxes in the frames of the entries.
 std::vector<Sphere> spheres_in_heroes(const InstanceCache& cache,
                                       const std::vector<Bounds>& bounds) {
     std::vector<Sphere> spheres;
@@ -234,7 +234,7 @@ std::vector<Sphere> bounding_spheres(const InstanceCache& cache,
                                      const std::vector<Bounds>& bounds) {
     std::vector<Sphere> spheres(cache.slots.size());
     std::vector<bool> known(cache.slots.size());
-    // Depth first; what an exit leads to is known before what has the exit.
+    // Depth first: the target of an exit before the instance with the exit.
     std::vector<std::uint32_t> pending{0};
     std::vector<bool> begun(cache.slots.size());
     while (!pending.empty()) {

@@ -1,4 +1,4 @@
-// Frustum: what of the world is in a picture.
+// Frustum: the part of the world that a camera sees.
 #pragma once
 
 #include "viewer/scene/camera.h"
@@ -11,11 +11,11 @@
 
 namespace lsys::view {
 
-/// What a camera sees: to the inside of all planes. There is no far one.
+/// Planes around the view; there is no far one.
 struct Frustum {
-    std::array<glm::vec4, 5> planes{}; // unit normals to the inside
+    std::array<glm::vec4, 5> planes{}; // unit normals, pointing inward
     glm::vec3 eye{};
-    float pixels = 1.0F; // of something as large as it is far away
+    float pixels = 1.0F; // height in pixels of an object as high as it is far away
 
     [[nodiscard]] bool intersects(const Sphere& sphere) const {
         for (const glm::vec4& plane : planes) {

@@ -10,17 +10,17 @@ namespace lsys::view {
 
 namespace {
 
-/// The finest level that impostors are drawn of, while a tree has at most so many triangles.
+/// Finest level of impostors, and the max triangles of a tree at that level.
 constexpr std::uint32_t kFinestLevel = 1;
-constexpr double kMostTriangles = 70'000.0;
-constexpr std::uint32_t kRow = 4; // trees of a cell along a side
+constexpr double kMaxTriangles = 70'000.0;
+constexpr std::uint32_t kRow = 4; // trees along a side of a cluster
 
-/// Part of 1, the same for the same numbers.
+/// Deterministic number from 0 to 1.
 float drawn(std::uint32_t a, std::uint32_t b) {
     return unit_float(lattice32(a, b));
 }
 
-/// The mean scale of the trees of each form; 0 if it has none.
+/// Mean scale of the trees of each form; 0 without trees.
 std::vector<float> mean_scales(const ForestLod& lod) {
     std::vector<double> sums(lod.model().forms.size());
     std::vector<double> counts(sums.size());
@@ -45,7 +45,7 @@ ImpostorPlan plan_impostors(const ForestLod& lod) {
         plan.forms.push_back(
             {{form.radius, form.low, form.high}, static_cast<std::uint32_t>(plan.layers.size())});
         std::uint32_t level = kFinestLevel;
-        while (level + 1 < kTreeLevels && form.triangles[level] > kMostTriangles) {
+        while (level + 1 < kTreeLevels && form.triangles[level] > kMaxTriangles) {
             ++level;
         }
         for (const Tree& tree : form.impostor_trees) {

@@ -85,15 +85,13 @@ void dilate(ImpostorTexels& picture, std::uint32_t rounds) {
     }
 }
 
-/// The opacities of a picture, multiplied so that the part of it that is there is `wanted`, or
-/// trees would thin out with the distance (Castano 2010, "Computing Alpha Mipmaps").
 std::vector<std::uint8_t> with_coverage(const ImpostorTexels& picture, double wanted) {
     std::array<std::size_t, 256> counts{};
     const std::size_t texels = picture.albedos.size() / 4;
     for (std::size_t i = 0; i < texels; ++i) {
         ++counts[picture.albedos[4 * i + 3]];
     }
-    // The opacity from which on texels are to be there.
+    // Min opacity of texels that stay.
     std::size_t there = 0;
     unsigned least = 255;
     while (least > 1 &&

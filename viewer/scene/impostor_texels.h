@@ -1,5 +1,4 @@
-// The pictures that impostors are kept as, while they are made: smaller ones of them, and what is
-// empty in them.
+// ImpostorTexels: texels of impostors on the CPU: mip levels and empty borders.
 #pragma once
 
 #include <glm/vec4.hpp>
@@ -10,37 +9,37 @@
 
 namespace lsys::view {
 
-/// Texels of tiles side by side, RGBA.
+/// RGBA texels of adjacent tiles.
 struct ImpostorTexels {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::vector<std::uint8_t> albedos; // square roots of linear RGB; opacity
-    std::vector<std::uint8_t> normals; // normal, depth, of light through it
+    std::vector<std::uint8_t> normals; // normal (2), depth, translucency
 };
 
-/// Half the size. What is there counts by its opacity.
+/// Next mip level; texels are weighted by opacity.
 [[nodiscard]] ImpostorTexels halved(const ImpostorTexels& from);
 
-/// Gives texels that are empty the colour of those beside them, so that filters find one there.
+/// Fills empty texels with the colours of their neighbours, so that filters stay clean.
 void dilate(ImpostorTexels& picture, std::uint32_t rounds);
 
-/// The part of a picture that is there.
+/// Mean opacity.
 [[nodiscard]] double coverage_of(const ImpostorTexels& picture);
 
-/// The opacities of a picture, multiplied so that the part of it that is there is `wanted`, or
-/// trees would thin out with the distance (Castano 2010, "Computing Alpha Mipmaps").
+/// Opacities scaled so that `wanted` of the texels stay opaque at this mip level; otherwise trees
+/// thin out with distance (Castano 2010, "Computing Alpha Mipmaps").
 [[nodiscard]] std::vector<std::uint8_t> with_coverage(const ImpostorTexels& picture, double wanted);
 
 /// A square of texels.
 struct Tile {
-    std::uint32_t x = 0; // of its first texel
+    std::uint32_t x = 0; // first texel
     std::uint32_t y = 0;
     std::uint32_t side = 0;
 };
 
-/// The box around the texels of a tile that are opaque and `margin` texels about them, within the
-/// tile: lowest x and y, highest x and y, as parts of its side. All 0 where nothing is opaque.
-/// `picture`: RGBA texels, `width` in a row.
+/// Bounding box of the opaque texels of a tile, grown by `margin` texels within the tile: min x,
+/// min y, max x, max y as parts of its side. All 0 without opaque texels. `picture`: RGBA texels in
+/// rows of `width`.
 [[nodiscard]] glm::vec4 opaque_box(std::span<const std::uint8_t> picture,
                                    std::uint32_t width,
                                    const Tile& tile,

@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::int32_t kNodeCells = 2 * static_cast<std::int32_t>(kPatchCells);
 constexpr float kNearestRange = 34.0F; // m, of level 0
-// A border of two levels has to be whole: corners of the finer one have moved by its range, and
-// those of the coarser one begin to move no nearer than the farthest corner of a node that meets
-// that range: 0.85 * 2 * 34 >= 34 + sqrt(2) * 16.
+// No gaps between levels: vertices of the finer level have morphed at its range, and those of the
+// coarser level start no nearer than the farthest corner of a node that meets that range: 0.85 * 2
+// * 34 >= 34 + sqrt(2) * 16.
 constexpr float kMorphStart = 0.85F;
-// The grid's middle follows the camera in steps, so that it is made anew only now and then.
+// The grid follows the camera in steps, so that it is seldom rebuilt.
 constexpr std::int64_t kGridStep = 16;
 constexpr std::uint64_t kRowsOfPiece = 16;
 
@@ -114,7 +114,7 @@ bool TerrainLod::is_seen(const TerrainPatch& at, std::int32_t cells, const Frust
     const glm::vec3 high(static_cast<float>(at.x + cells) * size, grid.highest,
                          static_cast<float>(at.z + cells) * size);
     return std::all_of(frustum.planes.begin(), frustum.planes.end(), [&](const glm::vec4& plane) {
-        // The corner that lies farthest inside.
+        // Corner farthest inside the plane.
         const glm::vec3 corner(plane.x > 0.0F ? high.x : low.x, plane.y > 0.0F ? high.y : low.y,
                                plane.z > 0.0F ? high.z : low.z);
         return glm::dot(glm::vec3(plane), corner) + plane.w >= 0.0F;

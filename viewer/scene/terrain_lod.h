@@ -1,8 +1,7 @@
-// TerrainLod: which squares of the ground are drawn for a camera, how fine, and the heights there
-// (CDLOD, Strugar 2010, "Continuous Distance-Dependent Level of Detail for Rendering Heightmaps").
-// The ground is a quadtree of squares without end. Each level has a grid of its own around the
-// camera, twice as coarse as that of the level before, with the terrain's heights at its corners,
-// so every corner that is drawn lies on the terrain. No OpenGL.
+// TerrainLod: patches of the ground and their level of detail for a camera (CDLOD, Strugar 2010,
+// "Continuous Distance-Dependent Level of Detail for Rendering Heightmaps"). The ground is an
+// unbounded quadtree. Each level has a height grid around the camera, twice as coarse as the level
+// before. Grid heights are the terrain's, so every drawn vertex lies on the terrain. No OpenGL.
 #pragma once
 
 #include "runtime/terrain/terrain.h"
@@ -17,13 +16,13 @@
 namespace lsys::view {
 
 inline constexpr std::uint32_t kPatchCells = 8;     // along a side: a quarter of a node
-inline constexpr std::uint32_t kHeightTexels = 256; // along a side of a level's grid
+inline constexpr std::uint32_t kHeightTexels = 256; // along a side of the grid of a level
 inline constexpr std::uint32_t kTerrainLevels = 12;
 inline constexpr float kFinestCell = 0.5F; // m
 
-/// A quarter of a node: kPatchCells cells a side.
+/// A quarter of a node: kPatchCells cells along a side.
 struct TerrainPatch {
-    std::int32_t x = 0; // of its lowest corner, in cells of its level
+    std::int32_t x = 0; // lowest corner, in cells of its level
     std::int32_t z = 0;
     std::uint32_t level = 0;
 
@@ -32,13 +31,13 @@ struct TerrainPatch {
 
 /// Heights of a level around the camera.
 struct HeightGrid {
-    glm::ivec2 origin{}; // in cells of the level, of its first texel
+    glm::ivec2 origin{}; // first texel, in cells of the level
     bool there = false;
     float lowest = 0.0F;
     float highest = 0.0F;
-    std::vector<float> heights; // rows along X
+    std::vector<float> heights; // in rows along X
 
-    /// `x`, `z` in cells of the level.
+    /// `x`, `z`: in cells of the level.
     [[nodiscard]] float at(std::int32_t x, std::int32_t z) const {
         return heights[static_cast<std::size_t>(z - origin.y) * kHeightTexels +
                        static_cast<std::size_t>(x - origin.x)];
@@ -47,28 +46,27 @@ struct HeightGrid {
 
 class TerrainLod {
 public:
-    /// The terrain outlives the view. `reach`: m from the camera, as far as ground is drawn.
+    /// The terrain must outlive this object. `reach`: range of the drawn ground, m.
     TerrainLod(const Terrain& terrain, float reach);
 
-    /// Makes the heights that are needed for this camera and lists the patches in its view, near
-    /// levels first.
+    /// Updates the height grids for a camera and lists visible patches, finest levels first.
     void select(const Frustum& frustum);
     [[nodiscard]] const std::vector<TerrainPatch>& patches() const { return patches_; }
     [[nodiscard]] const HeightGrid& grid(std::uint32_t level) const { return grids_[level]; }
-    /// Levels whose heights were made anew by the last select().
+    /// Levels whose grid was updated by the last select().
     [[nodiscard]] const std::vector<std::uint32_t>& changed() const { return changed_; }
     [[nodiscard]] std::uint32_t levels() const { return levels_; }
 
-    /// m; what is farther from the eye is drawn by a coarser level.
+    /// Max distance from the eye at which a level is drawn, m.
     [[nodiscard]] static float range(std::uint32_t level);
-    /// m from the eye, where corners begin to move to those of the next level; they are there at
-    /// the range.
+    /// Distance from the eye, m, where vertices begin to morph to the next level; they are there at
+    /// range().
     [[nodiscard]] static float morph_start(std::uint32_t level);
     [[nodiscard]] static float cell(std::uint32_t level) {
         return kFinestCell * static_cast<float>(1U << level);
     }
-    /// The eye's height above the ground below it: distances to the ground count this, not the
-    /// height of each hill.
+    /// Height of the eye above the ground below it, m. Distances to the ground use this height
+    /// everywhere.
     [[nodiscard]] float eye_height() const { return eye_height_; }
 
 private:
@@ -78,7 +76,7 @@ private:
         std::uint32_t level = 0;
     };
     void make_grid(std::uint32_t level, const glm::vec3& eye);
-    /// Whether the node was drawn, in whole or by its children.
+    /// Returns whether the node was drawn, whole or by its children.
     bool visit(const Node& node, const Frustum& frustum);
     [[nodiscard]] float distance_to(const Node& node) const;
     [[nodiscard]] bool

@@ -354,16 +354,16 @@ TEST_CASE("triangles are bounded, and trees wait where too many come near at onc
     LodOptions options = wood_lod();
     const std::uint64_t all = lod.select(frustum, options).triangles;
     REQUIRE(all > 2000);
-    options.most_triangles = all / 4;
+    options.max_triangles = all / 4;
     const DrawLists bounded = lod.select(frustum, options);
     CHECK(bounded.triangles <= all / 4 + all / 40); // trees are not like the mean of the impostors
     CHECK(bounded.detail < 1.0F);
     CHECK(branch_trees(bounded) > 0);
-    options.most_triangles = 0;
+    options.max_triangles = 0;
     CHECK(branch_trees(lod.select(frustum, options)) == 0);
     ForestLod other(wood->model);
     options = wood_lod();
-    options.most_expansions = 3;
+    options.max_expansions = 3;
     const DrawLists first = other.select(frustum, options);
     CHECK(branch_trees(first) == 3);
     CHECK(first.expanded == 3);

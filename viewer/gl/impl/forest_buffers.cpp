@@ -16,7 +16,7 @@ namespace lsys::view {
 
 namespace {
 
-// Bindings of forest.glsl and branch.frag.glsl.
+// Bindings in forest.glsl and branch.frag.glsl.
 constexpr GLuint kBranches = 0;
 constexpr GLuint kTrees = 1;
 constexpr GLuint kForms = 2;
@@ -37,7 +37,7 @@ struct MaterialRecord {
     std::uint32_t kind = 0; // kTextured, kTranslucent
 };
 static_assert(sizeof(MaterialRecord) == 16);
-constexpr std::uint32_t kTextured = 1; // what branch.frag.glsl asks for
+constexpr std::uint32_t kTextured = 1; // bits in branch.frag.glsl
 constexpr std::uint32_t kTranslucent = 2;
 
 struct FormRecord {
@@ -53,7 +53,7 @@ struct TreeRecord {
 };
 static_assert(sizeof(TreeRecord) == 24);
 
-/// Records for trees that are added; with more, all are copied within the device.
+/// Spare records for added trees; beyond them the buffer is copied on the device.
 constexpr std::size_t kRoomForTrees = std::size_t{1} << 14U;
 
 TreeRecord record_of(const LodTree& tree, const Tree& full) {
@@ -64,7 +64,7 @@ TreeRecord record_of(const LodTree& tree, const Tree& full) {
     return {tree.position, tree.scale, phase << 16U | yaw, impostor << 16U | tree.form};
 }
 
-/// Tells whether two are alike.
+/// Hash for comparing uploads.
 template <typename T>
 std::uint64_t digest_of(std::span<const T> items, std::uint64_t digest) {
     return combine_bytes(digest, {reinterpret_cast<const char*>(items.data()), items.size_bytes()});
@@ -84,7 +84,7 @@ std::array<std::int8_t, 2> octahedral(const glm::vec3& n) {
     return {part(e.x), part(e.y)};
 }
 
-/// By a texture of the program; of a picture of a file only the mean colour is there.
+/// Textured by the program; pictures from files are reduced to their mean colour.
 bool is_textured(const Material& material) {
     return material.textured && material.picture == nullptr;
 }
@@ -99,7 +99,7 @@ BranchClass class_of(const Material& material) {
     return is_textured(material) ? BranchClass::TwoSided : BranchClass::Plain;
 }
 
-/// The records of a mesh's materials, those alike once.
+/// Appends the records of materials, equal ones once; returns their indices.
 std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
                                          std::vector<MaterialRecord>& records) {
     std::vector<std::uint16_t> numbers;
@@ -109,7 +109,7 @@ std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
         if (material.picture != nullptr) {
             record.colour *= mean_colour(*material.picture);
         }
-        // Leaves, petals, and meshes of files that are seen from both sides: most are leaves.
+        // Leaves, petals, and two-sided meshes from files, which are mostly leaves.
         const bool is_translucent = material.two_sided || material.kind == MaterialKind::Leaf ||
                                     material.kind == MaterialKind::Flower;
         record.kind = (is_textured(material) ? kTextured : 0) | (is_translucent ? kTranslucent : 0);
@@ -125,7 +125,7 @@ std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
     return numbers;
 }
 
-/// In the commands of what is drawn.
+/// Index of draw commands.
 constexpr std::size_t place_of(std::size_t kind, bool blends) {
     return kind + (blends ? kBranchClasses : 0);
 }
@@ -222,7 +222,7 @@ void ForestBuffers::upload(ForestModel& model, const ImpostorPlan& plan) {
             level.ranges.resize(instances);
             listed.clear();
             for (std::uint32_t i = 0; i < instances; ++i) {
-                // Parts are in order of materials, not of classes.
+                // Parts are sorted by material, not by class.
                 for (std::size_t kind = 0; kind < kBranchClasses; ++kind) {
                     const std::size_t before = listed.size();
                     for (const MeshPart& part : meshes.parts_of(i)) {
@@ -275,7 +275,7 @@ void ForestBuffers::upload_trees(const ForestLod& lod) {
     records.clear();
     for (const ForestCell& cell : lod.cells()) {
         const auto number = static_cast<std::uint32_t>(records.size());
-        // Turned by quarters, so that squares stay squares.
+        // Quarter turns keep cells aligned.
         const std::uint32_t drawn = golden_multiple(number);
         const std::uint32_t yaw = drawn >> 30U << 14U;
         const std::uint32_t phase = drawn & 0xFFFF0000U;

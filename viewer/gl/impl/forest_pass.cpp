@@ -23,16 +23,16 @@ constexpr GLuint kBarkTexture = 1;
 constexpr GLuint kLeafTexture = 2;
 constexpr GLuint kAlbedos = 3;
 constexpr GLuint kNormals = 4;
-constexpr GLuint kBoxes = 4; // binding of impostor.vert.glsl
-// The sun's map: half its side where the eye is near the ground, and at most (m).
+constexpr GLuint kBoxes = 4; // in impostor.vert.glsl
+// Half side of the shadow map near the ground, and its max, m.
 constexpr float kNearestLit = 45.0F;
 constexpr float kFarthestLit = 400.0F;
-constexpr float kGroundBeyond = 3000.0F; // m, of ground that is drawn around the forest
+constexpr float kGroundBeyond = 3000.0F; // m, range of the ground beyond the forest
 
-/// What stands in the sun's map, seen from above: of all that lies between two heights.
-/// `shadow_from_world`: as shadow_matrix() has it.
+/// Box of the casters between two heights that can shade the map. `shadow_from_world`: see
+/// shadow_matrix().
 Bounds casters_of(const glm::mat4& shadow_from_world, float low, float high) {
-    constexpr float kFarthest = -3.0F; // in depths of the map, where the sun is low
+    constexpr float kFarthest = -3.0F; // in map depths, for a low sun
     const glm::mat4 world_from_shadow = glm::inverse(shadow_from_world);
     Bounds casters;
     for (const float x : {-1.0F, 1.0F}) {
@@ -133,7 +133,7 @@ Bounds ForestPass::lit_bounds(const Frame& frame) const {
     while (half < kFarthestLit && half < 1.2F * above) {
         half *= 1.5F;
     }
-    // In front of the eye, or at what it looks from above.
+    // In front of the eye, or at the point it looks at from above.
     const glm::vec3 along = forward_of(camera);
     const glm::vec2 flat(along.x, along.z);
     const float length = glm::length(flat);
@@ -147,7 +147,7 @@ Bounds ForestPass::lit_bounds(const Frame& frame) const {
     Bounds lit;
     lit.add({middle.x - half, all.low.y, middle.y - half});
     lit.add({middle.x + half, all.high.y, middle.y + half});
-    // No larger than the forest.
+    // Clip to the forest.
     lit.low = glm::max(lit.low, all.low - glm::vec3(half * 0.25F, 0.0F, half * 0.25F));
     lit.high = glm::min(lit.high, all.high + glm::vec3(half * 0.25F, 0.0F, half * 0.25F));
     if (lit.low.x >= lit.high.x || lit.low.z >= lit.high.z) {
@@ -161,14 +161,14 @@ void ForestPass::prepare(const Frame& frame) {
     const Clock::time_point start = Clock::now();
     frustum_ = make_frustum(frame.camera, frame.width, frame.height);
     LodOptions options;
-    options.most_triangles = frame.most_triangles;
-    options.most_expansions = frame.most_expansions;
+    options.max_triangles = frame.max_triangles;
+    options.max_expansions = frame.max_expansions;
     options.wind = frame.wind;
     constexpr float kStill = 1e-4F; // m/s
     is_windy_ = glm::length(frame.wind.velocity) >= kStill;
     options.cluster_pixels = has_clusters_ ? options.cluster_pixels : 0.0F;
     terrain_.prepare(frustum_);
-    // Edges of triangles hide nothing.
+    // Wireframes occlude nothing.
     const bool hides = frame.style != PlantStyle::Wireframe;
     horizon_.set_viewpoint(*terrain_.lod(), frustum_.eye);
     lists_ = &lod_->select(frustum_, options, hides ? &horizon_ : nullptr);
@@ -182,8 +182,8 @@ void ForestPass::draw_impostors(std::span<const DrawEntry> trees, FrameStats& st
         return;
     }
     quad_trees_.fill(trees);
-    // Most of a quad is empty, and light is the dear part: it is looked for only where a tree is
-    // seen. A software renderer does not skip what comes after a texel was discarded.
+    // Depth pass first: most of a quad is empty and lighting is expensive, so light only visible
+    // texels. A software renderer keeps shading after `discard`.
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     const auto whole = static_cast<std::size_t>(
         std::partition_point(trees.begin(), trees.end(),

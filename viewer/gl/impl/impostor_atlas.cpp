@@ -19,26 +19,26 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint32_t kFiner = 2; // texels drawn for one that is kept, along a side
+constexpr std::uint32_t kFiner = 2; // supersampling along a side
 constexpr std::uint32_t kWidth = ImpostorAtlas::kYaws * ImpostorAtlas::kTile;
 constexpr std::uint32_t kHeight = ImpostorAtlas::kElevations * ImpostorAtlas::kTile;
-constexpr GLsizei kLevels = 6; // the last tile has 4 texels a side
+constexpr GLsizei kLevels = 6; // mip levels; tiles of the last have 4 texels a side
 constexpr std::array<float, ImpostorAtlas::kElevations> kElevation = {0.0F, 0.6108652F, 1.3089969F};
-/// Texels about what is opaque in a tile: in coarser levels it reaches over edges of fine texels.
+/// Margin of opaque_box() in texels: coarse mip levels spill over the edges of fine ones.
 constexpr float kBoxMargin = 2.5F;
 constexpr GLint kMiddle = 2;
 constexpr GLint kToEye = 3;
 constexpr GLint kRight = 4;
 constexpr GLint kUp = 5;
 
-/// The last one that begins no later: layers of a form follow one another.
+/// The form whose layers include `layer`; layers of a form are contiguous.
 const Cylinder& cylinder_of(const ImpostorPlan& plan, std::uint32_t layer) {
     return std::find_if(plan.forms.rbegin(), plan.forms.rend(),
                         [layer](const ImpostorForm& each) { return each.first_layer <= layer; })
         ->cylinder;
 }
 
-/// Changes with what is seen in a impostor; never 0.
+/// Hash of the visible contents of a layer; never 0.
 std::uint64_t key_of(const ImpostorLayer& impostor,
                      const Cylinder& cylinder,
                      const ForestModel& model,
@@ -60,7 +60,7 @@ std::uint64_t key_of(const ImpostorLayer& impostor,
     return key | 1U;
 }
 
-/// The branches of a impostor as lists of a level.
+/// Draw lists of the branches of a layer.
 DrawLists lists_of(const TreeForm& form,
                    std::uint32_t form_index,
                    std::uint32_t level,
@@ -250,7 +250,7 @@ void ImpostorAtlas::begin(const ForestModel& model,
 ImpostorAtlas::Work ImpostorAtlas::make_work() const {
     Work work;
     const auto width = static_cast<GLsizei>(kWidth * kFiner);
-    const auto height = static_cast<GLsizei>(kTile * kFiner); // one elevation at a time
+    const auto height = static_cast<GLsizei>(kTile * kFiner); // one elevation
     work.target = make_framebuffer(*device_);
     constexpr std::array<GLenum, 3> kFormats = {GL_RGBA8, GL_RGBA8, GL_DEPTH_COMPONENT32F};
     constexpr std::array<GLenum, 3> kPoints = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,

@@ -1,6 +1,5 @@
-// Impostors: pictures of trees from many sides, which stand for trees that are far away. A layer
-// for each impostor of a form, kYaws by kElevations tiles in it; shaders/impostor.glsl has the same
-// numbers.
+// ImpostorAtlas: texture array of impostors. A layer for each impostor of a form, with tiles for
+// kYaws directions at kElevations elevations; shaders/impostor.glsl has the same numbers.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -29,31 +28,30 @@ public:
 
     explicit ImpostorAtlas(Device& device) : device_(&device), box_buffer_(device) {}
 
-    /// Impostors that are there stay until they are drawn anew.
+    /// Recompiles the shaders; impostors stay until they are baked again.
     [[nodiscard]] Result<Done> reload(const ShaderSource& shaders);
-    /// From now on the layers are those of a plan. What is in them stays until it is drawn anew;
-    /// layers that were not there are empty. Those that are as before are not drawn.
+    /// Starts a new plan. Unchanged layers are kept and not baked again; new layers are empty until
+    /// they are baked.
     void begin(const ForestModel& model, ImpostorPlan plan, const ForestBuffers& buffers);
     [[nodiscard]] bool is_done() const { return pending_.empty(); }
-    /// Draws a part of what is missing: one elevation of a layer. Other shaders, programs and
-    /// targets are bound afterwards.
+    /// Bakes one elevation of one missing layer. Leaves other shaders, programs and targets bound.
     void step(const ForestModel& model, ForestBuffers& buffers, MaterialTextures& textures);
 
     [[nodiscard]] GLuint albedos() const { return albedos_.name(); }
     [[nodiscard]] GLuint normals() const { return normals_.name(); }
-    /// What is there of each tile: opaque_box(), by layer, elevation and yaw.
+    /// Buffer of opaque_box() of each tile, by layer, elevation and yaw.
     [[nodiscard]] GLuint boxes() const { return box_buffer_.name(); }
     [[nodiscard]] std::uint64_t texture_bytes() const { return texture_bytes_; }
     [[nodiscard]] std::uint32_t layers() const { return layers_; }
 
 private:
-    /// What is needed while layers are missing.
+    /// Targets of baking; kept while layers are missing.
     struct Work {
         Framebuffer target;
         std::array<Renderbuffer, 3> storage; // albedos, normals, depths
         Buffer frame;
-        ImpostorTexels row; // of an elevation, finer
-        ImpostorTexels all; // of the layer, as far as it is made
+        ImpostorTexels row; // one elevation, supersampled
+        ImpostorTexels all; // finished elevations of the layer
         std::uint32_t elevation = 0;
     };
 
@@ -62,9 +60,9 @@ private:
     void look_for_missing();
     void make_layers(const std::vector<std::uint64_t>& keys);
     [[nodiscard]] Work make_work() const;
-    /// The meshes and commands of a layer.
+    /// Sets up meshes and commands of a layer.
     void begin_layer(std::uint32_t layer, const ForestModel& model, ForestBuffers& buffers) const;
-    /// The tiles of one elevation.
+    /// Draws the tiles of one elevation.
     void draw_row(const Cylinder& form,
                   std::uint32_t elevation,
                   const ForestBuffers& buffers,
@@ -80,9 +78,9 @@ private:
     std::vector<LayerBoxes> boxes_; // by layer
     Buffer box_buffer_;
     ImpostorPlan plan_;
-    std::vector<std::uint64_t> keys_;    // of what is in each layer; 0: nothing
-    std::vector<std::uint64_t> wanted_;  // of what is to be in it
-    std::vector<std::uint32_t> pending_; // layers, the next one last
+    std::vector<std::uint64_t> keys_;    // hash of the contents of each layer; 0: empty
+    std::vector<std::uint64_t> wanted_;  // hash of the wanted contents
+    std::vector<std::uint32_t> pending_; // layers to bake, the next one last
     std::optional<Work> work_;
     std::uint32_t layers_ = 0;
     std::uint64_t texture_bytes_ = 0;

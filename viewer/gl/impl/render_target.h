@@ -1,4 +1,4 @@
-// RenderTarget: the memory a picture is drawn into.
+// RenderTarget: offscreen framebuffer of a picture.
 #pragma once
 
 #include "viewer/gl/impl/objects.h"
@@ -13,13 +13,13 @@ class RenderTarget {
 public:
     explicit RenderTarget(Device& device) : device_(&device) {}
 
-    /// Makes room for a picture and binds it; clears colour and depth.
+    /// Resizes if needed, binds and clears colour and depth.
     void begin(std::uint32_t width, std::uint32_t height, std::uint32_t samples);
-    /// Afterwards the picture can be read.
+    /// Resolves samples; required before read() and present().
     void resolve();
-    /// Rows from top to bottom, four bytes a pixel.
+    /// Rows from top to bottom, RGBA.
     void read(std::vector<std::uint8_t>& pixels) const;
-    /// To this part of the framebuffer of the window.
+    /// Copies to a part of the framebuffer of the window.
     void present(const PixelArea& area) const;
 
 private:

@@ -14,7 +14,7 @@ namespace lsys::view {
 
 namespace {
 
-// What terrain.*.glsl ask for.
+// Uniforms and bindings of terrain.*.glsl.
 constexpr GLuint kHeights = 1;
 constexpr GLuint kNoise = 2;
 constexpr GLint kOrigins = 0;
@@ -23,7 +23,7 @@ constexpr GLint kLevels = 13;
 constexpr std::uint32_t kNoiseTexels = 128;
 constexpr GLsizei kPatchIndices = 6 * kPatchCells * kPatchCells;
 
-/// Smooth noise that repeats after the texture, 0 to 1: a sum of octaves of values.
+/// Tileable value noise, 0 to 1, in octaves.
 float noise_at(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
     float sum = 0.0F;
     float weight = 0.0F;
@@ -47,7 +47,7 @@ float noise_at(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
         weight += part;
         part *= 0.6F;
     }
-    // Spread about the middle, where sums crowd.
+    // Raise the contrast: sums cluster around the mean.
     return std::clamp(0.5F + 1.6F * (sum / weight - 0.5F), 0.0F, 1.0F);
 }
 

@@ -1,5 +1,5 @@
-// TerrainPass: the ground of a forest on the device: heights around the camera as a texture, and
-// one small grid that is drawn for each patch of a TerrainLod.
+// TerrainPass: draws the ground of a forest: a texture of heights around the camera, and one small
+// grid drawn per patch of a TerrainLod.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -16,18 +16,18 @@ class TerrainPass {
 public:
     explicit TerrainPass(Device& device);
 
-    /// Error: a shader does not compile; the ones before stay.
+    /// Error: a shader does not compile; the old one stays in use.
     [[nodiscard]] Result<Done> reload(const ShaderSource& shaders);
-    /// The ground that is drawn from now on; it outlives the pass or the next call.
+    /// Replaces the ground; it must outlive the pass or the next call.
     void show(const Terrain& terrain, float reach);
-    /// Selects for a camera and uploads what is new.
+    /// Selects patches for a camera and uploads new heights.
     void prepare(const Frustum& frustum);
-    /// What was selected.
+    /// Draws the selected patches.
     FrameStats draw();
 
     [[nodiscard]] const TerrainLod* lod() const { return lod_.get(); }
     [[nodiscard]] std::uint64_t texture_bytes() const;
-    /// A level's heights as the device has them, by rows.
+    /// Heights of a level read back from the device, in rows.
     [[nodiscard]] std::vector<float> read_heights(std::uint32_t level) const;
 
 private:
