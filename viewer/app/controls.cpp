@@ -19,7 +19,7 @@ float held_way(const WindowInput& input, Key forwards, Key backwards) {
     return (is_held(input, forwards) ? 1.0F : 0.0F) - (is_held(input, backwards) ? 1.0F : 0.0F);
 }
 
-/// Half a turn along the picture's height.
+/// Half a turn per picture height.
 void orbit(Camera& camera, const glm::vec2& drag, float height) {
     const float turn = std::numbers::pi_v<float> / std::max(height, 1.0F);
     if (drag != glm::vec2(0.0F)) {
@@ -27,7 +27,7 @@ void orbit(Camera& camera, const glm::vec2& drag, float height) {
     }
 }
 
-/// What lies at the target stays under the mouse.
+/// The target follows the mouse.
 void pan(Camera& camera, const glm::vec2& drag, float height) {
     if (drag != glm::vec2(0.0F)) {
         const float metres =
@@ -83,7 +83,7 @@ void Controls::apply(const WindowInput& input,
         panels.quits = !switcher.shown().is_unsaved() || panels.asked_to_quit;
         if (!panels.quits) {
             panels.asked_to_quit = true;
-            switcher.shown().say(
+            switcher.shown().set_note(
                 "what was painted is not saved: Ctrl+S saves it, Ctrl+Q leaves it");
         }
     } else if (!input.presses.empty()) {
@@ -134,7 +134,7 @@ void Controls::apply(const WindowInput& input,
 }
 
 void Controls::use_tool(const WindowInput& input, const PixelArea& area, ForestView& view) {
-    // Pictures begin at the window's upper edge.
+    // The upper edges of picture and window coincide.
     const auto place = [&area](const glm::vec2& pixels) {
         const float half = 0.5F * static_cast<float>(area.height);
         return glm::vec2(
@@ -159,7 +159,7 @@ void Controls::fly(const WindowInput& input, float seconds, float height, Camera
     constexpr float kNotch = 1.2F;
     constexpr float kFaster = 4.0F;
     speed_ *= std::pow(kNotch, input.wheel);
-    // To the target within two seconds.
+    // Reaches the target in two seconds.
     const float metres = 0.5F * speed_ * (is_held(input, Key::Shift) ? kFaster : 1.0F) * seconds *
                          glm::distance(camera.eye, camera.target);
     camera =
@@ -179,7 +179,7 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
     case Key::Escape:
         panels.help = false;
         panels.flies = false;
-        return false; // views may have more to end
+        return false; // views handle it too
     case Key::F1:
         panels.help = !panels.help;
         return true;
@@ -187,7 +187,7 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
         break;
     }
     if (panels.flies) {
-        return false; // letters move
+        return false; // letters move the camera
     }
     switch (press.key) {
     case Key::F:

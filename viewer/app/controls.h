@@ -1,4 +1,4 @@
-// Controls: what mouse and keyboard do to a view.
+// Controls: mouse and keyboard input to changes of a view.
 #pragma once
 
 #include "viewer/app/view_switcher.h"
@@ -8,17 +8,17 @@
 
 namespace lsys::view {
 
-/// What is open over the picture.
+/// Overlays that are open.
 struct PanelState {
     bool panels = true;
     bool statistics = true;
     bool help = false;
-    bool flies = false; // the mouse looks about and WASD move
+    bool flies = false; // fly mode: the mouse looks around, WASD move
     bool quits = false;
-    bool asked_to_quit = false; // while something was unsaved
+    bool asked_to_quit = false; // refused once because of unsaved changes
 };
 
-/// A key and what it does, for the help.
+/// A row of the list of keys.
 struct KeyHelp {
     const char* keys;
     const char* what;
@@ -81,45 +81,45 @@ inline constexpr std::array<KeyHelp, 26> kForestKeys = {{
 
 class Controls {
 public:
-    /// `seconds` since the last time; `area` of the picture in the window, from its lower left
-    /// corner, pixels.
+    /// Applies input to the view shown. `seconds`: since the last call. `area`: of the picture in
+    /// the window, pixels from its lower left corner.
     void apply(const WindowInput& input,
                double seconds,
                const PixelArea& area,
                ViewSwitcher& switcher,
                PanelState& panels);
-    /// The same of one view of a plant; `height` of the picture.
+    /// Applies input to a plant; `height` of the picture in pixels.
     void apply(const WindowInput& input,
                double seconds,
                float height,
                PlantView& view,
                PanelState& panels);
-    /// And of a forest.
+    /// Applies input to a forest.
     void apply(const WindowInput& input,
                double seconds,
                const PixelArea& area,
                ForestView& view,
                PanelState& panels);
-    /// Keys are held that move the camera.
+    /// Whether held keys may move the camera.
     [[nodiscard]] bool is_moving() const { return is_moving_; }
 
 private:
     void press(const KeyPress& press, PlantView& view, PanelState& panels);
     void press(const KeyPress& press, ForestView& view, PanelState& panels);
-    /// Keys that every view has. Whether this was one.
+    /// Handles keys common to all views; returns whether this was one.
     [[nodiscard]] static bool press_common(const KeyPress& press, View& view, PanelState& panels);
     void use_tool(const WindowInput& input, const PixelArea& area, ForestView& view);
     void fly(const WindowInput& input, float seconds, float height, Camera& camera);
 
-    float speed_ = 1.0F; // factor of flying
+    float speed_ = 1.0F; // factor of the speed of flying
     bool is_moving_ = false;
 };
 
-/// Another seed than the one that is shown.
+/// Sets the seed after the one shown.
 void next_seed(PlantView& view);
-/// Generations by `step` more or fewer.
+/// Adds `step` to the generations.
 void step_generations(PlantView& view, int step);
-/// Another forest than the one that is shown.
+/// Sets the key after the one shown.
 void next_key(ForestView& view);
 
 } // namespace lsys::view

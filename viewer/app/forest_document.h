@@ -1,4 +1,4 @@
-// ForestDocument: a scene and the forest it makes, from the file to meshes of branches.
+// ForestDocument: a scene and its forest, from file to meshes.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -13,11 +13,11 @@
 namespace lsys::view {
 
 struct ForestDocument {
-    Scene scene; // as it was asked for
+    Scene scene; // after all overrides
     GrownForest grown;
-    ForestModel model; // of `grown`, which must not move
+    ForestModel model; // refers to `grown`
     MeshOptions mesh_options;
-    std::vector<std::string> files; // that it is made of, where they were recorded
+    std::vector<std::string> files; // all files asked for, if recorded
     double parse_seconds = 0.0;
     double mesh_seconds = 0.0;
 };
@@ -26,22 +26,22 @@ struct ForestDocument {
 [[nodiscard]] Outcome<std::shared_ptr<ForestDocument>>
 make_forest_document(const ViewOptions& options, const Project& project);
 
-/// Makes the forest of a window: `edits` of the window are applied after those of `options`, and
-/// all placed trees are there: what `scene.painting` erases and adds is up to ForestPainting.
-/// Heroes are taken from `known`, which may be null, where it has them.
+/// Makes the forest of a window. `edits` of the window are applied after those of `options`. All
+/// placed trees are kept: ForestPainting applies `scene.painting`. Heroes are taken from `known`,
+/// which may be null, where possible.
 [[nodiscard]] Outcome<std::shared_ptr<ForestDocument>>
 make_unpainted_forest(const ViewOptions& options,
                       const SceneOverrides& edits,
                       const ForestDocument* known,
                       const Project& project);
 
-/// Where a forest is seen from if nobody says: from beside and above, all of it in view.
+/// Default camera: from the side and above, with all trees in view.
 [[nodiscard]] Camera overview(const ForestDocument& document, float aspect);
 
-/// A camera whose eye is not in the ground: at least as high above it as a person's.
+/// Lifts a camera below the ground to the height of a person.
 [[nodiscard]] Camera above_ground(const Camera& camera, const Terrain& terrain);
 
-/// The light of a forest: the day of Light, with air as thick as its size asks for.
+/// Light of a forest; the density of the air depends on its size.
 [[nodiscard]] Light forest_light(const ForestDocument& document);
 
 } // namespace lsys::view

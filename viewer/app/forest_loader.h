@@ -1,4 +1,4 @@
-// ForestLoader: makes forests on a thread of its own, by the rules of LatestRequestWorker.
+// ForestLoader: makes forests on a thread of its own: LatestRequestWorker.
 #pragma once
 
 #include "viewer/app/forest_document.h"
@@ -14,18 +14,18 @@ namespace lsys::view {
 struct ForestRequest {
     ViewOptions options;
     SceneOverrides edits; // after options.overrides
-    /// What is shown, whose heroes may be used again; none: all files are to be read.
+    /// Forest whose heroes may be reused; null: read all files.
     std::shared_ptr<const ForestDocument> known;
     SteadyClock::time_point since;
     bool again = false;
 };
 
 struct ForestOutcome {
-    std::shared_ptr<ForestDocument> document; // none: it could not be made
+    std::shared_ptr<ForestDocument> document; // null: failed
     Messages messages;
-    std::vector<std::string> files; // that it is made of, as far as they are known
+    std::vector<std::string> files; // all files asked for
     ForestRequest request;
-    double seconds = 0.0; // of the making
+    double seconds = 0.0; // of making
 };
 
 [[nodiscard]] ForestOutcome make_forest(const ForestRequest& request,

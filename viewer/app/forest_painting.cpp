@@ -13,9 +13,9 @@ namespace lsys::view {
 
 namespace {
 
-constexpr double kPickCell = 1.0; // m, of the ground as it is looked for, at least
+constexpr double kPickCell = 1.0; // m, min
 constexpr double kMaxCells = 1024.0;
-constexpr float kStep = 0.5F; // of the radius: between places of a stroke
+constexpr float kStep = 0.5F; // radii between places of a stroke
 constexpr std::uint32_t kMaxSteps = 256;
 
 std::vector<std::string> names_of(const Scene& scene) {
@@ -27,7 +27,7 @@ std::vector<std::string> names_of(const Scene& scene) {
 }
 
 bool is_same_ground(const SceneTerrain& a, const SceneTerrain& b) {
-    // A map may be another file of the same name.
+    // The file of a map may have changed.
     return a.kind == b.kind && a.kind != TerrainKind::HeightMap && a.region == b.region &&
            a.base == b.base && a.noise == b.noise;
 }
@@ -36,7 +36,7 @@ std::uint32_t cells_along(double size) {
     return static_cast<std::uint32_t>(std::clamp(size / kPickCell, 16.0, kMaxCells));
 }
 
-/// Where the ray meets the ground itself, near where it meets the cells of a field.
+/// Refines an intersection with a height field to one with the terrain.
 glm::dvec3 refined(const Ray& ray, const glm::dvec3& found, double reach, const Terrain& terrain) {
     const double length = glm::length(ray.direction);
     const double middle = glm::dot(found - ray.origin, ray.direction) / (length * length);
@@ -71,7 +71,7 @@ Painter& ForestPainting::painter() {
     return *painter_;
 }
 
-/// With the species of document_; trees of those that are gone are left out.
+/// Maps species to those of document_; drops trees of species that are gone.
 Painting ForestPainting::renamed(const Painting& painting) const {
     const std::vector<std::string> names = names_of(document_->scene);
     Painting result{{}, painting.erased};
@@ -179,7 +179,7 @@ void ForestPainting::go_over(const glm::dvec3& place,
     const float way = glm::distance(from, glm::vec2(x, z));
     const float step = std::max(kStep * brush.radius, 0.1F);
     if (tool == PaintTool::OneTree || way < step) {
-        return; // a tree a press; and the brush has been here
+        return; // a press plants one tree; the brush has covered this place
     }
     const std::uint32_t steps =
         std::min(static_cast<std::uint32_t>(std::min(way / step, 1e6F)), kMaxSteps);
@@ -240,7 +240,7 @@ std::uint64_t ForestPainting::tree_count() const {
 
 Result<Done> ForestPainting::save(const std::string& file, const Console& console) {
     if (!painter_) {
-        return Done{}; // what is there is what was read
+        return Done{}; // nothing changed
     }
     Result<std::string> before = read_file(file, {kMaxSourceBytes}, console);
     if (!before) {

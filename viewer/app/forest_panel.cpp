@@ -13,7 +13,7 @@ namespace lsys::view {
 
 namespace {
 
-/// Shows what is in force; sets `edit` where it is changed, and lets it go by the button behind it.
+/// Shows the value in force, sets `edit` on change, and resets it by a button.
 template <typename Value, typename Draw>
 void draw_edit(const char* name, Value shown, std::optional<Value>& edit, const Draw& draw) {
     ImGui::PushID(name);
@@ -159,7 +159,7 @@ void draw_painting(ForestView& view) {
     line(fmt::format("{} painted", grouped(view.painting().painted_count())));
 }
 
-/// The grammar of a species that is to be shown alone; empty: none.
+/// Returns the grammar of a species to open, or empty.
 std::string draw_species(ForestView& view) {
     std::string wanted;
     const ForestDocument* const document = view.document();
@@ -194,7 +194,7 @@ std::string draw_species(ForestView& view) {
         }
         ImGui::TreePop();
     }
-    // Species without edits, as edits of two moments are compared.
+    // Drop species without edits, so that edits can be compared.
     std::erase_if(view.settings.edits.species,
                   [](const auto& each) { return each.second == SpeciesOverrides{}; });
     return wanted;

@@ -14,12 +14,11 @@ namespace lsys::view {
 namespace {
 
 constexpr double kMilliseconds = 1e3;
-// So long pictures of far trees are made between two looks at what the user does, s.
+// Time for baking of impostors between two events, s.
 constexpr double kBakeTime = 0.02;
-// Trees whose branches are made for one picture, so that a camera that flies does not halt.
+// Limit per picture, so that a flying camera does not stutter.
 constexpr std::uint32_t kMaxExpansions = 1000;
-// A picture that takes longer is drawn coarser while something moves, and again when all has been
-// at rest for a while, s.
+// Slower pictures, s, are reduced in quality during motion, and redrawn after a rest, s.
 constexpr double kSlowPicture = 0.12;
 constexpr double kRest = 0.25;
 constexpr std::uint64_t kFewestTriangles = 20'000;
@@ -63,7 +62,7 @@ ForestView::ForestView(const ViewOptions& options,
                        Renderer& renderer,
                        std::function<void()> wake)
     : View(options, console, renderer), settings(first_settings(options)), wake_(std::move(wake)),
-      painting_(renderer), frames_next_(options.camera.empty()), loader_(make_forest, wake_),
+      painting_(renderer), frame_next_(options.camera.empty()), loader_(make_forest, wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
                  files_changed(files, since);
@@ -74,10 +73,10 @@ ForestView::ForestView(const ViewOptions& options,
 
 ForestView::~ForestView() {
     renderer_->show_lines({});
-    renderer_->show_plant(Mesh{}); // what it shows goes with this
+    renderer_->show_plant(Mesh{}); // releases the plant
 }
 
-/// On a thread of the watch.
+/// Runs on a thread of the watch.
 void ForestView::files_changed(const std::vector<std::string>& files,
                                SteadyClock::time_point since) {
     const auto shaders = std::count_if(files.begin(), files.end(),
@@ -93,7 +92,7 @@ void ForestView::files_changed(const std::vector<std::string>& files,
         const std::lock_guard lock(saved_mutex_);
         const Result<std::string> text = read_file(files.front(), {kMaxSourceBytes}, console_);
         if (!saved_text_.empty() && text && text.value() == saved_text_) {
-            return; // that is what is shown
+            return; // written by save()
         }
         saved_text_.clear();
     }
@@ -145,13 +144,13 @@ bool ForestView::update() {
 
 void ForestView::ask() {
     asked_ = settings.edits;
-    // What is in error may lie in files that are not read again.
+    // After an error read all files again: the cause may lie in any.
     loader_.request({options_, settings.edits, failed() ? nullptr : document_, SteadyClock::now()});
 }
 
 void ForestView::take_outcome(ForestOutcome outcome) {
     if (outcome.request.options.files != options_.files) {
-        return; // another one is on its way
+        return; // a newer one follows
     }
     const bool fine = outcome.document != nullptr;
     take_messages(outcome.messages, fine);
@@ -181,11 +180,11 @@ void ForestView::swap(ForestOutcome outcome) {
     }
     document_ = document;
     has_impostors_ = false;
-    if (std::exchange(frames_next_, false)) {
+    if (std::exchange(frame_next_, false)) {
         settings.camera = overall;
     }
     if (const std::string note = painting_.follow(document_); !note.empty()) {
-        say(note);
+        set_note(note);
     }
     const PlacementOptions& placement = document_->scene.placement;
     if (!outcome.request.edits.years) {
@@ -204,7 +203,7 @@ void ForestView::swap(ForestOutcome outcome) {
     since_ = outcome.request.since;
     stats_.swap_seconds = seconds_since(since_);
     ++stats_.swaps;
-    tells_shown_ = true;
+    logs_next_frame_ = true;
     changed_ = true;
 }
 
@@ -230,7 +229,7 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
     if (moves) {
         last_motion_ = SteadyClock::now();
     } else if (is_slow_ && loader_.is_busy()) {
-        return false; // the next forest would wait for a picture of this one
+        return false; // draw the next forest instead
     }
     has_worked_ = false;
     is_coarse_ = is_slow_ && seconds_since(last_motion_) < kRest;
@@ -255,7 +254,7 @@ void ForestView::shown(double draw_seconds) {
     } else if (draw_seconds < 0.25 * kSlowPicture) {
         coarse_triangles_ = std::min(coarse_triangles_ * 2, settings.max_triangles);
     }
-    if (!std::exchange(tells_shown_, false)) {
+    if (!std::exchange(logs_next_frame_, false)) {
         return;
     }
     stats_.shown_seconds = seconds_since(since_);
@@ -280,7 +279,7 @@ void ForestView::grow() {
         return;
     }
     last_growth_ = now;
-    // A picture that takes long leaves out years.
+    // Slow pictures skip years.
     constexpr double kMaxYears = 1000.0;
     const auto next = years() + static_cast<std::uint32_t>(std::min(years_passed, kMaxYears));
     settings.grows = next < usual_years_;
@@ -289,7 +288,7 @@ void ForestView::grow() {
 
 void ForestView::play_or_pause() {
     if (usual_years_ == 0) {
-        say("only a forest placed by domination grows");
+        set_note("only a forest placed by domination grows");
         return;
     }
     settings.grows = !settings.grows;
@@ -304,7 +303,7 @@ void ForestView::open(const std::string& file) {
     options_.files = {file};
     settings.edits = {};
     settings.grows = false;
-    frames_next_ = true;
+    frame_next_ = true;
     files_ = {file};
     asked_.reset();
     watch_files();
@@ -335,7 +334,7 @@ void ForestView::show_outline() {
     std::optional<glm::dvec3> place;
     if (settings.tool != PaintTool::None && document_ != nullptr) {
         if (!pointed_) {
-            return; // it stays where it is
+            return; // the outline stays
         }
         place = ground_at(*pointed_);
     }
@@ -375,50 +374,51 @@ std::string ForestView::painted_text(const char* what) const {
 void ForestView::end_stroke() {
     begins_stroke_ = false;
     if (std::exchange(has_stroke_, false)) {
-        say(painted_text(""));
+        set_note(painted_text(""));
     }
 }
 
 void ForestView::undo() {
     if (!painting_.can_undo()) {
-        say("nothing to undo");
+        set_note("nothing to undo");
         return;
     }
     painting_.undo();
     changed_ = true;
-    say(painted_text("undo: "));
+    set_note(painted_text("undo: "));
 }
 
 void ForestView::redo() {
     if (!painting_.can_redo()) {
-        say("nothing to redo");
+        set_note("nothing to redo");
         return;
     }
     painting_.redo();
     changed_ = true;
-    say(painted_text("redo: "));
+    set_note(painted_text("redo: "));
 }
 
 void ForestView::save() {
     if (!is_scene(file())) {
-        say("this forest has no scene file to save to");
+        set_note("this forest has no scene file to save to");
         return;
     }
     const std::lock_guard lock(saved_mutex_);
     const Result<Done> saved = painting_.save(file(), console_);
     if (!saved) {
-        say(fmt::format("not saved: {}", saved.error().message));
+        set_note(fmt::format("not saved: {}", saved.error().message));
         return;
     }
     saved_text_ = painting_.saved_text();
     const bool is_other_placement =
         settings.edits.changes_placement() || options_.overrides.changes_placement();
-    // Their numbers are all that the file has of them.
+    // The file identifies them by number only.
     const bool is_doubtful = is_other_placement && painting_.has_erased();
-    say(fmt::format("saved {}{}", file(),
-                    is_doubtful ? "; but trees were erased from another placement than the file's, "
-                                  "where other trees may have their numbers"
-                                : ""));
+    set_note(fmt::format("saved {}{}", file(),
+                         is_doubtful
+                             ? "; but trees were erased from another placement than the file's, "
+                               "where other trees may have their numbers"
+                             : ""));
 }
 
 bool ForestView::is_busy() const {

@@ -1,5 +1,5 @@
-// ForestView: what a window shows of a forest, without the window. The scene, its grammars and what
-// they include are watched; forests are made on another thread and exchanged between two pictures.
+// ForestView: the state of a window with a forest, without the window. Watches the scene, its
+// grammars and their includes; forests are made on another thread and swapped between two pictures.
 #pragma once
 
 #include "viewer/app/file_watch.h"
@@ -19,17 +19,17 @@
 
 namespace lsys::view {
 
-inline constexpr float kMaxBrush = 500.0F; // m, its radius
+inline constexpr float kMaxBrush = 500.0F; // m, radius
 
-/// What a user can change while the forest is shown.
+/// Settings of the user.
 struct ForestViewSettings {
-    SceneOverrides edits; // after those of the command line; a change makes another forest
+    SceneOverrides edits; // applied after those of the command line; changes make a new forest
 
     Camera camera;
     bool shadows = true;
-    bool smooth = true; // edges, by several samples of a pixel
+    bool smooth = true; // antialiasing
     bool wireframe = false;
-    bool windy = false; // it moves
+    bool windy = false; // wind is on
     Wind wind;
     std::uint64_t max_triangles = 1'500'000;
 
@@ -40,25 +40,25 @@ struct ForestViewSettings {
     Brush brush;
 };
 
-/// Of what the heroes of one species with one number of generations are made of.
+/// Statistics of the instance cache of a species and number of generations.
 struct CacheNumbers {
     std::string species;
     std::uint32_t generations = 0;
     std::uint32_t heroes = 0;
     std::uint64_t keys = 0;
-    std::uint64_t branches = 0; // that are kept
+    std::uint64_t branches = 0; // kept
     std::uint64_t hits = 0;
     std::uint64_t misses = 0;
     std::uint64_t dropped = 0;
     std::uint64_t bytes = 0;
 };
 
-/// Of the forest that is shown.
+/// Statistics of the forest shown.
 struct ForestViewStats {
-    double make_seconds = 0.0;   // of all that the loader does
-    double upload_seconds = 0.0; // of the exchange
-    double swap_seconds = 0.0;   // from the change to the exchange
-    double shown_seconds = 0.0;  // from the change until it was seen
+    double make_seconds = 0.0;   // all work of the loader
+    double upload_seconds = 0.0; // of the swap
+    double swap_seconds = 0.0;   // from the change to the swap
+    double shown_seconds = 0.0;  // from the change to the first picture on the screen
     double draw_seconds = 0.0;   // of the last picture
     FrameStats drawn;
     std::uint64_t swaps = 0;
@@ -67,7 +67,7 @@ struct ForestViewStats {
 
 class ForestView final : public View {
 public:
-    /// `wake` is called on any thread when update() has something to do.
+    /// `wake` is called on any thread when update() has work.
     ForestView(const ViewOptions& options,
                const Console& console,
                Renderer& renderer,
@@ -86,34 +86,34 @@ public:
     [[nodiscard]] Camera& camera() override { return settings.camera; }
     [[nodiscard]] bool is_unsaved() const override { return painting_.is_unsaved(); }
 
-    /// Shows another scene, all in view.
+    /// Opens another scene and frames it.
     void open(const std::string& file);
-    /// Begins at the first year if all has grown.
+    /// Restarts at the first year when all years are shown.
     void play_or_pause();
     void set_years(std::uint32_t years);
     [[nodiscard]] std::uint32_t years() const;
-    /// How long the forest grows if nothing else is asked for; 0: it does not.
+    /// Years of the scene without edits; 0: it does not grow.
     [[nodiscard]] std::uint32_t usual_years() const;
 
-    /// The tool is at a place of the last picture: from its middle, 1 is half its height, to the
-    /// right and up.
+    /// Moves the tool to a place of the last picture: right and up from its centre, in half picture
+    /// heights.
     void point_at(const glm::vec2& place);
-    /// It works there; `begins`: a stroke. An eraser whatever the tool is, if `erases`.
+    /// Applies the tool there. `begins`: starts a stroke. `erases`: uses the eraser instead.
     void work_at(const glm::vec2& place, bool begins, bool erases);
-    /// Says what the stroke has done, if there was one.
+    /// Ends a stroke and reports its changes.
     void end_stroke();
     void undo();
     void redo();
-    /// What was painted goes into the scene file; says so.
+    /// Saves painted trees in the scene file and reports the result.
     void save();
 
-    /// The last forest without errors; none: there was none yet.
+    /// Last forest without errors; null: none yet.
     [[nodiscard]] const ForestDocument* document() const { return document_.get(); }
     [[nodiscard]] const ForestViewStats& stats() const { return stats_; }
     [[nodiscard]] const ForestPainting& painting() const { return painting_; }
-    /// The last picture is of fewer triangles and samples than asked for, because something moves.
+    /// Whether the last picture had reduced quality because of motion.
     [[nodiscard]] bool is_coarse() const { return is_coarse_; }
-    /// Whether pictures of far trees are still being made.
+    /// Whether all impostors are baked.
     [[nodiscard]] bool has_impostors() const { return has_impostors_; }
 
 private:
@@ -131,32 +131,32 @@ private:
     std::shared_ptr<ForestDocument> document_;
     ForestPainting painting_;
     std::vector<std::string> files_;
-    bool frames_next_ = false; // the next forest's view
-    bool tells_shown_ = false;
+    bool frame_next_ = false; // at the next swap
+    bool logs_next_frame_ = false;
     bool has_impostors_ = true;
     std::optional<SceneOverrides> asked_;
     std::uint32_t usual_years_ = 0;
-    SteadyClock::time_point since_; // of the forest that is shown
+    SteadyClock::time_point since_; // change that led to the forest shown
     SteadyClock::time_point last_growth_;
     SteadyClock::time_point start_ = SteadyClock::now(); // of the wind
     std::optional<glm::vec2> pointed_;
     bool has_outline_ = false;
-    bool begins_stroke_ = false; // where the mouse meets the ground next
+    bool begins_stroke_ = false; // at the next point on the ground
     bool has_stroke_ = false;
-    bool has_worked_ = false; // a tool, since the last picture
-    bool is_slow_ = false;    // the last picture of all that was asked for
+    bool has_worked_ = false; // since the last picture
+    bool is_slow_ = false;    // last picture at full quality
     bool is_coarse_ = false;
     std::uint64_t coarse_triangles_ = 200'000;
     SteadyClock::time_point last_motion_;
     ForestViewStats stats_;
 
     std::mutex saved_mutex_;
-    std::string saved_text_; // as this view has written the scene itself
+    std::string saved_text_; // text last written by this view
     ForestLoader loader_;
-    FileWatch watch_; // goes first: it calls the loader
+    FileWatch watch_; // last member: it calls the loader
 };
 
-/// How a cache was filled, for each species and stage.
+/// Cache statistics by species and stage.
 [[nodiscard]] std::vector<CacheNumbers> cache_numbers(const Forest& forest);
 
 } // namespace lsys::view

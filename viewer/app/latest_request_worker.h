@@ -1,5 +1,5 @@
-// LatestRequestWorker: makes things on a thread of its own. The newest request wins: one that waits
-// is replaced by it, and one that is being made and takes long is given up.
+// LatestRequestWorker: handles requests on a thread of its own. A new request replaces a pending
+// one; a running one is cancelled when it takes long.
 #pragma once
 
 #include <atomic>
@@ -15,21 +15,21 @@ namespace lsys::view {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// `Request` has `since`, when it came up, and `again`: it is a repetition because files have
+/// `Request` has `since`, the time of its cause, and `again`, whether it repeats because files
 /// changed.
 template <typename Request, typename Outcome>
 class LatestRequestWorker {
 public:
-    /// How long something is made although something newer waits.
+    /// Time that a request may run while a newer one is pending.
     static constexpr std::chrono::milliseconds kPatience{100};
     using Run = std::function<Outcome(const Request& request, const std::atomic<bool>& cancelled)>;
 
-    /// `done` is called on the maker's thread whenever there is something to take().
+    /// `done` is called on the worker's thread whenever take() has an outcome.
     LatestRequestWorker(Run run, std::function<void()> done)
         : run_request_(std::move(run)), done_(std::move(done)), thread_([this] { loop(); }) {}
     LatestRequestWorker(const LatestRequestWorker&) = delete;
     LatestRequestWorker& operator=(const LatestRequestWorker&) = delete;
-    /// Gives up what is being made.
+    /// Cancels the running request.
     ~LatestRequestWorker() {
         {
             const std::lock_guard lock(mutex_);
@@ -44,8 +44,8 @@ public:
         const std::lock_guard lock(mutex_);
         enqueue(std::move(request));
     }
-    /// The last request once more, from any thread: a file has changed, so what is being made is
-    /// given up. Nothing if there was none.
+    /// Repeats the last request after a change of files; callable from any thread. Cancels the
+    /// running one. Without a request, nothing.
     void repeat(SteadyClock::time_point since) {
         const std::lock_guard lock(mutex_);
         if (last_) {
@@ -56,8 +56,8 @@ public:
             enqueue(std::move(request));
         }
     }
-    /// What was made last and not yet taken. Gives up what is being made if something newer waits
-    /// and it has taken long: a slider that is dragged shows things on the way.
+    /// Takes the last outcome. Cancels the running request if it has run long and a newer one is
+    /// pending, so that a dragged slider shows intermediate results.
     [[nodiscard]] std::optional<Outcome> take() {
         const std::lock_guard lock(mutex_);
         if (pending_ && is_running_ && SteadyClock::now() - began_ > kPatience) {
@@ -65,7 +65,7 @@ public:
         }
         return std::exchange(outcome_, std::nullopt);
     }
-    /// Something waits, is being made or was not taken yet.
+    /// Whether a request is pending or running, or an outcome was not taken.
     [[nodiscard]] bool is_busy() const {
         const std::lock_guard lock(mutex_);
         return is_running_ || pending_ || outcome_;
@@ -73,8 +73,7 @@ public:
 
 private:
     void enqueue(Request request) {
-        // Files that have changed have to be read, whatever else is asked for before that was
-        // taken.
+        // Keep the request to read changed files until an outcome of it is taken.
         request.again = request.again || (pending_ && pending_->again) ||
                         (running_again_ && (is_running_ || outcome_));
         last_ = request;
@@ -113,7 +112,7 @@ private:
 
     Run run_request_;
     std::function<void()> done_;
-    mutable std::mutex mutex_; // of what follows
+    mutable std::mutex mutex_; // guards all below
     std::condition_variable changed_;
     std::optional<Request> pending_;
     std::optional<Request> last_;
@@ -123,7 +122,7 @@ private:
     bool stops_ = false;
     SteadyClock::time_point began_;
     std::atomic<bool> cancelled_{false};
-    std::thread thread_; // goes last: it uses the others
+    std::thread thread_; // last member: it uses the others
 };
 
 } // namespace lsys::view

@@ -26,9 +26,9 @@ namespace lsys::view {
 
 namespace {
 
-/// A renderer without a window, and the context that it draws in.
+/// A renderer without a window.
 struct HiddenRenderer {
-    std::unique_ptr<HeadlessContext> context; // goes last
+    std::unique_ptr<HeadlessContext> context; // destroyed last
     std::unique_ptr<Renderer> renderer;
 };
 
@@ -130,7 +130,7 @@ struct Dispatch {
     }
 };
 
-/// Without allocating: there is no memory.
+/// Must not allocate.
 int out_of_memory(const Io& io) {
     io.err << io.program << ": error: out of memory\n" << std::flush;
     return static_cast<int>(ExitStatus::Limit);
@@ -143,7 +143,7 @@ int run(std::span<const std::string> arguments, const Io& io) {
         return static_cast<int>(std::visit(Dispatch{io}, parse_options(arguments)));
     } catch (const std::bad_alloc&) {
         return out_of_memory(io);
-    } catch (const std::length_error&) { // what a string or vector throws when it cannot be so long
+    } catch (const std::length_error&) { // strings and vectors that are too long
         return out_of_memory(io);
     }
 }

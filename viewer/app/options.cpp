@@ -14,7 +14,7 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint64_t kMaxPixels = 16'384; // along a side of a picture
+constexpr std::uint64_t kMaxPixels = 16'384; // per side of a picture
 constexpr std::uint64_t kMaxFrames = 1'000'000;
 
 struct Size {

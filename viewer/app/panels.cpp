@@ -21,7 +21,7 @@ constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindo
                                       ImGuiWindowFlags_NoSavedSettings |
                                       ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 
-/// The part of the window beside the panel.
+/// Part of the window beside the panel.
 struct Area {
     ImVec2 low;
     ImVec2 high;
@@ -109,7 +109,7 @@ void draw_statistics(ViewSwitcher& switcher, const Area& area) {
 const ImVec4 kErrorColour{1.0F, 0.72F, 0.66F, 1.0F};
 const ImVec4 kWarningColour{1.0F, 0.93F, 0.7F, 1.0F};
 
-/// A message that opens on a click and shows the lines of the source that it speaks of.
+/// A message; a click shows its source lines.
 void draw_message(const ShownMessage& message, int number, bool is_first) {
     ImGui::PushID(number);
     ImGui::PushStyleColor(ImGuiCol_Text,
@@ -128,7 +128,7 @@ void draw_message(const ShownMessage& message, int number, bool is_first) {
     ImGui::PopID();
 }
 
-/// The messages of `lsc`, of the shaders and of OpenGL.
+/// Messages of `lsc`, shaders and OpenGL.
 void draw_messages(const View& view, const Area& area) {
     std::vector<ShownMessage> errors;
     if (!view.shader_message().empty()) {

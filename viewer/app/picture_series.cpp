@@ -22,10 +22,10 @@ double milliseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Pixels that are drawn at once: a larger picture is drawn in stripes.
+// Max pixels per draw; larger pictures are drawn in stripes.
 constexpr std::uint64_t kStripePixels = std::uint64_t{1} << 22;
 
-/// Rows of a picture, drawn stripe by stripe.
+/// Draws a picture in stripes.
 Texture
 draw_picture(const Frame& frame, Renderer& renderer, FrameStats& stats, double& read_milliseconds) {
     Texture picture;

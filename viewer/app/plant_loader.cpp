@@ -30,7 +30,7 @@ LoadOutcome make(const LoadRequest& request, const std::atomic<bool>& cancelled)
         }
         has_memory = true;
     } catch (const std::bad_alloc&) {
-    } catch (const std::length_error&) { // what a string or vector throws when it cannot be so long
+    } catch (const std::length_error&) { // strings and vectors that are too long
     }
     if (!has_memory) {
         outcome.messages.add_error("out of memory");

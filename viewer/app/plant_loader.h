@@ -1,4 +1,4 @@
-// PlantLoader: makes plants on a thread of its own, by the rules of LatestRequestWorker.
+// PlantLoader: makes plants on a thread of its own: LatestRequestWorker.
 #pragma once
 
 #include "viewer/app/latest_request_worker.h"
@@ -15,12 +15,12 @@
 namespace lsys::view {
 
 struct LoadOutcome {
-    std::shared_ptr<const PlantDocument> document; // none: it could not be made
+    std::shared_ptr<const PlantDocument> document; // null: failed
     Messages messages;
-    std::vector<std::string> files; // that it is made of, as far as they are known
+    std::vector<std::string> files; // all files asked for
     ViewOptions options;            // of the request
-    SteadyClock::time_point since;  // when the request began
-    double seconds = 0.0;           // of the making
+    SteadyClock::time_point since;  // cause of the request
+    double seconds = 0.0;           // of making
 };
 
 struct LoadRequest {
@@ -31,7 +31,7 @@ struct LoadRequest {
 
 class PlantLoader {
 public:
-    /// `done` is called on the loader's thread whenever there is something to take().
+    /// `done` is called on the loader's thread whenever take() has an outcome.
     explicit PlantLoader(std::function<void()> done);
 
     void request(const ViewOptions& options, SteadyClock::time_point since) {

@@ -68,7 +68,7 @@ void draw_growth(PlantView& view) {
     line("Seed");
 }
 
-/// The place among the definitions of what is set here.
+/// Finds the user's value of a constant.
 std::vector<Definition>::iterator find_definition(PlantViewSettings& settings,
                                                   const std::string& name) {
     return std::find_if(settings.definitions.begin(), settings.definitions.end(),
@@ -82,7 +82,7 @@ void draw_constant(PlantViewSettings& settings, const Constant& constant, const 
     ImGui::PushID(name.c_str());
     bool changed = false;
     if (constant.is_drawn && !is_set) {
-        // Its value is another one in each run; a user may choose one.
+        // Random in each run, unless the user sets it.
         changed = ImGui::Button("Random: set");
         value = constant.is_param ? 0.5F * (constant.minimum + constant.maximum) : 0.0F;
         ImGui::SameLine();
@@ -172,7 +172,7 @@ void draw_mesh(PlantViewSettings& settings) {
     constexpr std::uint32_t kMaxSides = 64;
     slide("Level", mesh.level, kMaxLevels, "%u");
     slide("Sides", mesh.sides, kMaxSides, mesh.sides == 0 ? "from grammar" : "%u");
-    // A tube has three sides at least.
+    // A tube has at least three sides.
     mesh.sides = mesh.sides == 0 ? 0 : std::max(mesh.sides, 3U);
     ImGui::SliderFloat("Bark noise", &mesh.bark_noise, 0.0F, 1.0F, "%.2f",
                        ImGuiSliderFlags_AlwaysClamp);

@@ -1,4 +1,4 @@
-// The panel at the left: the plant's numbers, and sliders for all that can be changed.
+// Panel of a plant: its numbers and settings.
 #pragma once
 
 #include "viewer/app/controls.h"

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kMilliseconds = 1e3;
 
-/// They are made into the same plant.
-bool make_the_same(const PlantViewSettings& a, const PlantViewSettings& b) {
+/// Whether both settings make the same plant.
+bool makes_same_plant(const PlantViewSettings& a, const PlantViewSettings& b) {
     return a.file == b.file && a.generations == b.generations && a.seed == b.seed &&
            a.mesh == b.mesh && a.definitions == b.definitions;
 }
@@ -52,7 +52,7 @@ PlantView::PlantView(const ViewOptions& options,
                      Renderer& renderer,
                      std::function<void()> wake)
     : View(options, console, renderer), settings(first_settings(options)), wake_(std::move(wake)),
-      frames_next_(options.camera.empty()), loader_(wake_),
+      frame_next_(options.camera.empty()), loader_(wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
                  const auto shaders =
@@ -106,7 +106,7 @@ bool PlantView::update() {
     if (shown_lines_ != settings.lines) {
         show_lines();
     }
-    if (!asked_ || !make_the_same(*asked_, settings)) {
+    if (!asked_ || !makes_same_plant(*asked_, settings)) {
         asked_ = settings;
         loader_.request(wanted(), SteadyClock::now());
     }
@@ -115,7 +115,7 @@ bool PlantView::update() {
 
 void PlantView::take_outcome(LoadOutcome outcome) {
     if (outcome.options.file != settings.file) {
-        return; // another one is on its way
+        return; // a newer one follows
     }
     const bool fine = outcome.document != nullptr;
     take_messages(outcome.messages, fine);
@@ -123,7 +123,7 @@ void PlantView::take_outcome(LoadOutcome outcome) {
         files_ = outcome.files;
         swap(std::move(outcome));
     } else {
-        // What is mended may lie in any file of before or now.
+        // The correction may be made in any old or new file.
         for (const std::string& file : outcome.files) {
             if (std::find(files_.begin(), files_.end(), file) == files_.end()) {
                 files_.push_back(file);
@@ -133,7 +133,7 @@ void PlantView::take_outcome(LoadOutcome outcome) {
     watch_files();
 }
 
-/// Forgets values of constants that the file no longer has.
+/// Drops values of constants that the file no longer has.
 void PlantView::drop_unknown_definitions() {
     if (!document_->grammar.program) {
         return;
@@ -145,7 +145,7 @@ void PlantView::drop_unknown_definitions() {
         });
     };
     if (std::erase_if(settings.definitions, is_unknown) != 0 && asked_) {
-        asked_->definitions = settings.definitions; // the plant is the same
+        asked_->definitions = settings.definitions; // same plant
     }
 }
 
@@ -157,7 +157,7 @@ void PlantView::swap(LoadOutcome outcome) {
     bending_.reset();
     renderer_->show_plant(document_->mesh);
     show_lines();
-    if (std::exchange(frames_next_, false)) {
+    if (std::exchange(frame_next_, false)) {
         settings.camera = first_view(settings.camera, renderer_->bounds(), aspect_);
     }
     if (std::exchange(is_new_file_, false)) {
@@ -168,7 +168,7 @@ void PlantView::swap(LoadOutcome outcome) {
     stats_.swap_seconds = seconds_since(outcome.since);
     ++stats_.swaps;
     shown_outcome_ = std::move(outcome);
-    tells_shown_ = true;
+    logs_next_frame_ = true;
     changed_ = true;
 }
 
@@ -195,7 +195,7 @@ void PlantView::grow() {
         return;
     }
     const double interval = 1.0 / static_cast<double>(settings.generations_per_second);
-    const bool is_made = asked_ && make_the_same(*asked_, settings) && !loader_.is_busy();
+    const bool is_made = asked_ && makes_same_plant(*asked_, settings) && !loader_.is_busy();
     if (!is_made || std::chrono::duration<double>(now - last_growth_).count() < interval) {
         return;
     }
@@ -265,7 +265,7 @@ bool PlantView::draw(std::uint32_t width, std::uint32_t height) {
 
 void PlantView::shown(double draw_seconds) {
     stats_.draw_seconds = draw_seconds;
-    if (!std::exchange(tells_shown_, false)) {
+    if (!std::exchange(logs_next_frame_, false)) {
         return;
     }
     stats_.shown_seconds = seconds_since(shown_outcome_.since);
@@ -283,7 +283,7 @@ void PlantView::open(const std::string& file) {
     settings.generations.reset();
     settings.seed.reset();
     settings.grows = false;
-    frames_next_ = true;
+    frame_next_ = true;
     is_new_file_ = true;
     files_ = {file};
     asked_.reset();

@@ -1,6 +1,5 @@
-// PlantView: what a window shows, without the window. Settings go in, as from sliders; files are
-// watched, plants are made on other threads and exchanged between two pictures. A context has to
-// be current whenever it is called.
+// PlantView: the state of a window with a plant, without the window. Watches files; plants are made
+// on other threads and swapped between two pictures. Every call needs a current OpenGL context.
 #pragma once
 
 #include "viewer/app/file_watch.h"
@@ -18,22 +17,22 @@
 
 namespace lsys::view {
 
-/// What a user can change while the plant is shown.
+/// Settings of the user.
 struct PlantViewSettings {
-    // What the plant is made of: another one is made when these change.
+    // Sources: a change makes a new plant.
     std::string file;
-    std::vector<Definition> definitions; // instead of constants of the grammar
+    std::vector<Definition> definitions; // replace constants of the grammar
     std::optional<std::uint32_t> generations;
     std::optional<std::uint64_t> seed;
     MeshOptions mesh;
 
-    // How it is shown.
+    // Appearance.
     Camera camera;
     PlantStyle style = PlantStyle::Surface;
     LineKind lines = LineKind::None;
     bool shadows = true;
     bool ground = true;
-    bool smooth = true; // edges, by several samples of a pixel
+    bool smooth = true; // antialiasing
 
     bool bends = false;
     Bending bending;
@@ -42,22 +41,22 @@ struct PlantViewSettings {
     float generations_per_second = 2.0F;
 };
 
-/// Of the plant that is shown.
+/// Statistics of the plant shown.
 struct PlantViewStats {
     double upload_seconds = 0.0;
-    double make_seconds = 0.0;  // of all that the loader does
-    double swap_seconds = 0.0;  // from the change to the exchange
-    double shown_seconds = 0.0; // from the change until it was seen
+    double make_seconds = 0.0;  // all work of the loader
+    double swap_seconds = 0.0;  // from the change to the swap
+    double shown_seconds = 0.0; // from the change to the first picture on the screen
     double draw_seconds = 0.0;  // of the last picture
-    double bend_seconds = 0.0;  // of its last moment
-    double bend_time = 0.0;     // s, of the physics
+    double bend_seconds = 0.0;  // of the last moment
+    double bend_time = 0.0;     // s, simulated
     FrameStats drawn;
     std::uint64_t swaps = 0;
 };
 
 class PlantView final : public View {
 public:
-    /// `wake` is called on any thread when update() has something to do.
+    /// `wake` is called on any thread when update() has work.
     PlantView(const ViewOptions& options,
               const Console& console,
               Renderer& renderer,
@@ -74,15 +73,15 @@ public:
     [[nodiscard]] const std::string& file() const override { return settings.file; }
     [[nodiscard]] Camera& camera() override { return settings.camera; }
 
-    /// Shows another file, all in view.
+    /// Opens another file and frames it.
     void open(const std::string& file);
-    /// Begins at the axiom if all is grown.
+    /// Restarts at the axiom when all generations are shown.
     void play_or_pause();
 
-    /// The last plant without errors; none: there was none yet.
+    /// Last plant without errors; null: none yet.
     [[nodiscard]] const PlantDocument* document() const { return document_.get(); }
     [[nodiscard]] const PlantViewStats& stats() const { return stats_; }
-    /// How far the plant grows if nothing else is asked for.
+    /// Generations without settings.
     [[nodiscard]] std::uint32_t usual_generations() const;
     [[nodiscard]] std::uint32_t generations() const;
 
@@ -101,19 +100,19 @@ private:
     std::shared_ptr<const PlantDocument> document_;
     LoadOutcome shown_outcome_;
     std::vector<std::string> files_;
-    bool frames_next_ = false; // the next plant's view
-    bool is_new_file_ = true;  // whose own damping counts
-    bool tells_shown_ = false;
+    bool frame_next_ = false; // at the next swap
+    bool is_new_file_ = true; // take the damping of its grammar
+    bool logs_next_frame_ = false;
     PlantViewStats stats_;
 
-    std::optional<PlantViewSettings> asked_; // of the last request
+    std::optional<PlantViewSettings> asked_; // last request
     LineKind shown_lines_ = LineKind::None;
     SteadyClock::time_point last_growth_;
     BentPlant bent_;
-    std::optional<Bending> bending_; // of motion_
+    std::optional<Bending> bending_; // settings of motion_
     std::unique_ptr<PlantMotion> motion_;
     PlantLoader loader_;
-    FileWatch watch_; // goes first: it calls the loader
+    FileWatch watch_; // last member: it calls the loader
 };
 
 } // namespace lsys::view

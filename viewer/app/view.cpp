@@ -18,7 +18,7 @@ View::View(const ViewOptions& options, const Console& console, Renderer& rendere
 
 namespace {
 
-/// One entry a diagnostic; other messages are a line each.
+/// One entry per diagnostic and per other message.
 std::vector<ShownMessage> entries_of(const Messages& messages) {
     std::vector<ShownMessage> entries;
     for (const Message& message : messages.all()) {
@@ -35,9 +35,9 @@ std::vector<ShownMessage> entries_of(const Messages& messages) {
             render(diagnostic, sources, {MessageFormat::Short}, entry.head);
             render(diagnostic, sources, {MessageFormat::Human}, entry.text);
             entry.head.erase(entry.head.find_last_not_of('\n') + 1);
-            // The frame below the head repeats its first line.
+            // The text repeats the head in its first line.
             entry.text.erase(0, entry.text.find('\n') + 1);
-            constexpr std::size_t kMaxEntries = 50; // as a terminal shows
+            constexpr std::size_t kMaxEntries = 50; // as in a terminal
             if (entries.size() >= kMaxEntries) {
                 return entries;
             }
@@ -109,10 +109,10 @@ void View::write_screenshot() {
     picture.height = frame_->height;
     renderer_->read(picture.texels);
     const Result<Done> written = write_file(name, encode_png(picture), console_);
-    say(written ? fmt::format("wrote {}", name) : written.error().message);
+    set_note(written ? fmt::format("wrote {}", name) : written.error().message);
 }
 
-void View::say(const std::string& note) {
+void View::set_note(const std::string& note) {
     note_ = note;
     console_.info(note);
 }

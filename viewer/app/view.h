@@ -1,5 +1,5 @@
-// View: what every view of the window has: the last picture, what there is to say, the
-// shaders. A context has to be current whenever it is called.
+// View: common state of plant and forest views: last picture, messages, shaders. Every call needs a
+// current OpenGL context.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -15,11 +15,11 @@
 
 namespace lsys::view {
 
-/// A message of the overlay.
+/// A message in the overlay.
 struct ShownMessage {
     Severity severity = Severity::Note;
     std::string head; // `file:line:column: severity: message [code]`
-    std::string text; // the whole, with the lines of the source that it speaks of
+    std::string text; // all of it, with source lines
 };
 
 class View {
@@ -29,58 +29,58 @@ public:
     View& operator=(const View&) = delete;
     virtual ~View() = default;
 
-    /// Between two pictures: takes what was made, asks for what the settings want. Returns whether
-    /// there is something else to say.
+    /// Call between two pictures: takes finished work and requests what the settings need. Returns
+    /// whether messages changed.
     virtual bool update() = 0;
-    /// Draws, unless the last picture would be the same. Returns whether it did.
+    /// Draws unless nothing changed. Returns whether it drew.
     virtual bool draw(std::uint32_t width, std::uint32_t height) = 0;
-    /// The last picture is seen; it took so long to draw.
+    /// Call when the last picture is on the screen; it took `draw_seconds`.
     virtual void shown(double draw_seconds) = 0;
-    /// Something is being made, grows or moves: update() is to be called soon.
+    /// Whether work or motion goes on, so that update() is due soon.
     [[nodiscard]] virtual bool is_busy() const = 0;
     /// Reads all files again.
     virtual void reload() = 0;
-    /// All is in view.
+    /// Moves the camera to show everything.
     virtual void frame_all() = 0;
     [[nodiscard]] virtual const std::string& file() const = 0;
     [[nodiscard]] virtual Camera& camera() = 0;
-    /// There is something that no file holds.
+    /// Whether there are unsaved changes.
     [[nodiscard]] virtual bool is_unsaved() const { return false; }
 
-    /// Copies the last picture to this part of the window whose context is current.
+    /// Copies the last picture to a part of the window whose context is current.
     void present(const PixelArea& area) { renderer_->present(area); }
-    /// Writes the last picture under a name that is free; says so.
+    /// Writes the last picture to a new file and reports its name.
     void write_screenshot();
-    void say(const std::string& note);
+    void set_note(const std::string& note);
 
-    /// The messages of the last request, as `lsc` prints them.
+    /// Messages of the last request, formatted as `lsc` does.
     [[nodiscard]] const std::string& messages() const { return text_; }
-    /// The same one by one.
+    /// Messages of the last request, one by one.
     [[nodiscard]] const std::vector<ShownMessage>& entries() const { return entries_; }
-    /// It could not be shown.
+    /// Whether the last request failed.
     [[nodiscard]] bool failed() const { return failed_; }
     [[nodiscard]] const std::string& shader_message() const { return shader_message_; }
-    /// What was done last, as "wrote plant-1.png".
+    /// Last note, for example "wrote plant-1.png".
     [[nodiscard]] const std::string& note() const { return note_; }
     [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
 
 protected:
-    /// As draw().
+    /// Implements draw().
     bool draw_frame(const Frame& frame);
-    /// Keeps the messages of a request; prints them unless they are those of the last one.
+    /// Stores the messages of a request; prints them if they differ from the last ones.
     void take_messages(const Messages& messages, bool fine);
     void ask_for_shaders() { shaders_changed_ = true; }
-    /// If they have changed. Returns whether there is something to say.
+    /// Reloads shaders if they changed. Returns whether messages changed.
     bool reload_shaders();
     [[nodiscard]] bool is_shader(const std::string& file) const;
-    /// With the shaders.
+    /// Adds the shader files.
     [[nodiscard]] std::vector<std::string> watched(std::vector<std::string> files) const;
 
     ViewOptions options_;
     Console console_;
     Renderer* renderer_;
     std::string shader_message_;
-    // The last picture.
+    // Last picture.
     std::optional<Frame> frame_;
     FrameStats drawn_;
     float aspect_ = 1.0F;

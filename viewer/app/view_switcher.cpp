@@ -17,7 +17,7 @@ ViewSwitcher::ViewSwitcher(const ViewOptions& options,
 void ViewSwitcher::make(const ViewOptions& options) {
     plant_ = nullptr;
     forest_ = nullptr;
-    shown_.reset(); // before the other one watches files and draws
+    shown_.reset(); // first: it watches files and draws
     if (options.is_forest) {
         auto forest = std::make_unique<ForestView>(options, console_, *renderer_, wake_);
         forest_ = forest.get();
@@ -32,7 +32,7 @@ void ViewSwitcher::make(const ViewOptions& options) {
 void ViewSwitcher::open(const std::string& file) {
     if (shown_->is_unsaved() && refused_ != file) {
         refused_ = file;
-        shown_->say("what was painted is not saved: Ctrl+S saves it; ask again to leave it");
+        shown_->set_note("what was painted is not saved: Ctrl+S saves it; ask again to leave it");
         return;
     }
     refused_.clear();
@@ -48,7 +48,7 @@ void ViewSwitcher::open(const std::string& file) {
         plant_->open(file);
         return;
     }
-    // What the command line says of one file is not meant for another.
+    // Options of the command line belong to its own file.
     ViewOptions options = options_;
     options.file = file;
     options.is_forest = is_forest;

@@ -1,4 +1,4 @@
-// ViewSwitcher: the view that a window shows: of a plant or of a forest, by the file.
+// ViewSwitcher: holds the view of a plant or of a forest, by the kind of the file.
 #pragma once
 
 #include "viewer/app/forest_view.h"
@@ -18,14 +18,14 @@ public:
                  std::function<void()> wake);
 
     [[nodiscard]] View& shown() { return *shown_; }
-    /// Null if the other is shown.
+    /// Null if the other kind is shown.
     [[nodiscard]] PlantView* plant() { return plant_; }
     [[nodiscard]] ForestView* forest() { return forest_; }
 
-    /// Shows another file, all in view: a scene as a forest, a grammar as a plant. Not while
-    /// something is unsaved: that is said, and asking once more shows it.
+    /// Opens and frames another file: a scene as a forest, a grammar as a plant. With unsaved
+    /// changes the first call only warns.
     void open(const std::string& file);
-    /// The scene that was shown before its grammar; empty: none.
+    /// Scene shown before the plant; empty: none.
     [[nodiscard]] const std::string& last_scene() const { return last_scene_; }
 
 private:
@@ -36,7 +36,7 @@ private:
     Renderer* renderer_;
     std::function<void()> wake_;
     std::string last_scene_;
-    std::string refused_; // because something is unsaved
+    std::string refused_; // refused because of unsaved changes
     PlantView* plant_ = nullptr;
     ForestView* forest_ = nullptr;
     std::unique_ptr<View> shown_;

@@ -24,12 +24,12 @@ std::string grouped(std::uint64_t number) {
     return digits;
 }
 
-/// A wind by the direction it blows to, in degrees from +X to +Z, and its speed.
+/// Edits a wind by its speed and by the direction it blows to, degrees from +X towards +Z.
 void draw_wind(Wind& wind) {
     constexpr float kDegrees = 180.0F / std::numbers::pi_v<float>;
     float speed = std::hypot(wind.velocity.x, wind.velocity.z);
     float direction = speed > 0.0F ? std::atan2(wind.velocity.z, wind.velocity.x) * kDegrees : 0.0F;
-    // No wind has no direction: that of the slider is kept by a wind that is next to none.
+    // A min speed keeps the direction.
     constexpr float kMin = 1e-4F;
     bool changed = ImGui::SliderFloat("Wind speed", &speed, 0.0F, 40.0F, "%.1f m/s");
     changed |=
@@ -43,7 +43,7 @@ void draw_wind(Wind& wind) {
 }
 
 void draw_camera(Camera& camera) {
-    static_assert(sizeof(Camera) == 7 * sizeof(float)); // what the line below has room for
+    static_assert(sizeof(Camera) == 7 * sizeof(float)); // fits `text`
     std::array<char, 256> text{};
     std::snprintf(text.data(), text.size(), "%s", to_text(camera).c_str());
     if (ImGui::InputText("##camera", text.data(), text.size(),

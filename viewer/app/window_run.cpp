@@ -20,12 +20,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// How long to wait for input, s.
-constexpr double kIdle = 0.5; // and a second Ctrl-C is not needed for longer than that
+// Time to wait for input, s.
+constexpr double kIdle = 0.5; // also the delay of Ctrl-C
 constexpr double kBusy = 0.02;
-// A camera that flies past slow pictures would be anywhere.
+// Limits the step of a flying camera after slow pictures, s.
 constexpr double kLongestLeap = 0.1;
-/// Panels take so many pictures to settle after an input.
+/// Pictures until ImGui settles after input.
 constexpr int kPicturesAfterInput = 3;
 
 std::string title_of(const std::string& file) {
@@ -36,7 +36,7 @@ class WindowRun {
 public:
     WindowRun(Window& window, ViewSwitcher& switcher) : window_(window), switcher_(switcher) {}
 
-    /// False: the user quits.
+    /// False: quit.
     bool step() {
         const double wait = pictures_left_ > 0 || controls_.is_moving() ? 0.0
                             : switcher_.shown().is_busy()               ? kBusy
@@ -71,7 +71,7 @@ public:
     }
 
 private:
-    /// Beside the panels.
+    /// Part beside the panel.
     [[nodiscard]] PixelArea picture_area() const {
         PixelArea area{0, 0, window_.width(), window_.height()};
         if (panels_.panels && area.width != 0) {
@@ -118,7 +118,7 @@ ExitStatus run_window(const ViewOptions& options, const Console& console) {
     if (!camera) {
         return report_error(Error{fmt::format("--camera: {}", camera.error().message)}, console);
     }
-    // A file that cannot be read is a mistake on the command line; one with errors is shown.
+    // An unreadable file is a usage error; a file with errors is shown.
     if (const Result<std::string> bytes = read_file(options.file, {kMaxSourceBytes}, console);
         !bytes) {
         return report_error(bytes.error(), console);
