@@ -23,7 +23,7 @@ constexpr GLuint kFrameBinding = 0;
 constexpr GLuint kShadowTexture = 0;
 // Uniform locations of ground.*.glsl.
 constexpr GLint kDisc = 0;
-constexpr GLint kUnit = 1;
+constexpr GLint kGridStep = 1;
 constexpr float kDiscInRadii = 14.0F; // radii of the plant
 
 struct Programs {
@@ -235,7 +235,7 @@ private:
         const float below = std::min(plant.low.y, 0.0F) - 1e-4F * radius;
         glUniform4f(kDisc, 0.5F * (plant.low.x + plant.high.x), below,
                     0.5F * (plant.low.z + plant.high.z), kDiscInRadii * radius);
-        glUniform1f(kUnit, unit);
+        glUniform1f(kGridStep, unit);
         glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
         ++stats.draws;
         stats.triangles += 2;

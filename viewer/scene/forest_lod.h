@@ -39,7 +39,7 @@ struct LodOptions {
     Wind wind;
 };
 
-/// Max displacement of trees by wind; bounds in_wind() of shaders/forest.glsl.
+/// Max displacement of trees by wind; bounds swayed() of shaders/forest.glsl.
 struct Sway {
     float of_height = 0.0F; // m per metre of the tree's height
     float of_width = 0.0F;

@@ -43,7 +43,7 @@ Sphere swaying_box(const glm::vec3& low, const glm::vec3& high, const Sway& sway
 } // namespace
 
 Sway sway_in(const Wind& wind) {
-    // Max values of the terms of in_wind() in shaders/forest.glsl.
+    // Max values of the terms of swayed() in shaders/forest.glsl.
     constexpr float kPush = 0.004F;
     constexpr float kTrunk = 1.35F * 1.2F * 1.2F;
     constexpr float kBoughs = 0.35F * 1.54F;

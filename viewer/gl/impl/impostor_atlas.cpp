@@ -26,7 +26,7 @@ constexpr GLsizei kLevels = 6; // mip levels; tiles of the last have 4 texels a 
 constexpr std::array<float, ImpostorAtlas::kElevations> kElevation = {0.0F, 0.6108652F, 1.3089969F};
 /// Margin of opaque_box() in texels: coarse mip levels spill over the edges of fine ones.
 constexpr float kBoxMargin = 2.5F;
-constexpr GLint kMiddle = 2;
+constexpr GLint kCentre = 2;
 constexpr GLint kToEye = 3;
 constexpr GLint kRight = 4;
 constexpr GLint kUp = 5;
@@ -144,7 +144,7 @@ void ImpostorAtlas::draw_row(const Cylinder& form,
                    static_cast<GLsizei>(kTile * kFiner));
         for (const ProgramObject* program : {&solid_, &cut_out_}) {
             glUseProgram(program->name());
-            glUniform4f(kMiddle, middle.x, middle.y, middle.z, deep);
+            glUniform4f(kCentre, middle.x, middle.y, middle.z, deep);
             glUniform3f(kToEye, to_eye.x, to_eye.y, to_eye.z);
             glUniform3f(kRight, right.x, right.y, right.z);
             glUniform3f(kUp, up.x, up.y, up.z);
