@@ -54,7 +54,7 @@ void next_seed(PlantView& view) {
 
 void step_generations(PlantView& view, int step) {
     const std::uint32_t now = view.generations();
-    view.settings.grows = false;
+    view.settings.plays = false;
     if (step > 0 || now > 0) {
         view.settings.generations = step > 0 ? now + 1 : now - 1;
     }
@@ -145,11 +145,12 @@ void Controls::use_tool(const WindowInput& input, const PixelArea& area, ForestV
         if (event.kind == PointerEvent::Kind::Release) {
             view.end_stroke();
         } else {
-            view.work_at(place(event.place), event.kind == PointerEvent::Kind::Press, event.shift);
+            view.apply_tool(place(event.place), event.kind == PointerEvent::Kind::Press,
+                            event.shift);
         }
     }
     if (input.over_picture && (input.any || !input.pointer_events.empty())) {
-        view.point_at(place(input.mouse));
+        view.hover(place(input.mouse));
     }
 }
 
@@ -241,7 +242,7 @@ void Controls::press(const KeyPress& press, ForestView& view, PanelState& panels
         if (settings.tool != PaintTool::None) {
             settings.brush.radius = std::clamp(
                 settings.brush.radius * (more ? kBrushStep : 1.0F / kBrushStep), 0.1F, kMaxBrush);
-        } else if (view.usual_years() != 0 && (more || view.years() > 0)) {
+        } else if (view.default_years() != 0 && (more || view.years() > 0)) {
             view.set_years(more ? view.years() + 1 : view.years() - 1);
         }
     };
@@ -330,7 +331,7 @@ void Controls::press(const KeyPress& press, PlantView& view, PanelState& panels)
         settings.ground = !settings.ground;
         break;
     case Key::B:
-        settings.bends = !settings.bends;
+        settings.simulates = !settings.simulates;
         break;
     case Key::N:
         next_seed(view);

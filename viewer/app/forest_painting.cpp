@@ -85,7 +85,7 @@ Painting ForestPainting::renamed(const Painting& painting) const {
     return result;
 }
 
-std::string ForestPainting::follow(std::shared_ptr<const ForestDocument> document) {
+std::string ForestPainting::set_document(std::shared_ptr<const ForestDocument> document) {
     const std::shared_ptr<const ForestDocument> before = std::exchange(document_, document);
     if (!before || !is_same_ground(before->scene.terrain, document->scene.terrain)) {
         ground_.reset();
@@ -156,10 +156,10 @@ std::optional<glm::dvec3> ForestPainting::pick(const Ray& ray) {
     return refined(ray, *found, 4.0 * cell, terrain);
 }
 
-void ForestPainting::go_over(const glm::dvec3& place,
-                             bool begins,
-                             PaintTool tool,
-                             const Brush& brush) {
+void ForestPainting::move_tool(const glm::dvec3& place,
+                               bool begins,
+                               PaintTool tool,
+                               const Brush& brush) {
     if (!document_ || tool == PaintTool::None) {
         return;
     }
@@ -210,7 +210,7 @@ void ForestPainting::show(std::span<const TreeChange> changes) {
     const auto placed = static_cast<std::uint32_t>(document_->grown.forest.trees.size());
     for (const TreeChange& change : changes) {
         renderer_->change_tree(change.index, painter_->tree(change.index), change.alive);
-        ++(change.alive ? count_.came : count_.went);
+        ++(change.alive ? count_.added : count_.removed);
         if (change.index >= placed) {
             painted_ += change.alive ? 1 : ~std::uint64_t{0};
         }

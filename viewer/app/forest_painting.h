@@ -22,8 +22,8 @@ enum class PaintTool : std::uint8_t { None, Brush, OneTree, Eraser };
 
 /// Trees changed by a stroke, undo or redo.
 struct PaintCount {
-    std::uint64_t came = 0;
-    std::uint64_t went = 0;
+    std::uint64_t added = 0;
+    std::uint64_t removed = 0;
 };
 
 class ForestPainting {
@@ -32,12 +32,12 @@ public:
 
     /// Continues on a new forest in the renderer and applies painted and erased trees to it;
     /// unsaved changes are kept. Returns a note for the user, which may be empty.
-    [[nodiscard]] std::string follow(std::shared_ptr<const ForestDocument> document);
+    [[nodiscard]] std::string set_document(std::shared_ptr<const ForestDocument> document);
 
     /// First intersection of a ray with the ground.
     [[nodiscard]] std::optional<glm::dvec3> pick(const Ray& ray);
     /// Moves the tool to `place` and applies it along the way. `begins`: starts a stroke there.
-    void go_over(const glm::dvec3& place, bool begins, PaintTool tool, const Brush& brush);
+    void move_tool(const glm::dvec3& place, bool begins, PaintTool tool, const Brush& brush);
     /// Changes since the last stroke, undo or redo began.
     [[nodiscard]] const PaintCount& count() const { return count_; }
 

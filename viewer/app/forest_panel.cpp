@@ -86,7 +86,7 @@ void draw_numbers(const ForestView& view) {
 }
 
 void draw_years(ForestView& view) {
-    const std::uint32_t usual = view.usual_years();
+    const std::uint32_t usual = view.default_years();
     if (usual == 0) {
         return;
     }
@@ -96,7 +96,7 @@ void draw_years(ForestView& view) {
                          static_cast<int>(std::max({2 * usual, view.years(), 1U})))) {
         view.set_years(static_cast<std::uint32_t>(std::max(years, 0)));
     }
-    if (ImGui::Button(settings.grows ? "Pause" : "Play")) {
+    if (ImGui::Button(settings.plays ? "Pause" : "Play")) {
         view.play_or_pause();
     }
     ImGui::SameLine();
@@ -278,7 +278,7 @@ void draw_look(ForestView& view) {
     ForestViewSettings& settings = view.settings;
     ImGui::Checkbox("Shadows", &settings.shadows);
     ImGui::SameLine();
-    ImGui::Checkbox("Antialiasing", &settings.smooth);
+    ImGui::Checkbox("Antialiasing", &settings.antialiasing);
     ImGui::SameLine();
     ImGui::Checkbox("Wireframe", &settings.wireframe);
     ImGui::Checkbox("Wind", &settings.windy);

@@ -26,7 +26,7 @@ constexpr std::uint64_t kFewestTriangles = 20'000;
 ForestViewSettings first_settings(const ViewOptions& options) {
     ForestViewSettings settings;
     settings.shadows = options.shadows;
-    settings.smooth = options.samples > 1;
+    settings.antialiasing = options.samples > 1;
     settings.wireframe = options.style == PlantStyle::Wireframe;
     settings.windy = options.wind.has_value();
     settings.wind = options.wind.value_or(Wind{{5.0F, 0.0F, 0.0F}, 0.5F});
@@ -103,17 +103,17 @@ void ForestView::watch_files() {
     watch_.watch(watched(files_));
 }
 
-std::uint32_t ForestView::usual_years() const {
-    return usual_years_;
+std::uint32_t ForestView::default_years() const {
+    return default_years_;
 }
 
 std::uint32_t ForestView::years() const {
-    return settings.edits.years.value_or(usual_years_);
+    return settings.edits.years.value_or(default_years_);
 }
 
 void ForestView::set_years(std::uint32_t years) {
     settings.edits.years = years;
-    settings.grows = false;
+    settings.plays = false;
 }
 
 bool ForestView::update() {
@@ -136,14 +136,14 @@ bool ForestView::update() {
         settings.camera = above_ground(settings.camera, *document_->grown.terrain);
     }
     show_outline();
-    if (asked_ != settings.edits) {
+    if (requested_ != settings.edits) {
         ask();
     }
     return has_news;
 }
 
 void ForestView::ask() {
-    asked_ = settings.edits;
+    requested_ = settings.edits;
     // After an error read all files again: the cause may lie in any.
     loader_.request({options_, settings.edits, failed() ? nullptr : document_, SteadyClock::now()});
 }
@@ -158,7 +158,7 @@ void ForestView::take_outcome(ForestOutcome outcome) {
         files_ = outcome.files;
         swap(std::move(outcome));
     } else {
-        settings.grows = false;
+        settings.plays = false;
         for (const std::string& file : outcome.files) {
             if (std::find(files_.begin(), files_.end(), file) == files_.end()) {
                 files_.push_back(file);
@@ -183,12 +183,12 @@ void ForestView::swap(ForestOutcome outcome) {
     if (std::exchange(frame_next_, false)) {
         settings.camera = overall;
     }
-    if (const std::string note = painting_.follow(document_); !note.empty()) {
+    if (const std::string note = painting_.set_document(document_); !note.empty()) {
         set_note(note);
     }
     const PlacementOptions& placement = document_->scene.placement;
     if (!outcome.request.edits.years) {
-        usual_years_ = placement.method == PlacementMethod::Domination ? placement.years : 0;
+        default_years_ = placement.method == PlacementMethod::Domination ? placement.years : 0;
     }
     settings.brush.species = static_cast<std::uint16_t>(
         std::min<std::size_t>(settings.brush.species, document_->scene.species.size() - 1));
@@ -213,7 +213,7 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
     frame.width = width;
     frame.height = height;
     frame.shadows = settings.shadows;
-    frame.samples = settings.smooth ? 4 : 1;
+    frame.samples = settings.antialiasing ? 4 : 1;
     frame.style = settings.wireframe ? PlantStyle::Wireframe : PlantStyle::Surface;
     frame.max_triangles = settings.max_triangles;
     frame.max_expansions = kMaxExpansions;
@@ -224,7 +224,7 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
     if (document_ != nullptr) {
         frame.light = forest_light(*document_);
     }
-    const bool moves = settings.windy || settings.grows || has_worked_ ||
+    const bool moves = settings.windy || settings.plays || has_worked_ ||
                        (frame_ && !(frame_->camera == frame.camera));
     if (moves) {
         last_motion_ = SteadyClock::now();
@@ -268,13 +268,13 @@ void ForestView::shown(double draw_seconds) {
 
 void ForestView::grow() {
     const SteadyClock::time_point now = SteadyClock::now();
-    if (!settings.grows || document_ == nullptr) {
+    if (!settings.plays || document_ == nullptr) {
         last_growth_ = now;
         return;
     }
     const double passed = std::chrono::duration<double>(now - last_growth_).count();
     const double years_passed = passed * static_cast<double>(settings.years_per_second);
-    const bool is_made = asked_ == settings.edits && !loader_.is_busy();
+    const bool is_made = requested_ == settings.edits && !loader_.is_busy();
     if (!is_made || years_passed < 1.0) {
         return;
     }
@@ -282,17 +282,17 @@ void ForestView::grow() {
     // Slow pictures skip years.
     constexpr double kMaxYears = 1000.0;
     const auto next = years() + static_cast<std::uint32_t>(std::min(years_passed, kMaxYears));
-    settings.grows = next < usual_years_;
-    settings.edits.years = std::min(next, usual_years_);
+    settings.plays = next < default_years_;
+    settings.edits.years = std::min(next, default_years_);
 }
 
 void ForestView::play_or_pause() {
-    if (usual_years_ == 0) {
+    if (default_years_ == 0) {
         set_note("only a forest placed by domination grows");
         return;
     }
-    settings.grows = !settings.grows;
-    if (settings.grows && years() >= usual_years_) {
+    settings.plays = !settings.plays;
+    if (settings.plays && years() >= default_years_) {
         settings.edits.years = 1;
     }
 }
@@ -302,10 +302,10 @@ void ForestView::open(const std::string& file) {
     options_.overrides = {};
     options_.files = {file};
     settings.edits = {};
-    settings.grows = false;
+    settings.plays = false;
     frame_next_ = true;
     files_ = {file};
-    asked_.reset();
+    requested_.reset();
     watch_files();
 }
 
@@ -326,7 +326,7 @@ std::optional<glm::dvec3> ForestView::ground_at(const glm::vec2& place) {
         {glm::dvec3(camera.eye), glm::dvec3(direction_at(camera, place.x, place.y))});
 }
 
-void ForestView::point_at(const glm::vec2& place) {
+void ForestView::hover(const glm::vec2& place) {
     pointed_ = place;
 }
 
@@ -351,11 +351,11 @@ void ForestView::show_outline() {
     has_outline_ = place.has_value();
 }
 
-void ForestView::work_at(const glm::vec2& place, bool begins, bool erases) {
+void ForestView::apply_tool(const glm::vec2& place, bool begins, bool erases) {
     begins_stroke_ = begins_stroke_ || begins;
     if (const std::optional<glm::dvec3> ground = ground_at(place)) {
-        painting_.go_over(*ground, std::exchange(begins_stroke_, false),
-                          erases ? PaintTool::Eraser : settings.tool, settings.brush);
+        painting_.move_tool(*ground, std::exchange(begins_stroke_, false),
+                            erases ? PaintTool::Eraser : settings.tool, settings.brush);
         has_stroke_ = true;
         has_worked_ = true;
         changed_ = true;
@@ -367,7 +367,7 @@ std::string ForestView::painted_text(const char* what) const {
         return fmt::format("{} {}", count, count == 1 ? "tree" : "trees");
     };
     const PaintCount& count = painting_.count();
-    return fmt::format("{}added {}, removed {}; {}", what, trees(count.came), count.went,
+    return fmt::format("{}added {}, removed {}; {}", what, trees(count.added), count.removed,
                        trees(painting_.tree_count()));
 }
 
@@ -422,7 +422,7 @@ void ForestView::save() {
 }
 
 bool ForestView::is_busy() const {
-    return loader_.is_busy() || settings.grows || settings.windy || !has_impostors_ || is_coarse_;
+    return loader_.is_busy() || settings.plays || settings.windy || !has_impostors_ || is_coarse_;
 }
 
 } // namespace lsys::view

@@ -27,13 +27,13 @@ struct ForestViewSettings {
 
     Camera camera;
     bool shadows = true;
-    bool smooth = true; // antialiasing
+    bool antialiasing = true;
     bool wireframe = false;
     bool windy = false; // wind is on
     Wind wind;
     std::uint64_t max_triangles = 1'500'000;
 
-    bool grows = false;
+    bool plays = false;
     float years_per_second = 5.0F;
 
     PaintTool tool = PaintTool::None;
@@ -93,13 +93,13 @@ public:
     void set_years(std::uint32_t years);
     [[nodiscard]] std::uint32_t years() const;
     /// Years of the scene without edits; 0: it does not grow.
-    [[nodiscard]] std::uint32_t usual_years() const;
+    [[nodiscard]] std::uint32_t default_years() const;
 
     /// Moves the tool to a place of the last picture: right and up from its centre, in half picture
     /// heights.
-    void point_at(const glm::vec2& place);
+    void hover(const glm::vec2& place);
     /// Applies the tool there. `begins`: starts a stroke. `erases`: uses the eraser instead.
-    void work_at(const glm::vec2& place, bool begins, bool erases);
+    void apply_tool(const glm::vec2& place, bool begins, bool erases);
     /// Ends a stroke and reports its changes.
     void end_stroke();
     void undo();
@@ -134,8 +134,8 @@ private:
     bool frame_next_ = false; // at the next swap
     bool logs_next_frame_ = false;
     bool has_impostors_ = true;
-    std::optional<SceneOverrides> asked_;
-    std::uint32_t usual_years_ = 0;
+    std::optional<SceneOverrides> requested_;
+    std::uint32_t default_years_ = 0;
     SteadyClock::time_point since_; // change that led to the forest shown
     SteadyClock::time_point last_growth_;
     SteadyClock::time_point start_ = SteadyClock::now(); // of the wind

@@ -54,7 +54,7 @@ void draw_plant_times(const PlantView& view) {
         time_row("Upload", stats.upload_seconds);
         time_row("Reload", stats.swap_seconds);
         time_row("First frame", stats.shown_seconds);
-        if (view.settings.bends) {
+        if (view.settings.simulates) {
             time_row("Simulate", stats.bend_seconds);
         }
         time_row("Frame", stats.draw_seconds);

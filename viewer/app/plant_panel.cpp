@@ -33,12 +33,12 @@ void draw_growth(PlantView& view) {
     PlantViewSettings& settings = view.settings;
     auto generation = static_cast<int>(view.generations());
     const auto last =
-        static_cast<int>(std::max(view.usual_generations(), std::max(view.generations(), 1U)));
+        static_cast<int>(std::max(view.default_generations(), std::max(view.generations(), 1U)));
     if (ImGui::SliderInt("Generation", &generation, 0, last)) {
         settings.generations = static_cast<std::uint32_t>(std::max(generation, 0));
-        settings.grows = false;
+        settings.plays = false;
     }
-    if (ImGui::Button(settings.grows ? "Pause" : "Play")) {
+    if (ImGui::Button(settings.plays ? "Pause" : "Play")) {
         view.play_or_pause();
     }
     ImGui::SameLine();
@@ -149,7 +149,7 @@ void draw_look(PlantViewSettings& settings) {
     ImGui::SameLine();
     ImGui::Checkbox("Ground", &settings.ground);
     ImGui::SameLine();
-    ImGui::Checkbox("Antialiasing", &settings.smooth);
+    ImGui::Checkbox("Antialiasing", &settings.antialiasing);
     draw_camera(settings.camera);
 }
 
@@ -184,7 +184,7 @@ void draw_bending(PlantViewSettings& settings) {
         return;
     }
     PhysicsOptions& forces = settings.bending.forces;
-    ImGui::Checkbox("Simulate", &settings.bends);
+    ImGui::Checkbox("Simulate", &settings.simulates);
     ImGui::SliderFloat("Gravity", &forces.gravity, 0.0F, 30.0F, "%.2f m/s^2");
     draw_wind(forces.wind);
     ImGui::SliderFloat("Stiffness", &settings.bending.stiffness, 0.01F, 100.0F, "x%.3g",

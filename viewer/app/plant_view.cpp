@@ -35,9 +35,9 @@ PlantViewSettings first_settings(const ViewOptions& options) {
     settings.lines = options.lines;
     settings.shadows = options.shadows;
     settings.ground = options.ground;
-    settings.smooth = options.samples > 1;
-    settings.bends = options.gravity || options.wind;
-    if (settings.bends) {
+    settings.antialiasing = options.samples > 1;
+    settings.simulates = options.gravity || options.wind;
+    if (settings.simulates) {
         settings.bending.forces.gravity = options.gravity.value_or(0.0F);
     }
     settings.bending.forces.wind = options.wind.value_or(Wind{});
@@ -81,14 +81,14 @@ ViewOptions PlantView::wanted() const {
     return wanted;
 }
 
-std::uint32_t PlantView::usual_generations() const {
+std::uint32_t PlantView::default_generations() const {
     const std::uint32_t own =
         document_ == nullptr ? 0 : document_->grammar.bytecode.generations.value_or(0);
     return options_.file == settings.file ? options_.grammar.generations.value_or(own) : own;
 }
 
 std::uint32_t PlantView::generations() const {
-    return settings.generations.value_or(usual_generations());
+    return settings.generations.value_or(default_generations());
 }
 
 bool PlantView::update() {
@@ -106,8 +106,8 @@ bool PlantView::update() {
     if (shown_lines_ != settings.lines) {
         show_lines();
     }
-    if (!asked_ || !makes_same_plant(*asked_, settings)) {
-        asked_ = settings;
+    if (!requested_ || !makes_same_plant(*requested_, settings)) {
+        requested_ = settings;
         loader_.request(wanted(), SteadyClock::now());
     }
     return has_news;
@@ -144,8 +144,8 @@ void PlantView::drop_unknown_definitions() {
             return document_->grammar.names.text(constant.name) == definition.name;
         });
     };
-    if (std::erase_if(settings.definitions, is_unknown) != 0 && asked_) {
-        asked_->definitions = settings.definitions; // same plant
+    if (std::erase_if(settings.definitions, is_unknown) != 0 && requested_) {
+        requested_->definitions = settings.definitions; // same plant
     }
 }
 
@@ -190,34 +190,35 @@ void PlantView::watch_files() {
 
 void PlantView::grow() {
     const SteadyClock::time_point now = SteadyClock::now();
-    if (!settings.grows || document_ == nullptr) {
+    if (!settings.plays || document_ == nullptr) {
         last_growth_ = now;
         return;
     }
     const double interval = 1.0 / static_cast<double>(settings.generations_per_second);
-    const bool is_made = asked_ && makes_same_plant(*asked_, settings) && !loader_.is_busy();
+    const bool is_made =
+        requested_ && makes_same_plant(*requested_, settings) && !loader_.is_busy();
     if (!is_made || std::chrono::duration<double>(now - last_growth_).count() < interval) {
         return;
     }
     last_growth_ = now;
-    const std::uint32_t end = usual_generations();
+    const std::uint32_t end = default_generations();
     const std::uint32_t next = failed() ? end : generations() + 1;
-    settings.grows = next < end;
+    settings.plays = next < end;
     settings.generations = std::min(next, end);
 }
 
 void PlantView::play_or_pause() {
-    settings.grows = !settings.grows;
-    if (settings.grows && generations() >= usual_generations()) {
+    settings.plays = !settings.plays;
+    if (settings.plays && generations() >= default_generations()) {
         settings.generations = 0;
     }
 }
 
 void PlantView::bend() {
-    if (document_ == nullptr || (!settings.bends && motion_ == nullptr)) {
+    if (document_ == nullptr || (!settings.simulates && motion_ == nullptr)) {
         return;
     }
-    if (!settings.bends) {
+    if (!settings.simulates) {
         motion_.reset();
         bending_.reset();
         bent_ = {};
@@ -254,7 +255,7 @@ bool PlantView::draw(std::uint32_t width, std::uint32_t height) {
     frame.height = height;
     frame.shadows = settings.shadows;
     frame.ground = settings.ground;
-    frame.samples = settings.smooth ? 4 : 1;
+    frame.samples = settings.antialiasing ? 4 : 1;
     frame.style = settings.style;
     if (!draw_frame(frame)) {
         return false;
@@ -282,11 +283,11 @@ void PlantView::open(const std::string& file) {
     settings.definitions.clear();
     settings.generations.reset();
     settings.seed.reset();
-    settings.grows = false;
+    settings.plays = false;
     frame_next_ = true;
     is_new_file_ = true;
     files_ = {file};
-    asked_.reset();
+    requested_.reset();
     watch_files();
 }
 
@@ -302,7 +303,7 @@ void PlantView::frame_all() {
 }
 
 bool PlantView::is_busy() const {
-    return loader_.is_busy() || settings.grows || motion_ != nullptr;
+    return loader_.is_busy() || settings.plays || motion_ != nullptr;
 }
 
 } // namespace lsys::view

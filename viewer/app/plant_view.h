@@ -32,12 +32,12 @@ struct PlantViewSettings {
     LineKind lines = LineKind::None;
     bool shadows = true;
     bool ground = true;
-    bool smooth = true; // antialiasing
+    bool antialiasing = true;
 
-    bool bends = false;
+    bool simulates = false;
     Bending bending;
 
-    bool grows = false;
+    bool plays = false;
     float generations_per_second = 2.0F;
 };
 
@@ -82,7 +82,7 @@ public:
     [[nodiscard]] const PlantDocument* document() const { return document_.get(); }
     [[nodiscard]] const PlantViewStats& stats() const { return stats_; }
     /// Generations without settings.
-    [[nodiscard]] std::uint32_t usual_generations() const;
+    [[nodiscard]] std::uint32_t default_generations() const;
     [[nodiscard]] std::uint32_t generations() const;
 
 private:
@@ -105,7 +105,7 @@ private:
     bool logs_next_frame_ = false;
     PlantViewStats stats_;
 
-    std::optional<PlantViewSettings> asked_; // last request
+    std::optional<PlantViewSettings> requested_; // last request
     LineKind shown_lines_ = LineKind::None;
     SteadyClock::time_point last_growth_;
     BentPlant bent_;

@@ -58,7 +58,7 @@ Result<Programs> make_programs(Device& device, const ShaderSource& shaders) {
 }
 
 /// Bounds of a plant and the ground around it that receives its shadow.
-Bounds lit_bounds(const Bounds& plant) {
+Bounds shadow_bounds(const Bounds& plant) {
     Bounds bounds = plant;
     const float height = plant.high.y - plant.low.y;
     const float wide = std::max(plant.high.x - plant.low.x, plant.high.z - plant.low.z);
@@ -128,9 +128,9 @@ public:
     FrameStats draw(const Frame& frame, const PixelArea& area) override {
         FrameStats stats;
         forest_stats_ = {};
-        const Bounds lit = is_forest_              ? forest_.lit_bounds(frame)
+        const Bounds lit = is_forest_              ? forest_.shadow_bounds(frame)
                            : plant_.bounds().empty ? Bounds{}
-                                                   : lit_bounds(plant_.bounds());
+                                                   : shadow_bounds(plant_.bounds());
         glm::mat4 shadow_from_world(1.0F);
         if (frame.shadows && frame.style != PlantStyle::None && !lit.empty) {
             shadow_from_world = shadow_matrix(lit, frame.light.to_sun, kShadowTexels);

@@ -21,7 +21,7 @@ std::uint32_t AddedTrees::cell_of(const glm::vec3& place) const {
            part(static_cast<double>(place.x) - region_.x, region_.width);
 }
 
-bool AddedTrees::is_another(std::uint32_t slot, const Tree& tree) const {
+bool AddedTrees::differs(std::uint32_t slot, const Tree& tree) const {
     if (slot >= added_.size()) {
         return true;
     }
@@ -36,7 +36,7 @@ void AddedTrees::put(std::uint32_t slot, const Tree& tree, const LodTree& made, 
         std::erase(cells_[cell_of(added_[slot].tree.position)].trees, slot);
     } else {
         Added none;
-        none.made.impostor = LodTree::kGone;
+        none.made.impostor = LodTree::kRemoved;
         added_.resize(std::size_t{slot} + 1, none);
     }
     added_[slot] = {tree, made};
@@ -53,8 +53,8 @@ void AddedTrees::put(std::uint32_t slot, const Tree& tree, const LodTree& made, 
 }
 
 void AddedTrees::set_alive(std::uint32_t slot, bool alive) {
-    if (slot < added_.size() && added_[slot].made.gone() == alive) {
-        added_[slot].made.impostor ^= LodTree::kGone;
+    if (slot < added_.size() && added_[slot].made.is_removed() == alive) {
+        added_[slot].made.impostor ^= LodTree::kRemoved;
     }
 }
 

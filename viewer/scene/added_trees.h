@@ -15,15 +15,15 @@ namespace lsys::view {
 /// A tree as ForestLod stores it.
 struct LodTree {
     /// Bit of `impostor`: the tree is removed.
-    static constexpr std::uint16_t kGone = 0x8000;
+    static constexpr std::uint16_t kRemoved = 0x8000;
 
     glm::vec3 position{};
     float scale = 1.0F;
     std::uint32_t tree = 0; // in Forest::trees
     std::uint16_t form = 0;
-    std::uint16_t impostor = 0; // index in TreeForm::impostor_trees, with kGone
+    std::uint16_t impostor = 0; // index in TreeForm::impostor_trees, with kRemoved
 
-    [[nodiscard]] bool gone() const { return (impostor & kGone) != 0; }
+    [[nodiscard]] bool is_removed() const { return (impostor & kRemoved) != 0; }
 };
 static_assert(sizeof(LodTree) == 24);
 
@@ -38,12 +38,12 @@ public:
     explicit AddedTrees(const Region& region) : region_(region) {}
 
     /// Whether the slot is empty or holds another tree.
-    [[nodiscard]] bool is_another(std::uint32_t slot, const Tree& tree) const;
+    [[nodiscard]] bool differs(std::uint32_t slot, const Tree& tree) const;
     /// Fills a slot; slots are used in order. `box`: bounding box of the tree.
     void put(std::uint32_t slot, const Tree& tree, const LodTree& made, const Bounds& box);
     void set_alive(std::uint32_t slot, bool alive);
     [[nodiscard]] bool is_alive(std::uint32_t slot) const {
-        return slot < added_.size() && !added_[slot].made.gone();
+        return slot < added_.size() && !added_[slot].made.is_removed();
     }
 
     [[nodiscard]] const LodTree& at(std::uint32_t slot) const { return added_[slot].made; }
@@ -58,7 +58,7 @@ public:
                 continue;
             }
             for (const std::uint32_t slot : cell.trees) {
-                if (!added_[slot].made.gone()) {
+                if (!added_[slot].made.is_removed()) {
                     visit(slot);
                 }
             }

@@ -51,19 +51,19 @@ bool parse_place(std::string_view text, glm::vec3& place) {
     return true;
 }
 
-struct Direction3 {
-    float around = 0.0F;  // from -Z towards +X
-    float upwards = 0.0F; // above the horizon
+struct ViewAngles {
+    float azimuth = 0.0F;   // from -Z towards +X
+    float elevation = 0.0F; // above the horizon
 };
 
-Direction3 angles_of(const glm::vec3& unit) {
+ViewAngles angles_of(const glm::vec3& unit) {
     return {std::atan2(unit.x, -unit.z), std::asin(std::clamp(unit.y, -1.0F, 1.0F))};
 }
 
-glm::vec3 unit_of(const Direction3& angles) {
-    const float steep = std::clamp(angles.upwards, -kSteepest, kSteepest);
-    return {std::sin(angles.around) * std::cos(steep), std::sin(steep),
-            -std::cos(angles.around) * std::cos(steep)};
+glm::vec3 unit_of(const ViewAngles& angles) {
+    const float steep = std::clamp(angles.elevation, -kSteepest, kSteepest);
+    return {std::sin(angles.azimuth) * std::cos(steep), std::sin(steep),
+            -std::cos(angles.azimuth) * std::cos(steep)};
 }
 
 } // namespace
@@ -113,9 +113,9 @@ glm::vec3 right_of(const Camera& camera) {
 }
 
 Camera orbited(const Camera& camera, float around, float upwards) {
-    Direction3 angles = angles_of(forward_of(camera));
-    angles.around += around;
-    angles.upwards -= upwards;
+    ViewAngles angles = angles_of(forward_of(camera));
+    angles.azimuth += around;
+    angles.elevation -= upwards;
     Camera result = camera;
     result.eye = camera.target - glm::distance(camera.eye, camera.target) * unit_of(angles);
     return result;
@@ -140,9 +140,9 @@ Camera moved(const Camera& camera, float right, float up, float forward) {
 }
 
 Camera turned(const Camera& camera, float around, float upwards) {
-    Direction3 angles = angles_of(forward_of(camera));
-    angles.around += around;
-    angles.upwards += upwards;
+    ViewAngles angles = angles_of(forward_of(camera));
+    angles.azimuth += around;
+    angles.elevation += upwards;
     Camera result = camera;
     result.target = camera.eye + glm::distance(camera.eye, camera.target) * unit_of(angles);
     return result;

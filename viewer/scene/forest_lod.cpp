@@ -128,7 +128,7 @@ void ForestLod::find_within(const Bounds& box, std::vector<std::uint32_t>& trees
         if (cell.count != 0 && cell.low.x <= box.high.x && cell.high.x >= box.low.x &&
             cell.low.z <= box.high.z && cell.high.z >= box.low.z) {
             for (std::uint32_t i = 0; i < cell.count; ++i) {
-                if (!trees_[cell.first + i].gone()) {
+                if (!trees_[cell.first + i].is_removed()) {
                     trees.push_back(cell.first + i);
                 }
             }
@@ -146,7 +146,7 @@ std::uint32_t ForestLod::change_tree(std::uint32_t index, const Tree& tree, bool
     if (index >= trees_.size()) {
         const std::uint32_t slot = index - first_added();
         const bool was_alive = added_.is_alive(slot);
-        if (alive && added_.is_another(slot, tree)) {
+        if (alive && added_.differs(slot, tree)) {
             pool_.forget(index);
             const LodTree made = make_lod_tree(tree, index);
             Bounds box;
@@ -167,9 +167,9 @@ std::uint32_t ForestLod::change_tree(std::uint32_t index, const Tree& tree, bool
     while (trees_[number].tree != index) {
         ++number;
     }
-    if (trees_[number].gone() == alive) {
-        trees_[number].impostor ^= LodTree::kGone;
-        cell.gone += alive ? ~std::uint32_t{0} : 1U;
+    if (trees_[number].is_removed() == alive) {
+        trees_[number].impostor ^= LodTree::kRemoved;
+        cell.removed += alive ? ~std::uint32_t{0} : 1U;
         alive_count_ += alive ? 1 : ~std::uint64_t{0};
     }
     return number;

@@ -124,11 +124,11 @@ struct ForestCell {
     std::uint32_t count = 0;
     glm::vec3 low{}; // bounding box of its trees
     glm::vec3 high{};
-    glm::vec3 middle{};     // mean position of its trees
-    float scale = 1.0F;     // mean scale of its trees
-    float tallest = 0.0F;   // m
-    std::uint16_t form = 0; // most frequent form of its trees
-    std::uint32_t gone = 0; // count of removed trees; with any, the cell is never a cluster
+    glm::vec3 middle{};        // mean position of its trees
+    float scale = 1.0F;        // mean scale of its trees
+    float tallest = 0.0F;      // m
+    std::uint16_t form = 0;    // most frequent form of its trees
+    std::uint32_t removed = 0; // count of removed trees; with any, the cell is never a cluster
 };
 
 class ForestLod {
@@ -177,8 +177,8 @@ private:
     };
 
     /// A tree with branches in view.
-    struct SeenTree {
-        std::uint32_t first = 0; // in seen_branches_
+    struct VisibleTree {
+        std::uint32_t first = 0; // in visible_branches_
         std::uint32_t end = 0;
         std::uint32_t first_mesh = 0; // in mesh_counts_
     };
@@ -211,15 +211,15 @@ private:
     [[nodiscard]] bool is_behind_ground(const Bounds& box, float sway) const;
     /// Grows a sphere around a part of a tree by the wind.
     [[nodiscard]] Sphere swaying(const Sphere& sphere, const LodTree& tree) const;
-    /// Appends the visible branches of a tree to seen_branches_.
-    void see_branches(const PoolSpan& span,
-                      const LodTree& tree,
-                      float yaw,
-                      std::uint32_t blend_steps,
-                      const Frustum& frustum);
+    /// Appends the visible branches of a tree to visible_branches_.
+    void cull_branches(const PoolSpan& span,
+                       const LodTree& tree,
+                       float yaw,
+                       std::uint32_t blend_steps,
+                       const Frustum& frustum);
     /// Returns kTreeLevels for an impostor.
     [[nodiscard]] static std::uint32_t level_of(float pixels, const LodOptions& options);
-    [[nodiscard]] float fitting_detail(const LodOptions& options) const;
+    [[nodiscard]] float detail_in_budget(const LodOptions& options) const;
     void list_branches(const Frustum& frustum, const LodOptions& options);
 
     const ForestModel& model_;
@@ -238,12 +238,12 @@ private:
     DrawLists lists_;
     std::vector<Candidate> candidates_;
     std::vector<DrawEntry> far_;
-    std::vector<BranchEntry> seen_branches_;
+    std::vector<BranchEntry> visible_branches_;
     std::vector<PoolBranch> made_branches_;
-    std::vector<SeenTree> seen_trees_; // owners of seen_branches_
+    std::vector<VisibleTree> visible_trees_; // owners of visible_branches_
     Sway sway_;
-    GroundHorizon* ground_ = nullptr;                         // during select()
-    std::vector<std::pair<float, std::uint32_t>> seen_cells_; // distance and cell
+    GroundHorizon* ground_ = nullptr;                            // during select()
+    std::vector<std::pair<float, std::uint32_t>> visible_cells_; // distance and cell
     std::vector<std::uint32_t> mesh_counts_;
 };
 

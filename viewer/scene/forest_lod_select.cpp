@@ -72,19 +72,19 @@ ForestLod::select(const Frustum& frustum, const LodOptions& options, GroundHoriz
     ground_ = ground;
     candidates_.clear();
     far_.clear();
-    seen_cells_.clear();
+    visible_cells_.clear();
     for (std::uint32_t c = 0; c < cells_.size(); ++c) {
         const ForestCell& cell = cells_[c];
         if (cell.count == 0) {
             continue;
         }
         if (frustum.intersects(swaying_box(cell.low, cell.high, sway_))) {
-            seen_cells_.emplace_back(
+            visible_cells_.emplace_back(
                 glm::distance(frustum.eye, glm::clamp(frustum.eye, cell.low, cell.high)), c);
         }
     }
-    std::sort(seen_cells_.begin(), seen_cells_.end());
-    for (const auto& [distance, c] : seen_cells_) {
+    std::sort(visible_cells_.begin(), visible_cells_.end());
+    for (const auto& [distance, c] : visible_cells_) {
         const ForestCell& cell = cells_[c];
         if (is_behind_ground({cell.low, cell.high, false},
                              sway_within(cell.low, cell.high, sway_))) {
@@ -98,7 +98,7 @@ ForestLod::select(const Frustum& frustum, const LodOptions& options, GroundHoriz
             return frustum.intersects(swaying_box(cell.low, cell.high, sway_));
         },
         [&](std::uint32_t slot) { visit_tree(first_added() + slot, frustum, options); });
-    lists_.detail = fitting_detail(options);
+    lists_.detail = detail_in_budget(options);
     pool_.begin_frame(kFramesKept);
     list_branches(frustum, options);
     lists_.far_trees += far_.size();
@@ -143,7 +143,7 @@ void ForestLod::visit_cell(std::uint32_t index,
                            const LodOptions& options) {
     const ForestCell& cell = cells_[index];
     float weight = 1.0F; // of its trees
-    if (cell.count >= kFewTrees && cell.gone == 0 && options.cluster_pixels > 0.0F) {
+    if (cell.count >= kFewTrees && cell.removed == 0 && options.cluster_pixels > 0.0F) {
         const float pixels = cell.tallest * frustum.pixels / std::max(distance, kNearest);
         weight = pixels < options.cluster_pixels
                      ? 0.0F
@@ -158,7 +158,7 @@ void ForestLod::visit_cell(std::uint32_t index,
     }
     lists_.blended += weight < 1.0F ? cell.count : 0;
     for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
-        if (!trees_[t].gone()) {
+        if (!trees_[t].is_removed()) {
             visit_tree(t, frustum, options, weight);
         }
     }
@@ -193,7 +193,7 @@ std::uint32_t ForestLod::level_of(float pixels, const LodOptions& options) {
     return level;
 }
 
-float ForestLod::fitting_detail(const LodOptions& options) const {
+float ForestLod::detail_in_budget(const LodOptions& options) const {
     const auto fits = [&](float detail) {
         double triangles = 0.0;
         for (const Candidate& candidate : candidates_) {
@@ -217,11 +217,11 @@ float ForestLod::fitting_detail(const LodOptions& options) const {
     return most;
 }
 
-void ForestLod::see_branches(const PoolSpan& span,
-                             const LodTree& tree,
-                             float yaw,
-                             std::uint32_t blend_steps,
-                             const Frustum& frustum) {
+void ForestLod::cull_branches(const PoolSpan& span,
+                              const LodTree& tree,
+                              float yaw,
+                              std::uint32_t blend_steps,
+                              const Frustum& frustum) {
     const Sphere whole = swaying(bounding_sphere(tree, yaw), tree);
     const bool is_within = frustum.contains(whole);
     const float sway = whole.radius - tree.scale * model_.forms[tree.form].sphere.radius;
@@ -234,7 +234,7 @@ void ForestLod::see_branches(const PoolSpan& span,
         }
         if (is_within ||
             frustum.intersects({branch.at(sphere.centre), branch.scale * sphere.radius + sway})) {
-            seen_branches_.emplace_back(place, blend_steps);
+            visible_branches_.emplace_back(place, blend_steps);
         }
     }
 }
@@ -256,8 +256,8 @@ PoolSpan ForestLod::branches_of(std::uint32_t number, const LodOptions& options)
 }
 
 void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options) {
-    seen_branches_.clear();
-    seen_trees_.clear();
+    visible_branches_.clear();
+    visible_trees_.clear();
     std::fill(mesh_counts_.begin(), mesh_counts_.end(), 0);
     constexpr std::uint32_t kAll = BranchEntry::kBlendSteps;
     for (const Candidate& candidate : candidates_) {
@@ -279,9 +279,9 @@ void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options)
         }
         const auto instances =
             static_cast<std::uint32_t>(model_.forms[tree.form].cache->instances.size());
-        const auto first = static_cast<std::uint32_t>(seen_branches_.size());
-        see_branches(span, tree, tree_of(candidate.tree).yaw, steps, frustum);
-        if (seen_branches_.size() == first) {
+        const auto first = static_cast<std::uint32_t>(visible_branches_.size());
+        cull_branches(span, tree, tree_of(candidate.tree).yaw, steps, frustum);
+        if (visible_branches_.size() == first) {
             continue;
         }
         ++lists_.trees_of_level[level];
@@ -290,12 +290,12 @@ void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options)
             lists_.trees.push_back({candidate.tree, {weight, 1.0F}});
             ++lists_.blended;
         }
-        seen_trees_.push_back(
-            {first, static_cast<std::uint32_t>(seen_branches_.size()),
+        visible_trees_.push_back(
+            {first, static_cast<std::uint32_t>(visible_branches_.size()),
              first_mesh_[tree.form] + (steps == kAll ? level : kBlending) * instances});
-        for (std::uint32_t i = first; i < seen_branches_.size(); ++i) {
-            const std::uint32_t mesh = pool_.branches()[seen_branches_[i].slot()].mesh;
-            ++mesh_counts_[seen_trees_.back().first_mesh + mesh];
+        for (std::uint32_t i = first; i < visible_branches_.size(); ++i) {
+            const std::uint32_t mesh = pool_.branches()[visible_branches_[i].slot()].mesh;
+            ++mesh_counts_[visible_trees_.back().first_mesh + mesh];
         }
     }
     list_runs();
@@ -320,10 +320,10 @@ void ForestLod::list_runs() {
             }
         }
     }
-    lists_.branches.resize(seen_branches_.size());
-    for (const SeenTree& tree : seen_trees_) {
+    lists_.branches.resize(visible_branches_.size());
+    for (const VisibleTree& tree : visible_trees_) {
         for (std::uint32_t i = tree.first; i < tree.end; ++i) {
-            const BranchEntry branch = seen_branches_[i];
+            const BranchEntry branch = visible_branches_[i];
             const std::uint32_t mesh = pool_.branches()[branch.slot()].mesh;
             lists_.branches[mesh_counts_[tree.first_mesh + mesh]++] = branch;
         }

@@ -48,10 +48,10 @@ void TerrainLod::make_grid(std::uint32_t level, const glm::vec3& eye) {
     const glm::ivec2 origin(floor_to(static_cast<double>(eye.x) / size, kGridStep) - half,
                             floor_to(static_cast<double>(eye.z) / size, kGridStep) - half);
     HeightGrid& grid = grids_[level];
-    if (grid.there && grid.origin == origin) {
+    if (grid.is_valid && grid.origin == origin) {
         return;
     }
-    grid.there = true;
+    grid.is_valid = true;
     grid.origin = origin;
     grid.heights.resize(std::size_t{kHeightTexels} * kHeightTexels);
     Workers workers(0);

@@ -32,7 +32,7 @@ struct TerrainPatch {
 /// Heights of a level around the camera.
 struct HeightGrid {
     glm::ivec2 origin{}; // first texel, in cells of the level
-    bool there = false;
+    bool is_valid = false;
     float lowest = 0.0F;
     float highest = 0.0F;
     std::vector<float> heights; // in rows along X

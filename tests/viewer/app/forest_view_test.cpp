@@ -93,7 +93,7 @@ public:
     }
     /// One press of the tool in the middle of the picture.
     void press() {
-        forest().work_at({0.0F, 0.0F}, true, false);
+        forest().apply_tool({0.0F, 0.0F}, true, false);
         forest().end_stroke();
     }
 
@@ -260,14 +260,14 @@ TEST_CASE("a forest grows from its first year to its last") {
                            "grammar = \"bush.lsys\"\nstages = [1, 3]\nyears_of_stage = 10\n");
     Viewed viewed(options_of(files.scene));
     REQUIRE(viewed.until_swaps(1));
-    CHECK(viewed.forest().usual_years() == 30);
+    CHECK(viewed.forest().default_years() == 30);
     CHECK(viewed.forest().years() == 30);
     const std::uint64_t grown = viewed.forest().painting().tree_count();
     viewed.forest().set_years(1);
     REQUIRE(viewed.until([&] { return viewed.forest().painting().tree_count() != grown; }));
     viewed.forest().settings.years_per_second = 100.0F;
     viewed.forest().play_or_pause();
-    REQUIRE(viewed.until([&] { return !viewed.forest().settings.grows; }));
+    REQUIRE(viewed.until([&] { return !viewed.forest().settings.plays; }));
     REQUIRE(viewed.until([&] { return viewed.forest().painting().tree_count() == grown; }));
     CHECK(viewed.forest().stats().swaps >= 4);
     viewed.forest().play_or_pause();
@@ -340,15 +340,15 @@ TEST_CASE("a brush and an eraser work along the way of the mouse") {
     forest.settings.brush.radius = 3.0F;
     forest.settings.brush.density = 0.3F;
     viewed.look_at(30.0F, 30.0F);
-    forest.work_at({-0.8F, 0.0F}, true, false);
+    forest.apply_tool({-0.8F, 0.0F}, true, false);
     const std::uint64_t first = forest.painting().tree_count();
-    forest.work_at({0.8F, 0.0F}, false, false);
+    forest.apply_tool({0.8F, 0.0F}, false, false);
     forest.end_stroke();
     const std::uint64_t all = forest.painting().tree_count();
     CHECK(first > 2);
     CHECK(all > 2 * first);
     const std::vector<std::uint8_t> row = viewed.picture();
-    forest.work_at({0.0F, 0.0F}, true, true);
+    forest.apply_tool({0.0F, 0.0F}, true, true);
     forest.end_stroke();
     CHECK(forest.painting().tree_count() < all);
     CHECK(viewed.picture() != row);
@@ -359,7 +359,7 @@ TEST_CASE("a brush and an eraser work along the way of the mouse") {
     CHECK(forest.painting().tree_count() == 1);
     // Nothing is painted into the sky.
     forest.settings.camera = {{30.0F, 20.0F, 30.0F}, {30.0F, 40.0F, 0.0F}, 40.0F};
-    forest.work_at({0.0F, 0.0F}, true, false);
+    forest.apply_tool({0.0F, 0.0F}, true, false);
     CHECK(forest.painting().tree_count() == 1);
 }
 

@@ -160,7 +160,7 @@ TEST_CASE("settings make the plant anew, and constants that vanish are let go") 
     REQUIRE(viewed.until([&] { return viewed.view.document()->plant.generations == 1; }));
     REQUIRE(viewed.until(
         [&] { return viewed.view.document()->plant.skeleton.segments[0].length == 4.0F; }));
-    CHECK(viewed.view.usual_generations() == 3);
+    CHECK(viewed.view.default_generations() == 3);
     // Outside of its bounds: an error, and back.
     viewed.view.settings.definitions[0].value = 9.0F;
     REQUIRE(viewed.until([&] { return viewed.view.failed(); }));
@@ -177,7 +177,7 @@ TEST_CASE("growth plays from the axiom to the end") {
     viewed.view.settings.generations_per_second = 1000.0F;
     viewed.view.play_or_pause();
     CHECK(viewed.view.generations() == 0);
-    REQUIRE(viewed.until([&] { return !viewed.view.settings.grows; }));
+    REQUIRE(viewed.until([&] { return !viewed.view.settings.plays; }));
     REQUIRE(viewed.until([&] { return viewed.view.document()->plant.generations == 7; }));
     CHECK(viewed.view.stats().swaps == 9); // the first, then 0 to 7
 }
@@ -187,14 +187,14 @@ TEST_CASE("a plant bends in the wind and stands again without") {
     REQUIRE(viewed.until_swaps(1));
     viewed.step();
     const std::vector<std::uint8_t> still = viewed.picture();
-    viewed.view.settings.bends = true;
+    viewed.view.settings.simulates = true;
     viewed.view.settings.bending.forces.wind.velocity = {20.0F, 0.0F, 0.0F};
     REQUIRE(viewed.until([&] { return viewed.view.stats().bend_time > 0.5; }));
     CHECK(viewed.picture() != still);
     viewed.view.settings.bending.stiffness = 0.5F;
     viewed.step();
     REQUIRE(viewed.until([&] { return viewed.view.stats().bend_time < 0.5; }));
-    viewed.view.settings.bends = false;
+    viewed.view.settings.simulates = false;
     viewed.step();
     CHECK(viewed.picture() == still);
 }
@@ -206,7 +206,7 @@ TEST_CASE("another file is opened with all in view") {
     viewed.view.open(sample("crankshaw-7-1"));
     REQUIRE(viewed.until_swaps(2));
     CHECK_FALSE(viewed.view.settings.camera == before);
-    CHECK(viewed.view.document()->plant.generations == viewed.view.usual_generations());
+    CHECK(viewed.view.document()->plant.generations == viewed.view.default_generations());
 }
 
 TEST_CASE("keys change what is shown, letters move while flying") {

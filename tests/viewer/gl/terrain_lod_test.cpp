@@ -36,7 +36,7 @@ TEST_CASE("corners lie on the terrain") {
         lod.select(make_frustum(camera, 1280, 720));
         for (std::uint32_t level = 0; level < lod.levels(); ++level) {
             const HeightGrid& grid = lod.grid(level);
-            if (!grid.there) {
+            if (!grid.is_valid) {
                 continue;
             }
             for (std::size_t i = 0; i < grid.heights.size(); i += 37) {
@@ -64,7 +64,7 @@ TEST_CASE("patches cover the ground once, and their heights are there") {
         std::map<std::pair<std::int64_t, std::int64_t>, int> covered; // squares of 4 m near the eye
         for (const TerrainPatch& patch : lod.patches()) {
             const HeightGrid& grid = lod.grid(patch.level);
-            REQUIRE(grid.there);
+            REQUIRE(grid.is_valid);
             // A cell more on each side, for normals.
             constexpr auto kCells = static_cast<std::int32_t>(kPatchCells);
             REQUIRE(patch.x - 1 >= grid.origin.x);
@@ -156,7 +156,7 @@ TEST_CASE("the ground is the same wherever the camera was before") {
     used.select(frustum);
     CHECK(used.patches() == fresh.patches());
     for (std::uint32_t level = 0; level < fresh.levels(); ++level) {
-        if (fresh.grid(level).there) {
+        if (fresh.grid(level).is_valid) {
             CHECK(used.grid(level).origin == fresh.grid(level).origin);
             CHECK(used.grid(level).heights == fresh.grid(level).heights);
         }
@@ -177,7 +177,7 @@ TEST_CASE("the device has the heights of the terrain") {
     pass.prepare(make_frustum(cameras()[1], 1280, 720));
     for (std::uint32_t level = 0; level < pass.lod()->levels(); ++level) {
         const HeightGrid& grid = pass.lod()->grid(level);
-        if (!grid.there) {
+        if (!grid.is_valid) {
             continue;
         }
         const std::vector<float> heights = pass.read_heights(level);

@@ -60,7 +60,7 @@ TreeRecord record_of(const LodTree& tree, const Tree& full) {
     const float turns = full.yaw / (2.0F * std::numbers::pi_v<float>);
     const auto yaw = static_cast<std::uint32_t>(65536.0F * (turns - std::floor(turns))) & 0xFFFFU;
     const std::uint32_t phase = golden_multiple(full.number) >> 16U;
-    const auto impostor = static_cast<std::uint32_t>(tree.impostor & ~LodTree::kGone);
+    const auto impostor = static_cast<std::uint32_t>(tree.impostor & ~LodTree::kRemoved);
     return {tree.position, tree.scale, phase << 16U | yaw, impostor << 16U | tree.form};
 }
 

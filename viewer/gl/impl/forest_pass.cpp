@@ -25,8 +25,8 @@ constexpr GLuint kAlbedos = 3;
 constexpr GLuint kNormals = 4;
 constexpr GLuint kBoxes = 4; // in impostor.vert.glsl
 // Half side of the shadow map near the ground, and its max, m.
-constexpr float kNearestLit = 45.0F;
-constexpr float kFarthestLit = 400.0F;
+constexpr float kMinShadowRange = 45.0F;
+constexpr float kMaxShadowRange = 400.0F;
 constexpr float kGroundBeyond = 3000.0F; // m, range of the ground beyond the forest
 
 /// Box of the casters between two heights that can shade the map. `shadow_from_world`: see
@@ -125,12 +125,12 @@ void ForestPass::change_tree(std::uint32_t index, const Tree& tree, bool alive) 
     }
 }
 
-Bounds ForestPass::lit_bounds(const Frame& frame) const {
+Bounds ForestPass::shadow_bounds(const Frame& frame) const {
     const Camera& camera = frame.camera;
     const float ground = model_.terrain->height(camera.eye.x, camera.eye.z);
     const float above = std::max(camera.eye.y - ground, 0.0F);
-    float half = kNearestLit;
-    while (half < kFarthestLit && half < 1.2F * above) {
+    float half = kMinShadowRange;
+    while (half < kMaxShadowRange && half < 1.2F * above) {
         half *= 1.5F;
     }
     // In front of the eye, or at the point it looks at from above.

@@ -39,7 +39,7 @@ public:
     [[nodiscard]] const Bounds& bounds() const { return lod_->bounds(); }
 
     /// Box of the shadow map for a camera; changes only in large steps of the camera.
-    [[nodiscard]] Bounds lit_bounds(const Frame& frame) const;
+    [[nodiscard]] Bounds shadow_bounds(const Frame& frame) const;
     /// Selects what is drawn for the frame and uploads it.
     void prepare(const Frame& frame);
     /// Draws all casters into the bound shadow map.

@@ -19,7 +19,7 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint32_t kFiner = 2; // supersampling along a side
+constexpr std::uint32_t kSupersampling = 2; // along a side
 constexpr std::uint32_t kWidth = ImpostorAtlas::kYaws * ImpostorAtlas::kTile;
 constexpr std::uint32_t kHeight = ImpostorAtlas::kElevations * ImpostorAtlas::kTile;
 constexpr GLsizei kLevels = 6; // mip levels; tiles of the last have 4 texels a side
@@ -100,24 +100,24 @@ Result<Done> ImpostorAtlas::reload(const ShaderSource& shaders) {
     solid_ = std::move(solid.value());
     cut_out_ = std::move(cut_out.value());
     keys_.assign(keys_.size(), 0);
-    look_for_missing();
+    find_missing();
     return Done{};
 }
 
-void ImpostorAtlas::look_for_missing() {
-    work_.reset();
+void ImpostorAtlas::find_missing() {
+    bake_.reset();
     pending_.clear();
     for (std::uint32_t layer = layers_; layer-- > 0;) {
-        if (keys_[layer] != wanted_[layer]) {
+        if (keys_[layer] != target_keys_[layer]) {
             pending_.push_back(layer);
         }
     }
 }
 
-void ImpostorAtlas::draw_row(const Cylinder& form,
-                             std::uint32_t e,
-                             const ForestBuffers& buffers,
-                             Buffer& frame) const {
+void ImpostorAtlas::draw_elevation(const Cylinder& form,
+                                   std::uint32_t e,
+                                   const ForestBuffers& buffers,
+                                   Buffer& frame) const {
     const float half_height = 0.5F * (form.high - form.low);
     const glm::vec3 middle(0.0F, 0.5F * (form.low + form.high), 0.0F);
     const float deep = kImpostorMargin * std::hypot(form.radius, half_height);
@@ -140,8 +140,9 @@ void ImpostorAtlas::draw_row(const Cylinder& form,
                      0.5F - 0.5F * glm::dot(to_eye, middle) / deep, 1.0F};
         frame.fill(std::span<const FrameBlock>(&block, 1));
         glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame.name());
-        glViewport(static_cast<GLint>(y * kTile * kFiner), 0, static_cast<GLsizei>(kTile * kFiner),
-                   static_cast<GLsizei>(kTile * kFiner));
+        glViewport(static_cast<GLint>(y * kTile * kSupersampling), 0,
+                   static_cast<GLsizei>(kTile * kSupersampling),
+                   static_cast<GLsizei>(kTile * kSupersampling));
         for (const ProgramObject* program : {&solid_, &cut_out_}) {
             glUseProgram(program->name());
             glUniform4f(kCentre, middle.x, middle.y, middle.z, deep);
@@ -237,36 +238,36 @@ void ImpostorAtlas::begin(const ForestModel& model,
                           ImpostorPlan plan,
                           const ForestBuffers& buffers) {
     plan_ = std::move(plan);
-    wanted_.clear();
+    target_keys_.clear();
     for (std::uint32_t layer = 0; layer < plan_.layers.size(); ++layer) {
         const ImpostorLayer& impostor = plan_.layers[layer];
-        wanted_.push_back(
+        target_keys_.push_back(
             key_of(impostor, cylinder_of(plan_, layer), model, buffers.mesh_digest(impostor.form)));
     }
-    make_layers(wanted_);
-    look_for_missing();
+    make_layers(target_keys_);
+    find_missing();
 }
 
-ImpostorAtlas::Work ImpostorAtlas::make_work() const {
-    Work work;
-    const auto width = static_cast<GLsizei>(kWidth * kFiner);
-    const auto height = static_cast<GLsizei>(kTile * kFiner); // one elevation
-    work.target = make_framebuffer(*device_);
+ImpostorAtlas::BakeState ImpostorAtlas::make_bake_state() const {
+    BakeState bake;
+    const auto width = static_cast<GLsizei>(kWidth * kSupersampling);
+    const auto height = static_cast<GLsizei>(kTile * kSupersampling); // one elevation
+    bake.target = make_framebuffer(*device_);
     constexpr std::array<GLenum, 3> kFormats = {GL_RGBA8, GL_RGBA8, GL_DEPTH_COMPONENT32F};
     constexpr std::array<GLenum, 3> kPoints = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
                                                GL_DEPTH_ATTACHMENT};
-    for (std::size_t i = 0; i < work.storage.size(); ++i) {
-        work.storage[i] = make_renderbuffer(*device_);
-        glNamedRenderbufferStorage(work.storage[i].name(), kFormats[i], width, height);
-        glNamedFramebufferRenderbuffer(work.target.name(), kPoints[i], GL_RENDERBUFFER,
-                                       work.storage[i].name());
+    for (std::size_t i = 0; i < bake.storage.size(); ++i) {
+        bake.storage[i] = make_renderbuffer(*device_);
+        glNamedRenderbufferStorage(bake.storage[i].name(), kFormats[i], width, height);
+        glNamedFramebufferRenderbuffer(bake.target.name(), kPoints[i], GL_RENDERBUFFER,
+                                       bake.storage[i].name());
     }
-    glNamedFramebufferDrawBuffers(work.target.name(), 2, kPoints.data());
-    work.frame = Buffer(*device_);
-    work.row = {kWidth * kFiner, kTile * kFiner, {}, {}};
-    work.row.albedos.resize(std::size_t{4} * work.row.width * work.row.height);
-    work.row.normals.resize(work.row.albedos.size());
-    return work;
+    glNamedFramebufferDrawBuffers(bake.target.name(), 2, kPoints.data());
+    bake.frame = Buffer(*device_);
+    bake.row = {kWidth * kSupersampling, kTile * kSupersampling, {}, {}};
+    bake.row.albedos.resize(std::size_t{4} * bake.row.width * bake.row.height);
+    bake.row.normals.resize(bake.row.albedos.size());
+    return bake;
 }
 
 void ImpostorAtlas::begin_layer(std::uint32_t layer,
@@ -293,17 +294,17 @@ void ImpostorAtlas::step(const ForestModel& model,
         return;
     }
     const std::uint32_t layer = pending_.back();
-    if (!work_) {
-        work_ = make_work();
+    if (!bake_) {
+        bake_ = make_bake_state();
     }
-    Work& work = *work_;
+    BakeState& bake = *bake_;
     buffers.use(BufferSet::Impostor);
-    if (work.elevation == 0) {
-        work.all = {kWidth, kHeight, {}, {}};
+    if (bake.elevation == 0) {
+        bake.all = {kWidth, kHeight, {}, {}};
     }
     begin_layer(layer, model, buffers);
     buffers.bind_storage();
-    glBindFramebuffer(GL_FRAMEBUFFER, work.target.name());
+    glBindFramebuffer(GL_FRAMEBUFFER, bake.target.name());
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
@@ -314,30 +315,30 @@ void ImpostorAtlas::step(const ForestModel& model,
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     constexpr std::array<GLfloat, 4> kNothing{};
     constexpr GLfloat kFar = 0.0F;
-    glClearNamedFramebufferfv(work.target.name(), GL_COLOR, 0, kNothing.data());
-    glClearNamedFramebufferfv(work.target.name(), GL_COLOR, 1, kNothing.data());
-    glClearNamedFramebufferfv(work.target.name(), GL_DEPTH, 0, &kFar);
-    draw_row(cylinder_of(plan_, layer), work.elevation, buffers, work.frame);
-    const auto width = static_cast<GLsizei>(work.row.width);
-    const auto height = static_cast<GLsizei>(work.row.height);
+    glClearNamedFramebufferfv(bake.target.name(), GL_COLOR, 0, kNothing.data());
+    glClearNamedFramebufferfv(bake.target.name(), GL_COLOR, 1, kNothing.data());
+    glClearNamedFramebufferfv(bake.target.name(), GL_DEPTH, 0, &kFar);
+    draw_elevation(cylinder_of(plan_, layer), bake.elevation, buffers, bake.frame);
+    const auto width = static_cast<GLsizei>(bake.row.width);
+    const auto height = static_cast<GLsizei>(bake.row.height);
     glReadBuffer(GL_COLOR_ATTACHMENT0);
-    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, work.row.albedos.data());
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bake.row.albedos.data());
     glReadBuffer(GL_COLOR_ATTACHMENT1);
-    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, work.row.normals.data());
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bake.row.normals.data());
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     buffers.use(BufferSet::Forest);
-    const ImpostorTexels half = halved(work.row);
-    work.all.albedos.insert(work.all.albedos.end(), half.albedos.begin(), half.albedos.end());
-    work.all.normals.insert(work.all.normals.end(), half.normals.begin(), half.normals.end());
-    if (++work.elevation < kElevations) {
+    const ImpostorTexels half = halved(bake.row);
+    bake.all.albedos.insert(bake.all.albedos.end(), half.albedos.begin(), half.albedos.end());
+    bake.all.normals.insert(bake.all.normals.end(), half.normals.begin(), half.normals.end());
+    if (++bake.elevation < kElevations) {
         return;
     }
-    work.elevation = 0;
-    upload_layer(layer, std::move(work.all));
-    keys_[layer] = wanted_[layer];
+    bake.elevation = 0;
+    upload_layer(layer, std::move(bake.all));
+    keys_[layer] = target_keys_[layer];
     pending_.pop_back();
     if (pending_.empty()) {
-        work_.reset();
+        bake_.reset();
     }
 }
 

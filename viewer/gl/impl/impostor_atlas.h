@@ -46,7 +46,7 @@ public:
 
 private:
     /// Targets of baking; kept while layers are missing.
-    struct Work {
+    struct BakeState {
         Framebuffer target;
         std::array<Renderbuffer, 3> storage; // albedos, normals, depths
         Buffer frame;
@@ -57,16 +57,16 @@ private:
 
     using LayerBoxes = std::array<glm::vec4, std::size_t{kYaws} * kElevations>;
 
-    void look_for_missing();
+    void find_missing();
     void make_layers(const std::vector<std::uint64_t>& keys);
-    [[nodiscard]] Work make_work() const;
+    [[nodiscard]] BakeState make_bake_state() const;
     /// Sets up meshes and commands of a layer.
     void begin_layer(std::uint32_t layer, const ForestModel& model, ForestBuffers& buffers) const;
     /// Draws the tiles of one elevation.
-    void draw_row(const Cylinder& form,
-                  std::uint32_t elevation,
-                  const ForestBuffers& buffers,
-                  Buffer& frame) const;
+    void draw_elevation(const Cylinder& form,
+                        std::uint32_t elevation,
+                        const ForestBuffers& buffers,
+                        Buffer& frame) const;
     void upload_layer(std::uint32_t layer, ImpostorTexels picture);
     void find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos);
 
@@ -78,10 +78,10 @@ private:
     std::vector<LayerBoxes> boxes_; // by layer
     Buffer box_buffer_;
     ImpostorPlan plan_;
-    std::vector<std::uint64_t> keys_;    // hash of the contents of each layer; 0: empty
-    std::vector<std::uint64_t> wanted_;  // hash of the wanted contents
-    std::vector<std::uint32_t> pending_; // layers to bake, the next one last
-    std::optional<Work> work_;
+    std::vector<std::uint64_t> keys_;        // hash of the contents of each layer; 0: empty
+    std::vector<std::uint64_t> target_keys_; // hash of the wanted contents
+    std::vector<std::uint32_t> pending_;     // layers to bake, the next one last
+    std::optional<BakeState> bake_;
     std::uint32_t layers_ = 0;
     std::uint64_t texture_bytes_ = 0;
 };
