@@ -17,7 +17,7 @@ namespace {
 /// Cells along a side of a node: four patches.
 constexpr float kNodeCells = 2.0F * static_cast<float>(view::kPatchCells);
 
-/// As terrain.vert.glsl has it.
+/// Morph factor, computed like terrain.vert.glsl.
 float morph_of(float distance, std::uint32_t level, std::uint32_t levels) {
     if (level + 1 == levels) {
         return 0.0F;

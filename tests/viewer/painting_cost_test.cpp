@@ -1,4 +1,4 @@
-// What a painted tree costs, in a small forest and in a large one: bytes for the device, and
+// Cost of a painted tree, in a small forest and in a large one: bytes for the device, and
 // memory. Every allocation by `new` in this program is counted.
 #include "runtime/placement/placement.h"
 #include "tests/support/forest.h"
@@ -90,7 +90,7 @@ PaintingCost cost_in(std::uint64_t count, bool undoes) {
             renderer->change_tree(change.index, painter.tree(change.index), change.alive);
         }
     };
-    place(kPainted); // what is made with the first tree
+    place(kPainted); // one-time cost of the first tree
     PaintingCost cost;
     cost.trees = forest.trees.size();
     const std::uint64_t uploaded = renderer->uploaded_bytes();

@@ -25,7 +25,7 @@ struct ForestOutcome {
     Messages messages;
     std::vector<std::string> files; // all files asked for
     ForestRequest request;
-    double seconds = 0.0; // of making
+    double seconds = 0.0; // time of making
 };
 
 [[nodiscard]] ForestOutcome make_forest(const ForestRequest& request,

@@ -71,7 +71,7 @@ private:
     std::shared_ptr<const ForestDocument> document_;
     std::optional<Painter> painter_;
     std::vector<std::string> names_;    // species names by the indices in painter_
-    std::optional<Painting> in_file_;   // as last read or saved
+    std::optional<Painting> in_file_;   // last read or saved
     std::optional<HeightField> ground_; // made on first use
     std::optional<glm::dvec3> last_;    // last place of the stroke
     PaintCount count_;

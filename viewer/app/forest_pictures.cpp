@@ -61,7 +61,7 @@ std::string stats_text(const ViewOptions& options,
     passes["branches"] = pass_stats(frame.branches);
     passes["impostors"] = pass_stats(frame.impostors);
     passes["terrain"] = pass_stats(frame.terrain);
-    passes["shadow"] = pass_stats(shadow); // of the whole series
+    passes["shadow"] = pass_stats(shadow); // sum of the series
     nlohmann::ordered_json& bytes = stats["bytes"];
     bytes["trees"] = sizes.tree_bytes;
     bytes["branches"] = sizes.branch_bytes;

@@ -56,10 +56,10 @@ struct CacheNumbers {
 /// Statistics of the forest shown.
 struct ForestViewStats {
     double make_seconds = 0.0;   // all work of the loader
-    double upload_seconds = 0.0; // of the swap
+    double upload_seconds = 0.0; // time of the swap
     double swap_seconds = 0.0;   // from the change to the swap
     double shown_seconds = 0.0;  // from the change to the first picture on the screen
-    double draw_seconds = 0.0;   // of the last picture
+    double draw_seconds = 0.0;   // last picture
     FrameStats drawn;
     std::uint64_t swaps = 0;
     std::vector<CacheNumbers> caches;

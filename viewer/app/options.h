@@ -27,7 +27,7 @@ struct ViewOptions {
     std::vector<std::string> files; // a grammar, a scene, or the grammars of a forest
     std::string file;               // front of `files`
     bool is_forest = false;         // a scene, several grammars, or options of forests
-    SceneOverrides overrides;       // of a forest; its grammar and seed are those above
+    SceneOverrides overrides;       // forests only; grammar and seed are those above
     MeshOptions mesh;
     RunOptions run;
 
@@ -42,7 +42,7 @@ struct ViewOptions {
     PlantStyle style = PlantStyle::Surface;
     LineKind lines = LineKind::None;
     std::uint32_t samples = 4;
-    std::uint64_t max_triangles = 1'500'000; // of branches in a picture of a forest
+    std::uint64_t max_triangles = 1'500'000; // budget of branches in a forest
     std::string shaders;                     // folder that replaces the built-in ones
 
     std::string screenshot;   // file of the picture instead of a window; `-`: standard output

@@ -13,12 +13,12 @@
 namespace lsys::view {
 
 struct PictureSeries {
-    // By picture, ms.
+    // Times of each picture, ms.
     std::vector<double> prepare; // work of the caller before it
     std::vector<double> draw;
     std::vector<double> read; // back from the device
     std::vector<double> write;
-    FrameStats drawn;         // of the last picture
+    FrameStats drawn;         // last picture
     std::uint64_t digest = 0; // equal for runs with the same pictures
 };
 

@@ -18,9 +18,9 @@ struct LoadOutcome {
     std::shared_ptr<const PlantDocument> document; // null: failed
     Messages messages;
     std::vector<std::string> files; // all files asked for
-    ViewOptions options;            // of the request
+    ViewOptions options;            // options of the request
     SteadyClock::time_point since;  // cause of the request
-    double seconds = 0.0;           // of making
+    double seconds = 0.0;           // time of making
 };
 
 struct LoadRequest {

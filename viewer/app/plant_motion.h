@@ -15,7 +15,7 @@ struct BentPlant {
     Skeleton skeleton;
     Mesh mesh;
     double time = 0.0;    // s, simulated
-    double seconds = 0.0; // of making
+    double seconds = 0.0; // time of making
 };
 
 struct Bending {

@@ -47,8 +47,8 @@ struct PlantViewStats {
     double make_seconds = 0.0;  // all work of the loader
     double swap_seconds = 0.0;  // from the change to the swap
     double shown_seconds = 0.0; // from the change to the first picture on the screen
-    double draw_seconds = 0.0;  // of the last picture
-    double bend_seconds = 0.0;  // of the last moment
+    double draw_seconds = 0.0;  // last picture
+    double bend_seconds = 0.0;  // last moment
     double bend_time = 0.0;     // s, simulated
     FrameStats drawn;
     std::uint64_t swaps = 0;

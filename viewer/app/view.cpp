@@ -37,7 +37,7 @@ std::vector<ShownMessage> entries_of(const Messages& messages) {
             entry.head.erase(entry.head.find_last_not_of('\n') + 1);
             // The text repeats the head in its first line.
             entry.text.erase(0, entry.text.find('\n') + 1);
-            constexpr std::size_t kMaxEntries = 50; // as in a terminal
+            constexpr std::size_t kMaxEntries = 50; // same as terminals
             if (entries.size() >= kMaxEntries) {
                 return entries;
             }

@@ -251,7 +251,7 @@ private:
     ForestPass forest_;
     ForestFrameStats forest_stats_;
     bool is_forest_ = false; // a forest is shown
-    ShaderSource shaders_;   // of forests: compiled on first use
+    ShaderSource shaders_;   // forest shaders are compiled on first use
     bool has_forest_shaders_ = false;
     Buffer frame_;
     VertexArray empty_;

@@ -33,7 +33,7 @@ struct Light {
     glm::vec3 sky{0.36F, 0.55F, 0.95F};
     glm::vec3 horizon{0.78F, 0.86F, 0.95F};
     glm::vec3 ground{0.22F, 0.20F, 0.16F}; // ambient light from below
-    float extinction = 0.0F;               // of the air, 1/m
+    float extinction = 0.0F;               // 1/m, of the air
     float exposure = 0.8F;
 
     friend bool operator==(const Light&, const Light&) = default;
@@ -65,7 +65,7 @@ struct Frame {
     PlantStyle style = PlantStyle::Surface;
     std::uint32_t samples = 4; // per pixel: 1 or 4
     // Forests only.
-    std::uint64_t max_triangles = 1'500'000; // of branches; above, trees are drawn coarser
+    std::uint64_t max_triangles = 1'500'000; // budget of branches; above, trees are drawn coarser
     std::uint32_t max_expansions = ~0U;      // trees expanded into branches per picture
 
     friend bool operator==(const Frame&, const Frame&) = default;

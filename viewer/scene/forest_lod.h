@@ -108,7 +108,7 @@ struct DrawLists {
     std::vector<DrawEntry> trees;    // impostors; index: see ForestLod::lod_tree()
     std::vector<DrawEntry> clusters; // index: cell
     std::array<std::uint32_t, kTreeLevels> trees_of_level{}; // count of trees with branches in view
-    std::uint64_t far_trees = 0;       // of `trees`, without those that have branches too
+    std::uint64_t far_trees = 0;                             // trees in `trees` without branches
     std::uint64_t clustered_trees = 0; // trees of `clusters`, without those in `trees`
     std::uint64_t blended = 0;         // trees drawn in two bands
     std::uint64_t hidden = 0;          // trees occluded by the ground

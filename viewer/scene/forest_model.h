@@ -65,9 +65,9 @@ struct ForestModel {
 /// An earlier model whose meshes may be reused.
 struct KnownModel {
     const ForestModel* model = nullptr;
-    std::uint64_t key = 0; // of its forest
+    std::uint64_t key = 0; // key of its forest
     MeshOptions options;
-    /// By species of the new forest: the species there with the same heroes.
+    /// Species of that model with the same heroes, by species of the new forest.
     std::vector<std::optional<std::size_t>> species;
 };
 

@@ -6,13 +6,13 @@ layout(binding = 4) uniform sampler2DArray normals; // normal (2), depth, transl
 flat in vec2 blend_range;
 #endif
 in vec3 layer_uv;
-in vec3 plane_shadow_position; // of the middle plane
+in vec3 plane_shadow_position; // at the middle plane
 flat in vec3 shadow_step;      // per unit of depth
 #ifndef SHADOW
 in vec2 fog;
 in vec3 plane_crown_position;
 flat in vec3 crown_step;
-flat in mat3 world_from_impostor; // of normals
+flat in mat3 world_from_impostor; // for normals
 flat in int is_cluster;
 #endif
 #if !defined(SHADOW) && !defined(DEPTH)

@@ -9,13 +9,13 @@ flat out vec2 blend_range;
 flat out int is_cluster;
 invariant gl_Position; // the colour pass compares depths
 out vec3 layer_uv;              // uv; layer
-out vec3 plane_shadow_position; // of the middle plane
+out vec3 plane_shadow_position; // at the middle plane
 flat out vec3 shadow_step;      // per unit of depth
 #ifndef SHADOW
 out vec2 fog;
-out vec3 plane_crown_position;       // of the middle plane, in axes of the crown
+out vec3 plane_crown_position;       // at the middle plane, in axes of the crown
 flat out vec3 crown_step;            // per unit of depth
-flat out mat3 world_from_impostor;   // of normals
+flat out mat3 world_from_impostor;   // for normals
 #endif
 void main() {
 #ifdef BLENDS

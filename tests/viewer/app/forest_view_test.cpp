@@ -1,4 +1,4 @@
-// What a window shows of a forest, without one: exchange of forests, painting, the scene file.
+// The view of a forest without a window: swap of forests, painting, the scene file.
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
 #include "viewer/app/controls.h"
@@ -143,7 +143,7 @@ TEST_CASE("a scene is shown, and one that changes in its place") {
     write_text(files.scene, wood(20));
     REQUIRE(viewed.until_trees(20));
     CHECK(viewed.picture() != before);
-    // As a grammar that it names.
+    // A grammar named by the scene.
     const std::uint64_t swaps = viewed.forest().stats().swaps;
     wait_for_watch();
     write_text(files.folder / "bush.lsys",
@@ -201,7 +201,7 @@ TEST_CASE("a scene that is deleted while it is shown is told, and comes back") {
     CHECK(viewed.forest().is_unsaved());
     CHECK_FALSE(std::filesystem::exists(files.scene));
     write_text(files.scene, wood(60));
-    REQUIRE(viewed.until_trees(61)); // what was painted stays
+    REQUIRE(viewed.until_trees(61)); // painted trees stay
     CHECK_FALSE(viewed.forest().failed());
 }
 

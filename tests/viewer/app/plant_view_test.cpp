@@ -1,4 +1,4 @@
-// What a window shows, without one: the same exchange of plants, the same pictures.
+// The view of a plant without a window: swap of plants, pictures.
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
 #include "viewer/app/controls.h"
@@ -275,7 +275,7 @@ TEST_CASE("the mouse orbits, pans and zooms") {
     CHECK_FALSE(camera.eye == before.eye);
     camera = before;
     input = {};
-    input.right_drag = {60.0F, 0.0F}; // what is under the mouse follows it to the right
+    input.right_drag = {60.0F, 0.0F}; // the picture follows the mouse to the right
     apply(input);
     CHECK(glm::dot(camera.target - before.target, right_of(before)) < 0.0F);
     camera = before;

@@ -1,4 +1,4 @@
-// Which trees are drawn as what, beside the same found one by one.
+// LOD bands against a search tree by tree.
 #include "tests/viewer/wood.h"
 #include "viewer/scene/impostor_plan.h"
 
@@ -39,7 +39,7 @@ std::uint64_t branch_trees(const DrawLists& lists) {
                            std::uint64_t{0});
 }
 
-/// What is drawn as branches: tree, instance, level.
+/// Draw list of branches: tree, instance, level.
 std::vector<std::array<std::uint32_t, 3>> branches_of(ForestLod& lod, const DrawLists& lists) {
     std::vector<std::array<std::uint32_t, 3>> branches;
     for (const BranchRun& run : lists.runs) {

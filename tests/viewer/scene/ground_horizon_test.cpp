@@ -1,4 +1,4 @@
-// What the ground hides, beside lines of sight that are followed step by step.
+// Occlusion by the ground against lines of sight followed step by step.
 #include "tests/viewer/drawn_ground.h"
 #include "tests/viewer/wood.h"
 #include "viewer/scene/ground_horizon.h"

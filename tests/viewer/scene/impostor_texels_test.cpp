@@ -1,4 +1,4 @@
-// What there is of tiles, beside the same found texel by texel.
+// Opaque boxes of tiles against a search texel by texel.
 #include "viewer/scene/impostor_texels.h"
 
 #include <catch2/catch.hpp>
