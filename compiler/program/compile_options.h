@@ -12,6 +12,8 @@ namespace lsys {
 struct Definition {
     std::string name;
     float value = 0.0F;
+
+    friend bool operator==(const Definition&, const Definition&) = default;
 };
 
 struct CompileOptions {

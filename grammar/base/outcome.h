@@ -62,9 +62,6 @@ private:
     std::vector<Message> all_;
 };
 
-/// The value of a step that only acts: Outcome<Done>.
-struct Done {};
-
 template <typename T>
 class [[nodiscard]] Outcome {
 public:
@@ -93,6 +90,29 @@ public:
 private:
     std::optional<T> value_;
     Stop stop_ = Stop::Failed;
+    Messages messages_;
+};
+
+/// The outcome of a step without a value.
+template <>
+class [[nodiscard]] Outcome<void> {
+public:
+    Outcome() = default;
+    Outcome(Messages messages) : messages_(std::move(messages)) {}
+    Outcome(Stop stop, Messages messages) : stop_(stop), messages_(std::move(messages)) {}
+
+    [[nodiscard]] bool ok() const { return !stop_; }
+    explicit operator bool() const { return ok(); }
+
+    [[nodiscard]] Stop stop() const {
+        LSYS_CHECK(!ok());
+        return *stop_;
+    }
+    [[nodiscard]] const Messages& messages() const { return messages_; }
+    [[nodiscard]] Messages& messages() { return messages_; }
+
+private:
+    std::optional<Stop> stop_;
     Messages messages_;
 };
 

@@ -65,20 +65,18 @@ public:
     /// Writes one, which is not to be seen yet.
     ExitStatus add(const std::string& path,
                    ExportTiming& timing,
-                   const std::function<Outcome<Done>(const ByteSink&)>& write) {
+                   const std::function<Outcome<void>(const ByteSink&)>& write) {
         Result<Output> output = Output::open(path, console_);
         if (!output) {
             return report_error(output.error(), console_);
         }
         Sink sink(output.value(), console_);
-        Outcome<Done> written = write([&sink](std::string_view bytes) { return sink(bytes); });
+        Outcome<void> written = write([&sink](std::string_view bytes) { return sink(bytes); });
         timing.bytes += sink.written();
         if (sink.failure()) {
             return report_error(*sink.failure(), console_);
         }
-        Done done;
-        const ExitStatus status = console_.take(std::move(written), done);
-        if (status != ExitStatus::Ok) {
+        if (const ExitStatus status = console_.take(std::move(written)); status != ExitStatus::Ok) {
             return status;
         }
         if (const Result<void> finished = output.value().finish(); !finished) {

@@ -121,7 +121,7 @@ add_output(Run& run, const std::string& path, const Write& write, std::vector<Ou
         return report_error(output.error(), run.console);
     }
     std::optional<Error> failure;
-    Outcome<Done> written = write([&](std::string_view bytes) {
+    Outcome<void> written = write([&](std::string_view bytes) {
         if (run.console.interrupted()) {
             return false;
         }
@@ -134,9 +134,7 @@ add_output(Run& run, const std::string& path, const Write& write, std::vector<Ou
     if (failure) {
         return report_error(*failure, run.console);
     }
-    Done done;
-    if (const ExitStatus status = run.console.take(std::move(written), done);
-        status != ExitStatus::Ok) {
+    if (const ExitStatus status = run.console.take(std::move(written)); status != ExitStatus::Ok) {
         return status;
     }
     if (const Result<void> finished = output.value().finish(); !finished) {
@@ -376,8 +374,7 @@ ExitStatus run_forest(const ForestCommand& command, const Console& console) {
     if (command.frames != 0) {
         status = write_years(run);
     } else {
-        Done placed;
-        status = console.take(place_forest(scene, project, run.grown), placed);
+        status = console.take(place_forest(scene, project, run.grown));
         if (status == ExitStatus::Ok) {
             status = write_forest(run, command.output);
         }

@@ -77,7 +77,7 @@ std::uint64_t triangle_count(const Mesh& mesh) {
     return count;
 }
 
-Outcome<Done> export_mesh(const Mesh& mesh,
+Outcome<void> export_mesh(const Mesh& mesh,
                           const Skeleton& skeleton,
                           ExportFormat format,
                           const ExportInfo& info,
@@ -98,7 +98,7 @@ Outcome<Done> export_mesh(const Mesh& mesh,
     });
 }
 
-Outcome<Done> write_picture_file(const PictureFile& picture, const ByteSink& sink) {
+Outcome<void> write_picture_file(const PictureFile& picture, const ByteSink& sink) {
     PieceWriter out(sink);
     out.put(picture.bytes);
     return finish(out);

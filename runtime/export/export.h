@@ -50,9 +50,9 @@ struct FormatTraits {
     bool has_mtl = false; // materials in a file beside it, by write_mtl()
     bool motion = false;  // one file holds all frames of an animation
     /// Writes trees as instances; null: the format has no instances.
-    Outcome<Done> (*write_forest)(const ForestExportJob& job, PieceWriter& out) = nullptr;
+    Outcome<void> (*write_forest)(const ForestExportJob& job, PieceWriter& out) = nullptr;
     bool expands_forest = false; // write_forest can write ForestForm::Expanded
-    Outcome<Done> (*write)(const ExportJob& job, PieceWriter& out) = nullptr;
+    Outcome<void> (*write)(const ExportJob& job, PieceWriter& out) = nullptr;
 };
 [[nodiscard]] const FormatTraits& traits_of(ExportFormat format);
 /// All formats, in the order of formats.def.
@@ -95,7 +95,7 @@ struct ExportInfo {
 /// Writes one file to `sink`. Indices of the mesh must be below its number of vertices. Without its
 /// value no byte was written, unless the outcome is Cancelled (by the sink) or OutOfMemory. Failed:
 /// nothing to draw, or more than the format can hold. Limit: more than kMostJoints.
-Outcome<Done> export_mesh(const Mesh& mesh,
+Outcome<void> export_mesh(const Mesh& mesh,
                           const Skeleton& skeleton,
                           ExportFormat format,
                           const ExportInfo& info,
@@ -108,8 +108,8 @@ struct PictureFile {
 /// The pictures that lie beside a file of the format. Stops: OutOfMemory.
 Outcome<std::vector<PictureFile>>
 make_picture_files(const Mesh& mesh, ExportFormat format, const ExportInfo& info);
-Outcome<Done> write_picture_file(const PictureFile& picture, const ByteSink& sink);
+Outcome<void> write_picture_file(const PictureFile& picture, const ByteSink& sink);
 /// Writes the materials of an OBJ, with colours in sRGB. Stops as export_mesh().
-Outcome<Done> write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink);
+Outcome<void> write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink);
 
 } // namespace lsys

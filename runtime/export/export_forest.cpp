@@ -7,7 +7,7 @@
 
 namespace lsys {
 
-Outcome<Done> export_forest(const ForestScene& scene,
+Outcome<void> export_forest(const ForestScene& scene,
                             ExportFormat format,
                             ForestForm form,
                             const ForestExportInfo& info,

@@ -45,7 +45,7 @@ struct ForestExportInfo {
 /// bytes for each pair of 512 trees of a cell and an instance that stands in them, and
 /// ForestExportInfo::window_bytes. Precondition: trees' species have meshes. Stops as
 /// export_mesh(); Limit: Expanded, more than kMostForestNodes.
-Outcome<Done> export_forest(const ForestScene& scene,
+Outcome<void> export_forest(const ForestScene& scene,
                             ExportFormat format,
                             ForestForm form,
                             const ForestExportInfo& info,

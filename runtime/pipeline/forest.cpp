@@ -339,7 +339,7 @@ mesh_forest(const GrownForest& grown, const MeshOptions& options, const Project&
     return step.done(std::move(meshes));
 }
 
-Outcome<Done> place_forest(const Scene& scene, const Project& project, GrownForest& grown) {
+Outcome<void> place_forest(const Scene& scene, const Project& project, GrownForest& grown) {
     Step step(project);
     const Stopwatch placing;
     PlacementOptions options = scene.placement;
@@ -359,7 +359,7 @@ Outcome<Done> place_forest(const Scene& scene, const Project& project, GrownFore
     if (std::string note = placement_note(grown.placed); !note.empty()) {
         step.messages.add_info(std::move(note));
     }
-    return step.done(Done{});
+    return step.done();
 }
 
 } // namespace lsys

@@ -64,7 +64,7 @@ struct KnownForest {
 grow_species(const LoadedScene& loaded, const Project& project, const KnownForest& known);
 
 /// Places the trees of `grown`.
-[[nodiscard]] Outcome<Done>
+[[nodiscard]] Outcome<void>
 place_forest(const Scene& scene, const Project& project, GrownForest& grown);
 
 /// Meshes all instances; by species and stage.

@@ -29,6 +29,8 @@ struct GrammarOptions {
     /// Definitions that are ignored if the grammar has no such constant.
     std::vector<Definition> optional_definitions;
     std::optional<std::uint32_t> generations; // instead of #n
+
+    friend bool operator==(const GrammarOptions&, const GrammarOptions&) = default;
 };
 
 /// The bytes of a grammar and their dialect.

@@ -1,11 +1,14 @@
 #include "runtime/pipeline/scene_overrides.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
-#include <vector>
 
 namespace lsys {
 
 namespace {
+
+constexpr double kDiskTrees = 0.7; // poisson-disk trees per square of side `spacing`
 
 template <typename Target, typename Value>
 void take(const std::optional<Value>& option, Target& target) {
@@ -15,6 +18,13 @@ void take(const std::optional<Value>& option, Target& target) {
 }
 
 } // namespace
+
+bool SceneOverrides::changes_placement() const {
+    return key || method || count || size || spacing || density || !density_map.empty() || years ||
+           tile || terrain || hill_height || hill_spacing || hill_seed ||
+           std::any_of(species.begin(), species.end(),
+                       [](const auto& each) { return each.second.share.has_value(); });
+}
 
 Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
     for (SceneSpecies& species : scene.species) {
@@ -39,6 +49,25 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
             species.definitions.push_back({definition.name, definition.value, {}});
         }
     }
+    for (std::size_t i = 0; i < scene.species.size(); ++i) {
+        SceneSpecies& species = scene.species[i];
+        const auto found = overrides.species.find(species.name);
+        if (found == overrides.species.end()) {
+            continue;
+        }
+        const SpeciesOverrides& own = found->second;
+        take(own.heroes, species.cache.heroes);
+        take(own.rho, species.rho);
+        PlacementSpecies& placed = scene.placement.species[i];
+        take(own.share, placed.share);
+        take(own.min_scale, placed.least_scale);
+        take(own.max_scale, placed.greatest_scale);
+        placed.greatest_scale = std::max(placed.greatest_scale, placed.least_scale);
+    }
+    take(overrides.terrain, scene.terrain.kind);
+    take(overrides.hill_height, scene.terrain.noise.height);
+    take(overrides.hill_spacing, scene.terrain.noise.feature);
+    take(overrides.hill_seed, scene.terrain.noise.seed);
     PlacementOptions& placement = scene.placement;
     take(overrides.key, placement.key);
     take(overrides.method, placement.method);
@@ -67,6 +96,46 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         }
     }
     return {};
+}
+
+void choose_method(SceneOverrides& overrides, PlacementMethod method, const Scene& scene) {
+    const PlacementOptions& now = scene.placement;
+    overrides.method = method;
+    const double area = std::max(now.region.area(), 1.0);
+    double trees = 1000.0;
+    if (reads_count(now.method) && now.count != 0) {
+        trees = static_cast<double>(now.count);
+    } else if (reads_spacing(now.method) && now.spacing > 0.0) {
+        trees = kDiskTrees * area / (now.spacing * now.spacing);
+    } else if (reads_density(now.method) && now.density > 0.0) {
+        trees = area * now.density;
+    }
+    if (reads_count(method) && !reads_count(now.method)) {
+        overrides.count = static_cast<std::uint64_t>(std::max(trees, 1.0));
+    }
+    if (reads_spacing(method) && !reads_spacing(now.method)) {
+        overrides.spacing = std::sqrt(kDiskTrees * area / trees);
+    }
+    if (reads_density(method) && !reads_density(now.method)) {
+        overrides.density = trees / area;
+    }
+    if (method == PlacementMethod::Domination && now.years == 0) {
+        overrides.years = 50;
+    }
+}
+
+bool reads_count(PlacementMethod method) {
+    return method == PlacementMethod::Uniform || method == PlacementMethod::Domination;
+}
+
+bool reads_spacing(PlacementMethod method) {
+    return method == PlacementMethod::PoissonDisk || method == PlacementMethod::Jittered ||
+           method == PlacementMethod::PoissonCells;
+}
+
+bool reads_density(PlacementMethod method) {
+    return method == PlacementMethod::DensityMap || method == PlacementMethod::UniformCells ||
+           method == PlacementMethod::DensityCells;
 }
 
 } // namespace lsys

@@ -1,4 +1,4 @@
-// SceneOverrides: values of a command line or a window that replace those of a scene. Unset options
+// SceneOverrides: values of a command line or a window that replace those of a scene. Unset fields
 // keep the scene's value.
 #pragma once
 
@@ -9,6 +9,7 @@
 #include "runtime/scene/scene.h"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -19,6 +20,19 @@ struct ForestTile {
     std::int64_t column = 0;
     std::int64_t row = 0;
     double size = 0.0;
+
+    friend bool operator==(const ForestTile&, const ForestTile&) = default;
+};
+
+/// Values of one species.
+struct SpeciesOverrides {
+    std::optional<double> share;
+    std::optional<float> min_scale;
+    std::optional<float> max_scale; // raised to min_scale where it is less
+    std::optional<std::uint32_t> heroes;
+    std::optional<float> rho;
+
+    friend bool operator==(const SpeciesOverrides&, const SpeciesOverrides&) = default;
 };
 
 struct SceneOverrides {
@@ -31,15 +45,37 @@ struct SceneOverrides {
     std::optional<float> tolerance;
     std::optional<PlacementMethod> method;
     std::optional<std::uint64_t> count;
-    std::optional<float> size;    // m, side of a square around the origin
-    std::optional<float> spacing; // m
-    std::optional<float> density; // places per square metre
-    std::string density_map;      // absolute, or relative to the working folder
+    std::optional<float> size;     // m, side of a square with its corner at the origin
+    std::optional<double> spacing; // m
+    std::optional<double> density; // places per square metre
+    std::string density_map;       // absolute, or relative to the working folder
     std::optional<std::uint32_t> years;
     std::optional<ForestTile> tile;
+    std::optional<TerrainKind> terrain;
+    std::optional<double> hill_height;  // m
+    std::optional<double> hill_spacing; // m
+    std::optional<std::uint64_t> hill_seed;
+    /// By name, and stronger than the values for all species. Names missing in the scene do
+    /// nothing.
+    std::map<std::string, SpeciesOverrides> species;
+
+    friend bool operator==(const SceneOverrides&, const SceneOverrides&) = default;
+
+    /// Trees may get other places, species or numbers than the scene's own.
+    [[nodiscard]] bool changes_placement() const;
 };
 
-/// Applies the set options to `scene`. Error: a tile with a placement that has none.
+/// Replaces values of `scene`. Overrides of several sources are applied one after the other, the
+/// strongest last. Error: a tile of a placement without tiles.
 [[nodiscard]] Result<void> apply(const SceneOverrides& overrides, Scene& scene);
+
+/// Sets `method` and those of its values that the method of `scene` does not read, for about as
+/// many trees as `scene` has.
+void choose_method(SceneOverrides& overrides, PlacementMethod method, const Scene& scene);
+
+/// Whether a placement reads PlacementOptions::count, spacing, density.
+[[nodiscard]] bool reads_count(PlacementMethod method);
+[[nodiscard]] bool reads_spacing(PlacementMethod method);
+[[nodiscard]] bool reads_density(PlacementMethod method);
 
 } // namespace lsys

@@ -37,6 +37,14 @@ public:
         value = std::move(outcome.value());
         return true;
     }
+    /// The same for a step without a value.
+    [[nodiscard]] bool take(Outcome<void> outcome) {
+        messages.append(std::move(outcome.messages()));
+        if (!outcome) {
+            stop_ = outcome.stop();
+        }
+        return outcome.ok();
+    }
 
     /// Ends the step: done() with a value, end(stop) without one, end() like the inner step that
     /// take() has refused.
@@ -44,6 +52,7 @@ public:
     [[nodiscard]] Outcome<T> done(T value) {
         return {std::move(value), std::move(messages)};
     }
+    [[nodiscard]] Outcome<void> done() { return {std::move(messages)}; }
 
     /// An end without value; converts to any Outcome.
     struct Ended {

@@ -50,10 +50,14 @@ public:
         value = std::move(outcome.value());
         return ExitStatus::Ok;
     }
+    /// The same for a step without a value.
+    [[nodiscard]] ExitStatus take(const Outcome<void>& outcome) const {
+        show(outcome.messages());
+        return outcome ? ExitStatus::Ok : status_of(outcome.stop());
+    }
     /// Prints one diagnostic without a place; returns `status`.
     [[nodiscard]] ExitStatus show(Diagnostic diagnostic, ExitStatus status) const;
-    ///    /// Sorts, applies --deny and -q, prints; AuthorErrors if there are errors, Limit if one
-    ///    of them
+    /// Sorts, applies --deny and -q, prints; AuthorErrors if there are errors, Limit if one of them
     /// is a limit.
     [[nodiscard]] ExitStatus show(Diagnostics& diagnostics, const SourceMap& sources) const;
     [[nodiscard]] RenderOptions render_options() const;

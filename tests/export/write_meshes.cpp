@@ -22,7 +22,7 @@ bool write_file(const std::filesystem::path& path,
                 const ExportInfo& info) {
     std::ofstream file(path, std::ios::binary);
     const auto format = format_of_path(path.string());
-    const Outcome<Done> written =
+    const Outcome<void> written =
         format
             ? export_mesh(mesh, skeleton, *format, info,
                           [&file](std::string_view bytes) {

@@ -69,7 +69,7 @@ Exported
 exported(const ForestScene& scene, ExportFormat format, ForestForm form, ForestExportInfo info) {
     info.name = "wood";
     Exported result;
-    const Outcome<Done> outcome =
+    const Outcome<void> outcome =
         export_forest(scene, format, form, info, [&](std::string_view bytes) {
             result.bytes += bytes;
             return true;
@@ -328,7 +328,7 @@ TEST_CASE("a forest that cannot be written is refused before a byte is") {
     CHECK(nodes.bytes.empty());
 
     std::size_t pieces = 0;
-    const Outcome<Done> stopped = export_forest(wood.scene(), ExportFormat::Glb,
+    const Outcome<void> stopped = export_forest(wood.scene(), ExportFormat::Glb,
                                                 ForestForm::Instanced, {}, [&](std::string_view) {
                                                     ++pieces;
                                                     return false;

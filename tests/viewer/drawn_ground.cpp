@@ -10,31 +10,31 @@
 namespace lsys::tests {
 
 using view::HeightGrid;
-using view::TerrainView;
+using view::TerrainLod;
 
 namespace {
 
 /// Cells along a side of a node: four patches.
 constexpr float kNodeCells = 2.0F * static_cast<float>(view::kPatchCells);
 
-/// As terrain.vert.glsl has it.
+/// Morph factor, computed like terrain.vert.glsl.
 float morph_of(float distance, std::uint32_t level, std::uint32_t levels) {
     if (level + 1 == levels) {
         return 0.0F;
     }
-    const float start = TerrainView::morph_start(level);
-    return std::clamp((distance - start) / (TerrainView::range(level) - start), 0.0F, 1.0F);
+    const float start = TerrainLod::morph_start(level);
+    return std::clamp((distance - start) / (TerrainLod::range(level) - start), 0.0F, 1.0F);
 }
 
 /// The level of the smallest node about a place that is within the range of its level.
-std::uint32_t level_at(const TerrainView& view, const glm::vec3& eye, const glm::vec2& place) {
-    std::uint32_t level = view.levels() - 1;
+std::uint32_t level_at(const TerrainLod& lod, const glm::vec3& eye, const glm::vec2& place) {
+    std::uint32_t level = lod.levels() - 1;
     while (level != 0) {
-        const float size = TerrainView::cell(level - 1) * kNodeCells;
+        const float size = TerrainLod::cell(level - 1) * kNodeCells;
         const glm::vec2 low = glm::floor(place / size) * size;
         const glm::vec2 at(eye.x, eye.z);
         const glm::vec2 away = at - glm::clamp(at, low, low + size);
-        if (glm::length(glm::vec3(away, view.eye_height())) >= TerrainView::range(level - 1)) {
+        if (glm::length(glm::vec3(away, lod.eye_height())) >= TerrainLod::range(level - 1)) {
             break;
         }
         --level;
@@ -44,16 +44,16 @@ std::uint32_t level_at(const TerrainView& view, const glm::vec3& eye, const glm:
 
 } // namespace
 
-float drawn_height(const TerrainView& view, const glm::vec3& eye, float x, float z) {
+float drawn_height(const TerrainLod& lod, const glm::vec3& eye, float x, float z) {
     // The corners of the cell, where they have moved to.
-    const std::uint32_t level = level_at(view, eye, {x, z});
-    const HeightGrid& grid = view.grid(level);
-    const float size = TerrainView::cell(level);
+    const std::uint32_t level = level_at(lod, eye, {x, z});
+    const HeightGrid& grid = lod.grid(level);
+    const float size = TerrainLod::cell(level);
     const auto corner = [&](std::int32_t cx, std::int32_t cz) {
         const glm::vec2 place(static_cast<float>(cx) * size, static_cast<float>(cz) * size);
         const float distance =
-            glm::length(glm::vec3(place - glm::vec2(eye.x, eye.z), view.eye_height()));
-        const float morph = morph_of(distance, level, view.levels());
+            glm::length(glm::vec3(place - glm::vec2(eye.x, eye.z), lod.eye_height()));
+        const float morph = morph_of(distance, level, lod.levels());
         const std::int32_t even_x = cx - (cx & 1);
         const std::int32_t even_z = cz - (cz & 1);
         const glm::vec2 even(static_cast<float>(even_x) * size, static_cast<float>(even_z) * size);

@@ -1,10 +1,10 @@
-// What a painted tree costs, in a small forest and in a large one: bytes for the device, and
+// Cost of a painted tree, in a small forest and in a large one: bytes for the device, and
 // memory. Every allocation by `new` in this program is counted.
 #include "runtime/placement/placement.h"
 #include "tests/support/forest.h"
-#include "viewer/gl/headless.h"
+#include "viewer/gl/headless_context.h"
 #include "viewer/gl/renderer.h"
-#include "viewer/scene/forest_view.h"
+#include "viewer/scene/forest_lod.h"
 #include "viewer/scene/painter.h"
 
 #include <catch2/catch.hpp>
@@ -76,7 +76,7 @@ PaintingCost cost_in(std::uint64_t count, bool undoes) {
     options.species.resize(1);
     options.count = count;
     forest.trees = place_trees(options, terrain).value().trees;
-    const std::unique_ptr<Headless> context = std::move(Headless::make().value());
+    const std::unique_ptr<HeadlessContext> context = std::move(HeadlessContext::make().value());
     const std::unique_ptr<Renderer> renderer = std::move(Renderer::make(built_in_shader).value());
     ForestModel model;
     REQUIRE(make_forest_model(forest, terrain, {{}}, {}, model) == InstanceMeshStatus::Ok);
@@ -90,7 +90,7 @@ PaintingCost cost_in(std::uint64_t count, bool undoes) {
             renderer->change_tree(change.index, painter.tree(change.index), change.alive);
         }
     };
-    place(kPainted); // what is made with the first tree
+    place(kPainted); // one-time cost of the first tree
     PaintingCost cost;
     cost.trees = forest.trees.size();
     const std::uint64_t uploaded = renderer->uploaded_bytes();

@@ -18,10 +18,10 @@ struct Picture {
 [[nodiscard]] Picture read_picture(const std::string& path);
 
 struct PictureDifference {
-    double mean = 0.0; // of all channels, 0 to 255
+    double mean = 0.0; // over all channels, 0 to 255
     double far = 0.0;  // part of the pixels that differ by more than 32 in a channel
 };
-/// Of pictures of one size.
+/// Both pictures must have one size.
 [[nodiscard]] PictureDifference difference_of(const Picture& a, const Picture& b);
 
 } // namespace lsys::tests

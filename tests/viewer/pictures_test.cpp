@@ -33,7 +33,7 @@ std::string scene(const std::string& name) {
     return LSYS_SOURCE_DIR "/samples/scenes/" + name + "/" + name + ".toml";
 }
 
-/// What lsview draws for `arguments`, as the bytes of a PNG.
+/// Picture drawn by lsview for `arguments`, as the bytes of a PNG.
 std::string drawn(std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--screenshot", "-"});
     LscRun run = run_lsview(arguments);
@@ -168,7 +168,8 @@ TEST_CASE("cells at the horizon are as light as their trees") {
         return decode_picture(drawn({LSYS_SOURCE_DIR "/tests/bench/view-forest.toml", "--camera",
                                      "eye 760,80,760 target 350,0,350 fov 60", "--size", size}));
     };
-    // The same, so small that most trees are drawn by cell, and so large that each is drawn itself.
+    // A smaller picture: so small that most trees are drawn by cell, and so large that each is
+    // drawn itself.
     const SquareDifference difference = difference_by_square(view("160x120"), view("1280x960"), 10);
     CHECK(difference.worst < 16.0);
     CHECK(difference.mean < 1.2);
@@ -207,7 +208,7 @@ TEST_CASE("the counts of a forest are told, and the same every run") {
     CHECK(stats["passes"]["terrain"]["triangles"] > 0);
     CHECK(stats["trees_drawn"]["impostors"] > 0);
     CHECK(stats["trees_drawn"]["in_cells"] > 0);
-    // What a run leaves out, it does not draw.
+    // Options that leave things out.
     std::vector<std::string> second = arguments;
     second.insert(second.end(), {folder / "b.png", "--triangles", "0", "--no-shadows", "--samples",
                                  "1", "--stats", "-"});

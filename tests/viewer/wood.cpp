@@ -64,8 +64,8 @@ Terrain hills(float side) {
     return Terrain::noise({0.0, 0.0, size, size}, options).value();
 }
 
-view::RingOptions wood_rings() {
-    view::RingOptions options;
+view::LodOptions wood_lod() {
+    view::LodOptions options;
     options.level_pixels = {200.0F, 120.0F, 80.0F, 40.0F};
     return options;
 }

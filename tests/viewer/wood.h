@@ -1,7 +1,7 @@
 // Wood: a small forest, for tests of what is drawn of one.
 #pragma once
 
-#include "viewer/scene/forest_view.h"
+#include "viewer/scene/forest_lod.h"
 
 #include <cstdint>
 #include <memory>
@@ -21,7 +21,7 @@ struct Wood {
 [[nodiscard]] std::unique_ptr<Wood> make_wood_on_hills(std::uint32_t count, float side);
 /// 30 m high, 120 m apart, on a square at the origin.
 [[nodiscard]] Terrain hills(float side);
-/// With rings that are met in pictures of 640 by 480 pixels.
-[[nodiscard]] view::RingOptions wood_rings();
+/// Options whose LOD bands all occur in pictures of 640 by 480 pixels.
+[[nodiscard]] view::LodOptions wood_lod();
 
 } // namespace lsys::tests

@@ -19,7 +19,7 @@ float held_way(const WindowInput& input, Key forwards, Key backwards) {
     return (is_held(input, forwards) ? 1.0F : 0.0F) - (is_held(input, backwards) ? 1.0F : 0.0F);
 }
 
-/// Half a turn along the picture's height.
+/// Half a turn per picture height.
 void orbit(Camera& camera, const glm::vec2& drag, float height) {
     const float turn = std::numbers::pi_v<float> / std::max(height, 1.0F);
     if (drag != glm::vec2(0.0F)) {
@@ -27,7 +27,7 @@ void orbit(Camera& camera, const glm::vec2& drag, float height) {
     }
 }
 
-/// What lies at the target stays under the mouse.
+/// The target follows the mouse.
 void pan(Camera& camera, const glm::vec2& drag, float height) {
     if (drag != glm::vec2(0.0F)) {
         const float metres =
@@ -47,20 +47,20 @@ void zoom(Camera& camera, float wheel) {
 
 } // namespace
 
-void next_seed(LiveView& view) {
+void next_seed(PlantView& view) {
     const std::uint64_t shown = view.document() == nullptr ? 0 : view.document()->plant.seed;
     view.settings.seed = view.settings.seed.value_or(shown) + 1;
 }
 
-void step_generations(LiveView& view, int step) {
+void step_generations(PlantView& view, int step) {
     const std::uint32_t now = view.generations();
-    view.settings.grows = false;
+    view.settings.plays = false;
     if (step > 0 || now > 0) {
         view.settings.generations = step > 0 ? now + 1 : now - 1;
     }
 }
 
-void next_key(LiveForest& view) {
+void next_key(ForestView& view) {
     const std::uint64_t shown =
         view.document() == nullptr ? 0 : view.document()->scene.placement.key;
     view.settings.edits.key = shown + 1;
@@ -69,21 +69,22 @@ void next_key(LiveForest& view) {
 void Controls::apply(const WindowInput& input,
                      double seconds,
                      const PixelArea& area,
-                     LiveViews& views,
+                     ViewSwitcher& switcher,
                      PanelState& panels) {
     for (const std::string& file : input.dropped) {
-        views.open(file);
+        switcher.open(file);
     }
-    if (LiveForest* const forest = views.forest()) {
+    if (ForestView* const forest = switcher.forest()) {
         apply(input, seconds, area, *forest, panels);
-    } else if (LiveView* const plant = views.plant()) {
+    } else if (PlantView* const plant = switcher.plant()) {
         apply(input, seconds, static_cast<float>(area.height), *plant, panels);
     }
     if (input.closes || panels.quits) {
-        panels.quits = !views.shown().is_unsaved() || panels.asked_to_quit;
+        panels.quits = !switcher.shown().is_unsaved() || panels.asked_to_quit;
         if (!panels.quits) {
             panels.asked_to_quit = true;
-            views.shown().say("what was painted is not saved: Ctrl+S saves it, Ctrl+Q leaves it");
+            switcher.shown().set_note(
+                "what was painted is not saved: Ctrl+S saves it, Ctrl+Q leaves it");
         }
     } else if (!input.presses.empty()) {
         panels.asked_to_quit = false;
@@ -91,7 +92,7 @@ void Controls::apply(const WindowInput& input,
 }
 
 void Controls::apply(
-    const WindowInput& input, double seconds, float height, LiveView& view, PanelState& panels) {
+    const WindowInput& input, double seconds, float height, PlantView& view, PanelState& panels) {
     for (const KeyPress& one : input.presses) {
         press(one, view, panels);
     }
@@ -109,7 +110,7 @@ void Controls::apply(
 void Controls::apply(const WindowInput& input,
                      double seconds,
                      const PixelArea& area,
-                     LiveForest& view,
+                     ForestView& view,
                      PanelState& panels) {
     for (const KeyPress& one : input.presses) {
         press(one, view, panels);
@@ -132,23 +133,24 @@ void Controls::apply(const WindowInput& input,
     use_tool(input, area, view);
 }
 
-void Controls::use_tool(const WindowInput& input, const PixelArea& area, LiveForest& view) {
-    // Pictures begin at the window's upper edge.
+void Controls::use_tool(const WindowInput& input, const PixelArea& area, ForestView& view) {
+    // The upper edges of picture and window coincide.
     const auto place = [&area](const glm::vec2& pixels) {
         const float half = 0.5F * static_cast<float>(area.height);
         return glm::vec2(
             (pixels.x - static_cast<float>(area.x) - 0.5F * static_cast<float>(area.width)) / half,
             (half - pixels.y) / half);
     };
-    for (const Touch& touch : input.touches) {
-        if (touch.kind == Touch::Kind::Release) {
+    for (const PointerEvent& event : input.pointer_events) {
+        if (event.kind == PointerEvent::Kind::Release) {
             view.end_stroke();
         } else {
-            view.work_at(place(touch.place), touch.kind == Touch::Kind::Press, touch.shift);
+            view.apply_tool(place(event.place), event.kind == PointerEvent::Kind::Press,
+                            event.shift);
         }
     }
-    if (input.over_picture && (input.any || !input.touches.empty())) {
-        view.point_at(place(input.mouse));
+    if (input.over_picture && (input.any || !input.pointer_events.empty())) {
+        view.hover(place(input.mouse));
     }
 }
 
@@ -158,7 +160,7 @@ void Controls::fly(const WindowInput& input, float seconds, float height, Camera
     constexpr float kNotch = 1.2F;
     constexpr float kFaster = 4.0F;
     speed_ *= std::pow(kNotch, input.wheel);
-    // To the target within two seconds.
+    // Reaches the target in two seconds.
     const float metres = 0.5F * speed_ * (is_held(input, Key::Shift) ? kFaster : 1.0F) * seconds *
                          glm::distance(camera.eye, camera.target);
     camera =
@@ -166,7 +168,7 @@ void Controls::fly(const WindowInput& input, float seconds, float height, Camera
               metres * held_way(input, Key::E, Key::Q), metres * held_way(input, Key::W, Key::S));
 }
 
-bool Controls::press_common(const KeyPress& press, LiveScreen& view, PanelState& panels) {
+bool Controls::press_common(const KeyPress& press, View& view, PanelState& panels) {
     if (press.control) {
         panels.quits = panels.quits || press.key == Key::Q;
         return press.key == Key::Q;
@@ -178,7 +180,7 @@ bool Controls::press_common(const KeyPress& press, LiveScreen& view, PanelState&
     case Key::Escape:
         panels.help = false;
         panels.flies = false;
-        return false; // views may have more to end
+        return false; // views handle it too
     case Key::F1:
         panels.help = !panels.help;
         return true;
@@ -186,7 +188,7 @@ bool Controls::press_common(const KeyPress& press, LiveScreen& view, PanelState&
         break;
     }
     if (panels.flies) {
-        return false; // letters move
+        return false; // letters move the camera
     }
     switch (press.key) {
     case Key::F:
@@ -212,11 +214,11 @@ bool Controls::press_common(const KeyPress& press, LiveScreen& view, PanelState&
     }
 }
 
-void Controls::press(const KeyPress& press, LiveForest& view, PanelState& panels) {
+void Controls::press(const KeyPress& press, ForestView& view, PanelState& panels) {
     if (press_common(press, view, panels)) {
         return;
     }
-    ForestSettings& settings = view.settings;
+    ForestViewSettings& settings = view.settings;
     if (press.control) {
         switch (press.key) {
         case Key::Z:
@@ -238,10 +240,9 @@ void Controls::press(const KeyPress& press, LiveForest& view, PanelState& panels
     constexpr float kBrushStep = 1.25F;
     const auto step = [&](bool more) {
         if (settings.tool != PaintTool::None) {
-            settings.brush.radius =
-                std::clamp(settings.brush.radius * (more ? kBrushStep : 1.0F / kBrushStep), 0.1F,
-                           kGreatestBrush);
-        } else if (view.usual_years() != 0 && (more || view.years() > 0)) {
+            settings.brush.radius = std::clamp(
+                settings.brush.radius * (more ? kBrushStep : 1.0F / kBrushStep), 0.1F, kMaxBrush);
+        } else if (view.default_years() != 0 && (more || view.years() > 0)) {
             view.set_years(more ? view.years() + 1 : view.years() - 1);
         }
     };
@@ -288,11 +289,11 @@ void Controls::press(const KeyPress& press, LiveForest& view, PanelState& panels
     }
 }
 
-void Controls::press(const KeyPress& press, LiveView& view, PanelState& panels) {
+void Controls::press(const KeyPress& press, PlantView& view, PanelState& panels) {
     if (press_common(press, view, panels) || press.control) {
         return;
     }
-    LiveSettings& settings = view.settings;
+    PlantViewSettings& settings = view.settings;
     switch (press.key) {
     case Key::Space:
         view.play_or_pause();
@@ -330,7 +331,7 @@ void Controls::press(const KeyPress& press, LiveView& view, PanelState& panels) 
         settings.ground = !settings.ground;
         break;
     case Key::B:
-        settings.bends = !settings.bends;
+        settings.simulates = !settings.simulates;
         break;
     case Key::N:
         next_seed(view);

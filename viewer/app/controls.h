@@ -1,123 +1,125 @@
-// Controls: what mouse and keyboard do to a view.
+// Controls: mouse and keyboard input to changes of a view.
 #pragma once
 
-#include "viewer/app/live_views.h"
+#include "viewer/app/view_switcher.h"
 #include "viewer/gl/window.h"
 
 #include <array>
 
 namespace lsys::view {
 
-/// What is open over the picture.
+/// Overlays that are open.
 struct PanelState {
     bool panels = true;
     bool statistics = true;
     bool help = false;
-    bool flies = false; // the mouse looks about and WASD move
+    bool flies = false; // fly mode: the mouse looks around, WASD move
     bool quits = false;
-    bool asked_to_quit = false; // while something was unsaved
+    bool asked_to_quit = false; // refused once because of unsaved changes
 };
 
-/// A key and what it does, for the help.
+/// A row of the list of keys.
 struct KeyHelp {
     const char* keys;
     const char* what;
 };
 inline constexpr std::array<KeyHelp, 24> kPlantKeys = {{
-    {"left drag", "orbit"},
-    {"right drag", "pan"},
-    {"wheel", "zoom; speed while flying"},
-    {"F", "all in view"},
-    {"Tab", "fly: mouse looks, W A S D Q E move, Shift is faster"},
-    {"C", "copy the camera's line"},
-    {"W", "wireframe"},
-    {"I", "surfaces or none"},
-    {"L", "lines: none, skeleton, turtle path"},
-    {"S", "shadows"},
-    {"G", "ground"},
-    {"B", "bend: gravity and wind"},
-    {"Space", "play or pause growth"},
-    {"PageUp", "a generation more"},
-    {"PageDown", "a generation less"},
-    {"N", "next seed"},
-    {"R", "read the files again"},
-    {"P", "picture: writes a PNG here"},
-    {"H", "panels"},
-    {"A", "statistics"},
-    {"F1", "these keys"},
-    {"Esc", "close this, end flying"},
-    {"Ctrl+Q", "quit"},
-    {"drop a file", "show it"},
+    {"Left drag", "Orbit"},
+    {"Right drag", "Pan"},
+    {"Wheel", "Zoom; speed while flying"},
+    {"F", "Frame all"},
+    {"Tab", "Fly: look with the mouse, move with W A S D Q E, Shift: faster"},
+    {"C", "Copy the camera as text"},
+    {"W", "Wireframe"},
+    {"I", "Surfaces"},
+    {"L", "Lines: none, skeleton, turtle path"},
+    {"S", "Shadows"},
+    {"G", "Ground"},
+    {"B", "Simulate gravity and wind"},
+    {"Space", "Play or pause growth"},
+    {"PageUp", "Next generation"},
+    {"PageDown", "Previous generation"},
+    {"N", "Next seed"},
+    {"R", "Reload files"},
+    {"P", "Save a picture (PNG) in the current folder"},
+    {"H", "Panels"},
+    {"A", "Statistics"},
+    {"F1", "Keys"},
+    {"Esc", "Close the keys, stop flying"},
+    {"Ctrl+Q", "Quit"},
+    {"Drop a file", "Open it"},
 }};
 
 inline constexpr std::array<KeyHelp, 26> kForestKeys = {{
-    {"left drag", "orbit; with a tool: paint, Shift erases"},
-    {"right drag", "pan; with a tool: orbit"},
-    {"middle drag", "pan"},
-    {"wheel", "zoom; speed while flying"},
-    {"F", "all in view"},
-    {"Tab", "fly: mouse looks, W A S D Q E move, Shift is faster"},
-    {"C", "copy the camera's line"},
-    {"B", "brush: trees under the mouse"},
-    {"O", "one tree where the mouse is pressed"},
-    {"X", "eraser"},
-    {"PageUp", "a larger brush; a year more without a tool"},
-    {"PageDown", "a smaller brush; a year less without a tool"},
-    {"Ctrl+Z", "undo a stroke"},
-    {"Ctrl+Y", "redo it"},
-    {"Ctrl+S", "save what was painted into the scene file"},
-    {"Space", "play or pause the years"},
-    {"W", "wireframe"},
-    {"S", "shadows"},
-    {"N", "next key: another forest"},
-    {"R", "read the files again"},
-    {"P", "picture: writes a PNG here"},
-    {"H, A", "panels, statistics"},
-    {"F1", "these keys"},
-    {"Esc", "put the tool away, close this, end flying"},
-    {"Ctrl+Q", "quit"},
-    {"drop a file", "show it: a scene or a grammar"},
+    {"Left drag", "Orbit; with a tool: paint, Shift: erase"},
+    {"Right drag", "Pan; with a tool: orbit"},
+    {"Middle drag", "Pan"},
+    {"Wheel", "Zoom; speed while flying"},
+    {"F", "Frame all"},
+    {"Tab", "Fly: look with the mouse, move with W A S D Q E, Shift: faster"},
+    {"C", "Copy the camera as text"},
+    {"B", "Brush"},
+    {"O", "Single tree"},
+    {"X", "Eraser"},
+    {"PageUp", "Larger brush; without a tool: next year"},
+    {"PageDown", "Smaller brush; without a tool: previous year"},
+    {"Ctrl+Z", "Undo"},
+    {"Ctrl+Y", "Redo"},
+    {"Ctrl+S", "Save painted trees in the scene file"},
+    {"Space", "Play or pause the years"},
+    {"W", "Wireframe"},
+    {"S", "Shadows"},
+    {"N", "Next key: another forest"},
+    {"R", "Reload files"},
+    {"P", "Save a picture (PNG) in the current folder"},
+    {"H, A", "Panels, statistics"},
+    {"F1", "Keys"},
+    {"Esc", "Put the tool away, close the keys, stop flying"},
+    {"Ctrl+Q", "Quit"},
+    {"Drop a file", "Open it: a scene or a grammar"},
 }};
 
 class Controls {
 public:
-    /// `seconds` since the last time; `area` of the picture in the window, from its lower left
-    /// corner, pixels.
+    /// Applies input to the view shown. `seconds`: since the last call. `area`: of the picture in
+    /// the window, pixels from its lower left corner.
     void apply(const WindowInput& input,
                double seconds,
                const PixelArea& area,
-               LiveViews& views,
+               ViewSwitcher& switcher,
                PanelState& panels);
-    /// The same of one view of a plant; `height` of the picture.
-    void apply(
-        const WindowInput& input, double seconds, float height, LiveView& view, PanelState& panels);
-    /// And of a forest.
+    /// Applies input to a plant; `height` of the picture in pixels.
+    void apply(const WindowInput& input,
+               double seconds,
+               float height,
+               PlantView& view,
+               PanelState& panels);
+    /// Applies input to a forest.
     void apply(const WindowInput& input,
                double seconds,
                const PixelArea& area,
-               LiveForest& view,
+               ForestView& view,
                PanelState& panels);
-    /// Keys are held that move the camera.
+    /// Whether held keys may move the camera.
     [[nodiscard]] bool is_moving() const { return is_moving_; }
 
 private:
-    void press(const KeyPress& press, LiveView& view, PanelState& panels);
-    void press(const KeyPress& press, LiveForest& view, PanelState& panels);
-    /// Keys that every view has. Whether this was one.
-    [[nodiscard]] static bool
-    press_common(const KeyPress& press, LiveScreen& view, PanelState& panels);
-    void use_tool(const WindowInput& input, const PixelArea& area, LiveForest& view);
+    void press(const KeyPress& press, PlantView& view, PanelState& panels);
+    void press(const KeyPress& press, ForestView& view, PanelState& panels);
+    /// Handles keys common to all views; returns whether this was one.
+    [[nodiscard]] static bool press_common(const KeyPress& press, View& view, PanelState& panels);
+    void use_tool(const WindowInput& input, const PixelArea& area, ForestView& view);
     void fly(const WindowInput& input, float seconds, float height, Camera& camera);
 
-    float speed_ = 1.0F; // factor of flying
+    float speed_ = 1.0F; // factor of the speed of flying
     bool is_moving_ = false;
 };
 
-/// Another seed than the one that is shown.
-void next_seed(LiveView& view);
-/// Generations by `step` more or fewer.
-void step_generations(LiveView& view, int step);
-/// Another forest than the one that is shown.
-void next_key(LiveForest& view);
+/// Sets the seed after the one shown.
+void next_seed(PlantView& view);
+/// Adds `step` to the generations.
+void step_generations(PlantView& view, int step);
+/// Sets the key after the one shown.
+void next_key(ForestView& view);
 
 } // namespace lsys::view

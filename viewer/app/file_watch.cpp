@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 constexpr int kLongest = 10; // in quiet times
 
-/// What tells one state of a file from another.
+/// Identity of a file's contents.
 struct Stamp {
     bool there = false;
     std::int64_t seconds = 0;
@@ -49,7 +49,7 @@ Stamp stamp_of(const std::string& path) {
     return {true, facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec, facts.st_size, facts.st_ino};
 }
 
-/// The names under which a change of `path` may be told: its own, and that of what it links to.
+/// Names whose events concern `path`: its own and that of its link target.
 std::vector<fs::path> names_of(const std::string& path) {
     std::error_code error;
     std::vector<fs::path> names;
@@ -68,7 +68,7 @@ struct Watched {
     std::string path;
     std::vector<fs::path> names;
     Stamp stamp;
-    /// Since when it is known to have changed without having been told.
+    /// First unreported change.
     std::optional<FileWatch::Clock::time_point> changed;
 };
 
@@ -79,16 +79,16 @@ struct FileWatch::State {
     Changed changed;
     Descriptor wake{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
     Descriptor inotify;
-    std::mutex mutex; // of the next two
+    std::mutex mutex; // guards the next two
     std::optional<std::vector<std::string>> asked;
     bool stops = false;
-    // Of the thread alone.
+    // Used by the thread only.
     std::vector<Watched> files;
-    std::map<int, fs::path> folders; // by inotify's number
+    std::map<int, fs::path> folders; // by watch descriptor
     std::thread thread;
 
-    State(const Options& wanted, Changed tell)
-        : options(wanted), changed(std::move(tell)),
+    State(const Options& wanted, Changed report)
+        : options(wanted), changed(std::move(report)),
           inotify(wanted.use_inotify ? ::inotify_init1(IN_CLOEXEC | IN_NONBLOCK) : -1) {}
 
     void notify() const {
@@ -96,7 +96,7 @@ struct FileWatch::State {
         static_cast<void>(::write(wake.get(), &one, sizeof one));
     }
 
-    /// False: the watch ends.
+    /// False: stop.
     bool take_asked() {
         std::optional<std::vector<std::string>> paths;
         {
@@ -179,7 +179,7 @@ struct FileWatch::State {
                 std::memcpy(&event, buffer.data() + at, sizeof event);
                 const auto folder = folders.find(event.wd);
                 if (event.len != 0 && folder != folders.end()) {
-                    // The name ends with zeros.
+                    // The name is zero-terminated.
                     mark(folder->second /
                              reinterpret_cast<const char*>(buffer.data() + at + sizeof event),
                          now);
@@ -189,7 +189,7 @@ struct FileWatch::State {
         }
     }
 
-    void look(Clock::time_point now) {
+    void check_stamps(Clock::time_point now) {
         for (Watched& file : files) {
             if (!file.changed && stamp_of(file.path) != file.stamp) {
                 file.changed = now;
@@ -197,8 +197,8 @@ struct FileWatch::State {
         }
     }
 
-    /// Tells what has changed, if nothing of it is missing or has been so for long.
-    void tell(Clock::time_point now) {
+    /// Reports changes, unless a file has been missing for a short time only.
+    void report(Clock::time_point now) {
         std::vector<std::string> names;
         Clock::time_point first = Clock::time_point::max();
         for (const Watched& file : files) {
@@ -215,7 +215,7 @@ struct FileWatch::State {
             if (file.changed) {
                 file.changed.reset();
                 file.stamp = stamp_of(file.path);
-                file.names = names_of(file.path); // a link may lead elsewhere now
+                file.names = names_of(file.path); // link targets may change
             }
         }
         if (!names.empty()) {
@@ -224,7 +224,7 @@ struct FileWatch::State {
         }
     }
 
-    /// Since when there is something to tell.
+    /// Time of the first unreported change.
     [[nodiscard]] std::optional<Clock::time_point> first_change() const {
         std::optional<Clock::time_point> first;
         for (const Watched& file : files) {
@@ -236,18 +236,18 @@ struct FileWatch::State {
     }
 
     void run() {
-        Clock::time_point next_look = Clock::now() + options.poll;
+        Clock::time_point next_check = Clock::now() + options.poll;
         while (take_asked()) {
             const Clock::time_point before = Clock::now();
-            const auto until_look =
-                std::max(std::chrono::duration_cast<std::chrono::milliseconds>(next_look - before),
+            const auto until_check =
+                std::max(std::chrono::duration_cast<std::chrono::milliseconds>(next_check - before),
                          std::chrono::milliseconds(1));
             std::array<pollfd, 2> waiting = {{{wake.get(), POLLIN, 0}, {inotify.get(), POLLIN, 0}}};
             const bool in_change = first_change().has_value();
-            const int ready =
-                ::poll(waiting.data(), inotify.get() < 0 ? 1 : 2,
-                       static_cast<int>(
-                           (in_change ? std::min(options.quiet, until_look) : until_look).count()));
+            const int ready = ::poll(
+                waiting.data(), inotify.get() < 0 ? 1 : 2,
+                static_cast<int>(
+                    (in_change ? std::min(options.quiet, until_check) : until_check).count()));
             const Clock::time_point now = Clock::now();
             if (waiting[0].revents != 0) {
                 std::uint64_t count = 0;
@@ -256,14 +256,14 @@ struct FileWatch::State {
             if (inotify.get() >= 0 && waiting[1].revents != 0) {
                 read_events(now);
             }
-            if (now >= next_look) {
-                next_look = now + options.poll;
-                look(now);
+            if (now >= next_check) {
+                next_check = now + options.poll;
+                check_stamps(now);
             }
-            // Nothing more for a while, or others write in the same folder all the time.
+            // Report when quiet, or late in folders with constant writes.
             const auto first = first_change();
             if (first && ((in_change && ready == 0) || now - *first > kLongest * options.quiet)) {
-                tell(now);
+                report(now);
             }
         }
     }

@@ -1,6 +1,5 @@
-// FileWatch: tells when files change. Folders are watched by inotify, so that editors that replace
-// a file by another of its name are seen; what the files' times and sizes say is looked at as well
-// now and then, which is all there is where inotify does not work.
+// FileWatch: reports changes of files. Watches folders by inotify, so that files replaced by
+// editors are seen, and polls times and sizes, for file systems without inotify.
 #pragma once
 
 #include <chrono>
@@ -15,15 +14,16 @@ class FileWatch {
 public:
     using Clock = std::chrono::steady_clock;
     struct Options {
-        /// Changes that follow each other so quickly are one.
+        /// Changes within this time are reported together.
         std::chrono::milliseconds quiet{10};
-        /// So long a file may be missing, as while an editor replaces it.
+        /// Max time that a file may be missing, as while an editor replaces it, before that is
+        /// reported.
         std::chrono::milliseconds missing{250};
         std::chrono::milliseconds poll{1000};
         bool use_inotify = true;
     };
-    /// The files that changed, as they were named, and when the first of them was seen to change.
-    /// Called on a thread of the watch.
+    /// Called on the watch's thread with the changed files, by the names given, and the time of the
+    /// first change.
     using Changed = std::function<void(const std::vector<std::string>& files, Clock::time_point)>;
 
     FileWatch(const Options& options, Changed changed);
@@ -31,8 +31,8 @@ public:
     FileWatch& operator=(const FileWatch&) = delete;
     ~FileWatch();
 
-    /// The files that are watched from now on; they need not be there. What changed in those that
-    /// were watched before and still are is told.
+    /// Replaces the watched files; they need not exist. Unreported changes of files that stay are
+    /// kept.
     void watch(const std::vector<std::string>& files);
 
 private:

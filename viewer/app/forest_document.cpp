@@ -13,7 +13,7 @@ namespace lsys::view {
 
 namespace {
 
-Outcome<Done> make_model(const ViewOptions& options,
+Outcome<void> make_model(const ViewOptions& options,
                          const ForestDocument* before,
                          const Project& project,
                          ForestDocument& document) {
@@ -46,12 +46,12 @@ Outcome<Done> make_model(const ViewOptions& options,
         step.diagnose(no_memory_diagnostic("the mesh of the heroes"), nullptr);
         return step.end(Stop::OutOfMemory);
     }
-    return step.done(Done{});
+    return step.done({});
 }
 
 /// `edits` and `known` may be null.
 Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
-                                              const ForestEdits* edits,
+                                              const SceneOverrides* edits,
                                               const ForestDocument* known,
                                               const Project& project) {
     Step step(project);
@@ -64,7 +64,9 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
         return step.end();
     }
     if (edits != nullptr) {
-        apply(*edits, loaded.scene);
+        if (const Result<void> applied = apply(*edits, loaded.scene); !applied) {
+            return step.fail(applied.error());
+        }
     }
     const auto document = std::make_shared<ForestDocument>();
     document->scene = loaded.scene;
@@ -79,15 +81,14 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
     if (edits != nullptr) {
         loaded.scene.painting = {};
     }
-    Done done;
-    if (!step.take(place_forest(loaded.scene, project, document->grown), done)) {
+    if (!step.take(place_forest(loaded.scene, project, document->grown))) {
         return step.end();
     }
     if (project.is_cancelled()) {
         return step.end(Stop::Cancelled);
     }
     const Stopwatch meshing;
-    if (!step.take(make_model(options, known, project, *document), done)) {
+    if (!step.take(make_model(options, known, project, *document))) {
         return step.end();
     }
     document->mesh_seconds = meshing.seconds();
@@ -101,10 +102,10 @@ Outcome<std::shared_ptr<ForestDocument>> make_forest_document(const ViewOptions&
     return make(options, nullptr, nullptr, project);
 }
 
-Outcome<std::shared_ptr<ForestDocument>> make_live_forest(const ViewOptions& options,
-                                                          const ForestEdits& edits,
-                                                          const ForestDocument* known,
-                                                          const Project& project) {
+Outcome<std::shared_ptr<ForestDocument>> make_unpainted_forest(const ViewOptions& options,
+                                                               const SceneOverrides& edits,
+                                                               const ForestDocument* known,
+                                                               const Project& project) {
     return make(options, &edits, known, project);
 }
 

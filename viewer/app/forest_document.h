@@ -1,9 +1,8 @@
-// ForestDocument: a scene and the forest it makes, from the file to meshes of branches.
+// ForestDocument: a scene and its forest, from file to meshes.
 #pragma once
 
 #include "grammar/base/outcome.h"
 #include "runtime/pipeline/forest.h"
-#include "viewer/app/forest_edits.h"
 #include "viewer/app/options.h"
 #include "viewer/scene/forest_model.h"
 
@@ -14,11 +13,11 @@
 namespace lsys::view {
 
 struct ForestDocument {
-    Scene scene; // as it was asked for
+    Scene scene; // after all overrides
     GrownForest grown;
-    ForestModel model; // of `grown`, which must not move
+    ForestModel model; // refers to `grown`
     MeshOptions mesh_options;
-    std::vector<std::string> files; // that it is made of, where they were recorded
+    std::vector<std::string> files; // all files asked for, if recorded
     double parse_seconds = 0.0;
     double mesh_seconds = 0.0;
 };
@@ -27,21 +26,22 @@ struct ForestDocument {
 [[nodiscard]] Outcome<std::shared_ptr<ForestDocument>>
 make_forest_document(const ViewOptions& options, const Project& project);
 
-/// The same for a window: with what was set there, and with all trees that were placed. Those that
-/// `scene.painting` says were erased or painted come and go later. Heroes that `known`, which may
-/// be null, has are taken from there.
-[[nodiscard]] Outcome<std::shared_ptr<ForestDocument>> make_live_forest(const ViewOptions& options,
-                                                                        const ForestEdits& edits,
-                                                                        const ForestDocument* known,
-                                                                        const Project& project);
+/// Makes the forest of a window. `edits` of the window are applied after those of `options`. All
+/// placed trees are kept: ForestPainting applies `scene.painting`. Heroes are taken from `known`,
+/// which may be null, where possible.
+[[nodiscard]] Outcome<std::shared_ptr<ForestDocument>>
+make_unpainted_forest(const ViewOptions& options,
+                      const SceneOverrides& edits,
+                      const ForestDocument* known,
+                      const Project& project);
 
-/// Where a forest is seen from if nobody says: from beside and above, all of it in view.
+/// Default camera: from the side and above, with all trees in view.
 [[nodiscard]] Camera overview(const ForestDocument& document, float aspect);
 
-/// A camera whose eye is not in the ground: at least as high above it as a person's.
+/// Lifts a camera below the ground to the height of a person.
 [[nodiscard]] Camera above_ground(const Camera& camera, const Terrain& terrain);
 
-/// The light of a forest: the day of Light, with air as thick as its size asks for.
+/// Light of a forest; the density of the air depends on its size.
 [[nodiscard]] Light forest_light(const ForestDocument& document);
 
 } // namespace lsys::view

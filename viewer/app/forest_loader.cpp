@@ -15,7 +15,7 @@ ForestOutcome make_forest(const ForestRequest& request, const std::atomic<bool>&
     outcome.request = request;
     outcome.files = request.options.files;
     const ForestDocument* const known = request.again ? nullptr : request.known.get();
-    if (known != nullptr) { // whose heroes may be taken, without reading their files
+    if (known != nullptr) { // reused heroes are not read
         outcome.files = known->files;
     }
     const Project project{record_files(make_file_host(&cancelled), outcome.files),
@@ -23,7 +23,7 @@ ForestOutcome make_forest(const ForestRequest& request, const std::atomic<bool>&
     const Stopwatch making;
     bool has_memory = false;
     try {
-        auto made = make_live_forest(request.options, request.edits, known, project);
+        auto made = make_unpainted_forest(request.options, request.edits, known, project);
         outcome.messages = std::move(made.messages());
         if (made) {
             outcome.document = std::move(made.value());
@@ -31,7 +31,7 @@ ForestOutcome make_forest(const ForestRequest& request, const std::atomic<bool>&
         }
         has_memory = true;
     } catch (const std::bad_alloc&) {
-    } catch (const std::length_error&) { // what a string or vector throws when it cannot be so long
+    } catch (const std::length_error&) { // strings and vectors that are too long
     }
     if (!has_memory) {
         outcome.messages.add_error("out of memory");

@@ -1,8 +1,8 @@
-// ForestLoader: makes forests on a thread of its own, by the rules of NewestMaker.
+// ForestLoader: makes forests on a thread of its own: LatestRequestWorker.
 #pragma once
 
 #include "viewer/app/forest_document.h"
-#include "viewer/app/newest_maker.h"
+#include "viewer/app/latest_request_worker.h"
 
 #include <functional>
 #include <memory>
@@ -13,24 +13,24 @@ namespace lsys::view {
 
 struct ForestRequest {
     ViewOptions options;
-    ForestEdits edits;
-    /// What is shown, whose heroes may be used again; none: all files are to be read.
+    SceneOverrides edits; // after options.overrides
+    /// Forest whose heroes may be reused; null: read all files.
     std::shared_ptr<const ForestDocument> known;
     SteadyClock::time_point since;
     bool again = false;
 };
 
 struct ForestOutcome {
-    std::shared_ptr<ForestDocument> document; // none: it could not be made
+    std::shared_ptr<ForestDocument> document; // null: failed
     Messages messages;
-    std::vector<std::string> files; // that it is made of, as far as they are known
+    std::vector<std::string> files; // all files asked for
     ForestRequest request;
-    double seconds = 0.0; // of the making
+    double seconds = 0.0; // time of making
 };
 
 [[nodiscard]] ForestOutcome make_forest(const ForestRequest& request,
-                                        const std::atomic<bool>& given_up);
+                                        const std::atomic<bool>& cancelled);
 
-using ForestLoader = NewestMaker<ForestRequest, ForestOutcome>;
+using ForestLoader = LatestRequestWorker<ForestRequest, ForestOutcome>;
 
 } // namespace lsys::view

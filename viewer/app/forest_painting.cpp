@@ -13,10 +13,10 @@ namespace lsys::view {
 
 namespace {
 
-constexpr double kPickCell = 1.0; // m, of the ground as it is looked for, at least
-constexpr double kMostCells = 1024.0;
-constexpr float kStep = 0.5F; // of the radius: between places of a stroke
-constexpr std::uint32_t kMostSteps = 256;
+constexpr double kPickCell = 1.0; // m, min
+constexpr double kMaxCells = 1024.0;
+constexpr float kStep = 0.5F; // radii between places of a stroke
+constexpr std::uint32_t kMaxSteps = 256;
 
 std::vector<std::string> names_of(const Scene& scene) {
     std::vector<std::string> names;
@@ -27,16 +27,16 @@ std::vector<std::string> names_of(const Scene& scene) {
 }
 
 bool is_same_ground(const SceneTerrain& a, const SceneTerrain& b) {
-    // A map may be another file of the same name.
+    // The file of a map may have changed.
     return a.kind == b.kind && a.kind != TerrainKind::HeightMap && a.region == b.region &&
            a.base == b.base && a.noise == b.noise;
 }
 
 std::uint32_t cells_along(double size) {
-    return static_cast<std::uint32_t>(std::clamp(size / kPickCell, 16.0, kMostCells));
+    return static_cast<std::uint32_t>(std::clamp(size / kPickCell, 16.0, kMaxCells));
 }
 
-/// Where the ray meets the ground itself, near where it meets the cells of a field.
+/// Refines an intersection with a height field to one with the terrain.
 glm::dvec3 refined(const Ray& ray, const glm::dvec3& found, double reach, const Terrain& terrain) {
     const double length = glm::length(ray.direction);
     const double middle = glm::dot(found - ray.origin, ray.direction) / (length * length);
@@ -71,7 +71,7 @@ Painter& ForestPainting::painter() {
     return *painter_;
 }
 
-/// With the species of document_; trees of those that are gone are left out.
+/// Maps species to those of document_; drops trees of species that are gone.
 Painting ForestPainting::renamed(const Painting& painting) const {
     const std::vector<std::string> names = names_of(document_->scene);
     Painting result{{}, painting.erased};
@@ -85,7 +85,7 @@ Painting ForestPainting::renamed(const Painting& painting) const {
     return result;
 }
 
-std::string ForestPainting::follow(std::shared_ptr<const ForestDocument> document) {
+std::string ForestPainting::set_document(std::shared_ptr<const ForestDocument> document) {
     const std::shared_ptr<const ForestDocument> before = std::exchange(document_, document);
     if (!before || !is_same_ground(before->scene.terrain, document->scene.terrain)) {
         ground_.reset();
@@ -156,10 +156,10 @@ std::optional<glm::dvec3> ForestPainting::pick(const Ray& ray) {
     return refined(ray, *found, 4.0 * cell, terrain);
 }
 
-void ForestPainting::go_over(const glm::dvec3& place,
-                             bool begins,
-                             PaintTool tool,
-                             const Brush& brush) {
+void ForestPainting::move_tool(const glm::dvec3& place,
+                               bool begins,
+                               PaintTool tool,
+                               const Brush& brush) {
     if (!document_ || tool == PaintTool::None) {
         return;
     }
@@ -179,10 +179,10 @@ void ForestPainting::go_over(const glm::dvec3& place,
     const float way = glm::distance(from, glm::vec2(x, z));
     const float step = std::max(kStep * brush.radius, 0.1F);
     if (tool == PaintTool::OneTree || way < step) {
-        return; // a tree a press; and the brush has been here
+        return; // a press plants one tree; the brush has covered this place
     }
     const std::uint32_t steps =
-        std::min(static_cast<std::uint32_t>(std::min(way / step, 1e6F)), kMostSteps);
+        std::min(static_cast<std::uint32_t>(std::min(way / step, 1e6F)), kMaxSteps);
     for (std::uint32_t i = 1; i <= steps; ++i) {
         const float part = static_cast<float>(i) / static_cast<float>(steps);
         dab(from.x + part * (x - from.x), from.y + part * (z - from.y), tool, brush);
@@ -210,7 +210,7 @@ void ForestPainting::show(std::span<const TreeChange> changes) {
     const auto placed = static_cast<std::uint32_t>(document_->grown.forest.trees.size());
     for (const TreeChange& change : changes) {
         renderer_->change_tree(change.index, painter_->tree(change.index), change.alive);
-        ++(change.alive ? count_.came : count_.went);
+        ++(change.alive ? count_.added : count_.removed);
         if (change.index >= placed) {
             painted_ += change.alive ? 1 : ~std::uint64_t{0};
         }
@@ -240,7 +240,7 @@ std::uint64_t ForestPainting::tree_count() const {
 
 Result<void> ForestPainting::save(const std::string& file, const Console& console) {
     if (!painter_) {
-        return {}; // what is there is what was read
+        return {}; // nothing changed
     }
     Result<std::string> before = read_file(file, {kMaxSourceBytes}, console);
     if (!before) {

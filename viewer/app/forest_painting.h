@@ -1,5 +1,5 @@
-// ForestPainting: a forest that is painted while it is shown. Finds the ground under the mouse,
-// keeps what was painted through reloads, and writes it into the scene file.
+// ForestPainting: painting of the forest in the window. Finds the ground under the mouse, keeps
+// unsaved changes over reloads, and writes them to the scene file.
 #pragma once
 
 #include "runtime/program/console.h"
@@ -20,26 +20,25 @@ namespace lsys::view {
 
 enum class PaintTool : std::uint8_t { None, Brush, OneTree, Eraser };
 
-/// What a stroke, or undoing one, has done.
+/// Trees changed by a stroke, undo or redo.
 struct PaintCount {
-    std::uint64_t came = 0;
-    std::uint64_t went = 0;
+    std::uint64_t added = 0;
+    std::uint64_t removed = 0;
 };
 
 class ForestPainting {
 public:
     explicit ForestPainting(Renderer& renderer) : renderer_(&renderer) {}
 
-    /// The forest that the renderer shows from now on; its trees that were painted or erased come
-    /// and go there. What was painted and not saved stays. Returns what there is to say of that.
-    [[nodiscard]] std::string follow(std::shared_ptr<const ForestDocument> document);
+    /// Continues on a new forest in the renderer and applies painted and erased trees to it;
+    /// unsaved changes are kept. Returns a note for the user, which may be empty.
+    [[nodiscard]] std::string set_document(std::shared_ptr<const ForestDocument> document);
 
-    /// Where a ray first meets the ground of the forest.
+    /// First intersection of a ray with the ground.
     [[nodiscard]] std::optional<glm::dvec3> pick(const Ray& ray);
-    /// A place that the tool goes over; `begins` a stroke there. Between places of a stroke it goes
-    /// over those that lie between.
-    void go_over(const glm::dvec3& place, bool begins, PaintTool tool, const Brush& brush);
-    /// Nothing since the last stroke was begun, or undone, or redone: what it has done so far.
+    /// Moves the tool to `place` and applies it along the way. `begins`: starts a stroke there.
+    void move_tool(const glm::dvec3& place, bool begins, PaintTool tool, const Brush& brush);
+    /// Changes since the last stroke, undo or redo began.
     [[nodiscard]] const PaintCount& count() const { return count_; }
 
     [[nodiscard]] bool can_undo() const { return painter_ && painter_->can_undo(); }
@@ -47,17 +46,17 @@ public:
     void undo();
     void redo();
     [[nodiscard]] bool is_unsaved() const { return painter_ && painter_->is_changed(); }
-    /// Into the scene file, all or nothing.
+    /// Writes the scene file, all or nothing.
     [[nodiscard]] Result<void> save(const std::string& file, const Console& console);
-    /// What was saved last takes placed trees away.
+    /// Whether the last saved painting erases placed trees.
     [[nodiscard]] bool has_erased() const { return in_file_ && !in_file_->erased.empty(); }
-    /// The text that was saved last.
+    /// Last saved text of the scene file.
     [[nodiscard]] const std::string& saved_text() const { return saved_text_; }
-    /// Trees that are there, painted ones too.
+    /// Count of trees, painted ones included.
     [[nodiscard]] std::uint64_t tree_count() const;
     [[nodiscard]] std::uint64_t painted_count() const { return painted_; }
 
-    /// The outline of a brush on the ground.
+    /// Circle of the brush on the ground.
     [[nodiscard]] std::vector<LineVertex>
     outline(const glm::dvec3& place, float radius, bool erases) const;
 
@@ -71,10 +70,10 @@ private:
     Renderer* renderer_;
     std::shared_ptr<const ForestDocument> document_;
     std::optional<Painter> painter_;
-    std::vector<std::string> names_;    // of the species that painter_ knows
-    std::optional<Painting> in_file_;   // as it was read or saved last
-    std::optional<HeightField> ground_; // made when it is asked for
-    std::optional<glm::dvec3> last_;    // of the stroke
+    std::vector<std::string> names_;    // species names by the indices in painter_
+    std::optional<Painting> in_file_;   // last read or saved
+    std::optional<HeightField> ground_; // made on first use
+    std::optional<glm::dvec3> last_;    // last place of the stroke
     PaintCount count_;
     std::uint64_t painted_ = 0;
     std::string saved_text_;

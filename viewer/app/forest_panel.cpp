@@ -13,7 +13,7 @@ namespace lsys::view {
 
 namespace {
 
-/// Shows what is in force; sets `edit` where it is changed, and lets it go by the button behind it.
+/// Shows the value in force, sets `edit` on change, and resets it by a button.
 template <typename Value, typename Draw>
 void draw_edit(const char* name, Value shown, std::optional<Value>& edit, const Draw& draw) {
     ImGui::PushID(name);
@@ -69,53 +69,53 @@ void edit_length(const char* name,
     });
 }
 
-void draw_numbers(const LiveForest& view) {
+void draw_numbers(const ForestView& view) {
     line(std::filesystem::path(view.file()).filename().string());
     const ForestDocument* const document = view.document();
     if (document == nullptr) {
-        line("no forest yet");
+        line("No forest yet");
         return;
     }
     const Region& region = document->scene.terrain.region;
-    line(fmt::format("{} trees on {:.0f} by {:.0f} m", grouped(view.painting().tree_count()),
+    line(fmt::format("{} trees on {:.0f} x {:.0f} m", grouped(view.painting().tree_count()),
                      region.width, region.depth));
     const PlacementReport& placed = document->grown.placed;
     if (placed.refused != 0) {
-        line(fmt::format("{} places where none can live", grouped(placed.refused)));
+        line(fmt::format("{} places where no species grows", grouped(placed.refused)));
     }
 }
 
-void draw_years(LiveForest& view) {
-    const std::uint32_t usual = view.usual_years();
+void draw_years(ForestView& view) {
+    const std::uint32_t usual = view.default_years();
     if (usual == 0) {
         return;
     }
-    ForestSettings& settings = view.settings;
+    ForestViewSettings& settings = view.settings;
     auto years = static_cast<int>(view.years());
-    if (ImGui::SliderInt("years", &years, 0,
+    if (ImGui::SliderInt("Years", &years, 0,
                          static_cast<int>(std::max({2 * usual, view.years(), 1U})))) {
         view.set_years(static_cast<std::uint32_t>(std::max(years, 0)));
     }
-    if (ImGui::Button(settings.grows ? "pause" : "play")) {
+    if (ImGui::Button(settings.plays ? "Pause" : "Play")) {
         view.play_or_pause();
     }
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-kLabelWidth);
-    ImGui::SliderFloat("a second", &settings.years_per_second, 0.5F, 100.0F, "%.1f",
+    ImGui::SliderFloat("Years/s", &settings.years_per_second, 0.5F, 100.0F, "%.1f",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
 }
 
-void draw_painting(LiveForest& view) {
+void draw_painting(ForestView& view) {
     if (!ImGui::CollapsingHeader("Painting", ImGuiTreeNodeFlags_DefaultOpen)) {
         return;
     }
-    ForestSettings& settings = view.settings;
+    ForestViewSettings& settings = view.settings;
     Brush& brush = settings.brush;
     constexpr std::array<std::pair<const char*, PaintTool>, 4> kTools = {
-        {{"none", PaintTool::None},
-         {"brush", PaintTool::Brush},
-         {"one tree", PaintTool::OneTree},
-         {"eraser", PaintTool::Eraser}}};
+        {{"None", PaintTool::None},
+         {"Brush", PaintTool::Brush},
+         {"Single tree", PaintTool::OneTree},
+         {"Eraser", PaintTool::Eraser}}};
     for (std::size_t i = 0; i < kTools.size(); ++i) {
         if (i != 0) {
             ImGui::SameLine();
@@ -126,12 +126,12 @@ void draw_painting(LiveForest& view) {
     }
     constexpr ImGuiSliderFlags kLogarithmic =
         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp;
-    ImGui::SliderFloat("radius", &brush.radius, 0.1F, kGreatestBrush, "%.1f m", kLogarithmic);
-    ImGui::SliderFloat("density", &brush.density, 0.0001F, 10.0F, "%.4g /m^2", kLogarithmic);
+    ImGui::SliderFloat("Radius", &brush.radius, 0.1F, kMaxBrush, "%.1f m", kLogarithmic);
+    ImGui::SliderFloat("Density", &brush.density, 0.0001F, 10.0F, "%.4g /m^2", kLogarithmic);
     if (const ForestDocument* const document = view.document()) {
         const std::vector<SceneSpecies>& species = document->scene.species;
         const std::string& name = species[brush.species].name;
-        if (ImGui::BeginCombo("species", name.c_str())) {
+        if (ImGui::BeginCombo("Species##brush", name.c_str())) {
             for (std::size_t i = 0; i < species.size(); ++i) {
                 if (ImGui::Selectable(species[i].name.c_str(), i == brush.species)) {
                     brush.species = static_cast<std::uint16_t>(i);
@@ -142,25 +142,25 @@ void draw_painting(LiveForest& view) {
             ImGui::EndCombo();
         }
     }
-    ImGui::DragFloatRange2("scale", &brush.least_scale, &brush.greatest_scale, 0.005F, 0.01F,
+    ImGui::DragFloatRange2("Scale", &brush.least_scale, &brush.greatest_scale, 0.005F, 0.01F,
                            100.0F, "%.2f", nullptr, ImGuiSliderFlags_AlwaysClamp);
-    if (ImGui::Button("undo")) {
+    if (ImGui::Button("Undo")) {
         view.undo();
     }
     ImGui::SameLine();
-    if (ImGui::Button("redo")) {
+    if (ImGui::Button("Redo")) {
         view.redo();
     }
     ImGui::SameLine();
-    if (ImGui::Button(view.is_unsaved() ? "save (changed)" : "save")) {
+    if (ImGui::Button(view.is_unsaved() ? "Save *" : "Save")) {
         view.save();
     }
     ImGui::SameLine();
     line(fmt::format("{} painted", grouped(view.painting().painted_count())));
 }
 
-/// The grammar of a species that is to be shown alone; empty: none.
-std::string draw_species(LiveForest& view) {
+/// Returns the grammar of a species to open, or empty.
+std::string draw_species(ForestView& view) {
     std::string wanted;
     const ForestDocument* const document = view.document();
     if (document == nullptr ||
@@ -175,120 +175,124 @@ std::string draw_species(LiveForest& view) {
                                i < 2 ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None)) {
             continue;
         }
-        SpeciesEdit& edit = view.settings.edits.of(species.name);
-        edit_length("share", placed.share, edit.share, 0.0, 1000.0, "%.3g");
+        SpeciesOverrides& edit = view.settings.edits.species[species.name];
+        edit_length("Share", placed.share, edit.share, 0.0, 1000.0, "%.3g");
         const auto scale = [](float& value) {
             return ImGui::DragFloat("##value", &value, 0.005F, 0.01F, 100.0F, "%.3g",
                                     ImGuiSliderFlags_AlwaysClamp);
         };
-        draw_edit("least scale", placed.least_scale, edit.least_scale, scale);
-        draw_edit("most scale", placed.greatest_scale, edit.greatest_scale, scale);
-        edit_whole("heroes", species.cache.heroes, edit.heroes, 1U, 50U);
-        draw_edit("rho", species.rho, edit.rho, [](float& value) {
+        draw_edit("Scale min", placed.least_scale, edit.min_scale, scale);
+        draw_edit("Scale max", placed.greatest_scale, edit.max_scale, scale);
+        edit_whole("Heroes", species.cache.heroes, edit.heroes, 1U, 50U);
+        draw_edit("Reuse (rho)", species.rho, edit.rho, [](float& value) {
             return ImGui::SliderFloat("##value", &value, 0.0F, 1.0F, "%.2f",
                                       ImGuiSliderFlags_AlwaysClamp);
         });
-        if (ImGui::SmallButton("show its plant")) {
+        if (ImGui::SmallButton("Show plant")) {
             const std::filesystem::path grammar(species.grammar.path);
             wanted = (view.file() == species.grammar.path ? grammar : folder / grammar).string();
         }
         ImGui::TreePop();
     }
+    // Drop species without edits, so that edits can be compared.
+    std::erase_if(view.settings.edits.species,
+                  [](const auto& each) { return each.second == SpeciesOverrides{}; });
     return wanted;
 }
 
-void draw_placement(LiveForest& view) {
+void draw_placement(ForestView& view) {
     const ForestDocument* const document = view.document();
     if (document == nullptr || !ImGui::CollapsingHeader("Placement")) {
         return;
     }
-    ForestEdits& edits = view.settings.edits;
+    SceneOverrides& edits = view.settings.edits;
     const PlacementOptions& placement = document->scene.placement;
     auto method = static_cast<int>(edits.method.value_or(placement.method));
-    if (ImGui::Combo("method", &method,
+    if (ImGui::Combo("Method", &method,
                      "uniform\0poisson-disk\0density-map\0domination\0jittered\0uniform-cells\0"
                      "poisson-cells\0density-cells\0")) {
         choose_method(edits, static_cast<PlacementMethod>(method), document->scene);
     }
-    constexpr std::uint64_t kMostKeys = ~std::uint64_t{0};
-    constexpr double kMostDistance = 10'000.0;
+    constexpr std::uint64_t kMaxKeys = ~std::uint64_t{0};
+    constexpr double kMaxDistance = 10'000.0;
     if (reads_count(placement.method)) {
-        edit_whole("trees", placement.count, edits.count, 0, kMaxTrees);
+        edit_whole("Trees", placement.count, edits.count, 0, kMaxTrees);
     }
     if (reads_spacing(placement.method)) {
-        edit_length("spacing", placement.spacing, edits.spacing, 0.05, kMostDistance, "%.3g m");
+        edit_length("Spacing", placement.spacing, edits.spacing, 0.05, kMaxDistance, "%.3g m");
     }
     if (reads_density(placement.method)) {
-        edit_length("trees a m^2", placement.density, edits.density, 1e-6, 100.0, "%.3g");
+        edit_length("Trees per m^2", placement.density, edits.density, 1e-6, 100.0, "%.3g");
     }
-    edit_whole("key", placement.key, edits.key, 0, kMostKeys);
+    edit_whole("Key", placement.key, edits.key, 0, kMaxKeys);
 }
 
-void draw_ground(LiveForest& view) {
+void draw_ground(ForestView& view) {
     const ForestDocument* const document = view.document();
     if (document == nullptr || !ImGui::CollapsingHeader("Ground")) {
         return;
     }
     const SceneTerrain& terrain = document->scene.terrain;
     if (terrain.kind == TerrainKind::HeightMap) {
-        line("a height map: " + terrain.map.path);
+        line("Height map: " + terrain.map.path);
         return;
     }
-    ForestEdits& edits = view.settings.edits;
-    int kind = static_cast<int>(edits.ground.value_or(terrain.kind));
-    if (ImGui::Combo("kind", &kind, "flat\0hills\0")) {
-        edits.ground = static_cast<TerrainKind>(kind);
+    SceneOverrides& edits = view.settings.edits;
+    int kind = static_cast<int>(edits.terrain.value_or(terrain.kind));
+    if (ImGui::Combo("Kind", &kind, "Flat\0Hills\0")) {
+        edits.terrain = static_cast<TerrainKind>(kind);
     }
     if (terrain.kind == TerrainKind::Noise) {
-        constexpr std::uint64_t kMostSeeds = ~std::uint64_t{0};
-        edit_length("height", terrain.noise.height, edits.hill_height, 0.0, 5000.0, "%.3g m");
-        edit_length("hill to hill", terrain.noise.feature, edits.hill_feature, 1.0, 50'000.0,
+        constexpr std::uint64_t kMaxSeeds = ~std::uint64_t{0};
+        edit_length("Height", terrain.noise.height, edits.hill_height, 0.0, 5000.0, "%.3g m");
+        edit_length("Hill spacing", terrain.noise.feature, edits.hill_spacing, 1.0, 50'000.0,
                     "%.3g m");
-        edit_whole("seed", terrain.noise.seed, edits.hill_seed, 0, kMostSeeds);
+        edit_whole("Seed", terrain.noise.seed, edits.hill_seed, 0, kMaxSeeds);
     }
 }
 
-void draw_cache(LiveForest& view) {
+void draw_cache(ForestView& view) {
     const ForestDocument* const document = view.document();
-    if (document == nullptr || !ImGui::CollapsingHeader("Branches shared")) {
+    if (document == nullptr || !ImGui::CollapsingHeader("Branch reuse")) {
         return;
     }
-    constexpr std::uint32_t kMostKept = 64;
-    edit_whole("most of a key", document->scene.species.front().cache.cap, view.settings.edits.cap,
-               0U, kMostKept, document->scene.species.front().cache.cap == 0 ? "any" : "%u");
+    constexpr std::uint32_t kMaxKept = 64;
+    edit_whole("Max per key", document->scene.species.front().cache.cap,
+               view.settings.edits.cache_cap, 0U, kMaxKept,
+               document->scene.species.front().cache.cap == 0 ? "no limit" : "%u");
     for (const CacheNumbers& each : view.stats().caches) {
         line(fmt::format("{}, {} generations:", each.species, each.generations));
         line(fmt::format("  {} heroes, {} branches", each.heroes, grouped(each.branches)));
         line(fmt::format("  {} keys, {} kB", grouped(each.keys), grouped(each.bytes / 1000)));
         line(fmt::format("  {} hits, {} misses", grouped(each.hits), grouped(each.misses)));
         if (each.dropped != 0) {
-            line(fmt::format("  {} not kept", grouped(each.dropped)));
+            line(fmt::format("  {} dropped", grouped(each.dropped)));
         }
     }
 }
 
-void draw_look(LiveForest& view) {
-    if (!ImGui::CollapsingHeader("Look")) {
+void draw_look(ForestView& view) {
+    if (!ImGui::CollapsingHeader("Display")) {
         return;
     }
-    ForestSettings& settings = view.settings;
-    ImGui::Checkbox("shadows", &settings.shadows);
+    ForestViewSettings& settings = view.settings;
+    ImGui::Checkbox("Shadows", &settings.shadows);
     ImGui::SameLine();
-    ImGui::Checkbox("smooth", &settings.smooth);
+    ImGui::Checkbox("Antialiasing", &settings.antialiasing);
     ImGui::SameLine();
-    ImGui::Checkbox("wireframe", &settings.wireframe);
-    ImGui::Checkbox("wind blows", &settings.windy);
+    ImGui::Checkbox("Wireframe", &settings.wireframe);
+    ImGui::Checkbox("Wind", &settings.windy);
     draw_wind(settings.wind);
-    constexpr std::uint64_t kLeast = 0;
-    constexpr std::uint64_t kMost = 20'000'000;
-    ImGui::SliderScalar("triangles", ImGuiDataType_U64, &settings.most_triangles, &kLeast, &kMost,
+    constexpr std::uint64_t kMin = 0;
+    constexpr std::uint64_t kMax = 20'000'000;
+    ImGui::SliderScalar("Max triangles", ImGuiDataType_U64, &settings.max_triangles, &kMin, &kMax,
                         nullptr, ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     draw_camera(settings.camera);
 }
 
 } // namespace
 
-std::string draw_forest_panel(LiveForest& view) {
+std::string draw_forest_panel(ForestView& view) {
     draw_numbers(view);
     ImGui::PushItemWidth(-kLabelWidth);
     draw_years(view);

@@ -1,13 +1,13 @@
-// The panel of a forest: what it is made of and how it is painted.
+// Panel of a forest: its sources and its painting.
 #pragma once
 
-#include "viewer/app/live_forest.h"
+#include "viewer/app/forest_view.h"
 
 #include <string>
 
 namespace lsys::view {
 
-/// Within a window of ImGui. A file that is to be shown instead; empty: none.
-[[nodiscard]] std::string draw_forest_panel(LiveForest& view);
+/// Draws into the current ImGui window. Returns a file to open, or empty.
+[[nodiscard]] std::string draw_forest_panel(ForestView& view);
 
 } // namespace lsys::view

@@ -42,15 +42,15 @@ std::string stats_text(const ViewOptions& options,
     stats["samples"] = options.samples;
     stats["camera"] = to_text(camera);
     stats["trees"] = sizes.trees;
-    nlohmann::ordered_json& rings = stats["trees_drawn"];
+    nlohmann::ordered_json& drawn = stats["trees_drawn"];
     for (std::size_t level = 0; level < frame.trees_of_level.size(); ++level) {
-        rings[fmt::format("level_{}", level)] = frame.trees_of_level[level];
+        drawn[fmt::format("level_{}", level)] = frame.trees_of_level[level];
     }
-    rings["impostors"] = frame.far_trees;
-    rings["in_cells"] = frame.horizon_trees;
-    rings["blended"] = frame.blended_trees;
-    rings["behind_ground"] = frame.hidden_trees;
-    stats["cells_drawn"] = frame.horizon_cells;
+    drawn["impostors"] = frame.far_trees;
+    drawn["in_cells"] = frame.clustered_trees;
+    drawn["blended"] = frame.blended_trees;
+    drawn["behind_ground"] = frame.hidden_trees;
+    stats["cells_drawn"] = frame.clusters;
     stats["branches_drawn"] = frame.drawn_branches;
     stats["trees_expanded"] = frame.expanded_trees;
     stats["detail"] = frame.detail;
@@ -61,7 +61,7 @@ std::string stats_text(const ViewOptions& options,
     passes["branches"] = pass_stats(frame.branches);
     passes["impostors"] = pass_stats(frame.impostors);
     passes["terrain"] = pass_stats(frame.terrain);
-    passes["shadow"] = pass_stats(shadow); // of the series
+    passes["shadow"] = pass_stats(shadow); // sum of the series
     nlohmann::ordered_json& bytes = stats["bytes"];
     bytes["trees"] = sizes.tree_bytes;
     bytes["branches"] = sizes.branch_bytes;
@@ -78,7 +78,7 @@ std::string stats_text(const ViewOptions& options,
     milliseconds["place"] = 1e3 * document.grown.place_seconds;
     milliseconds["mesh"] = 1e3 * document.mesh_seconds;
     milliseconds["upload"] = sizes.upload_milliseconds;
-    milliseconds["portraits"] = sizes.portrait_milliseconds;
+    milliseconds["impostors"] = sizes.impostor_milliseconds;
     milliseconds["first_draw"] = series.draw.empty() ? 0.0 : series.draw.front();
     milliseconds["cull"] = median(cull);
     milliseconds["draw"] = median(series.draw);

@@ -1,4 +1,4 @@
-// Pictures of a forest as files, without a window.
+// Writes pictures of a forest without a window.
 #pragma once
 
 #include "runtime/program/console.h"
@@ -8,7 +8,7 @@
 
 namespace lsys::view {
 
-/// `renderer` shows the forest.
+/// `renderer` must show the forest.
 [[nodiscard]] ExitStatus take_forest_pictures(const ViewOptions& options,
                                               const Camera& camera,
                                               const ForestDocument& document,

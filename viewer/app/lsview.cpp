@@ -9,7 +9,7 @@
 #include "viewer/app/plant_document.h"
 #include "viewer/app/shader_folder.h"
 #include "viewer/app/window_run.h"
-#include "viewer/gl/headless.h"
+#include "viewer/gl/headless_context.h"
 #include "viewer/gl/renderer.h"
 
 #include <fmt/format.h>
@@ -26,14 +26,14 @@ namespace lsys::view {
 
 namespace {
 
-/// A renderer without a window, and the context that it draws in.
+/// A renderer without a window.
 struct HiddenRenderer {
-    std::unique_ptr<Headless> context; // goes last
+    std::unique_ptr<HeadlessContext> context; // destroyed last
     std::unique_ptr<Renderer> renderer;
 };
 
 ExitStatus make_renderer(const ViewOptions& options, const Console& console, HiddenRenderer& made) {
-    Result<std::unique_ptr<Headless>> context = Headless::make();
+    Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::make();
     if (!context) {
         return report_error(context.error(), console);
     }
@@ -71,7 +71,7 @@ run_forest_pictures(const ViewOptions& options, const Camera& camera, const Cons
     if (const Result<void> shown = made.renderer->show_forest(std::move(document.model)); !shown) {
         return report_error(shown.error(), console);
     }
-    static_cast<void>(made.renderer->make_portraits(std::numeric_limits<double>::infinity()));
+    static_cast<void>(made.renderer->bake_impostors(std::numeric_limits<double>::infinity()));
     return take_forest_pictures(options, from, document, *made.renderer, console);
 }
 
@@ -130,7 +130,7 @@ struct Dispatch {
     }
 };
 
-/// Without allocating: there is no memory.
+/// Must not allocate.
 int out_of_memory(const Io& io) {
     io.err << io.program << ": error: out of memory\n" << std::flush;
     return static_cast<int>(ExitStatus::Limit);
@@ -143,7 +143,7 @@ int run(std::span<const std::string> arguments, const Io& io) {
         return static_cast<int>(std::visit(Dispatch{io}, parse_options(arguments)));
     } catch (const std::bad_alloc&) {
         return out_of_memory(io);
-    } catch (const std::length_error&) { // what a string or vector throws when it cannot be so long
+    } catch (const std::length_error&) { // strings and vectors that are too long
         return out_of_memory(io);
     }
 }

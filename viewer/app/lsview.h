@@ -1,5 +1,5 @@
-// The `lsview` program as a function, so that tests run it in-process: same arguments, streams and
-// exit status as the executable.
+// The `lsview` program as a function, so that tests run it in-process with the arguments, streams
+// and exit status of the executable.
 #pragma once
 
 #include "runtime/program/io.h"
@@ -9,8 +9,8 @@
 
 namespace lsys::view {
 
-/// Runs `lsview ARGUMENTS...` (without the program's name). Returns the exit status: 0 fine, 1 the
-/// author's errors, 2 usage or environment, 3 a limit, 130 interrupted.
+/// Runs `lsview ARGUMENTS...`, without the program's name. Exit status: 0 success, 1 errors in the
+/// grammar, 2 usage or environment, 3 a limit, 130 interrupted.
 [[nodiscard]] int run(std::span<const std::string> arguments, const Io& io);
 
 } // namespace lsys::view

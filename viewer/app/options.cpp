@@ -14,8 +14,8 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint64_t kMostPixels = 16'384; // along a side of a picture
-constexpr std::uint64_t kMostFrames = 1'000'000;
+constexpr std::uint64_t kMaxPixels = 16'384; // per side of a picture
+constexpr std::uint64_t kMaxFrames = 1'000'000;
 
 struct Size {
     std::uint32_t width = 0;
@@ -25,14 +25,14 @@ struct Size {
 Result<Size> parse_picture_size(const std::string& text) {
     const std::size_t cross = text.find('x');
     const Result<std::uint64_t> width =
-        parse_whole(std::string_view(text).substr(0, cross), 1, kMostPixels);
+        parse_whole(std::string_view(text).substr(0, cross), 1, kMaxPixels);
     const Result<std::uint64_t> height =
         cross == std::string::npos
             ? Result<std::uint64_t>(Error{})
-            : parse_whole(std::string_view(text).substr(cross + 1), 1, kMostPixels);
+            : parse_whole(std::string_view(text).substr(cross + 1), 1, kMaxPixels);
     if (!width || !height) {
         return Error{fmt::format("`{}` is no size of a picture; write WIDTHxHEIGHT, each 1 to {}",
-                                 text, kMostPixels)};
+                                 text, kMaxPixels)};
     }
     return Size{static_cast<std::uint32_t>(width.value()),
                 static_cast<std::uint32_t>(height.value())};
@@ -68,7 +68,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         "Seconds since the wind began (default 0)")
         ->type_name("SECONDS")
         ->group("Picture");
-    add_parsed(app, "--frames", options.frames, whole(1, kMostFrames),
+    add_parsed(app, "--frames", options.frames, whole(1, kMaxFrames),
                "Write a numbered series of pictures: a.png becomes a.0001.png and so on")
         ->type_name("N")
         ->group("Picture");
@@ -86,8 +86,12 @@ void add_picture(CLI::App& app, ViewOptions& options) {
                    "Write counts and times of the pictures as JSON; `-` is standard output")
         ->type_name("FILE")
         ->group("Picture");
-    app.add_flag("!--no-shadows", options.shadows, "Without shadows")->group("Picture");
-    app.add_flag("!--no-ground", options.ground, "Without the ground under a plant")
+    app.add_flag_callback(
+           "--no-shadows", [&options] { options.shadows = false; }, "Without shadows")
+        ->group("Picture");
+    app.add_flag_callback(
+           "--no-ground", [&options] { options.ground = false; },
+           "Without the ground under a plant")
         ->group("Picture");
     add_choice<PlantStyle>(app, "--style", options.style,
                            {{"surface", PlantStyle::Surface},
@@ -118,9 +122,9 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         "Samples of a pixel, 1 or 4 (default 4)")
         ->type_name("N")
         ->group("Picture");
-    constexpr std::uint64_t kMostTriangles = 1'000'000'000;
+    constexpr std::uint64_t kMaxTriangles = 1'000'000'000;
     add_parsed(
-        app, "--triangles", options.most_triangles, whole(0, kMostTriangles),
+        app, "--triangles", options.max_triangles, whole(0, kMaxTriangles),
         "The most triangles of branches in a picture of a forest; with more, trees are drawn "
         "coarser (default 1500000)")
         ->type_name("N")
@@ -132,10 +136,10 @@ void add_picture(CLI::App& app, ViewOptions& options) {
 }
 
 void add_bending(CLI::App& app, ViewOptions& options) {
-    constexpr float kMostGravity = 1000.0F;
+    constexpr float kMaxGravity = 1000.0F;
     add_parsed(
         app, "--gravity", options.gravity,
-        [](const std::string& text) { return parse_number(text, 0.0F, kMostGravity); },
+        [](const std::string& text) { return parse_number(text, 0.0F, kMaxGravity); },
         "Let the plant bend under its weight: m/s^2, 9.81 on earth")
         ->type_name("G")
         ->group("Bending");
@@ -143,13 +147,6 @@ void add_bending(CLI::App& app, ViewOptions& options) {
                "Let wind bend it: x,y,z in m/s, and the gusts' part of it")
         ->type_name("X,Y,Z[,GUST]")
         ->group("Bending");
-}
-
-/// Whether any option is of forests alone.
-bool asks_for_forest(const SceneOverrides& forest) {
-    return forest.key || forest.heroes || forest.rho || forest.cache_cap || forest.tolerance ||
-           forest.method || forest.count || forest.size || forest.spacing || forest.density ||
-           forest.years || forest.tile || !forest.density_map.empty();
 }
 
 } // namespace
@@ -191,7 +188,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     }
     options.file = options.files.front();
     options.is_forest =
-        options.files.size() > 1 || is_scene(options.file) || asks_for_forest(options.overrides);
+        options.files.size() > 1 || is_scene(options.file) || options.overrides != SceneOverrides{};
     if (options.is_forest && options.gravity) {
         return UsageError{"--gravity bends a plant, not a forest", "leave it out"};
     }

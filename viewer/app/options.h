@@ -25,31 +25,31 @@ struct ViewOptions {
     GrammarOptions grammar;
     std::optional<std::uint64_t> seed;
     std::vector<std::string> files; // a grammar, a scene, or the grammars of a forest
-    std::string file;               // the first of them
-    bool is_forest = false;         // a scene, or grammars with options of forests
-    SceneOverrides overrides;       // of a forest; without grammar and seed, which are above
+    std::string file;               // front of `files`
+    bool is_forest = false;         // a scene, several grammars, or options of forests
+    SceneOverrides overrides;       // forests only; grammar and seed are those above
     MeshOptions mesh;
     RunOptions run;
 
-    std::string camera; // to_text() of a Camera or parts of one; empty: all is in view
+    std::string camera; // to_text() of a Camera, or parts of it; empty: frame all
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
     std::optional<float> gravity; // m/s^2
     std::optional<Wind> wind;
-    float time = 0.0F; // s, of wind
+    float time = 0.0F; // s, of the wind
     bool shadows = true;
     bool ground = true;
     PlantStyle style = PlantStyle::Surface;
     LineKind lines = LineKind::None;
     std::uint32_t samples = 4;
-    std::uint64_t most_triangles = 1'500'000; // of the branches of a forest in a picture
-    std::string shaders;                      // a folder instead of the built-in ones
+    std::uint64_t max_triangles = 1'500'000; // budget of branches in a forest
+    std::string shaders;                     // folder that replaces the built-in ones
 
-    std::string screenshot;   // a picture instead of a window; `-`: standard output
-    std::uint32_t frames = 0; // a numbered series; 0: one picture
+    std::string screenshot;   // file of the picture instead of a window; `-`: standard output
+    std::uint32_t frames = 0; // count of a numbered series; 0: one picture
     float frames_per_second = 24.0F;
-    bool turntable = false; // the series goes once around
-    std::string stats;      // a JSON file; `-`: standard output
+    bool turntable = false; // the series orbits once
+    std::string stats;      // JSON file; `-`: standard output
 };
 
 using ParsedOptions = std::variant<ViewOptions, PrintText, UsageError>;

@@ -21,7 +21,7 @@ constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindo
                                       ImGuiWindowFlags_NoSavedSettings |
                                       ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 
-/// The part of the window beside the panel.
+/// Part of the window beside the panel.
 struct Area {
     ImVec2 low;
     ImVec2 high;
@@ -33,64 +33,75 @@ Area picture_area(const PanelState& panels, float scale) {
     return {{left, 0.0F}, size};
 }
 
-void row(const char* name, double seconds) {
+constexpr int kNameWidth = 12; // characters
+
+void time_row(const char* name, double seconds) {
     constexpr double kMilliseconds = 1e3;
-    line(fmt::format("{:<9}{:>8.1f} ms", name, kMilliseconds * seconds));
+    line(fmt::format("{:<{}}{:>9.1f} ms", name, kNameWidth, kMilliseconds * seconds));
 }
 
-void draw_plant_times(const LiveView& view) {
-    const LiveStats& stats = view.stats();
+void count_row(const char* name, std::uint64_t count) {
+    line(fmt::format("{:<{}}{:>9}", name, kNameWidth, grouped(count)));
+}
+
+void draw_plant_times(const PlantView& view) {
+    const PlantViewStats& stats = view.stats();
     if (const PlantDocument* const document = view.document()) {
-        row("compile", document->load_seconds);
-        row("derive", document->plant.derive_seconds);
-        row("turtle", document->plant.draw_seconds);
-        row("mesh", document->mesh_seconds);
-        row("upload", stats.upload_seconds);
-        row("swapped", stats.swap_seconds);
-        row("seen", stats.shown_seconds);
-        if (view.settings.bends) {
-            row("bend", stats.bend_seconds);
+        time_row("Compile", document->load_seconds);
+        time_row("Derive", document->plant.derive_seconds);
+        time_row("Turtle", document->plant.draw_seconds);
+        time_row("Mesh", document->mesh_seconds);
+        time_row("Upload", stats.upload_seconds);
+        time_row("Reload", stats.swap_seconds);
+        time_row("First frame", stats.shown_seconds);
+        if (view.settings.simulates) {
+            time_row("Simulate", stats.bend_seconds);
         }
-        row("picture", stats.draw_seconds);
+        time_row("Frame", stats.draw_seconds);
     }
-    line(fmt::format("{} draws, {} triangles", stats.drawn.draws, stats.drawn.triangles));
+    count_row("Draw calls", stats.drawn.draws);
+    count_row("Triangles", stats.drawn.triangles);
 }
 
-void draw_forest_times(const LiveForest& view) {
-    const ForestStats& stats = view.stats();
+void draw_forest_times(const ForestView& view) {
+    const ForestViewStats& stats = view.stats();
     if (const ForestDocument* const document = view.document()) {
-        row("heroes", document->grown.cache_seconds);
-        row("place", document->grown.place_seconds);
-        row("mesh", document->mesh_seconds);
-        row("upload", stats.upload_seconds);
-        row("swapped", stats.swap_seconds);
-        row("seen", stats.shown_seconds);
-        row("picture", stats.draw_seconds);
+        time_row("Heroes", document->grown.cache_seconds);
+        time_row("Placement", document->grown.place_seconds);
+        time_row("Mesh", document->mesh_seconds);
+        time_row("Upload", stats.upload_seconds);
+        time_row("Reload", stats.swap_seconds);
+        time_row("First frame", stats.shown_seconds);
+        time_row("Frame", stats.draw_seconds);
         const ForestFrameStats& frame = view.renderer().forest_stats();
         std::uint64_t near = 0;
         for (const std::uint32_t trees : frame.trees_of_level) {
             near += trees;
         }
-        line(fmt::format("{} trees as branches", near));
-        line(fmt::format("{} trees as pictures", frame.far_trees));
-        line(fmt::format("{} trees in {} cells", frame.horizon_trees, frame.horizon_cells));
-        line(view.has_portraits() ? "pictures of trees are made" : "pictures of trees: at work");
+        count_row("Full trees", near);
+        count_row("Impostors", frame.far_trees);
+        count_row("Clusters", frame.clusters);
+        count_row("  trees", frame.clustered_trees);
+        if (!view.has_impostors()) {
+            line("Baking impostors");
+        }
     }
-    line(fmt::format("{} draws, {} triangles", stats.drawn.draws, stats.drawn.triangles));
+    count_row("Draw calls", stats.drawn.draws);
+    count_row("Triangles", stats.drawn.triangles);
 }
 
-void draw_statistics(LiveViews& views, const Area& area) {
+void draw_statistics(ViewSwitcher& switcher, const Area& area) {
     ImGui::SetNextWindowPos({area.high.x - 8.0F, 8.0F}, ImGuiCond_Always, {1.0F, 0.0F});
     ImGui::SetNextWindowBgAlpha(0.55F);
     if (ImGui::Begin("Statistics", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
-        if (const LiveForest* const forest = views.forest()) {
+        if (const ForestView* const forest = switcher.forest()) {
             draw_forest_times(*forest);
-        } else if (const LiveView* const plant = views.plant()) {
+        } else if (const PlantView* const plant = switcher.plant()) {
             draw_plant_times(*plant);
         }
-        const Renderer& renderer = views.shown().renderer();
-        line(fmt::format("{} objects, {} errors of OpenGL", renderer.live_objects(),
-                         renderer.errors().size()));
+        const Renderer& renderer = switcher.shown().renderer();
+        count_row("GL objects", renderer.live_objects());
+        count_row("GL errors", renderer.errors().size());
     }
     ImGui::End();
 }
@@ -98,7 +109,7 @@ void draw_statistics(LiveViews& views, const Area& area) {
 const ImVec4 kErrorColour{1.0F, 0.72F, 0.66F, 1.0F};
 const ImVec4 kWarningColour{1.0F, 0.93F, 0.7F, 1.0F};
 
-/// A message that opens on a click and shows the lines of the source that it speaks of.
+/// A message; a click shows its source lines.
 void draw_message(const ShownMessage& message, int number, bool is_first) {
     ImGui::PushID(number);
     ImGui::PushStyleColor(ImGuiCol_Text,
@@ -117,8 +128,8 @@ void draw_message(const ShownMessage& message, int number, bool is_first) {
     ImGui::PopID();
 }
 
-/// The messages of `lsc`, of the shaders and of OpenGL.
-void draw_messages(const LiveScreen& view, const Area& area) {
+/// Messages of `lsc`, shaders and OpenGL.
+void draw_messages(const View& view, const Area& area) {
     std::vector<ShownMessage> errors;
     if (!view.shader_message().empty()) {
         errors.push_back({Severity::Error, "error: " + view.shader_message(), {}});
@@ -163,12 +174,12 @@ void draw_help(std::span<const KeyHelp> keys, PanelState& panels, const Area& ar
     ImGui::End();
 }
 
-void draw_hint(const LiveScreen& view, const PanelState& panels, const Area& area) {
+void draw_hint(const View& view, const PanelState& panels, const Area& area) {
     std::string text = view.note();
     if (panels.flies) {
-        text = "flying: Esc or Tab ends it";
+        text = "Flying: Esc or Tab to stop";
     } else if (!panels.panels && text.empty()) {
-        text = "H shows the panels, F1 the keys";
+        text = "H: panels, F1: keys";
     }
     if (text.empty()) {
         return;
@@ -188,7 +199,7 @@ float panel_width(float scale) {
     return kPanelWidth * scale;
 }
 
-void draw_panels(LiveViews& views, PanelState& panels, float scale) {
+void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
     const Area area = picture_area(panels, scale);
     std::string wanted;
     if (panels.panels) {
@@ -198,40 +209,40 @@ void draw_panels(LiveViews& views, PanelState& panels, float scale) {
                          ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                              ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                              ImGuiWindowFlags_NoTitleBar)) {
-            if (LiveForest* const forest = views.forest()) {
+            if (ForestView* const forest = switcher.forest()) {
                 wanted = draw_forest_panel(*forest);
-            } else if (LiveView* const plant = views.plant()) {
+            } else if (PlantView* const plant = switcher.plant()) {
                 draw_plant_panel(*plant);
             }
             ImGui::Separator();
-            ImGui::Checkbox("statistics", &panels.statistics);
+            ImGui::Checkbox("Statistics", &panels.statistics);
             ImGui::SameLine();
-            if (ImGui::Button("keys (F1)")) {
+            if (ImGui::Button("Keys (F1)")) {
                 panels.help = !panels.help;
             }
             ImGui::SameLine();
-            if (ImGui::Button("all in view")) {
-                views.shown().frame_all();
+            if (ImGui::Button("Frame all")) {
+                switcher.shown().frame_all();
             }
-            if (views.plant() != nullptr && !views.last_scene().empty() &&
-                ImGui::Button("back to the forest")) {
-                wanted = views.last_scene();
+            if (switcher.plant() != nullptr && !switcher.last_scene().empty() &&
+                ImGui::Button("Back to forest")) {
+                wanted = switcher.last_scene();
             }
         }
         ImGui::End();
     }
     if (panels.statistics) {
-        draw_statistics(views, area);
+        draw_statistics(switcher, area);
     }
-    draw_messages(views.shown(), area);
-    draw_hint(views.shown(), panels, area);
+    draw_messages(switcher.shown(), area);
+    draw_hint(switcher.shown(), panels, area);
     if (panels.help) {
-        draw_help(views.forest() != nullptr ? std::span<const KeyHelp>(kForestKeys)
-                                            : std::span<const KeyHelp>(kPlantKeys),
+        draw_help(switcher.forest() != nullptr ? std::span<const KeyHelp>(kForestKeys)
+                                               : std::span<const KeyHelp>(kPlantKeys),
                   panels, area);
     }
     if (!wanted.empty()) {
-        views.open(wanted);
+        switcher.open(wanted);
     }
 }
 

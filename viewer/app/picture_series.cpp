@@ -22,10 +22,10 @@ double milliseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Pixels that are drawn at once: a larger picture is drawn in stripes.
+// Max pixels per draw; larger pictures are drawn in stripes.
 constexpr std::uint64_t kStripePixels = std::uint64_t{1} << 22;
 
-/// Rows of a picture, drawn stripe by stripe.
+/// Draws a picture in stripes.
 Texture
 draw_picture(const Frame& frame, Renderer& renderer, FrameStats& stats, double& read_milliseconds) {
     Texture picture;
@@ -73,7 +73,7 @@ Frame frame_of(const ViewOptions& options, const Camera& camera) {
     frame.style = options.style;
     frame.wind = options.wind.value_or(Wind{});
     frame.samples = options.samples;
-    frame.most_triangles = options.most_triangles;
+    frame.max_triangles = options.max_triangles;
     return frame;
 }
 

@@ -1,4 +1,4 @@
-// PictureSeries: pictures of a run as files, one or a numbered series, and how long each took.
+// PictureSeries: pictures written by a run, one or a numbered series, with their times.
 #pragma once
 
 #include "runtime/program/console.h"
@@ -13,24 +13,24 @@
 namespace lsys::view {
 
 struct PictureSeries {
-    // Of each picture, in ms.
-    std::vector<double> prepare; // what the caller did before it
+    // Times of each picture, ms.
+    std::vector<double> prepare; // work of the caller before it
     std::vector<double> draw;
     std::vector<double> read; // back from the device
     std::vector<double> write;
-    FrameStats drawn;         // of the last one
-    std::uint64_t digest = 0; // tells whether two runs made the same pictures
+    FrameStats drawn;         // last picture
+    std::uint64_t digest = 0; // equal for runs with the same pictures
 };
 
-/// 0 of none.
+/// 0 without values.
 [[nodiscard]] double median(std::vector<double> values);
 
-/// The frame that the options ask for.
+/// Frame with the values of the options.
 [[nodiscard]] Frame frame_of(const ViewOptions& options, const Camera& camera);
 
-/// Draws and writes the pictures that the options ask for, from `frame` on. `prepare`, which may be
-/// empty, is called before each with its frame; other than Fine ends the series. So is `after`,
-/// after each was drawn. Fails if OpenGL reports an error.
+/// Draws and writes the pictures of the options, starting with `frame`. `prepare`, which may be
+/// empty, is called before each with its frame; a status other than Ok ends the series. `after` is
+/// called after each. Fails on OpenGL errors.
 [[nodiscard]] ExitStatus take_series(const ViewOptions& options,
                                      Frame frame,
                                      Renderer& renderer,
@@ -39,7 +39,7 @@ struct PictureSeries {
                                      const std::function<void(const Frame& frame)>& after,
                                      PictureSeries& series);
 
-/// Writes the text where --stats says.
+/// Writes `text` to the target of --stats.
 [[nodiscard]] ExitStatus
 write_stats_text(const ViewOptions& options, const std::string& text, const Console& console);
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kStepsPerSecond = 60.0;
 
-/// The plant as it is at moments of its motion.
+/// Motion of a plant over a series.
 class Motion {
 public:
     Motion(const ViewOptions& options, const PlantDocument& document)
@@ -31,7 +31,7 @@ public:
         forces.wind = options.wind.value_or(Wind{});
         forces.damping = document.grammar.bytecode.settings.damping;
         forces.threads = options.run.threads;
-        // Whole steps from one frame to the next.
+        // Whole steps per frame.
         const double steps = std::max(1.0, std::ceil(kStepsPerSecond * seconds_of_frame_));
         forces.time_step = static_cast<float>(seconds_of_frame_ / steps);
         physics_ = std::make_unique<PlantPhysics>(document.plant.skeleton, forces);
@@ -42,7 +42,7 @@ public:
     }
 
     [[nodiscard]] bool moves() const { return physics_ != nullptr; }
-    /// Nothing if it does not bend.
+    /// Without bending, nothing.
     void go_to(double seconds) {
         while (physics_ != nullptr &&
                physics_->time() + 0.5 * static_cast<double>(physics_->options().time_step) <

@@ -1,4 +1,4 @@
-// Pictures of a plant as files, without a window: one, or a numbered series.
+// Writes pictures of a plant without a window.
 #pragma once
 
 #include "runtime/program/console.h"

@@ -1,4 +1,4 @@
-// PlantDocument: a grammar and the plant it makes, from the file to triangles.
+// PlantDocument: a grammar and its plant, from file to triangles.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -14,7 +14,7 @@ namespace lsys::view {
 struct PlantDocument {
     Grammar grammar;
     Plant plant;
-    Mesh mesh; // of the plant at rest
+    Mesh mesh; // at rest
     double load_seconds = 0.0;
     double mesh_seconds = 0.0;
 };

@@ -30,7 +30,7 @@ LoadOutcome make(const LoadRequest& request, const std::atomic<bool>& cancelled)
         }
         has_memory = true;
     } catch (const std::bad_alloc&) {
-    } catch (const std::length_error&) { // what a string or vector throws when it cannot be so long
+    } catch (const std::length_error&) { // strings and vectors that are too long
     }
     if (!has_memory) {
         outcome.messages.add_error("out of memory");
@@ -41,6 +41,6 @@ LoadOutcome make(const LoadRequest& request, const std::atomic<bool>& cancelled)
 
 } // namespace
 
-PlantLoader::PlantLoader(std::function<void()> done) : maker_(make, std::move(done)) {}
+PlantLoader::PlantLoader(std::function<void()> done) : worker_(make, std::move(done)) {}
 
 } // namespace lsys::view

@@ -1,7 +1,7 @@
-// PlantLoader: makes plants on a thread of its own, by the rules of NewestMaker.
+// PlantLoader: makes plants on a thread of its own: LatestRequestWorker.
 #pragma once
 
-#include "viewer/app/newest_maker.h"
+#include "viewer/app/latest_request_worker.h"
 #include "viewer/app/options.h"
 #include "viewer/app/plant_document.h"
 
@@ -15,12 +15,12 @@
 namespace lsys::view {
 
 struct LoadOutcome {
-    std::shared_ptr<const PlantDocument> document; // none: it could not be made
+    std::shared_ptr<const PlantDocument> document; // null: failed
     Messages messages;
-    std::vector<std::string> files; // that it is made of, as far as they are known
-    ViewOptions options;            // of the request
-    SteadyClock::time_point since;  // when the request began
-    double seconds = 0.0;           // of the making
+    std::vector<std::string> files; // all files asked for
+    ViewOptions options;            // options of the request
+    SteadyClock::time_point since;  // cause of the request
+    double seconds = 0.0;           // time of making
 };
 
 struct LoadRequest {
@@ -31,18 +31,18 @@ struct LoadRequest {
 
 class PlantLoader {
 public:
-    /// `done` is called on the loader's thread whenever there is something to take().
+    /// `done` is called on the loader's thread whenever take() has an outcome.
     explicit PlantLoader(std::function<void()> done);
 
     void request(const ViewOptions& options, SteadyClock::time_point since) {
-        maker_.request({options, since, false});
+        worker_.request({options, since, false});
     }
-    void repeat(SteadyClock::time_point since) { maker_.repeat(since); }
-    [[nodiscard]] std::optional<LoadOutcome> take() { return maker_.take(); }
-    [[nodiscard]] bool is_busy() const { return maker_.is_busy(); }
+    void repeat(SteadyClock::time_point since) { worker_.repeat(since); }
+    [[nodiscard]] std::optional<LoadOutcome> take() { return worker_.take(); }
+    [[nodiscard]] bool is_busy() const { return worker_.is_busy(); }
 
 private:
-    NewestMaker<LoadRequest, LoadOutcome> maker_;
+    LatestRequestWorker<LoadRequest, LoadOutcome> worker_;
 };
 
 } // namespace lsys::view

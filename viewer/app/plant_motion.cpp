@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kLongestLeap = 0.1; // s: a plant that takes longer than that moves more slowly
+constexpr double kLongestLeap = 0.1; // s: slower plants move in slow motion
 
 } // namespace
 
@@ -25,14 +25,14 @@ struct PlantMotion::State {
     std::shared_ptr<const PlantDocument> document;
     MeshOptions mesh_options;
     std::function<void()> done;
-    std::mutex mutex; // of what follows
+    std::mutex mutex; // guards all up to the thread
     std::condition_variable changed;
     std::optional<Bending> asked;
     BentPlant made;
     bool is_made = false;
     bool stops = false;
     std::thread thread;
-    // Of the thread alone.
+    // Used by the thread only.
     std::unique_ptr<PlantPhysics> physics;
     float stiffness = 1.0F;
 
@@ -49,7 +49,7 @@ struct PlantMotion::State {
         }
     }
 
-    /// False: the motion ends.
+    /// False: stop.
     bool wait_for_room() {
         std::optional<Bending> bending;
         {
@@ -85,7 +85,7 @@ struct PlantMotion::State {
             physics->pose(next.skeleton);
             if (make_mesh(next.skeleton, document->plant.user_meshes, mesh_options, next.mesh) !=
                 MeshStatus::Ok) {
-                return; // the plant at rest fitted; this one stays as it is
+                return; // out of memory: keep the last moment
             }
             next.time = physics->time();
             next.seconds = std::chrono::duration<double>(Clock::now() - now).count();
@@ -101,7 +101,7 @@ struct PlantMotion::State {
     void run() {
         try {
             move_on();
-        } catch (const std::bad_alloc&) { // the plant stays as it is
+        } catch (const std::bad_alloc&) { // keep the last moment
         } catch (const std::length_error&) {
         }
     }

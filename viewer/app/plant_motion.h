@@ -1,5 +1,5 @@
-// PlantMotion: a plant that bends and sways, on a thread of its own: it steps the physics with the
-// clock and meshes the plant anew, as fast as what it makes is taken.
+// PlantMotion: simulates a plant under gravity and wind on a thread of its own. Steps the physics
+// with the clock and meshes the plant as fast as the results are taken.
 #pragma once
 
 #include "runtime/physics/physics.h"
@@ -10,12 +10,12 @@
 
 namespace lsys::view {
 
-/// A moment of the motion.
+/// The plant at a moment.
 struct BentPlant {
     Skeleton skeleton;
     Mesh mesh;
-    double time = 0.0;    // s, of the physics
-    double seconds = 0.0; // that it took to make
+    double time = 0.0;    // s, simulated
+    double seconds = 0.0; // time of making
 };
 
 struct Bending {
@@ -25,7 +25,7 @@ struct Bending {
 
 class PlantMotion {
 public:
-    /// `done` is called on the thread of the motion when there is something to take().
+    /// `done` is called on the thread of the motion when take() has a result.
     PlantMotion(std::shared_ptr<const PlantDocument> document,
                 const Bending& bending,
                 const MeshOptions& mesh,
@@ -34,9 +34,9 @@ public:
     PlantMotion& operator=(const PlantMotion&) = delete;
     ~PlantMotion();
 
-    /// Other forces; other springs begin at rest again.
+    /// Changes forces; a change of stiffness restarts at rest.
     void set(const Bending& bending);
-    /// Exchanges `plant` for the newest moment, if there is one that was not taken yet.
+    /// Swaps `plant` with the latest moment. False: none since the last call.
     [[nodiscard]] bool take(BentPlant& plant);
 
 private:

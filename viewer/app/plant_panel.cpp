@@ -15,11 +15,11 @@ namespace lsys::view {
 
 namespace {
 
-void draw_numbers(const LiveView& view) {
+void draw_numbers(const PlantView& view) {
     line(std::filesystem::path(view.settings.file).filename().string());
     const PlantDocument* const document = view.document();
     if (document == nullptr) {
-        line("no plant yet");
+        line("No plant yet");
         return;
     }
     const Plant& plant = document->plant;
@@ -29,16 +29,16 @@ void draw_numbers(const LiveView& view) {
                      name_of(document->grammar.bytecode.settings.turtle)));
 }
 
-void draw_growth(LiveView& view) {
-    LiveSettings& settings = view.settings;
+void draw_growth(PlantView& view) {
+    PlantViewSettings& settings = view.settings;
     auto generation = static_cast<int>(view.generations());
     const auto last =
-        static_cast<int>(std::max(view.usual_generations(), std::max(view.generations(), 1U)));
-    if (ImGui::SliderInt("generation", &generation, 0, last)) {
+        static_cast<int>(std::max(view.default_generations(), std::max(view.generations(), 1U)));
+    if (ImGui::SliderInt("Generation", &generation, 0, last)) {
         settings.generations = static_cast<std::uint32_t>(std::max(generation, 0));
-        settings.grows = false;
+        settings.plays = false;
     }
-    if (ImGui::Button(settings.grows ? "pause" : "play")) {
+    if (ImGui::Button(settings.plays ? "Pause" : "Play")) {
         view.play_or_pause();
     }
     ImGui::SameLine();
@@ -51,7 +51,7 @@ void draw_growth(LiveView& view) {
     }
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-kLabelWidth);
-    ImGui::SliderFloat("a second", &settings.generations_per_second, 0.25F, 20.0F, "%.2f",
+    ImGui::SliderFloat("Generations/s", &settings.generations_per_second, 0.25F, 20.0F, "%.2f",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     std::uint64_t seed =
         settings.seed.value_or(view.document() == nullptr ? 0 : view.document()->plant.seed);
@@ -61,28 +61,29 @@ void draw_growth(LiveView& view) {
         settings.seed = seed;
     }
     ImGui::SameLine();
-    if (ImGui::Button("next")) {
+    if (ImGui::Button("Next")) {
         next_seed(view);
     }
     ImGui::SameLine();
-    line("seed");
+    line("Seed");
 }
 
-/// The place among the definitions of what is set here.
-std::vector<Definition>::iterator find_definition(LiveSettings& settings, const std::string& name) {
+/// Finds the user's value of a constant.
+std::vector<Definition>::iterator find_definition(PlantViewSettings& settings,
+                                                  const std::string& name) {
     return std::find_if(settings.definitions.begin(), settings.definitions.end(),
                         [&name](const Definition& one) { return one.name == name; });
 }
 
-void draw_constant(LiveSettings& settings, const Constant& constant, const std::string& name) {
+void draw_constant(PlantViewSettings& settings, const Constant& constant, const std::string& name) {
     const auto set = find_definition(settings, name);
     const bool is_set = set != settings.definitions.end();
     float value = is_set ? set->value : constant.value;
     ImGui::PushID(name.c_str());
     bool changed = false;
     if (constant.is_drawn && !is_set) {
-        // Its value is another one in each run; a user may choose one.
-        changed = ImGui::Button("drawn by chance: set");
+        // Random in each run, unless the user sets it.
+        changed = ImGui::Button("Random: set");
         value = constant.is_param ? 0.5F * (constant.minimum + constant.maximum) : 0.0F;
         ImGui::SameLine();
     } else if (constant.is_param) {
@@ -112,7 +113,7 @@ void draw_constant(LiveSettings& settings, const Constant& constant, const std::
     ImGui::PopID();
 }
 
-void draw_constants(LiveView& view) {
+void draw_constants(PlantView& view) {
     const PlantDocument* const document = view.document();
     if (document == nullptr || !document->grammar.program) {
         return;
@@ -132,69 +133,69 @@ void draw_constants(LiveView& view) {
     }
 }
 
-void draw_look(LiveSettings& settings) {
-    if (!ImGui::CollapsingHeader("Look", ImGuiTreeNodeFlags_DefaultOpen)) {
+void draw_look(PlantViewSettings& settings) {
+    if (!ImGui::CollapsingHeader("Display", ImGuiTreeNodeFlags_DefaultOpen)) {
         return;
     }
     int style = static_cast<int>(settings.style);
-    if (ImGui::Combo("style", &style, "surface\0wireframe\0none\0")) {
+    if (ImGui::Combo("Draw", &style, "Surface\0Wireframe\0None\0")) {
         settings.style = static_cast<PlantStyle>(style);
     }
     int lines = static_cast<int>(settings.lines);
-    if (ImGui::Combo("lines", &lines, "none\0skeleton\0turtle path\0")) {
+    if (ImGui::Combo("Lines", &lines, "None\0Skeleton\0Turtle path\0")) {
         settings.lines = static_cast<LineKind>(lines);
     }
-    ImGui::Checkbox("shadows", &settings.shadows);
+    ImGui::Checkbox("Shadows", &settings.shadows);
     ImGui::SameLine();
-    ImGui::Checkbox("ground", &settings.ground);
+    ImGui::Checkbox("Ground", &settings.ground);
     ImGui::SameLine();
-    ImGui::Checkbox("smooth", &settings.smooth);
+    ImGui::Checkbox("Antialiasing", &settings.antialiasing);
     draw_camera(settings.camera);
 }
 
-void draw_mesh(LiveSettings& settings) {
+void draw_mesh(PlantViewSettings& settings) {
     if (!ImGui::CollapsingHeader("Mesh")) {
         return;
     }
     MeshOptions& mesh = settings.mesh;
     int method = static_cast<int>(mesh.method);
-    if (ImGui::Combo("method", &method, "tubes\0cylinders\0boxes\0")) {
+    if (ImGui::Combo("Method", &method, "Tubes\0Cylinders\0Boxes\0")) {
         mesh.method = static_cast<MeshMethod>(method);
     }
     const auto slide = [](const char* name, std::uint32_t& value, std::uint32_t most,
                           const char* format) {
-        constexpr std::uint32_t kLeast = 0;
-        ImGui::SliderScalar(name, ImGuiDataType_U32, &value, &kLeast, &most, format,
+        constexpr std::uint32_t kMin = 0;
+        ImGui::SliderScalar(name, ImGuiDataType_U32, &value, &kMin, &most, format,
                             ImGuiSliderFlags_AlwaysClamp);
     };
-    constexpr std::uint32_t kMostLevels = 5;
-    constexpr std::uint32_t kMostSides = 64;
-    slide("level", mesh.level, kMostLevels, "%u");
-    slide("sides", mesh.sides, kMostSides, mesh.sides == 0 ? "of the grammar" : "%u");
-    // A tube has three sides at least.
+    constexpr std::uint32_t kMaxLevels = 5;
+    constexpr std::uint32_t kMaxSides = 64;
+    slide("Level", mesh.level, kMaxLevels, "%u");
+    slide("Sides", mesh.sides, kMaxSides, mesh.sides == 0 ? "from grammar" : "%u");
+    // A tube has at least three sides.
     mesh.sides = mesh.sides == 0 ? 0 : std::max(mesh.sides, 3U);
-    ImGui::SliderFloat("bark noise", &mesh.bark_noise, 0.0F, 1.0F, "%.2f",
+    ImGui::SliderFloat("Bark noise", &mesh.bark_noise, 0.0F, 1.0F, "%.2f",
                        ImGuiSliderFlags_AlwaysClamp);
-    ImGui::SliderFloat("droop", &mesh.droop, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderFloat("Droop", &mesh.droop, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
 }
 
-void draw_bending(LiveSettings& settings) {
+void draw_bending(PlantViewSettings& settings) {
     if (!ImGui::CollapsingHeader("Bending", ImGuiTreeNodeFlags_DefaultOpen)) {
         return;
     }
     PhysicsOptions& forces = settings.bending.forces;
-    ImGui::Checkbox("gravity and wind bend it", &settings.bends);
-    ImGui::SliderFloat("gravity", &forces.gravity, 0.0F, 30.0F, "%.2f m/s^2");
+    ImGui::Checkbox("Simulate", &settings.simulates);
+    ImGui::SliderFloat("Gravity", &forces.gravity, 0.0F, 30.0F, "%.2f m/s^2");
     draw_wind(forces.wind);
-    ImGui::SliderFloat("stiffness", &settings.bending.stiffness, 0.01F, 100.0F, "%.3g times",
+    ImGui::SliderFloat("Stiffness", &settings.bending.stiffness, 0.01F, 100.0F, "x%.3g",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-    ImGui::SliderFloat("damping", &forces.damping, 0.001F, 1000.0F, "%.3g N m s",
+    ImGui::SliderFloat("Damping", &forces.damping, 0.001F, 1000.0F, "%.3g N m s/rad",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
 }
 
 } // namespace
 
-void draw_plant_panel(LiveView& view) {
+void draw_plant_panel(PlantView& view) {
     draw_numbers(view);
     ImGui::PushItemWidth(-kLabelWidth);
     draw_growth(view);

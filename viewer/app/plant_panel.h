@@ -1,11 +1,11 @@
-// The panel at the left: the plant's numbers, and sliders for all that can be changed.
+// Panel of a plant: its numbers and settings.
 #pragma once
 
 #include "viewer/app/controls.h"
-#include "viewer/app/live_view.h"
+#include "viewer/app/plant_view.h"
 
 namespace lsys::view {
 
-void draw_plant_panel(LiveView& view);
+void draw_plant_panel(PlantView& view);
 
 } // namespace lsys::view

@@ -1,4 +1,4 @@
-// A host that remembers the files it was asked for, so that they can be watched.
+// Host that records the files it was asked for, to watch them.
 #pragma once
 
 #include "runtime/pipeline/project.h"
@@ -8,8 +8,8 @@
 
 namespace lsys::view {
 
-/// `host`, adding the path of every file that is asked for to `files`, whether it can be read or
-/// not. `files` outlives the host.
+/// Wraps `host`: adds the path of each file asked for to `files`, readable or not. `files` must
+/// outlive the result.
 [[nodiscard]] Host record_files(Host host, std::vector<std::string>& files);
 
 } // namespace lsys::view

@@ -15,9 +15,9 @@ ShaderSource shaders_of(const std::string& folder, const Console& console) {
         return built_in_shader;
     }
     return [folder, console](std::string_view name) -> std::optional<std::string> {
-        constexpr std::uint64_t kMostBytes = 1 << 20;
+        constexpr std::uint64_t kMaxBytes = 1 << 20;
         Result<std::string> text =
-            read_file((std::filesystem::path(folder) / name).string(), {kMostBytes}, console);
+            read_file((std::filesystem::path(folder) / name).string(), {kMaxBytes}, console);
         return text ? std::optional(std::move(text.value())) : std::nullopt;
     };
 }

@@ -1,4 +1,4 @@
-// Where shaders come from: a folder, or the program itself.
+// Sources of shaders: a folder, or the program.
 #pragma once
 
 #include "runtime/program/console.h"
@@ -9,9 +9,9 @@
 
 namespace lsys::view {
 
-/// Those of `folder`; those that are built in if its name is empty.
+/// Shaders of `folder`; built-in ones if it is empty.
 [[nodiscard]] ShaderSource shaders_of(const std::string& folder, const Console& console);
-/// The files of `folder` that may be shaders.
+/// Possible shaders in `folder`.
 [[nodiscard]] std::vector<std::string> shader_files(const std::string& folder);
 
 } // namespace lsys::view

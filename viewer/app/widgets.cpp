@@ -24,25 +24,26 @@ std::string grouped(std::uint64_t number) {
     return digits;
 }
 
-/// A wind by the direction it blows to, in degrees from +X to +Z, and its speed.
+/// Edits a wind by its speed and by the direction it blows to, degrees from +X towards +Z.
 void draw_wind(Wind& wind) {
     constexpr float kDegrees = 180.0F / std::numbers::pi_v<float>;
     float speed = std::hypot(wind.velocity.x, wind.velocity.z);
     float direction = speed > 0.0F ? std::atan2(wind.velocity.z, wind.velocity.x) * kDegrees : 0.0F;
-    // No wind has no direction: that of the slider is kept by a wind that is next to none.
-    constexpr float kLeast = 1e-4F;
-    bool changed = ImGui::SliderFloat("wind", &speed, 0.0F, 40.0F, "%.1f m/s");
-    changed |= ImGui::SliderFloat("to", &direction, -180.0F, 180.0F, "%.0f deg from +X");
+    // A min speed keeps the direction.
+    constexpr float kMin = 1e-4F;
+    bool changed = ImGui::SliderFloat("Wind speed", &speed, 0.0F, 40.0F, "%.1f m/s");
+    changed |=
+        ImGui::SliderFloat("Wind direction", &direction, -180.0F, 180.0F, "%.0f deg from +X");
     if (changed) {
-        speed = std::max(speed, kLeast);
+        speed = std::max(speed, kMin);
         wind.velocity = {speed * std::cos(direction / kDegrees), wind.velocity.y,
                          speed * std::sin(direction / kDegrees)};
     }
-    ImGui::SliderFloat("gusts", &wind.gust, 0.0F, 2.0F, "%.2f");
+    ImGui::SliderFloat("Gusts", &wind.gust, 0.0F, 2.0F, "%.2f");
 }
 
 void draw_camera(Camera& camera) {
-    static_assert(sizeof(Camera) == 7 * sizeof(float)); // what the line below has room for
+    static_assert(sizeof(Camera) == 7 * sizeof(float)); // fits `text`
     std::array<char, 256> text{};
     std::snprintf(text.data(), text.size(), "%s", to_text(camera).c_str());
     if (ImGui::InputText("##camera", text.data(), text.size(),
@@ -52,7 +53,7 @@ void draw_camera(Camera& camera) {
         }
     }
     ImGui::SameLine();
-    if (ImGui::Button("copy camera")) {
+    if (ImGui::Button("Copy camera")) {
         ImGui::SetClipboardText(to_text(camera).c_str());
     }
 }

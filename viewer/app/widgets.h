@@ -1,4 +1,4 @@
-// Parts of panels that several have.
+// Widgets shared by panels.
 #pragma once
 
 #include "runtime/physics/physics.h"
@@ -12,10 +12,10 @@ namespace lsys::view {
 inline constexpr float kLabelWidth = 110.0F;
 
 void line(const std::string& text);
-/// 1234567: 1,234,567
+/// Digits in groups: 1,234,567.
 [[nodiscard]] std::string grouped(std::uint64_t number);
 void draw_wind(Wind& wind);
-/// Its line, which can be selected, copied and written over.
+/// Editable line of text with a button to copy it.
 void draw_camera(Camera& camera);
 
 } // namespace lsys::view

@@ -2,9 +2,9 @@
 
 #include "runtime/program/files.h"
 #include "viewer/app/controls.h"
-#include "viewer/app/live_views.h"
 #include "viewer/app/panels.h"
 #include "viewer/app/shader_folder.h"
+#include "viewer/app/view_switcher.h"
 #include "viewer/gl/window.h"
 
 #include <fmt/format.h>
@@ -20,12 +20,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// How long to wait for input, s.
-constexpr double kIdle = 0.5; // and a second Ctrl-C is not needed for longer than that
+// Time to wait for input, s.
+constexpr double kIdle = 0.5; // also the delay of Ctrl-C
 constexpr double kBusy = 0.02;
-// A camera that flies past slow pictures would be anywhere.
+// Limits the step of a flying camera after slow pictures, s.
 constexpr double kLongestLeap = 0.1;
-/// Panels take so many pictures to settle after an input.
+/// Pictures until ImGui settles after input.
 constexpr int kPicturesAfterInput = 3;
 
 std::string title_of(const std::string& file) {
@@ -34,12 +34,12 @@ std::string title_of(const std::string& file) {
 
 class WindowRun {
 public:
-    WindowRun(Window& window, LiveViews& views) : window_(window), views_(views) {}
+    WindowRun(Window& window, ViewSwitcher& switcher) : window_(window), switcher_(switcher) {}
 
-    /// False: the user quits.
+    /// False: quit.
     bool step() {
         const double wait = pictures_left_ > 0 || controls_.is_moving() ? 0.0
-                            : views_.shown().is_busy()                  ? kBusy
+                            : switcher_.shown().is_busy()               ? kBusy
                                                                         : kIdle;
         const WindowInput input = window_.wait(wait);
         const Clock::time_point now = Clock::now();
@@ -47,8 +47,8 @@ public:
             std::min(std::chrono::duration<double>(now - last_).count(), kLongestLeap);
         last_ = now;
         const bool flew = panels_.flies;
-        const std::string file = views_.shown().file();
-        controls_.apply(input, passed, picture_area(), views_, panels_);
+        const std::string file = switcher_.shown().file();
+        controls_.apply(input, passed, picture_area(), switcher_, panels_);
         if (panels_.flies != flew) {
             window_.capture_mouse(panels_.flies);
         }
@@ -58,20 +58,20 @@ public:
         if (input.closes) {
             window_.stay_open();
         }
-        const bool has_news = views_.shown().update();
+        const bool has_news = switcher_.shown().update();
         if (input.any || has_news) {
             pictures_left_ = kPicturesAfterInput;
         }
         draw();
-        if (views_.shown().file() != file) { // panels open files too
-            window_.set_title(title_of(views_.shown().file()));
+        if (switcher_.shown().file() != file) { // panels open files too
+            window_.set_title(title_of(switcher_.shown().file()));
             pictures_left_ = kPicturesAfterInput;
         }
         return true;
     }
 
 private:
-    /// Beside the panels.
+    /// Part beside the panel.
     [[nodiscard]] PixelArea picture_area() const {
         PixelArea area{0, 0, window_.width(), window_.height()};
         if (panels_.panels && area.width != 0) {
@@ -88,23 +88,23 @@ private:
             return;
         }
         const Clock::time_point start = Clock::now();
-        const bool drew = views_.shown().draw(area.width, area.height);
+        const bool drew = switcher_.shown().draw(area.width, area.height);
         if (!drew && pictures_left_ == 0) {
             return;
         }
         pictures_left_ = drew ? std::max(pictures_left_, 1) : pictures_left_ - 1;
-        views_.shown().present(area);
+        switcher_.shown().present(area);
         window_.begin_panels();
-        LiveScreen* const drawn = &views_.shown();
-        draw_panels(views_, panels_, window_.scale());
+        View* const drawn = &switcher_.shown();
+        draw_panels(switcher_, panels_, window_.scale());
         window_.show();
-        if (drew && drawn == &views_.shown()) {
+        if (drew && drawn == &switcher_.shown()) {
             drawn->shown(std::chrono::duration<double>(Clock::now() - start).count());
         }
     }
 
     Window& window_;
-    LiveViews& views_;
+    ViewSwitcher& switcher_;
     Controls controls_;
     PanelState panels_;
     Clock::time_point last_ = Clock::now();
@@ -118,7 +118,7 @@ ExitStatus run_window(const ViewOptions& options, const Console& console) {
     if (!camera) {
         return report_error(Error{fmt::format("--camera: {}", camera.error().message)}, console);
     }
-    // A file that cannot be read is a mistake on the command line; one with errors is shown.
+    // An unreadable file is a usage error; a file with errors is shown.
     if (const Result<std::string> bytes = read_file(options.file, {kMaxSourceBytes}, console);
         !bytes) {
         return report_error(bytes.error(), console);
@@ -136,16 +136,16 @@ ExitStatus run_window(const ViewOptions& options, const Console& console) {
         return report_error(renderer.error(), console);
     }
     console.detail(fmt::format("drawing by a window: {}", renderer.value()->device_name()));
-    LiveViews views(options, console, *renderer.value(),
-                    [made = window.value().get()] { made->wake(); });
-    views.shown().camera() = camera.value();
-    WindowRun run(*window.value(), views);
+    ViewSwitcher switcher(options, console, *renderer.value(),
+                          [made = window.value().get()] { made->wake(); });
+    switcher.shown().camera() = camera.value();
+    WindowRun run(*window.value(), switcher);
     while (run.step()) {
         if (console.interrupted()) {
             return ExitStatus::Interrupted;
         }
     }
-    console.detail(fmt::format("--camera \"{}\"", to_text(views.shown().camera())));
+    console.detail(fmt::format("--camera \"{}\"", to_text(switcher.shown().camera())));
     if (!renderer.value()->errors().empty()) {
         return report_error(Error{fmt::format("OpenGL: {}", renderer.value()->errors().front())},
                             console);

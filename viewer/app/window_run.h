@@ -1,4 +1,4 @@
-// The window's loop: from input to picture.
+// Main loop of the window.
 #pragma once
 
 #include "runtime/program/console.h"
@@ -6,7 +6,7 @@
 
 namespace lsys::view {
 
-/// Shows the plant until the user quits.
+/// Opens a window and runs until the user quits.
 [[nodiscard]] ExitStatus run_window(const ViewOptions& options, const Console& console);
 
 } // namespace lsys::view

@@ -6,8 +6,8 @@
 #include "viewer/gl/impl/material_textures.h"
 #include "viewer/gl/impl/plant_mesh.h"
 #include "viewer/gl/impl/program.h"
+#include "viewer/gl/impl/render_target.h"
 #include "viewer/gl/impl/shadow_map.h"
-#include "viewer/gl/impl/target.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +21,10 @@ namespace {
 constexpr std::uint32_t kShadowTexels = 2048;
 constexpr GLuint kFrameBinding = 0;
 constexpr GLuint kShadowTexture = 0;
-// What ground.*.glsl ask for.
+// Uniform locations of ground.*.glsl.
 constexpr GLint kDisc = 0;
-constexpr GLint kUnit = 1;
-constexpr float kDiscInRadii = 14.0F; // of the plant
+constexpr GLint kGridStep = 1;
+constexpr float kDiscInRadii = 14.0F; // radii of the plant
 
 struct Programs {
     ProgramObject sky;
@@ -57,8 +57,8 @@ Result<Programs> make_programs(Device& device, const ShaderSource& shaders) {
     return programs;
 }
 
-/// The plant and the ground that its shadow falls on.
-Bounds lit_bounds(const Bounds& plant) {
+/// Bounds of a plant and the ground around it that receives its shadow.
+Bounds shadow_bounds(const Bounds& plant) {
     Bounds bounds = plant;
     const float height = plant.high.y - plant.low.y;
     const float wide = std::max(plant.high.x - plant.low.x, plant.high.z - plant.low.z);
@@ -91,11 +91,11 @@ public:
         is_forest_ = true;
         return {};
     }
-    bool make_portraits(double seconds) override {
+    bool bake_impostors(double seconds) override {
         if (!is_forest_) {
             return true;
         }
-        const bool all = forest_.make_portraits(seconds, textures_);
+        const bool all = forest_.bake_impostors(seconds, textures_);
         shadow_.invalidate();
         return all;
     }
@@ -128,9 +128,9 @@ public:
     FrameStats draw(const Frame& frame, const PixelArea& area) override {
         FrameStats stats;
         forest_stats_ = {};
-        const Bounds lit = is_forest_              ? forest_.lit_bounds(frame)
+        const Bounds lit = is_forest_              ? forest_.shadow_bounds(frame)
                            : plant_.bounds().empty ? Bounds{}
-                                                   : lit_bounds(plant_.bounds());
+                                                   : shadow_bounds(plant_.bounds());
         glm::mat4 shadow_from_world(1.0F);
         if (frame.shadows && frame.style != PlantStyle::None && !lit.empty) {
             shadow_from_world = shadow_matrix(lit, frame.light.to_sun, kShadowTexels);
@@ -152,7 +152,7 @@ public:
             draw_shadows(shadow_from_world, stats);
         }
         target_.begin(area.width, area.height, frame.samples);
-        glDepthFunc(GL_GEQUAL); // nearer is larger
+        glDepthFunc(GL_GEQUAL); // reversed depth
         glBindTextureUnit(kShadowTexture, shadow_.texture());
         if (is_forest_) {
             glPolygonMode(GL_FRONT_AND_BACK,
@@ -229,29 +229,29 @@ private:
         const Bounds& plant = bounds();
         const glm::vec3 size = plant.high - plant.low;
         const float radius = 0.5F * std::max(std::max(size.x, size.y), size.z);
-        // A power of ten: about ten lines along the plant.
+        // Power of ten: about ten lines along the plant.
         const float unit = std::pow(10.0F, std::floor(std::log10(std::max(radius, 1e-6F))));
         glUseProgram(programs_.ground.name());
         const float below = std::min(plant.low.y, 0.0F) - 1e-4F * radius;
         glUniform4f(kDisc, 0.5F * (plant.low.x + plant.high.x), below,
                     0.5F * (plant.low.z + plant.high.z), kDiscInRadii * radius);
-        glUniform1f(kUnit, unit);
+        glUniform1f(kGridStep, unit);
         glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
         ++stats.draws;
         stats.triangles += 2;
     }
 
-    Device device_; // outlives what follows
+    Device device_; // must outlive all below
     Programs programs_;
-    Target target_;
+    RenderTarget target_;
     ShadowMap shadow_;
     MaterialTextures textures_;
     PlantMesh plant_;
     LineSet lines_;
     ForestPass forest_;
     ForestFrameStats forest_stats_;
-    bool is_forest_ = false; // what is shown
-    ShaderSource shaders_;   // those of forests are compiled when one is shown
+    bool is_forest_ = false; // a forest is shown
+    ShaderSource shaders_;   // forest shaders are compiled on first use
     bool has_forest_shaders_ = false;
     Buffer frame_;
     VertexArray empty_;

@@ -28,7 +28,7 @@ constexpr std::array<NamedKey, 8> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape},
                                                  {GLFW_KEY_F1, Key::F1},
                                                  {GLFW_KEY_SPACE, Key::Space}}};
 
-/// Letters by what stands on the key, whatever the layout of the keyboard.
+/// Letters follow the keyboard layout.
 Key key_of(int code, int scan_code) {
     const auto* const named =
         std::find_if(kNamedKeys.begin(), kNamedKeys.end(),
@@ -55,12 +55,12 @@ struct Window::State {
     GLFWwindow* window = nullptr;
     bool has_panels = false;
     bool captured = false;
-    // Between two wait().
+    // Collected until the next wait().
     WindowInput input;
     glm::vec2 mouse{0.0F};
     bool has_mouse = false;
-    bool shift = false;         // with the left button
-    std::array<bool, 3> held{}; // buttons, pressed outside of the panels
+    bool shift = false;         // at the press of the left button
+    std::array<bool, 3> held{}; // buttons pressed outside of panels
     std::vector<std::pair<int, Key>> keys;
 
     static State& of(GLFWwindow* window) {
@@ -77,20 +77,20 @@ struct Window::State {
         is_held = action == GLFW_PRESS && (captured || !ImGui::GetIO().WantCaptureMouse);
         if (button == GLFW_MOUSE_BUTTON_LEFT && is_held != was_held) {
             shift = (modifiers & GLFW_MOD_SHIFT) != 0;
-            touch(is_held ? Touch::Kind::Press : Touch::Kind::Release);
+            add_pointer_event(is_held ? PointerEvent::Kind::Press : PointerEvent::Kind::Release);
         }
     }
 
-    /// Where the mouse is now: a press may come before any move.
-    void touch(Touch::Kind kind) {
+    /// Uses the current position: a press may come before any move.
+    void add_pointer_event(PointerEvent::Kind kind) {
         double x = 0.0;
         double y = 0.0;
         glfwGetCursorPos(window, &x, &y);
-        input.touches.push_back(
+        input.pointer_events.push_back(
             {pixels({static_cast<float>(x), static_cast<float>(y)}), kind, shift});
     }
 
-    /// Of the framebuffer, whose size may be another than the window's.
+    /// Window coordinates to pixels of the framebuffer.
     glm::vec2 pixels(const glm::vec2& place) const {
         int width = 0;
         int height = 0;
@@ -112,7 +112,7 @@ struct Window::State {
             input.motion += way;
         } else if (held[GLFW_MOUSE_BUTTON_LEFT]) {
             input.left_drag += way;
-            input.touches.push_back({pixels(to), Touch::Kind::Move, shift});
+            input.pointer_events.push_back({pixels(to), PointerEvent::Kind::Move, shift});
         } else if (held[GLFW_MOUSE_BUTTON_RIGHT]) {
             input.right_drag += way;
         } else if (held[GLFW_MOUSE_BUTTON_MIDDLE]) {
@@ -134,7 +134,7 @@ struct Window::State {
         }
     }
 
-    /// ImGui's own come on top of these and call them.
+    /// Installs callbacks; ImGui chains its own to them.
     void listen() {
         glfwSetWindowUserPointer(window, this);
         glfwSetMouseButtonCallback(window,
@@ -168,7 +168,7 @@ struct Window::State {
         glfwSetWindowFocusCallback(window, [](GLFWwindow* from, int /*focused*/) {
             State& state = of(from);
             state.input.any = true;
-            state.keys.clear(); // their release may go elsewhere
+            state.keys.clear(); // releases may go to another window
             state.held = {};
         });
     }
@@ -193,12 +193,12 @@ Window::make(const std::string& title, std::uint32_t width, std::uint32_t height
     if (glfwInit() == GLFW_FALSE) {
         return Error{fmt::format("there is no display for a window ({})", why_glfw_failed())};
     }
-    std::unique_ptr<Window> made(new Window()); // ends GLFW
+    std::unique_ptr<Window> made(new Window()); // terminates GLFW
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
-    glfwWindowHint(GLFW_DEPTH_BITS, 0); // pictures are drawn elsewhere
+    glfwWindowHint(GLFW_DEPTH_BITS, 0); // pictures are drawn offscreen
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     State& state = *made->state_;
     state.window = glfwCreateWindow(static_cast<int>(width), static_cast<int>(height),
@@ -211,7 +211,7 @@ Window::make(const std::string& title, std::uint32_t width, std::uint32_t height
     state.listen();
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr; // writes no file
+    ImGui::GetIO().IniFilename = nullptr; // no settings file
     ImGui::StyleColorsDark();
     ImGui::GetStyle().ScaleAllSizes(made->scale());
     ImGui::GetIO().FontGlobalScale = made->scale();

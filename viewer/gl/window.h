@@ -1,5 +1,5 @@
-// Window: a window with an OpenGL 4.5 core context, what is done with it by mouse and keyboard, and
-// panels of Dear ImGui over its picture. The only code that knows GLFW and what joins it to ImGui.
+// Window: a GLFW window with an OpenGL 4.5 core context, its input, and panels of Dear ImGui over
+// the picture. The only code that knows GLFW and its binding to ImGui.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -14,7 +14,7 @@
 
 namespace lsys::view {
 
-/// Letters are themselves.
+/// Letters have their ASCII codes.
 enum class Key : std::uint8_t {
     None = 0,
     Escape,
@@ -52,57 +52,57 @@ struct KeyPress {
     bool shift = false;
 };
 
-/// The left button over the picture.
-struct Touch {
+/// Event of the left button over the picture.
+struct PointerEvent {
     enum class Kind : std::uint8_t { Press, Move, Release };
-    glm::vec2 place{0.0F}; // pixels of the window, from its upper left corner
+    glm::vec2 place{0.0F}; // pixels from the upper left corner of the window
     Kind kind = Kind::Move;
     bool shift = false;
 };
 
-/// What was done with the window since it was asked before; not with the panels.
+/// Input since the last wait(), without input to panels.
 struct WindowInput {
     std::vector<KeyPress> presses;
     std::vector<Key> held;
-    glm::vec2 left_drag{0.0F}; // pixels, to the right and down
+    glm::vec2 left_drag{0.0F}; // pixels to the right and down
     glm::vec2 right_drag{0.0F};
     glm::vec2 middle_drag{0.0F};
-    std::vector<Touch> touches; // with each move while it is held
-    glm::vec2 mouse{0.0F};      // pixels, from the upper left corner
-    bool over_picture = false;  // the mouse, and not over a panel
-    glm::vec2 motion{0.0F};     // of a captured mouse
-    float wheel = 0.0F;         // away from the user
+    std::vector<PointerEvent> pointer_events; // presses, releases, moves while pressed
+    glm::vec2 mouse{0.0F};                    // pixels, from the upper left corner
+    bool over_picture = false;                // the pointer is on the picture, not on a panel
+    glm::vec2 motion{0.0F};                   // relative, while captured
+    float wheel = 0.0F;                       // positive away from the user
     std::vector<std::string> dropped;
-    bool any = false;    // something happened, be it with the panels
-    bool closes = false; // the user closed the window
+    bool any = false;    // any event, also of panels
+    bool closes = false; // the user asked to close the window
 };
 
 class Window {
 public:
-    /// Error: there is no display, or its OpenGL is too old.
+    /// Error: no display, or its OpenGL is too old.
     [[nodiscard]] static Result<std::unique_ptr<Window>>
     make(const std::string& title, std::uint32_t width, std::uint32_t height);
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
     ~Window();
 
-    /// Takes back that the user closed the window.
+    /// Cancels closing of the window.
     void stay_open();
-    /// What has happened, at once or within `seconds`.
+    /// Waits up to `seconds` for input; 0: takes what is there.
     [[nodiscard]] WindowInput wait(double seconds);
-    /// Ends a wait(), from any thread.
+    /// Ends a wait(); callable from any thread.
     void wake() const;
 
-    /// Of what is drawn; 0 while the window has no room.
+    /// Size of the framebuffer in pixels; 0 while minimized.
     [[nodiscard]] std::uint32_t width() const;
     [[nodiscard]] std::uint32_t height() const;
-    /// How much larger than usual text has to be.
+    /// Scale of text and widgets.
     [[nodiscard]] float scale() const;
     void set_title(const std::string& title);
-    /// Hides the mouse and has its motion told, so that it has no end.
+    /// Hides the pointer and reports its motion without limits.
     void capture_mouse(bool captured);
 
-    /// ImGui's windows come between these two; the second draws them and shows the picture.
+    /// Draw ImGui windows between these two calls; show() presents the picture.
     void begin_panels();
     void show();
 

@@ -21,7 +21,7 @@ std::uint32_t AddedTrees::cell_of(const glm::vec3& place) const {
            part(static_cast<double>(place.x) - region_.x, region_.width);
 }
 
-bool AddedTrees::is_another(std::uint32_t slot, const Tree& tree) const {
+bool AddedTrees::differs(std::uint32_t slot, const Tree& tree) const {
     if (slot >= added_.size()) {
         return true;
     }
@@ -30,16 +30,13 @@ bool AddedTrees::is_another(std::uint32_t slot, const Tree& tree) const {
            there.number != tree.number || there.species != tree.species;
 }
 
-void AddedTrees::put(std::uint32_t slot,
-                     const Tree& tree,
-                     const ViewTree& made,
-                     const Bounds& box) {
+void AddedTrees::put(std::uint32_t slot, const Tree& tree, const LodTree& made, const Bounds& box) {
     cells_.resize(std::size_t{kSide} * kSide);
     if (slot < added_.size()) {
         std::erase(cells_[cell_of(added_[slot].tree.position)].trees, slot);
     } else {
         Added none;
-        none.made.portrait = ViewTree::kGone;
+        none.made.impostor = LodTree::kRemoved;
         added_.resize(std::size_t{slot} + 1, none);
     }
     added_[slot] = {tree, made};
@@ -56,8 +53,8 @@ void AddedTrees::put(std::uint32_t slot,
 }
 
 void AddedTrees::set_alive(std::uint32_t slot, bool alive) {
-    if (slot < added_.size() && added_[slot].made.gone() == alive) {
-        added_[slot].made.portrait ^= ViewTree::kGone;
+    if (slot < added_.size() && added_[slot].made.is_removed() == alive) {
+        added_[slot].made.impostor ^= LodTree::kRemoved;
     }
 }
 

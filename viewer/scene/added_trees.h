@@ -1,5 +1,5 @@
-// AddedTrees: trees that came to a forest after it was sorted into cells, as by painting. They lie
-// in squares of their own; what it costs to add one does not depend on how many trees there are.
+// AddedTrees: trees added to a forest after it was sorted into cells, for example by painting. They
+// lie in square cells of their own; adding one costs the same for any number of trees.
 #pragma once
 
 #include "runtime/forest/tree.h"
@@ -12,44 +12,44 @@
 
 namespace lsys::view {
 
-/// A tree as it is looked for.
-struct ViewTree {
-    /// In `portrait`: the tree was taken away.
-    static constexpr std::uint16_t kGone = 0x8000;
+/// A tree as ForestLod stores it.
+struct LodTree {
+    /// Bit of `impostor`: the tree is removed.
+    static constexpr std::uint16_t kRemoved = 0x8000;
 
     glm::vec3 position{};
     float scale = 1.0F;
     std::uint32_t tree = 0; // in Forest::trees
     std::uint16_t form = 0;
-    std::uint16_t portrait = 0; // in TreeForm::portraits; and kGone
+    std::uint16_t impostor = 0; // index in TreeForm::impostor_trees, with kRemoved
 
-    [[nodiscard]] bool gone() const { return (portrait & kGone) != 0; }
+    [[nodiscard]] bool is_removed() const { return (impostor & kRemoved) != 0; }
 };
-static_assert(sizeof(ViewTree) == 24);
+static_assert(sizeof(LodTree) == 24);
 
 class AddedTrees {
 public:
     struct Cell {
         std::vector<std::uint32_t> trees; // slots
-        glm::vec3 low{};                  // around its trees, of all that were ever there
+        glm::vec3 low{};                  // box around its trees, past ones included
         glm::vec3 high{};
     };
 
     explicit AddedTrees(const Region& region) : region_(region) {}
 
-    /// One that has no place yet, or whose place another tree has now.
-    [[nodiscard]] bool is_another(std::uint32_t slot, const Tree& tree) const;
-    /// Slots are used one after the other. `box`: around the tree.
-    void put(std::uint32_t slot, const Tree& tree, const ViewTree& made, const Bounds& box);
+    /// Whether the slot is empty or holds another tree.
+    [[nodiscard]] bool differs(std::uint32_t slot, const Tree& tree) const;
+    /// Fills a slot; slots are used in order. `box`: bounding box of the tree.
+    void put(std::uint32_t slot, const Tree& tree, const LodTree& made, const Bounds& box);
     void set_alive(std::uint32_t slot, bool alive);
     [[nodiscard]] bool is_alive(std::uint32_t slot) const {
-        return slot < added_.size() && !added_[slot].made.gone();
+        return slot < added_.size() && !added_[slot].made.is_removed();
     }
 
-    [[nodiscard]] const ViewTree& at(std::uint32_t slot) const { return added_[slot].made; }
+    [[nodiscard]] const LodTree& at(std::uint32_t slot) const { return added_[slot].made; }
     [[nodiscard]] const Tree& tree(std::uint32_t slot) const { return added_[slot].tree; }
 
-    /// visit(slot) of those that are alive in cells of which `wants` is true.
+    /// Calls visit(slot) for each living tree of the cells for which wants(cell) is true.
     template <typename Wants, typename Visit>
     void visit(const Wants& wants, const Visit& visit) const {
         for (const std::uint32_t used : used_) {
@@ -58,7 +58,7 @@ public:
                 continue;
             }
             for (const std::uint32_t slot : cell.trees) {
-                if (!added_[slot].made.gone()) {
+                if (!added_[slot].made.is_removed()) {
                     visit(slot);
                 }
             }
@@ -68,7 +68,7 @@ public:
 private:
     struct Added {
         Tree tree;
-        ViewTree made;
+        LodTree made;
     };
 
     [[nodiscard]] std::uint32_t cell_of(const glm::vec3& place) const;
@@ -76,7 +76,7 @@ private:
     Region region_;
     std::deque<Added> added_;
     std::vector<Cell> cells_;
-    std::vector<std::uint32_t> used_; // cells with trees
+    std::vector<std::uint32_t> used_; // indices of cells that have had trees
 };
 
 } // namespace lsys::view

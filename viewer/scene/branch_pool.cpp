@@ -36,25 +36,25 @@ PoolSpan BranchPool::find(std::uint32_t tree) {
     if (entry == trees_.end()) {
         return {};
     }
-    entry->second.turn = turn_;
+    entry->second.last_use = frame_;
     return entry->second.span;
 }
 
 PoolSpan BranchPool::add(std::uint32_t tree, std::span<const PoolBranch> branches) {
     const auto count = static_cast<std::uint32_t>(branches.size());
-    if (branches.empty() || branches.size() > most_) {
+    if (branches.empty() || branches.size() > capacity_) {
         return {};
     }
     PoolSpan span{0, count};
-    if (!take_room(count, span.first)) {
-        forget_before(turn_);
-        if (!take_room(count, span.first)) {
+    if (!allocate(count, span.first)) {
+        forget_before(frame_);
+        if (!allocate(count, span.first)) {
             return {};
         }
     }
     std::copy(branches.begin(), branches.end(),
               branches_.begin() + static_cast<std::ptrdiff_t>(span.first));
-    trees_.emplace(tree, Entry{span, turn_});
+    trees_.emplace(tree, Entry{span, frame_});
     used_ += count;
     if (!written_.empty() && written_.back().first + written_.back().count == span.first) {
         written_.back().count += count;
@@ -64,9 +64,9 @@ PoolSpan BranchPool::add(std::uint32_t tree, std::span<const PoolBranch> branche
     return span;
 }
 
-void BranchPool::begin_turn(std::uint32_t kept) {
-    ++turn_;
-    forget_before(turn_ > kept ? turn_ - kept : 0);
+void BranchPool::begin_frame(std::uint32_t kept) {
+    ++frame_;
+    forget_before(frame_ > kept ? frame_ - kept : 0);
 }
 
 void BranchPool::forget(std::uint32_t tree) {
@@ -77,7 +77,7 @@ void BranchPool::forget(std::uint32_t tree) {
 }
 
 void BranchPool::clear() {
-    *this = BranchPool(most_);
+    *this = BranchPool(capacity_);
 }
 
 std::vector<PoolSpan> BranchPool::take_written() {
@@ -109,7 +109,7 @@ void BranchPool::release(const PoolSpan& span) {
     }
 }
 
-bool BranchPool::take_room(std::uint32_t count, std::uint32_t& first) {
+bool BranchPool::allocate(std::uint32_t count, std::uint32_t& first) {
     for (auto room = free_.begin(); room != free_.end(); ++room) {
         if (room->second >= count) {
             first = room->first;
@@ -121,14 +121,14 @@ bool BranchPool::take_room(std::uint32_t count, std::uint32_t& first) {
             return true;
         }
     }
-    // At the end, where some may be free already.
+    // At the end, merged with a free range there.
     first = static_cast<std::uint32_t>(branches_.size());
     const auto last = free_.empty() ? free_.end() : std::prev(free_.end());
     const bool free_end = last != free_.end() && last->first + last->second == first;
     if (free_end) {
         first = last->first;
     }
-    if (count > most_ - first) {
+    if (count > capacity_ - first) {
         return false;
     }
     if (free_end) {
@@ -138,9 +138,9 @@ bool BranchPool::take_room(std::uint32_t count, std::uint32_t& first) {
     return true;
 }
 
-void BranchPool::forget_before(std::uint64_t turn) {
+void BranchPool::forget_before(std::uint64_t frame) {
     for (auto entry = trees_.begin(); entry != trees_.end();) {
-        if (entry->second.turn < turn) {
+        if (entry->second.last_use < frame) {
             release(entry->second.span);
             entry = trees_.erase(entry);
         } else {

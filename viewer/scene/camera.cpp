@@ -18,12 +18,12 @@ namespace {
 
 constexpr glm::vec3 kUp{0.0F, 1.0F, 0.0F};
 constexpr float kSteepest = 1.553F; // radians above or below the horizon
-constexpr float kLeastField = 1.0F;
-constexpr float kGreatestField = 170.0F;
+constexpr float kMinField = 1.0F;
+constexpr float kMaxField = 170.0F;
 constexpr float kNearest = 0.02F;
 constexpr float kFarthest = 1e7F; // m, of eye and target
 
-/// Takes the next word off `text`.
+/// Removes the next word from `text`.
 std::string_view take_word(std::string_view& text) {
     const std::size_t begin = std::min(text.find_first_not_of(" \t"), text.size());
     const std::size_t end = std::min(text.find_first_of(" \t", begin), text.size());
@@ -51,19 +51,19 @@ bool parse_place(std::string_view text, glm::vec3& place) {
     return true;
 }
 
-struct Direction3 {
-    float around = 0.0F;  // from -Z towards +X
-    float upwards = 0.0F; // above the horizon
+struct ViewAngles {
+    float azimuth = 0.0F;   // from -Z towards +X
+    float elevation = 0.0F; // above the horizon
 };
 
-Direction3 angles_of(const glm::vec3& unit) {
+ViewAngles angles_of(const glm::vec3& unit) {
     return {std::atan2(unit.x, -unit.z), std::asin(std::clamp(unit.y, -1.0F, 1.0F))};
 }
 
-glm::vec3 unit_of(const Direction3& angles) {
-    const float steep = std::clamp(angles.upwards, -kSteepest, kSteepest);
-    return {std::sin(angles.around) * std::cos(steep), std::sin(steep),
-            -std::cos(angles.around) * std::cos(steep)};
+glm::vec3 unit_of(const ViewAngles& angles) {
+    const float steep = std::clamp(angles.elevation, -kSteepest, kSteepest);
+    return {std::sin(angles.azimuth) * std::cos(steep), std::sin(steep),
+            -std::cos(angles.azimuth) * std::cos(steep)};
 }
 
 } // namespace
@@ -85,8 +85,8 @@ Result<Camera> parse_camera(std::string_view text, const Camera& otherwise) {
                     fmt::format("a camera's {} is X,Y,Z in metres, not `{}`", word, value)};
             }
         } else if (word == "fov") {
-            if (!parse_float(value, camera.field_of_view) || camera.field_of_view < kLeastField ||
-                camera.field_of_view > kGreatestField) {
+            if (!parse_float(value, camera.field_of_view) || camera.field_of_view < kMinField ||
+                camera.field_of_view > kMaxField) {
                 return Error{
                     fmt::format("a camera's field of view is 1 to 170 degrees, not `{}`", value)};
             }
@@ -113,9 +113,9 @@ glm::vec3 right_of(const Camera& camera) {
 }
 
 Camera orbited(const Camera& camera, float around, float upwards) {
-    Direction3 angles = angles_of(forward_of(camera));
-    angles.around += around;
-    angles.upwards -= upwards;
+    ViewAngles angles = angles_of(forward_of(camera));
+    angles.azimuth += around;
+    angles.elevation -= upwards;
     Camera result = camera;
     result.eye = camera.target - glm::distance(camera.eye, camera.target) * unit_of(angles);
     return result;
@@ -140,9 +140,9 @@ Camera moved(const Camera& camera, float right, float up, float forward) {
 }
 
 Camera turned(const Camera& camera, float around, float upwards) {
-    Direction3 angles = angles_of(forward_of(camera));
-    angles.around += around;
-    angles.upwards += upwards;
+    ViewAngles angles = angles_of(forward_of(camera));
+    angles.azimuth += around;
+    angles.elevation += upwards;
     Camera result = camera;
     result.target = camera.eye + glm::distance(camera.eye, camera.target) * unit_of(angles);
     return result;
@@ -158,7 +158,7 @@ Camera framing(const Camera& camera, const Bounds& bounds, float aspect) {
     const glm::vec3 upwards = glm::cross(across, along);
     const float tangent = std::tan(0.5F * glm::radians(camera.field_of_view));
     result.target = 0.5F * (bounds.low + bounds.high);
-    // The nearest eye from which no corner of the box lies outside of the picture.
+    // Nearest eye with all corners of the box in the picture.
     float distance = 0.0F;
     for (unsigned corner = 0; corner < 8; ++corner) {
         const glm::vec3 at = {(corner & 1U) != 0 ? bounds.high.x : bounds.low.x,

@@ -13,19 +13,19 @@ namespace lsys::view {
 
 namespace {
 
-/// Radii of twigs that a level leaves out, as a part of the tree's height.
+/// Min radius of twigs by level, as a part of the tree's height.
 constexpr std::array<float, kTreeLevels> kThinnest = {0.0F, 0.0F, 0.0008F, 0.0016F};
-/// Of how many leaves a level shows one.
+/// Leaves per shown leaf by level.
 constexpr std::array<std::uint32_t, kTreeLevels> kLeavesOfOne = {1, 1, 2, 4};
-/// Of all forms together, unless there are more forms.
-constexpr std::size_t kAllPortraits = 16;
-/// With fewer, all are shown.
+/// Max impostors of all forms together, unless there are more forms.
+constexpr std::size_t kAllImpostors = 16;
+/// Below this count all leaves are shown.
 constexpr std::size_t kFewLeaves = 24;
 
-/// Of a form.
-std::size_t most_portraits_of(std::size_t forms) {
-    return std::clamp<std::size_t>(kAllPortraits / std::max<std::size_t>(forms, 1), 1,
-                                   kMostPortraits);
+/// Max impostors of a form.
+std::size_t max_impostors_of(std::size_t forms) {
+    return std::clamp<std::size_t>(kAllImpostors / std::max<std::size_t>(forms, 1), 1,
+                                   kMaxImpostors);
 }
 
 bool is_leaf(const PlacedObject& object) {
@@ -33,21 +33,21 @@ bool is_leaf(const PlacedObject& object) {
            object.kind == TurtleOperation::Flower;
 }
 
-/// Whether a leaf is one of those that are shown; those of a level are among those of a finer one.
+/// Whether a leaf is shown; a coarser level shows a subset of a finer one.
 bool is_shown(std::size_t leaf, std::uint32_t leaves_of_one) {
     const std::uint64_t mixed = golden_multiple(std::uint64_t{leaf} + 1);
     return (mixed >> 40 & (leaves_of_one - 1)) == 0;
 }
 
-Ball ball_of(const Bounds& bounds) {
+Sphere sphere_around(const Bounds& bounds) {
     if (bounds.empty) {
         return {};
     }
     return {0.5F * (bounds.low + bounds.high), 0.5F * glm::distance(bounds.low, bounds.high)};
 }
 
-/// The smallest ball around both.
-Ball joined(const Ball& a, const Ball& b) {
+/// Smallest sphere around both.
+Sphere joined(const Sphere& a, const Sphere& b) {
     const float distance = glm::distance(a.centre, b.centre);
     if (distance + b.radius <= a.radius) {
         return a;
@@ -57,17 +57,17 @@ Ball joined(const Ball& a, const Ball& b) {
     }
     const float radius = 0.5F * (distance + a.radius + b.radius);
     return {a.centre + (b.centre - a.centre) * ((radius - a.radius) / distance),
-            radius * 1.0001F}; // and rounding
+            radius * 1.0001F}; // rounding
 }
 
-/// The first tree whose whole plant is `instance`.
-bool find_portrait(const InstanceCache& cache,
+/// Finds the first tree whose whole plant is `instance`.
+bool find_impostor(const InstanceCache& cache,
                    std::uint64_t key,
                    std::uint32_t instance,
                    Tree& tree) {
-    constexpr std::uint32_t kMostTries = 4096;
+    constexpr std::uint32_t kMaxTries = 4096;
     TreeExpander expander(cache, key);
-    for (tree.number = 0; tree.number < kMostTries; ++tree.number) {
+    for (tree.number = 0; tree.number < kMaxTries; ++tree.number) {
         if (expander.root_instance(tree) == instance) {
             return true;
         }
@@ -75,34 +75,34 @@ bool find_portrait(const InstanceCache& cache,
     return false;
 }
 
-void find_portraits(TreeForm& form, std::uint64_t key, std::size_t most) {
+void find_impostors(TreeForm& form, std::uint64_t key, std::size_t most) {
     const InstanceCache& cache = *form.cache;
     const InstanceSlot& whole = cache.slots[0];
-    form.portrait_of.assign(cache.instances.size(), 0);
+    form.impostor_of.assign(cache.instances.size(), 0);
     for (std::uint32_t v = 0; v < whole.variant_count; ++v) {
         const std::uint32_t instance = cache.variants[whole.first_variant + v];
         Tree tree;
-        if (form.portraits.size() < most && find_portrait(cache, key, instance, tree)) {
-            form.portrait_of[instance] = static_cast<std::uint32_t>(form.portraits.size());
-            form.portraits.push_back(tree);
+        if (form.impostor_trees.size() < most && find_impostor(cache, key, instance, tree)) {
+            form.impostor_of[instance] = static_cast<std::uint32_t>(form.impostor_trees.size());
+            form.impostor_trees.push_back(tree);
         } else {
-            form.portrait_of[instance] = static_cast<std::uint32_t>(v % most);
+            form.impostor_of[instance] = static_cast<std::uint32_t>(v % most);
         }
     }
-    for (std::uint32_t& portrait : form.portrait_of) {
-        portrait = std::min(portrait, static_cast<std::uint32_t>(form.portraits.size()) - 1);
+    for (std::uint32_t& impostor : form.impostor_of) {
+        impostor = std::min(impostor, static_cast<std::uint32_t>(form.impostor_trees.size()) - 1);
     }
 }
 
-/// The cylinder about the portraits, and how many branches they have. `seen`: the surface of what a
-/// tree is drawn of.
-void measure_portraits(TreeForm& form, std::uint64_t key, const InstanceMeshes& seen) {
+/// Measures the bounding cylinder and the mean count of branches of the impostors. `seen`: surfaces
+/// of the branches.
+void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& seen) {
     const LargeVector<std::uint32_t> indices = seen.mesh.indices.expanded();
     const LargeVector<glm::vec3>& positions = seen.mesh.positions;
     TreeExpander expander(*form.cache, key);
-    const auto count = static_cast<double>(form.portraits.size());
+    const auto count = static_cast<double>(form.impostor_trees.size());
     float radius2 = 0.0F;
-    for (const Tree& tree : form.portraits) {
+    for (const Tree& tree : form.impostor_trees) {
         expander.expand(tree, [&](const BranchInstance& branch) {
             form.branches += 1.0 / count;
             const InstancePose pose = pose_of(branch, form.cache->instances[branch.instance]);
@@ -121,7 +121,7 @@ void measure_portraits(TreeForm& form, std::uint64_t key, const InstanceMeshes& 
     form.radius = std::sqrt(radius2);
 }
 
-/// Of the triangles of each instance at any level, seen from its entry.
+/// Bounding boxes of the triangles of each instance at any level, in the frame of its entry.
 std::vector<Bounds> bounds_of_levels(const InstanceCache& cache, const TreeMeshes& levels) {
     std::vector<Bounds> all(cache.instances.size());
     for (const InstanceMeshes& level : levels) {
@@ -136,27 +136,28 @@ std::vector<Bounds> bounds_of_levels(const InstanceCache& cache, const TreeMeshe
     return all;
 }
 
-/// Around boxes that are seen from the entries of instances, where the heroes have them.
-std::vector<Ball> balls_in_heroes(const InstanceCache& cache, const std::vector<Bounds>& bounds) {
-    std::vector<Ball> balls;
+/// Bounding spheres in the heroes' frame of boxes in the frames of the entries.
+std::vector<Sphere> spheres_in_heroes(const InstanceCache& cache,
+                                      const std::vector<Bounds>& bounds) {
+    std::vector<Sphere> spheres;
     for (std::size_t i = 0; i < bounds.size(); ++i) {
         if (bounds[i].empty) {
-            balls.push_back({{}, -1.0F});
+            spheres.push_back({{}, -1.0F});
             continue;
         }
         const Instance& instance = cache.instances[i];
-        const Ball ball = ball_of(bounds[i]);
-        balls.push_back(
-            {glm::vec3(instance.position) + glm::quat(instance.frame) * ball.centre, ball.radius});
+        const Sphere sphere = sphere_around(bounds[i]);
+        spheres.push_back({glm::vec3(instance.position) + glm::quat(instance.frame) * sphere.centre,
+                           sphere.radius});
     }
-    return balls;
+    return spheres;
 }
 
 InstanceMeshStatus make_form(const InstanceCache& cache,
                              std::uint64_t key,
                              const std::vector<UserMesh>& user_meshes,
                              const MeshOptions& options,
-                             std::size_t most_portraits,
+                             std::size_t max_impostors,
                              TreeForm& form) {
     form.cache = &cache;
     const auto meshes = std::make_shared<TreeMeshes>();
@@ -169,8 +170,8 @@ InstanceMeshStatus make_form(const InstanceCache& cache,
     if (status != InstanceMeshStatus::Ok) {
         return status;
     }
-    find_portraits(form, key, most_portraits);
-    measure_portraits(form, key, levels[0]);
+    find_impostors(form, key, max_impostors);
+    measure_impostors(form, key, levels[0]);
     for (std::uint32_t level = 1; level < kTreeLevels; ++level) {
         level_options.level = options.level + level;
         status = make_instance_meshes(coarsened(cache, level, form.height()), user_meshes,
@@ -187,11 +188,11 @@ InstanceMeshStatus make_form(const InstanceCache& cache,
         }
     }
     const std::vector<Bounds> bounds = bounds_of_levels(cache, levels);
-    form.reach = reaches_of(cache, bounds)[0];
-    form.mesh_balls = balls_in_heroes(cache, bounds);
+    form.sphere = bounding_spheres(cache, bounds)[0];
+    form.mesh_spheres = spheres_in_heroes(cache, bounds);
     TreeExpander expander(cache, key);
-    const auto count = static_cast<double>(form.portraits.size());
-    for (const Tree& tree : form.portraits) {
+    const auto count = static_cast<double>(form.impostor_trees.size());
+    for (const Tree& tree : form.impostor_trees) {
         expander.expand(tree, [&](const BranchInstance& branch) {
             for (std::uint32_t level = 0; level < kTreeLevels; ++level) {
                 form.triangles[level] += form.mesh_triangles[level][branch.instance] / count;
@@ -229,10 +230,11 @@ std::vector<Bounds> bounds_of(const InstanceCache& cache, const InstanceMeshes& 
     return bounds;
 }
 
-std::vector<Ball> reaches_of(const InstanceCache& cache, const std::vector<Bounds>& bounds) {
-    std::vector<Ball> reaches(cache.slots.size());
+std::vector<Sphere> bounding_spheres(const InstanceCache& cache,
+                                     const std::vector<Bounds>& bounds) {
+    std::vector<Sphere> spheres(cache.slots.size());
     std::vector<bool> known(cache.slots.size());
-    // Depth first; what an exit leads to is known before what has the exit.
+    // Depth first: the target of an exit before the instance with the exit.
     std::vector<std::uint32_t> pending{0};
     std::vector<bool> begun(cache.slots.size());
     while (!pending.empty()) {
@@ -258,24 +260,24 @@ std::vector<Ball> reaches_of(const InstanceCache& cache, const std::vector<Bound
         if (waits) {
             continue;
         }
-        Ball all;
+        Sphere all;
         for (std::uint32_t v = 0; v < slot.variant_count; ++v) {
             const std::uint32_t i = cache.variants[slot.first_variant + v];
             const Instance& instance = cache.instances[i];
-            Ball ball = ball_of(bounds[i]);
+            Sphere sphere = sphere_around(bounds[i]);
             for (std::uint32_t e = 0; e < instance.exit_count; ++e) {
                 const InstanceExit& exit = cache.exits[instance.first_exit + e];
-                const Ball& further = reaches[exit.slot];
-                ball =
-                    joined(ball, {exit.position + exit.rotation * further.centre, further.radius});
+                const Sphere& further = spheres[exit.slot];
+                sphere = joined(sphere,
+                                {exit.position + exit.rotation * further.centre, further.radius});
             }
-            all = v == 0 ? ball : joined(all, ball);
+            all = v == 0 ? sphere : joined(all, sphere);
         }
-        reaches[index] = all;
+        spheres[index] = all;
         known[index] = true;
         pending.pop_back();
     }
-    return reaches;
+    return spheres;
 }
 
 InstanceCache coarsened(const InstanceCache& cache, std::uint32_t level, float height) {
@@ -326,10 +328,10 @@ InstanceMeshStatus make_forest_model(const Forest& forest,
     for (const ForestSpecies& species : forest.species) {
         forms += species.stages.size();
     }
-    const std::size_t most_portraits = most_portraits_of(forms);
+    const std::size_t max_impostors = max_impostors_of(forms);
     const bool knows = known.model != nullptr && known.key == forest.key &&
                        known.options == options &&
-                       most_portraits == most_portraits_of(known.model->forms.size());
+                       max_impostors == max_impostors_of(known.model->forms.size());
     for (std::size_t s = 0; s < forest.species.size(); ++s) {
         model.first_form.push_back(static_cast<std::uint32_t>(model.forms.size()));
         if (knows && known.species[s]) {
@@ -342,7 +344,7 @@ InstanceMeshStatus make_forest_model(const Forest& forest,
         }
         for (const ForestStage& stage : forest.species[s].stages) {
             const InstanceMeshStatus status =
-                make_form(stage.cache, forest.key, user_meshes[s], options, most_portraits,
+                make_form(stage.cache, forest.key, user_meshes[s], options, max_impostors,
                           model.forms.emplace_back());
             if (status != InstanceMeshStatus::Ok) {
                 return status;

@@ -1,5 +1,5 @@
-// ForestModel: what the viewer draws of a forest: for each stage of each species its branches as
-// meshes of several levels of detail, and how large its trees are.
+// ForestModel: geometry of a forest for drawing: the branches of each stage of each species as
+// meshes of several levels of detail, and the sizes of its trees.
 #pragma once
 
 #include "runtime/forest/forest.h"
@@ -15,38 +15,37 @@
 namespace lsys::view {
 
 inline constexpr std::uint32_t kTreeLevels = 4; // 0 is the finest
-/// Trees of a form that impostors are made of, at most.
-inline constexpr std::uint32_t kMostPortraits = 4;
+/// Max impostors of a form.
+inline constexpr std::uint32_t kMaxImpostors = 4;
 
-struct Ball {
+struct Sphere {
     glm::vec3 centre{};
     float radius = 0.0F; // m
 };
 
-/// Of each level, finest first.
+/// Meshes by level, finest first.
 using TreeMeshes = std::array<InstanceMeshes, kTreeLevels>;
 
-/// Plants of one species with one number of generations, seen from outside. Lengths are of trees of
-/// scale 1 at the origin.
+/// Plants of one species with one number of generations. Lengths are those of a tree of scale 1.
 struct TreeForm {
     const InstanceCache* cache = nullptr;
-    std::shared_ptr<const TreeMeshes> meshes; // may be given back once they are drawn from
-    std::array<std::vector<std::uint32_t>, kTreeLevels> mesh_triangles; // of each instance
-    /// Around the triangles of each instance at any level, where its hero has them; radius below 0:
-    /// there are none.
-    std::vector<Ball> mesh_balls;
-    std::array<double, kTreeLevels> triangles{}; // of a tree, the mean of the portraits
-    double branches = 0.0;                       // the same
-    /// Holds every tree, whatever branches it is of, at yaw 0.
-    Ball reach;
-    /// Of the portraits: a cylinder about +Y.
+    std::shared_ptr<const TreeMeshes> meshes; // may be released after upload
+    std::array<std::vector<std::uint32_t>, kTreeLevels> mesh_triangles; // by level and instance
+    /// Bounding spheres of the triangles of each instance at any level, in the hero's frame; radius
+    /// below 0: no triangles.
+    std::vector<Sphere> mesh_spheres;
+    std::array<double, kTreeLevels> triangles{}; // per tree by level, mean over impostor_trees
+    double branches = 0.0;                       // per tree, mean over impostor_trees
+    /// Bounding sphere of every possible tree at yaw 0.
+    Sphere sphere;
+    /// Cylinder around +Y that bounds impostor_trees, m.
     float radius = 0.0F;
     float low = 0.0F;
     float high = 0.0F;
-    /// Trees that stand for all whose whole plant (first branch) is of the same hero, at the
-    /// origin, with yaw 0 and scale 1.
-    std::vector<Tree> portraits;
-    std::vector<std::uint32_t> portrait_of; // by instance: of whole plants; 0 for others
+    /// One tree per impostor, at the origin with yaw 0 and scale 1. It stands for all trees whose
+    /// first branch comes from the same hero.
+    std::vector<Tree> impostor_trees;
+    std::vector<std::uint32_t> impostor_of; // impostor by instance of a whole plant; 0 for others
 
     [[nodiscard]] float height() const { return high - low; }
 };
@@ -55,7 +54,7 @@ struct ForestModel {
     const Forest* forest = nullptr;
     const Terrain* terrain = nullptr;
     std::vector<TreeForm> forms;
-    std::vector<std::uint32_t> first_form; // of each species; its stages follow one another
+    std::vector<std::uint32_t> first_form; // by species; its stages follow
 
     [[nodiscard]] std::uint32_t form_of(const Tree& tree) const {
         return first_form[tree.species] + forest->stage_of(tree);
@@ -63,18 +62,17 @@ struct ForestModel {
     [[nodiscard]] std::uint64_t mesh_bytes() const;
 };
 
-/// A model that was made before, with its meshes.
+/// An earlier model whose meshes may be reused.
 struct KnownModel {
     const ForestModel* model = nullptr;
-    std::uint64_t key = 0; // of its forest
+    std::uint64_t key = 0; // key of its forest
     MeshOptions options;
-    /// Of each species of the new forest, the one there with the same heroes.
+    /// Species of that model with the same heroes, by species of the new forest.
     std::vector<std::optional<std::size_t>> species;
 };
 
-/// `user_meshes` are those of each species. Forest and terrain outlive the model. `options.level`
-/// is that of the finest. What `known` has is taken from there. Other than Ok: what could not be
-/// made.
+/// Builds the model, reusing what `known` has. `user_meshes`: by species. `options.level`: of the
+/// finest level. Forest and terrain must outlive the model. Returns the reason of a failure.
 [[nodiscard]] InstanceMeshStatus
 make_forest_model(const Forest& forest,
                   const Terrain& terrain,
@@ -83,16 +81,17 @@ make_forest_model(const Forest& forest,
                   ForestModel& model,
                   const KnownModel& known = {});
 
-/// The heroes of a cache as level `level` shows them: thin twigs are left out, and so are leaves,
-/// of which the others are larger, at most twice as long. `height`: of the trees, m.
+/// Heroes of a cache at a coarser `level`: without thin twigs, and with fewer but larger leaves, at
+/// most twice as long. `height`: of a tree, m.
 [[nodiscard]] InstanceCache
 coarsened(const InstanceCache& cache, std::uint32_t level, float height);
 
-/// Of the triangles of each instance, seen from its entry.
+/// Bounding box of the triangles of each instance, in the frame of its entry.
 [[nodiscard]] std::vector<Bounds> bounds_of(const InstanceCache& cache,
                                             const InstanceMeshes& meshes);
-/// Around all that a slot can stand for, seen from its entry; by slot. `bounds`: by instance.
-[[nodiscard]] std::vector<Ball> reaches_of(const InstanceCache& cache,
-                                           const std::vector<Bounds>& bounds);
+/// Bounding sphere, by slot, of every branch that can fill it, in the frame of its entry. `bounds`:
+/// by instance.
+[[nodiscard]] std::vector<Sphere> bounding_spheres(const InstanceCache& cache,
+                                                   const std::vector<Bounds>& bounds);
 
 } // namespace lsys::view

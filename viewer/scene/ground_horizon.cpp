@@ -13,24 +13,24 @@ namespace lsys::view {
 namespace {
 
 constexpr float kTurn = 2.0F * std::numbers::pi_v<float>;
-constexpr float kFirst = 2.0F; // m, of the first step; what is nearer hides nothing
+constexpr float kFirst = 2.0F; // m: nearer ground occludes nothing
 constexpr float kRatio = 1.06F;
-/// Rise a metre by which what is hidden lies lower: the arc between two directions is taken for a
-/// line, and distances are those of its ends.
+/// Margin of slopes: the arc between two directions is taken as a line with the distances of its
+/// ends.
 constexpr float kMargin = 5e-4F;
 
-/// Steps to a distance; whole steps lie no farther.
+/// Steps up to a distance; whole steps lie no farther.
 float steps_to(float distance) {
     return std::log(distance / kFirst) / std::log(kRatio);
 }
 
 } // namespace
 
-void GroundHorizon::look(const TerrainView& ground, const glm::vec3& eye) {
-    // From below the ground is not seen.
+void GroundHorizon::set_viewpoint(const TerrainLod& ground, const glm::vec3& eye) {
+    // The ground is invisible from below.
     ground_ = ground.eye_height() > 0.0F ? &ground : nullptr;
     eye_ = eye;
-    const float reach = TerrainView::range(ground.levels() - 1);
+    const float reach = TerrainLod::range(ground.levels() - 1);
     steps_ = static_cast<std::uint32_t>(steps_to(reach));
     for (Sector& sector : sectors_) {
         sector.known = false;
@@ -40,12 +40,12 @@ void GroundHorizon::look(const TerrainView& ground, const glm::vec3& eye) {
 float GroundHorizon::lowest_between(std::uint32_t sector, float distance) const {
     const float away = std::hypot(distance, ground_->eye_height());
     std::uint32_t level = 0;
-    while (away >= TerrainView::range(level)) {
+    while (away >= TerrainLod::range(level)) {
         if (++level == ground_->levels()) {
             return -std::numeric_limits<float>::infinity(); // no ground is drawn there
         }
     }
-    const float cell = TerrainView::cell(level);
+    const float cell = TerrainLod::cell(level);
     const auto at = [&](std::uint32_t direction) {
         const float angle = kTurn / kDirections * static_cast<float>(direction);
         return glm::vec2(eye_.x + distance * std::sin(angle), eye_.z + distance * std::cos(angle)) /
@@ -53,7 +53,7 @@ float GroundHorizon::lowest_between(std::uint32_t sector, float distance) const 
     };
     const glm::vec2 first = at(sector);
     const glm::vec2 last = at(sector + 1);
-    // Corners of cells there, and those that they move to, one cell beyond.
+    // Grid corners there, and one cell beyond, to where they morph.
     const glm::ivec2 low = glm::ivec2(glm::floor(glm::min(first, last))) - 1;
     const glm::ivec2 high = glm::ivec2(glm::floor(glm::max(first, last))) + 2;
     const HeightGrid& grid = ground_->grid(level);
@@ -93,7 +93,7 @@ bool GroundHorizon::hides(const glm::vec3& low, const glm::vec3& high) {
         return false;
     }
     const glm::vec2 middle = 0.5F * glm::vec2(low.x + high.x, low.z + high.z) - eye;
-    float left = 0.0F; // angles of the corners from that of the middle
+    float left = 0.0F; // angles of the corners from the middle
     float right = 0.0F;
     float farthest = 0.0F;
     for (const float x : {low.x, high.x}) {

@@ -1,10 +1,10 @@
-// GroundHorizon: what the ground hides. In each direction from the eye it knows how high the ground
-// that is drawn rises as far as a distance, and errs to the lower side: what it hides cannot be
-// seen. No OpenGL.
+// GroundHorizon: occlusion by the ground. Stores, for directions around the eye, how steeply the
+// drawn ground rises up to each distance. Conservative: everything it reports as hidden is
+// invisible. No OpenGL.
 #pragma once
 
-#include "viewer/scene/terrain_view.h"
-#include "viewer/scene/view_volume.h"
+#include "viewer/scene/frustum.h"
+#include "viewer/scene/terrain_lod.h"
 
 #include <array>
 #include <cstdint>
@@ -14,15 +14,15 @@ namespace lsys::view {
 
 class GroundHorizon {
 public:
-    /// For the eye that `ground` was selected for. What is found goes with the next call.
-    void look(const TerrainView& ground, const glm::vec3& eye);
-    /// Whether the ground hides all of a box, m.
+    /// Prepares for the eye that `ground` was selected for; discards earlier results.
+    void set_viewpoint(const TerrainLod& ground, const glm::vec3& eye);
+    /// Whether the ground occludes a whole box, m.
     [[nodiscard]] bool hides(const glm::vec3& low, const glm::vec3& high);
 
 private:
     static constexpr std::uint32_t kDirections = 512;
 
-    /// The steepest view, in rise a metre, that ground between two directions hides as far as each
+    /// Steepest slope (rise / distance) that the ground between two directions occludes, up to each
     /// distance.
     struct Sector {
         bool known = false;
@@ -32,7 +32,7 @@ private:
     [[nodiscard]] const std::vector<float>& slopes_of(std::uint32_t sector);
     [[nodiscard]] float lowest_between(std::uint32_t sector, float distance) const;
 
-    const TerrainView* ground_ = nullptr; // none: hides nothing
+    const TerrainLod* ground_ = nullptr; // null: occludes nothing
     glm::vec3 eye_{};
     std::uint32_t steps_ = 0;
     std::array<Sector, kDirections> sectors_;

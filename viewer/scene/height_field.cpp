@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Cuts [begin, end] to where origin + t * direction lies in [low, high].
+/// Clips [begin, end] to the part where origin + t * direction lies in [low, high].
 bool cut(double origin, double direction, double low, double high, double& begin, double& end) {
     if (direction == 0.0) {
         return origin >= low && origin <= high;
@@ -19,7 +19,7 @@ bool cut(double origin, double direction, double low, double high, double& begin
     const double b = (high - origin) / direction;
     begin = std::max(begin, std::min(a, b));
     end = std::min(end, std::max(a, b));
-    // Borders belong to both sides, whichever way they were rounded.
+    // Tolerance: a border belongs to both sides, however it was rounded.
     const double slack = 1e-12 * (std::abs(begin) + std::abs(end));
     return begin <= end + slack;
 }
@@ -67,7 +67,7 @@ double HeightField::height_at(std::uint32_t column, std::uint32_t row) const {
     return static_cast<double>(heights_[std::size_t{row} * (columns_ + 1) + column]);
 }
 
-/// The part of the ray over a square, unless it flies over all of it.
+/// Part of the ray over a square; none if the ray stays above it.
 std::optional<HeightField::Span> HeightField::clip(const Ray& ray,
                                                    std::uint32_t level,
                                                    std::uint32_t column,
@@ -98,7 +98,7 @@ std::optional<HeightField::Span> HeightField::clip(const Ray& ray,
     return span;
 }
 
-/// The height of the ray above the ground is linear on each side of the cell's diagonal.
+/// Intersects the triangles of a cell: the height of the ray above each is linear.
 std::optional<double> HeightField::pick_in_cell(const Ray& ray,
                                                 const Span& span,
                                                 std::uint32_t column,
@@ -123,7 +123,7 @@ std::optional<double> HeightField::pick_in_cell(const Ray& ray,
     if (height <= 0.0) {
         return begin;
     }
-    if (std::isinf(span.end)) { // straight down
+    if (std::isinf(span.end)) { // vertical ray
         return ray.direction.y < 0.0 ? std::optional(begin - height / ray.direction.y)
                                      : std::nullopt;
     }
@@ -165,12 +165,12 @@ std::optional<glm::dvec3> HeightField::pick(const Ray& ray) const {
             }
             continue;
         }
-        // The nearest of the four comes off the stack first.
+        // The nearest of the four is popped first.
         const Level& finer = levels_[square.level - 1];
         const std::uint32_t near_column = ray.direction.x < 0.0 ? 1 : 0;
         const std::uint32_t near_row = ray.direction.z < 0.0 ? 1 : 0;
-        // Of the two beside the nearest, the order does not matter: a ray meets one of them only,
-        // or both at the corner that all share.
+        // The order of the two beside it is irrelevant: a ray meets only one of them, or both at
+        // the corner shared by all four.
         for (const std::uint32_t which : {3U, 2U, 1U, 0U}) {
             const Square child{square.level - 1, 2 * square.column + (near_column ^ (which & 1U)),
                                2 * square.row + (near_row ^ (which >> 1U))};

@@ -1,7 +1,7 @@
-// HeightField: a ground as a grid of heights, for finding where a ray meets it. Cells are two
-// triangles, split from their lowest corner along X and Z to the opposite one. A pyramid of
-// greatest heights leaves out what a ray flies over (Tevs, Ihrke and Seidel 2008, "Maximum
-// mipmaps"), so that no ridge is missed and the time grows with the logarithm of the grid.
+// HeightField: grid of ground heights for ray casting. A cell is two triangles, split along the
+// diagonal from its lowest x and z. A pyramid of max heights skips cells below the ray (Tevs, Ihrke
+// and Seidel 2008, "Maximum mipmaps"): no ridge is missed, and the time grows with the logarithm of
+// the grid.
 #pragma once
 
 #include "runtime/terrain/region.h"
@@ -23,20 +23,19 @@ struct Ray {
 
 class HeightField {
 public:
-    /// Of the terrain's region, with so many cells along X and Z, at least 1 each.
+    /// Samples the region of the terrain in columns x rows cells, at least 1 each.
     HeightField(const Terrain& terrain, std::uint32_t columns, std::uint32_t rows);
 
     [[nodiscard]] std::uint32_t columns() const { return columns_; }
     [[nodiscard]] std::uint32_t rows() const { return rows_; }
-    /// columns() + 1 heights for each of rows() + 1 rows, m.
+    /// Rows of columns() + 1 heights, m; rows() + 1 of them.
     [[nodiscard]] std::span<const float> heights() const { return heights_; }
 
-    /// Where the ray first is on the ground or below it; nowhere if it only flies over it or beside
-    /// it.
+    /// First point of the ray on the ground or below it; none if the ray passes over or beside it.
     [[nodiscard]] std::optional<glm::dvec3> pick(const Ray& ray) const;
 
 private:
-    struct Span { // of the ray, in its direction's lengths
+    struct Span { // parameters of the ray
         double begin = 0.0;
         double end = 0.0;
     };
@@ -47,7 +46,7 @@ private:
     [[nodiscard]] std::optional<double>
     pick_in_cell(const Ray& ray, const Span& span, std::uint32_t column, std::uint32_t row) const;
 
-    /// Greatest heights of squares of cells; each level has half the sides of the one before.
+    /// Max heights of squares of cells; each level has half the sides of the one before.
     struct Level {
         std::uint32_t columns = 0;
         std::uint32_t rows = 0;

@@ -13,7 +13,7 @@ using Colour = std::array<std::uint8_t, 4>;
 
 constexpr Colour kJump = {150, 150, 150, 255};
 
-/// From blue (0) by green and yellow to red (1).
+/// Colour from blue (0) through green and yellow to red (1).
 Colour ramp(float at) {
     const float hue = 0.2F + 0.65F * at;
     const auto channel = [hue](float middle) {

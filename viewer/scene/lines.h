@@ -1,4 +1,4 @@
-// Lines: what the turtle did, drawn without surfaces.
+// Lines: skeleton and turtle path as coloured lines.
 #pragma once
 
 #include "runtime/turtle/skeleton.h"
@@ -13,8 +13,8 @@ namespace lsys::view {
 
 enum class LineKind : std::uint8_t {
     None,
-    Skeleton,   // segments, coloured by how many brackets are around them; outlines of polygons
-    TurtlePath, // segments, coloured by when they were drawn; grey where the turtle jumped
+    Skeleton,   // segments coloured by branching order; outlines of polygons
+    TurtlePath, // segments coloured by time; jumps of the turtle in grey
 };
 
 struct LineVertex {
@@ -22,7 +22,7 @@ struct LineVertex {
     std::array<std::uint8_t, 4> colour{}; // sRGB
 };
 
-/// Two vertices for each line.
+/// Two vertices per line.
 [[nodiscard]] std::vector<LineVertex> make_lines(const Skeleton& skeleton, LineKind kind);
 
 } // namespace lsys::view

@@ -10,13 +10,14 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint32_t kMostCells = std::uint32_t{1} << 22;
-constexpr std::uint32_t kPaintGeneration = 0x5041494EU; // of draws, apart from those of placements
-// How many places are tried for each tree that the brush has room for, and at most in one call.
+constexpr std::uint32_t kMaxCells = std::uint32_t{1} << 22;
+constexpr std::uint32_t kPaintGeneration =
+    0x5041494EU; // separates these random numbers from those of placements
+// Tries per tree that fits the brush, and max tries per call.
 constexpr double kTries = 4.0;
-constexpr double kMostTries = 20'000.0;
-// Trees that are put at random no nearer than d stand about 0.7 / d^2 to the square metre (Renyi's
-// jamming limit for discs is 0.547 of the area: 0.547 * 4 / pi = 0.696).
+constexpr double kMaxTries = 20'000.0;
+// Trees at random at least d apart reach about 0.7 / d^2 per square metre (Renyi's jamming limit of
+// discs is 0.547 of the area: 0.547 * 4 / pi = 0.696).
 constexpr float kJammed = 0.696F;
 
 } // namespace
@@ -27,9 +28,9 @@ Painter::Painter(std::span<const Tree> placed,
                  const Terrain& terrain,
                  std::uint64_t key)
     : placed_(placed), region_(region), terrain_(&terrain), key_(key) {
-    // About two trees a square.
+    // About two trees per square.
     const double wanted = std::clamp(static_cast<double>(placed.size()) / 2.0, 1024.0,
-                                     static_cast<double>(kMostCells) / 2.0);
+                                     static_cast<double>(kMaxCells) / 2.0);
     cell_ = static_cast<float>(std::sqrt(region.area() / wanted));
     columns_ = static_cast<std::uint32_t>(region.width / static_cast<double>(cell_)) + 1;
     rows_ = static_cast<std::uint32_t>(region.depth / static_cast<double>(cell_)) + 1;
@@ -97,8 +98,8 @@ std::uint32_t Painter::cell_of(float x, float z) const {
            index(static_cast<double>(x) - region_.x, columns_);
 }
 
-/// Whether `visit(index)` is true for a tree that is alive and nearer than `radius`; asks until it
-/// is.
+/// Calls `visit(index)` for living trees nearer than `radius` until it returns true; returns
+/// whether it did.
 template <typename Visit>
 bool Painter::any_near(float x, float z, float radius, const Visit& visit) const {
     const std::uint32_t low = cell_of(x - radius, z - radius);
@@ -140,7 +141,7 @@ void Painter::record(std::uint32_t index, bool alive) {
     changes_.push_back(log_.back());
 }
 
-/// Not alive yet.
+/// Adds a tree as not alive.
 void Painter::add(const PaintedTree& paint) {
     const std::uint32_t cell = cell_of(paint.x, paint.z);
     paints_.push_back(paint);
@@ -150,7 +151,7 @@ void Painter::add(const PaintedTree& paint) {
     painted_alive_.push_back(0);
 }
 
-/// Strokes that were undone cannot be redone any more; trees that only they had are given back.
+/// Drops undone strokes, which redo() no longer restores, and the trees only they had.
 void Painter::forget_undone() {
     if (done_ == strokes_.size()) {
         return;
@@ -161,7 +162,7 @@ void Painter::forget_undone() {
     const std::size_t first = strokes_[done_].first;
     std::size_t kept = painted_.size();
     for (std::size_t i = first; i < log_.size(); ++i) {
-        if (log_[i].alive) { // a painted tree comes into the log with its birth
+        if (log_[i].alive) { // the first entry of a painted tree is its birth
             kept = std::min<std::size_t>(kept, log_[i].index - placed_.size());
         }
     }
@@ -196,7 +197,7 @@ std::span<const TreeChange> Painter::paint(float x, float z, const Brush& brush)
     const float spacing = std::sqrt(kJammed / brush.density);
     const double room = std::numbers::pi * static_cast<double>(brush.radius) *
                         static_cast<double>(brush.radius) * static_cast<double>(brush.density);
-    const auto tries = static_cast<std::uint32_t>(std::clamp(kTries * room, 1.0, kMostTries));
+    const auto tries = static_cast<std::uint32_t>(std::clamp(kTries * room, 1.0, kMaxTries));
     for (std::uint32_t i = 0; i < tries; ++i) {
         const PhiloxBlock words = draw_block(key_, kPaintGeneration, draws_++, 0);
         const float angle = 2.0F * std::numbers::pi_v<float> * unit_interval(words[0]);

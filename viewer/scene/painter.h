@@ -1,5 +1,5 @@
-// Painter: a forest that is changed by hand: trees are put under a brush or taken away, undone and
-// redone. What it costs grows with the trees that change, not with the forest.
+// Painter: adds and removes trees by hand, with undo and redo. Cost grows with the changed trees,
+// not with the forest.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -16,33 +16,32 @@ namespace lsys::view {
 
 struct Brush {
     float radius = 5.0F;   // m
-    float density = 0.05F; // trees a square metre that it fills up to
+    float density = 0.05F; // max trees per square metre
     std::uint16_t species = 0;
     float least_scale = 0.8F;
     float greatest_scale = 1.2F;
 };
 
-/// A tree that came or went.
+/// A tree that was added or removed.
 struct TreeChange {
-    std::uint32_t index = 0; // of Painter::tree()
+    std::uint32_t index = 0; // for Painter::tree()
     bool alive = false;
 };
 
 class Painter {
 public:
-    /// `placed` and `terrain` outlive the painter, or what move_to() was called for, and do not
-    /// change. `painting` is what was painted before: those of its erased trees that are in
-    /// `placed` are not alive. `key` is the forest's.
+    /// `placed` and `terrain` must stay unchanged and outlive the painter or the next move_to().
+    /// `painting`: earlier changes; its erased trees start removed. `key`: of the forest.
     Painter(std::span<const Tree> placed,
             const Painting& painting,
             const Region& region,
             const Terrain& terrain,
             std::uint64_t key);
-    /// The same trees on the same ground, which lie elsewhere from now on. False: they are others,
-    /// and nothing has happened.
+    /// Continues with equal trees and ground at other addresses. False, without effect, if they
+    /// differ.
     [[nodiscard]] bool move_to(std::span<const Tree> placed, const Terrain& terrain);
 
-    /// Placed trees first, then all that were ever painted.
+    /// Count of placed trees, then of all trees ever painted.
     [[nodiscard]] std::uint32_t tree_count() const {
         return static_cast<std::uint32_t>(placed_.size() + painted_.size());
     }
@@ -55,34 +54,34 @@ public:
     }
     [[nodiscard]] std::uint64_t alive_count() const { return alive_count_; }
 
-    /// What follows is undone at once, until the next stroke.
+    /// Begins a stroke; undo() takes back whole strokes.
     void begin_stroke();
-    /// Puts trees under the brush, none nearer to another than its density asks for, none beyond
-    /// the region. The changes are good until the next call of the painter.
+    /// Fills the brush up to its density, within the region. Trees keep the distance of that
+    /// density. The result is valid until the next call.
     std::span<const TreeChange> paint(float x, float z, const Brush& brush);
-    /// Puts one tree at a place, of the brush's species and scales, unless one stands there or it
-    /// is beyond the region.
+    /// Plants one tree with the brush's species and scales, unless a tree stands there or the place
+    /// is outside the region.
     std::span<const TreeChange> plant(float x, float z, const Brush& brush);
-    /// Takes all trees under the brush away.
+    /// Removes all trees under the brush.
     std::span<const TreeChange> erase(float x, float z, float radius);
 
     [[nodiscard]] bool can_undo() const { return done_ != 0; }
     [[nodiscard]] bool can_redo() const { return done_ != strokes_.size(); }
-    /// Of the last stroke; nothing if there is none.
+    /// Takes back the last stroke; without one, nothing.
     std::span<const TreeChange> undo();
     std::span<const TreeChange> redo();
 
-    /// For a scene file.
+    /// Changes in the form of a scene file.
     [[nodiscard]] Painting painting() const;
-    /// Whether it is another one than at the last call of saved(), or at the start.
+    /// Whether painting() differs from that at the last saved(), or at the start.
     [[nodiscard]] bool is_changed() const { return done_ != saved_; }
     void saved() { saved_ = done_; }
-    /// What was painted before is in no file.
+    /// Marks the initial painting as not saved.
     void set_unsaved() { saved_ = kNone; }
 
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-    /// Changes from `first` on, up to those of the next stroke.
+    /// Changes from `first` up to the first of the next stroke.
     struct Stroke {
         std::size_t first = 0;
     };
@@ -103,26 +102,26 @@ private:
     const Terrain* terrain_;
     std::uint64_t key_;
     LargeVector<Tree> painted_;
-    std::vector<PaintedTree> paints_; // as they were painted, beside painted_
+    std::vector<PaintedTree> paints_; // parallel to painted_
     LargeVector<std::uint8_t> placed_alive_;
     LargeVector<std::uint8_t> painted_alive_;
     std::uint64_t alive_count_ = 0;
-    std::vector<std::uint32_t> erased_before_; // numbers that are not in `placed`
-    std::uint64_t draws_ = 0;                  // positions of random numbers that were used
+    std::vector<std::uint32_t> erased_before_; // numbers not among `placed`
+    std::uint64_t draws_ = 0;                  // used random numbers
 
-    // Trees by squares of the ground: the placed ones in a row, the painted ones linked.
+    // Trees by square of the ground: placed ones in ranges, painted ones in linked lists.
     float cell_ = 1.0F; // m
     std::uint32_t columns_ = 1;
     std::uint32_t rows_ = 1;
-    LargeVector<std::uint32_t> first_; // of each square, in items_
+    LargeVector<std::uint32_t> first_; // by square, in items_
     LargeVector<std::uint32_t> items_;
-    LargeVector<std::uint32_t> head_; // of each square, in painted_
-    LargeVector<std::uint32_t> next_; // of each painted tree
+    LargeVector<std::uint32_t> head_; // by square, in painted_
+    LargeVector<std::uint32_t> next_; // by painted tree
 
     std::vector<TreeChange> log_;
     std::vector<Stroke> strokes_;
-    std::size_t done_ = 0;  // strokes that are in force
-    std::size_t saved_ = 0; // of them when it was saved; kNone: nothing here is what was saved
+    std::size_t done_ = 0;  // strokes in force
+    std::size_t saved_ = 0; // strokes in force when saved; kNone: no state here was saved
     std::vector<TreeChange> changes_;
 };
 

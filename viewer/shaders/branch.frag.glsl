@@ -1,41 +1,41 @@
 #include "light.glsl"
 #ifdef BLENDS
 #include "blend.glsl"
-flat in float shown;
+flat in vec2 blend_range;
 #endif
 layout(binding = 1) uniform sampler2D bark_texture;
 layout(binding = 2) uniform sampler2D leaf_texture;
-in vec3 across;
+in vec3 world_normal;
 in vec2 uv;
 flat in vec3 tint;
-flat in uint kind; // bits: 1 textured, 2 of light through it
-in vec3 part;
-#ifdef PORTRAIT
-in vec3 place;
-// Seen from outside, for impostors: what light does is not known yet.
-layout(location = 2) uniform vec4 middle; // of the picture, m; its depth
+flat in uint kind; // bits: 1 textured, 2 translucent
+in vec3 crown_position;
+#ifdef BAKE
+in vec3 world_position;
+// Baking of impostors, before lighting.
+layout(location = 2) uniform vec4 centre; // of the impostor, m; w: its half depth, m
 layout(location = 3) uniform vec3 to_eye;
 layout(location = 4) uniform vec3 right;
 layout(location = 5) uniform vec3 up;
-layout(location = 0) out vec4 albedo_out; // square roots; opacity
-layout(location = 1) out vec4 normal_out; // seen from the eye; depth; of light through it
-// A normal as two parts of 1: projected from what faces away from the eye, so that normals side by
-// side stay so, and smaller pictures may have their mean. impostor.frag.glsl has the inverse.
+layout(location = 0) out vec4 albedo_out; // square roots of linear RGB; opacity
+layout(location = 1) out vec4 normal_out; // in the frame of the impostor (2); depth; translucency
+// Stereographic projection of a normal to 0..1. Neighbours stay neighbours, so that mip levels may
+// average them. impostor.frag.glsl has the inverse.
 vec2 projected(vec3 normal) {
     vec2 at = vec2(dot(normal, right), dot(normal, up)) / max(1.0 + dot(normal, to_eye), 1e-3);
     return 0.5 + 0.25 * at * min(1.0, 2.0 / max(length(at), 1e-6));
 }
 #else
-in vec3 sun_map;
-in vec2 air;
+in vec3 shadow_position;
+in vec2 fog;
 out vec4 colour;
 #endif
 void main() {
 #ifdef BLENDS
-    keep_part(shown);
+    keep_range(blend_range);
 #endif
     vec3 albedo = tint;
-    bool is_through = (kind & 2u) != 0u;
+    bool is_translucent = (kind & 2u) != 0u;
 #ifdef CUT_OUT
     vec4 texel = texture(leaf_texture, uv);
     if (texel.a < 0.5) {
@@ -47,21 +47,23 @@ void main() {
         albedo *= texture(bark_texture, uv).rgb;
     }
 #endif
-    vec3 normal = normalize(across);
+    vec3 normal = normalize(world_normal);
     if (!gl_FrontFacing) {
         normal = -normal;
     }
-    if (is_through) {
-        normal = leaf_normal(normal, part);
+    if (is_translucent) {
+        normal = leaf_normal(normal, crown_position);
     }
-#ifdef PORTRAIT
+#ifdef BAKE
     albedo_out = vec4(sqrt(albedo), 1.0);
-    float depth = dot(place - middle.xyz, to_eye) / middle.w;
-    normal_out = vec4(projected(normal), 0.5 + 0.5 * depth, is_through ? 1.0 : 0.0);
+    float depth = dot(world_position - centre.xyz, to_eye) / centre.w;
+    normal_out = vec4(projected(normal), 0.5 + 0.5 * depth, is_translucent ? 1.0 : 0.0);
 #else
-    float lit = sunlight_at(sun_map, sun_within(part));
-    float through = is_through ? 0.5 : 0.0;
+    float lit = sunlight_at(shadow_position, crown_sunlight(crown_position));
+    float translucency = is_translucent ? 0.5 : 0.0;
     colour =
-        displayed(through_air(shade_within(albedo, normal, lit, through, openness(part)), air));
+        tone_mapped(apply_fog(shade_crown(albedo, normal, lit, translucency,
+                                           ambient_visibility(crown_position)),
+                               fog));
 #endif
 }

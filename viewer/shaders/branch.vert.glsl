@@ -1,83 +1,83 @@
 #include "light.glsl"
 #include "forest.glsl"
-// What parts of a tree look like; the C++ side is gl/forest_buffers.cpp.
-struct Look {
+// Materials; the C++ side is gl/impl/forest_buffers.cpp.
+struct Material {
     vec3 colour;
     uint kind;
 };
-layout(std430, binding = 3) readonly buffer Looks { Look looks[]; };
-layout(location = 0) in vec3 position;  // in the heroes' box
-layout(location = 1) in uint material;
+layout(std430, binding = 3) readonly buffer Materials { Material materials[]; };
+layout(location = 0) in vec3 position;  // in the box of the heroes, -1 to 1
+layout(location = 1) in uint material_index;
 layout(location = 2) in vec2 normal;    // octahedral
 layout(location = 3) in vec2 texture_coordinate;
-layout(location = 4) in uint branch;    // in branches; the upper 8 bits: the part of it
+layout(location = 4) in uint branch;    // index in branches; upper 8 bits: weight of blending
 #ifdef BLENDS
-flat out float shown;
+flat out vec2 blend_range;
 #endif
 out vec2 uv;
-// What varies little along a triangle is found at its corners: of leaves, all light.
+// Values that vary little over a triangle are computed at vertices; for leaves, all of the lighting.
 #ifdef LIT_AT_CORNERS
-out vec3 front; // what leaf.frag.glsl asks for
+out vec3 front; // inputs of leaf.frag.glsl
 out vec3 back;
 #ifdef CUT_OUT
-out vec3 haze;
+out vec3 fog_light;
 #endif
 #else
-out vec3 across;
+out vec3 world_normal;
 flat out vec3 tint;
 flat out uint kind;
-out vec3 part; // from the middle of the crown, as parts of its axes
+out vec3 crown_position; // from the centre of the crown, in its axes
 #endif
-#if defined(PORTRAIT)
-out vec3 place;
+#if defined(BAKE)
+out vec3 world_position;
 #elif !defined(LIT_AT_CORNERS)
-out vec3 sun_map;
-out vec2 air;
+out vec3 shadow_position;
+out vec2 fog;
 #endif
 void main() {
     Branch at = branches[branch & 0xFFFFFFu];
 #ifdef BLENDS
-    shown = float(branch >> 24) / 255.0;
+    blend_range = vec2(0.0, float(branch >> 24) / 255.0);
 #endif
-    TreeAt tree = tree_at(at.turn.w);
-    vec4 turn = vec4(unpackSnorm2x16(at.turn.x), unpackSnorm2x16(at.turn.y));
-    turn = normalize(turn);
-    float size = at.place_scale.w * forms[tree.form].cylinder.w;
-    vec3 world = at.place_scale.xyz + turned(turn, size * position);
-    vec3 in_crown = (world - middle_of(tree)) / crown_of(tree);
+    TreeAt tree = tree_at(at.rotation_mesh_tree.w);
+    vec4 turn = normalize(vec4(unpackSnorm2x16(at.rotation_mesh_tree.x),
+                               unpackSnorm2x16(at.rotation_mesh_tree.y)));
+    float size = at.position_scale.w * forms[tree.form].cylinder.w;
+    vec3 world = at.position_scale.xyz + rotate(turn, size * position);
+    vec3 in_crown = (world - crown_centre(tree)) / crown_axes(tree);
 #ifdef CUT_OUT
-    world = in_wind(world, tree, 1.0);
+    world = swayed(world, tree, 1.0);
 #else
-    world = in_wind(world, tree, 0.0);
+    world = swayed(world, tree, 0.0);
 #endif
-    vec3 surface = turned(turn, octahedral(normal));
+    vec3 surface = rotate(turn, octahedral(normal));
     uv = texture_coordinate;
-    Look look = looks[material];
+    Material material = materials[material_index];
 #ifdef LIT_AT_CORNERS
-    float lit = sunlight_at(in_sun_map(world, frame.to_sun.xyz), sun_within(in_crown));
-    float open = openness(in_crown);
-    vec2 air = air_to(world);
-    vec3 seen_of = air.y * look.colour;
-    front = shade_within(seen_of, leaf_normal(surface, in_crown), lit, 0.5, open);
-    back = shade_within(seen_of, leaf_normal(-surface, in_crown), lit, 0.5, open);
-    vec3 air_alone = through_air(vec3(0.0), air);
+    float lit = sunlight_at(shadow_map_position(world, frame.to_sun.xyz), crown_sunlight(in_crown));
+    float open = ambient_visibility(in_crown);
+    vec2 fog = fog_to(world);
+    vec3 fogged_albedo = fog.y * material.colour;
+    front = shade_crown(fogged_albedo, leaf_normal(surface, in_crown), lit, 0.5, open);
+    back = shade_crown(fogged_albedo, leaf_normal(-surface, in_crown), lit, 0.5, open);
+    vec3 fog_only = apply_fog(vec3(0.0), fog);
 #ifdef CUT_OUT
-    haze = air_alone;
+    fog_light = fog_only;
 #else
-    front = displayed(front + air_alone).rgb;
-    back = displayed(back + air_alone).rgb;
+    front = tone_mapped(front + fog_only).rgb;
+    back = tone_mapped(back + fog_only).rgb;
 #endif
 #else
-    across = surface;
-    tint = look.colour;
-    kind = look.kind;
-    part = in_crown;
+    world_normal = surface;
+    tint = material.colour;
+    kind = material.kind;
+    crown_position = in_crown;
 #endif
-#if defined(PORTRAIT)
-    place = world;
+#if defined(BAKE)
+    world_position = world;
 #elif !defined(LIT_AT_CORNERS)
-    sun_map = in_sun_map(world, frame.to_sun.xyz);
-    air = air_to(world);
+    shadow_position = shadow_map_position(world, frame.to_sun.xyz);
+    fog = fog_to(world);
 #endif
     gl_Position = frame.view_projection * vec4(world, 1.0);
 }

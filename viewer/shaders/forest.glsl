@@ -1,15 +1,15 @@
 #include "frame.glsl"
-// Trees, their branches and forms. The C++ side is gl/forest_buffers.h.
+// Trees, branches and forms; the C++ side is gl/impl/forest_buffers.cpp.
 struct Branch {
-    vec4 place_scale; // m, of the heroes' origin
-    uvec4 turn;       // snorm16: xy, zw; mesh; tree
+    vec4 position_scale; // m, origin of the hero; scale
+    uvec4 rotation_mesh_tree; // snorm16 xy, snorm16 zw, mesh, tree
 };
 struct Form {
-    vec4 cylinder; // of trees of scale 1: radius, low, high; size of a vertex of 1, m
-    vec4 pictures; // first layer of its portraits; 1: of a cell of trees
+    vec4 cylinder; // m at scale 1: radius, low, high; half side of the box of vertices
+    vec4 layers; // first layer of its impostors; 1 for clusters
 };
 layout(std430, binding = 0) readonly buffer Branches { Branch branches[]; };
-layout(std430, binding = 1) readonly buffer Trees { uvec2 trees[]; }; // three each
+layout(std430, binding = 1) readonly buffer Trees { uvec2 trees[]; }; // three per tree
 layout(std430, binding = 2) readonly buffer Forms { Form forms[]; };
 
 struct TreeAt {
@@ -17,7 +17,7 @@ struct TreeAt {
     float scale;
     float yaw;
     uint form;
-    uint portrait;
+    uint impostor;
     float phase; // 0 to 1
 };
 
@@ -29,14 +29,14 @@ TreeAt tree_at(uint index) {
     tree.yaw = float(third.x & 0xFFFFu) * (6.2831853 / 65536.0);
     tree.phase = float(third.x >> 16) / 65536.0;
     tree.form = third.y & 0xFFFFu;
-    tree.portrait = third.y >> 16;
+    tree.impostor = third.y >> 16;
     return tree;
 }
 
-vec3 turned(vec4 q, vec3 v) {
+vec3 rotate(vec4 q, vec3 v) {
     return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
 }
-vec3 about_up(float angle, vec3 v) {
+vec3 rotate_y(float angle, vec3 v) {
     float s = sin(angle), c = cos(angle);
     return vec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
 }
@@ -48,27 +48,27 @@ vec3 octahedral(vec2 e) {
     return normalize(v);
 }
 
-// Half the axes of a tree's crown, m.
-vec3 crown_of(TreeAt tree) {
+// Half axes of the crown, m.
+vec3 crown_axes(TreeAt tree) {
     vec4 cylinder = forms[tree.form].cylinder;
     return tree.scale * vec3(cylinder.x, 0.55 * (cylinder.z - cylinder.y), cylinder.x);
 }
-vec3 middle_of(TreeAt tree) {
+vec3 crown_centre(TreeAt tree) {
     vec4 cylinder = forms[tree.form].cylinder;
     return tree.root + vec3(0.0, tree.scale * 0.5 * (cylinder.y + cylinder.z), 0.0);
 }
 
-// Where the wind moves a place of a tree. A function of the place and the tree alone, so that
-// branches that meet stay together. `loose`: 1 for leaves.
-vec3 in_wind(vec3 place, TreeAt tree, float loose) {
+// Position of a point of a tree in the wind: a function of the point at rest and the tree alone, so
+// that joints stay closed. `flutter`: 1 for leaves. sway_in() in scene/forest_lod_select.cpp bounds it.
+vec3 swayed(vec3 world_position, TreeAt tree, float flutter) {
 #ifdef WIND
     float speed = length(frame.wind.xyz);
     vec3 way = frame.wind.xyz / speed;
     float time = frame.eye_time.w;
     float height = tree.scale * (forms[tree.form].cylinder.z - forms[tree.form].cylinder.y);
-    vec3 from = place - tree.root;
+    vec3 from = world_position - tree.root;
     float rise = clamp(from.y / height, 0.0, 1.2);
-    // Gusts travel with the wind.
+    // Gusts travel downwind.
     float along = dot(tree.root, way);
     float gust = 1.0 + frame.wind.w * sin(0.9 * time - 0.05 * along + 6.2831853 * tree.phase) *
                            sin(0.37 * time - 0.021 * along);
@@ -79,14 +79,14 @@ vec3 in_wind(vec3 place, TreeAt tree, float loose) {
     float phase = 2.1 * from.x / height + 3.3 * from.z / height + 6.2831853 * tree.phase;
     vec3 boughs = vec3(sin(2.9 * time + 4.0 * phase), 0.6 * sin(3.7 * time + 5.0 * phase),
                        cos(3.1 * time + 4.5 * phase)) * (0.35 * push * gust * away);
-    vec3 moved = place + height * (trunk + boughs);
-    if (loose > 0.0) {
-        vec3 cell = 9.0 * place;
-        moved += loose * min(0.004 * speed * gust, 0.05) *
+    vec3 moved = world_position + height * (trunk + boughs);
+    if (flutter > 0.0) {
+        vec3 cell = 9.0 * world_position;
+        moved += flutter * min(0.004 * speed * gust, 0.05) *
                  sin(vec3(7.0, 9.0, 8.0) * time + cell.yzx + cell.zxy);
     }
     return moved;
 #else
-    return place;
+    return world_position;
 #endif
 }

@@ -1,54 +1,56 @@
 #include "light.glsl"
-layout(binding = 3) uniform sampler2DArray albedos; // square roots; opacity
-layout(binding = 4) uniform sampler2DArray normals; // normal, depth, of light through it
+layout(binding = 3) uniform sampler2DArray albedos; // square roots of linear RGB; opacity
+layout(binding = 4) uniform sampler2DArray normals; // normal (2), depth, translucency
 #ifdef BLENDS
 #include "blend.glsl"
-flat in float shown; // the part of it that is drawn
+flat in vec2 blend_range;
 #endif
-in vec3 corner;
-in vec3 sun_map;     // of the picture's middle plane
-flat in vec3 nearer; // what the depth of the picture adds to it
+in vec3 layer_uv;
+in vec3 plane_shadow_position; // at the middle plane
+flat in vec3 shadow_step;      // per unit of depth
 #ifndef SHADOW
-in vec2 air;
-in vec3 within;
-flat in vec3 deeper;
-flat in mat3 turn; // of what is seen in the picture
-flat in int of_cell;
+in vec2 fog;
+in vec3 plane_crown_position;
+flat in vec3 crown_step;
+flat in mat3 world_from_impostor; // for normals
+flat in int is_cluster;
 #endif
 #if !defined(SHADOW) && !defined(DEPTH)
-layout(early_fragment_tests) in; // where the depth is that of the tree
+layout(early_fragment_tests) in; // the depth pass has drawn the depth
 out vec4 colour;
 #endif
 void main() {
-    vec4 albedo = texture(albedos, corner);
+    vec4 albedo = texture(albedos, layer_uv);
 #if defined(SHADOW) || defined(DEPTH)
     if (albedo.a < 0.5) {
         discard;
     }
 #endif
 #ifdef BLENDS
-    keep_part(shown);
+    keep_range(blend_range);
 #endif
 #ifndef DEPTH
-    vec4 shape = texture(normals, corner);
+    vec4 shape = texture(normals, layer_uv);
     float depth = 2.0 * shape.z - 1.0;
 #ifdef SHADOW
-    gl_FragDepth = sun_map.z + nearer.z * depth + 0.0004;
+    gl_FragDepth = plane_shadow_position.z + shadow_step.z * depth + 0.0004;
 #else
     vec2 at = 4.0 * shape.xy - 2.0;
-    float away = dot(at, at);
-    vec3 n = turn * (vec3(2.0 * at, 1.0 - away) / (1.0 + away));
-    vec3 part = within + deeper * depth;
-    if (of_cell != 0) {
-        // Within the crown of one of its trees, whose leaves face outwards.
-        part = vec3(0.25 * n.x, 0.05 + 0.85 * part.y, 0.25 * n.z);
+    float radius2 = dot(at, at);
+    vec3 n = world_from_impostor * (vec3(2.0 * at, 1.0 - radius2) / (1.0 + radius2));
+    vec3 crown_position = plane_crown_position + crown_step * depth;
+    if (is_cluster != 0) {
+        // A place in the crown of one of its trees, with leaves facing outward.
+        crown_position = vec3(0.25 * n.x, 0.05 + 0.85 * crown_position.y, 0.25 * n.z);
     }
-    float lit = sun_within(part);
-    if (of_cell == 0) {
-        lit = sunlight_at(sun_map + nearer * depth, lit);
+    float lit = crown_sunlight(crown_position);
+    if (is_cluster == 0) {
+        lit = sunlight_at(plane_shadow_position + shadow_step * depth, lit);
     }
-    colour = displayed(through_air(
-        shade_within(albedo.rgb * albedo.rgb, n, lit, 0.5 * shape.w, openness(part)), air));
+    colour = tone_mapped(apply_fog(
+        shade_crown(albedo.rgb * albedo.rgb, n, lit, 0.5 * shape.w,
+                    ambient_visibility(crown_position)),
+        fog));
 #endif
 #endif
 }

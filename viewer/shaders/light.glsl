@@ -14,14 +14,15 @@ vec3 sky_colour(vec3 direction) {
     return colour + frame.sun.rgb * (0.05 * near16 + 0.25 * near256 * near64 * near64);
 }
 
-// Where a place is looked for in the sun's map: a little nearer to the sun.
-vec3 in_sun_map(vec3 place, vec3 nearer) {
-    return (frame.shadow_from_world * vec4(place + nearer * (1.5 * frame.horizon.w), 1.0)).xyz;
+// Position in the shadow map, moved along `offset` against self-shadowing.
+vec3 shadow_map_position(vec3 world_position, vec3 offset) {
+    vec3 moved = world_position + offset * (1.5 * frame.horizon.w);
+    return (frame.shadow_from_world * vec4(moved, 1.0)).xyz;
 }
 
-// How much of the sun is seen from a place of its map, 0 to 1.
-// ONE_TAP, TWO_TAPS: fewer looks at the map, each of which filters four texels.
-// `outside`: what is told where the map does not reach.
+// Visible part of the sun at a position in the shadow map, 0 to 1.
+// ONE_TAP, TWO_TAPS: fewer taps, of four filtered texels each.
+// `outside`: value outside the map.
 float sunlight_at(vec3 at, float outside) {
     if (frame.to_sun.w == 0.0) {
         return 1.0;
@@ -48,70 +49,69 @@ float sunlight_at(vec3 at, float outside) {
     return mix(lit, outside, smoothstep(0.8, 1.0, max(abs(at.x), abs(at.y))));
 }
 
-// The same for a surface; its normal moves the place off it.
-float sunlight(vec3 place, vec3 normal, float outside) {
-    return sunlight_at(in_sun_map(place, normal), outside);
+// Visible part of the sun at a surface; the position is moved along its normal.
+float sunlight(vec3 world_position, vec3 normal, float outside) {
+    return sunlight_at(shadow_map_position(world_position, normal), outside);
 }
 
 vec3 ambient(vec3 normal) {
     return mix(frame.ground.rgb, mix(frame.horizon.rgb, frame.sky.rgb, 0.6), 0.5 + 0.5 * normal.y);
 }
 
-// What a surface sends to the eye. `through`: part of the light from behind that comes through.
-vec3 shade(vec3 albedo, vec3 normal, vec3 place, float lit, float through) {
+// Radiance of a surface. `translucency`: part of the light from behind that passes through.
+vec3 shade(vec3 albedo, vec3 normal, vec3 world_position, float lit, float translucency) {
     float front = dot(normal, frame.to_sun.xyz);
-    float direct = max(front, 0.0) + through * max(-front, 0.0);
+    float direct = max(front, 0.0) + translucency * max(-front, 0.0);
     return albedo * (ambient(normal) + frame.sun.rgb * (direct * lit));
 }
 
-// How much of the light from all around comes to a place of a crown.
-float openness(vec3 part) {
-    return clamp(0.4 + 0.6 * dot(part, part), 0.4, 1.0);
+// Part of the ambient light at a place of a crown.
+float ambient_visibility(vec3 crown_position) {
+    return clamp(0.4 + 0.6 * dot(crown_position, crown_position), 0.4, 1.0);
 }
 
-// The normal of a leaf is bent outwards: light that comes to a crown has no sharp edge at a leaf.
-vec3 leaf_normal(vec3 normal, vec3 part) {
-    return normalize(normal + 2.0 * normalize(part + vec3(0.0, 1e-3, 0.0)));
+// Normal bent outward from the crown, so that light has no sharp edges at single leaves.
+vec3 leaf_normal(vec3 normal, vec3 crown_position) {
+    return normalize(normal + 2.0 * normalize(crown_position + vec3(0.0, 1e-3, 0.0)));
 }
 
-// The same within a crown: `open` is the part of the light from all around that comes there.
-vec3 shade_within(vec3 albedo, vec3 normal, float lit, float through, float open) {
+// Radiance of a surface in a crown. `open`: ambient_visibility().
+vec3 shade_crown(vec3 albedo, vec3 normal, float lit, float translucency, float open) {
     float front = dot(normal, frame.to_sun.xyz);
-    float direct = max(front, 0.0) + through * max(-front, 0.0);
-    // What is deep within sees less of the sun than a map of texels tells.
+    float direct = max(front, 0.0) + translucency * max(-front, 0.0);
+    // Deep in the crown less sun arrives than the shadow map resolves.
     return albedo * (open * ambient(normal) +
                      frame.sun.rgb * (direct * lit * (0.4 + 0.6 * open)));
 }
 
-// The part of the sun that comes to a place of a crown through the rest of it. `part`: from the
-// middle, as parts of the crown's axes. About the mean of what the sun's map has at such places of
-// a wood, seen from the ground (where it is less) and from above.
-float sun_within(vec3 part) {
-    return clamp(0.58 + 0.45 * dot(part, frame.to_sun.xyz), 0.12, 0.97);
+// Part of the sun at a place of a crown behind the rest of it. `crown_position`: from the centre, in
+// axes of the crown. Near the mean of the shadow map at such places of a wood, seen from the ground
+// (where it is less) and from above.
+float crown_sunlight(vec3 crown_position) {
+    return clamp(0.58 + 0.45 * dot(crown_position, frame.to_sun.xyz), 0.12, 0.97);
 }
 
-// The air between eye and place: how much of the sun's glow it has, and what comes through it.
-vec2 air_to(vec3 place) {
-    vec3 way = place - frame.eye_time.xyz;
+// Air between the eye and a position: x: part of the sun's glow in it, y: transmittance.
+vec2 fog_to(vec3 world_position) {
+    vec3 way = world_position - frame.eye_time.xyz;
     float away = length(way);
-    // The sky just above the horizon there, as sky_colour() has it.
+    // sky_colour() just above the horizon.
     float near_sun = max(dot(way, frame.to_sun.xyz) / max(away, 1e-6), 0.0);
     near_sun *= near_sun;
     near_sun *= near_sun;
     near_sun *= near_sun;
     return vec2(0.05 * near_sun * near_sun, exp(-frame.sun.w * away));
 }
-vec3 through_air(vec3 radiance, vec2 air) {
-    return mix(frame.horizon.rgb + frame.sun.rgb * air.x, radiance, air.y);
+vec3 apply_fog(vec3 radiance, vec2 fog) {
+    return mix(frame.horizon.rgb + frame.sun.rgb * fog.x, radiance, fog.y);
 }
-vec3 seen(vec3 radiance, vec3 place) {
-    return through_air(radiance, air_to(place));
+vec3 fogged(vec3 radiance, vec3 world_position) {
+    return apply_fog(radiance, fog_to(world_position));
 }
 
-// As the eye adapts to it, as sRGB. What follows the square root is one curve for both, within
-// 0.0035: tone mapping by (2.51 x^2 + 0.03 x) / (2.43 x^2 + 0.59 x + 0.14), as is common for film,
-// and the powers of sRGB.
-vec4 displayed(vec3 radiance) {
+// Exposure, tone mapping and sRGB. The curve after the square root is within 0.0035 of the filmic
+// (2.51 x^2 + 0.03 x) / (2.43 x^2 + 0.59 x + 0.14) followed by the sRGB transfer function.
+vec4 tone_mapped(vec3 radiance) {
     vec3 root = sqrt(radiance * frame.sky.w);
     return vec4(clamp(root * (5.954052 * root - 0.104695) /
                           (1.0 + root * (5.964331 * root - 0.525280)),

@@ -2,11 +2,11 @@
 layout(binding = 1) uniform sampler2D base_texture;
 layout(binding = 2) uniform sampler2D normal_texture;
 layout(location = 0) uniform vec4 base_colour;
-layout(location = 1) uniform ivec4 kind; // x: textured, y: bumpy, z: cut out, w: of light through it
-in vec3 place;
-in vec3 across;
+layout(location = 1) uniform ivec4 kind; // x: textured, y: bumpy, z: alpha mask, w: translucent
+in vec3 world_position;
+in vec3 world_normal;
 in vec2 uv;
-in vec4 along;
+in vec4 world_tangent;
 out vec4 colour;
 void main() {
     vec3 albedo = base_colour.rgb;
@@ -17,11 +17,11 @@ void main() {
         }
         albedo *= texel.rgb;
     }
-    vec3 geometric = normalize(across);
+    vec3 geometric = normalize(world_normal);
     vec3 normal = geometric;
     if (kind.y != 0) {
-        vec3 t = normalize(along.xyz - geometric * dot(geometric, along.xyz));
-        vec3 b = cross(geometric, t) * along.w;
+        vec3 t = normalize(world_tangent.xyz - geometric * dot(geometric, world_tangent.xyz));
+        vec3 b = cross(geometric, t) * world_tangent.w;
         vec3 bump = texture(normal_texture, uv).xyz * 2.0 - 1.0;
         normal = normalize(t * bump.x + b * bump.y + geometric * bump.z);
     }
@@ -29,7 +29,8 @@ void main() {
         normal = -normal;
         geometric = -geometric;
     }
-    float lit = sunlight(place, geometric, 1.0);
-    float through = kind.w != 0 ? 0.5 : 0.0;
-    colour = displayed(seen(shade(albedo, normal, place, lit, through), place));
+    float lit = sunlight(world_position, geometric, 1.0);
+    float translucency = kind.w != 0 ? 0.5 : 0.0;
+    colour = tone_mapped(
+        fogged(shade(albedo, normal, world_position, lit, translucency), world_position));
 }

@@ -3,14 +3,14 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 texture_coordinate;
 layout(location = 3) in vec4 tangent;
-out vec3 place;
-out vec3 across;
+out vec3 world_position;
+out vec3 world_normal;
 out vec2 uv;
-out vec4 along;
+out vec4 world_tangent;
 void main() {
-    place = position;
-    across = normal;
+    world_position = position;
+    world_normal = normal;
     uv = texture_coordinate;
-    along = tangent;
+    world_tangent = tangent;
     gl_Position = frame.view_projection * vec4(position, 1.0);
 }

@@ -1,8 +1,8 @@
 #include "light.glsl"
-in vec3 way;
+in vec3 view_ray;
 out vec4 colour;
 void main() {
-    vec3 direction = normalize(way);
+    vec3 direction = normalize(view_ray);
     float disc = smoothstep(0.99993, 0.99997, dot(direction, frame.to_sun.xyz));
-    colour = displayed(sky_colour(direction) + frame.sun.rgb * (4.0 * disc));
+    colour = tone_mapped(sky_colour(direction) + frame.sun.rgb * (4.0 * disc));
 }

@@ -1,19 +1,19 @@
 #include "light.glsl"
-layout(binding = 2) uniform sampler2D noise; // repeats
-in vec3 place;
-in vec3 across;
-in vec3 sun_map;
-in vec3 air; // and how far away it is, m
+layout(binding = 2) uniform sampler2D noise; // tileable
+in vec3 world_position;
+in vec3 world_normal;
+in vec3 shadow_position;
+in vec3 fog; // fog_to(); distance, m
 out vec4 colour;
-// Grass where it is level, earth where it is steep or bare, in patches.
+// Grass on level ground, earth on steep ground and in bare patches.
 void main() {
-    vec3 up = normalize(across);
-    // Each pattern is gone before it is seen to repeat.
-    float away = air.z;
-    vec4 coarse = texture(noise, place.xz * (1.0 / 173.0));
-    vec4 between = mix(vec4(0.5), texture(noise, place.zx * (1.0 / 37.0)),
+    vec3 up = normalize(world_normal);
+    // Patterns fade before their repetition is visible.
+    float away = fog.z;
+    vec4 coarse = texture(noise, world_position.xz * (1.0 / 173.0));
+    vec4 between = mix(vec4(0.5), texture(noise, world_position.zx * (1.0 / 37.0)),
                        clamp(2.0 - away / 150.0, 0.0, 1.0));
-    vec4 close = mix(vec4(0.5), texture(noise, place.xz * (1.0 / 3.1)),
+    vec4 close = mix(vec4(0.5), texture(noise, world_position.xz * (1.0 / 3.1)),
                      clamp(2.0 - away / 15.0, 0.0, 1.0));
     float wide = coarse.r;
     float middle = 0.4 * coarse.g + 0.4 * between.r + 0.2 * close.r;
@@ -25,6 +25,6 @@ void main() {
     vec3 earth = mix(vec3(0.060, 0.045, 0.030), vec3(0.110, 0.086, 0.058), close.g);
     vec3 albedo = mix(grass, earth, bare) * (0.7 + 0.6 * fine);
     vec3 normal = normalize(up + 0.4 * vec3(fine - 0.5, 0.0, close.g - 0.5));
-    float lit = sunlight_at(sun_map, 1.0);
-    colour = displayed(through_air(shade(albedo, normal, place, lit, 0.0), air.xy));
+    float lit = sunlight_at(shadow_position, 1.0);
+    colour = tone_mapped(apply_fog(shade(albedo, normal, world_position, lit, 0.0), fog.xy));
 }

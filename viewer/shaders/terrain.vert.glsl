@@ -1,16 +1,16 @@
 #include "light.glsl"
-// CDLOD (Strugar 2010): corners move to those of the next level before it takes over.
-layout(binding = 1) uniform sampler2DArray heights; // a layer for each level, corners at texels
-layout(location = 0) uniform ivec2 origins[12];     // of each layer, in cells of its level
-layout(location = 12) uniform vec4 ranges;          // finest cell, range of level 0, part of it
-                                                    // where moving begins, eye above ground
+// CDLOD (Strugar 2010): vertices morph to those of the next level before it takes over.
+layout(binding = 1) uniform sampler2DArray heights; // a layer per level, vertices at texels
+layout(location = 0) uniform ivec2 origins[12];     // by layer, in cells of its level
+layout(location = 12) uniform vec4 ranges;          // finest cell, range of level 0, part of it where
+                                                    // morphing starts, eye above ground; m
 layout(location = 13) uniform int levels;
 layout(location = 0) in uvec2 corner;
 layout(location = 1) in ivec3 patch_at; // x, z in cells of its level; the level
-out vec3 place;
-out vec3 across;
-out vec3 sun_map;
-out vec3 air; // and how far away it is, m
+out vec3 world_position;
+out vec3 world_normal;
+out vec3 shadow_position;
+out vec3 fog; // fog_to(); distance, m
 
 float height_at(ivec2 at, int level) {
     return texelFetch(heights, ivec3(at - origins[level], level), 0).r;
@@ -40,9 +40,9 @@ void main() {
     }
     ground = mix(ground, vec2(even) * cell, morph);
     float here = height_at(at, level);
-    place = vec3(ground.x, here + morph * (height_at(even, level) - here), ground.y);
-    across = normal;
-    sun_map = in_sun_map(place, normal);
-    air = vec3(air_to(place), distance(place, frame.eye_time.xyz));
-    gl_Position = frame.view_projection * vec4(place, 1.0);
+    world_position = vec3(ground.x, here + morph * (height_at(even, level) - here), ground.y);
+    world_normal = normal;
+    shadow_position = shadow_map_position(world_position, normal);
+    fog = vec3(fog_to(world_position), distance(world_position, frame.eye_time.xyz));
+    gl_Position = frame.view_projection * vec4(world_position, 1.0);
 }

@@ -28,13 +28,13 @@ Messages messages_of(std::string error) {
     return messages;
 }
 
-Outcome<Done> nothing_to_draw(ExportSubject subject) {
+Outcome<void> nothing_to_draw(ExportSubject subject) {
     return {Stop::Failed,
             messages_of(fmt::format("the {} has nothing to draw, so no file is written",
                                     name_of(subject)))};
 }
 
-Outcome<Done> too_large_for_format(ExportSubject subject) {
+Outcome<void> too_large_for_format(ExportSubject subject) {
     const char* const help = subject == ExportSubject::Plant
                                  ? "; another format, fewer sides or a coarser --level may hold it"
                                  : "";
@@ -43,8 +43,8 @@ Outcome<Done> too_large_for_format(ExportSubject subject) {
                                     name_of(subject), help))};
 }
 
-Outcome<Done> finish(PieceWriter& out) {
-    return out.finish() ? Outcome<Done>(Done{}, {}) : Outcome<Done>(Stop::Cancelled, {});
+Outcome<void> finish(PieceWriter& out) {
+    return out.finish() ? Outcome<void>() : Outcome<void>(Stop::Cancelled, {});
 }
 
 } // namespace lsys

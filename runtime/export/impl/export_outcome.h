@@ -15,10 +15,10 @@ namespace lsys {
 
 [[nodiscard]] Messages messages_of(Diagnostic diagnostic);
 [[nodiscard]] Messages messages_of(std::string error);
-Outcome<Done> nothing_to_draw(ExportSubject subject);
-Outcome<Done> too_large_for_format(ExportSubject subject);
+Outcome<void> nothing_to_draw(ExportSubject subject);
+Outcome<void> too_large_for_format(ExportSubject subject);
 /// Done, or Cancelled where the sink has stopped.
-Outcome<Done> finish(PieceWriter& out);
+Outcome<void> finish(PieceWriter& out);
 
 /// The outcome of `run()`, or OutOfMemory with a message about `what` if it throws bad_alloc or
 /// length_error.

@@ -19,9 +19,9 @@ struct ForestExportJob {
     const ForestExportInfo& info;
 };
 
-Outcome<Done> write_forest_gltf(const ForestExportJob& job, PieceWriter& out);
-Outcome<Done> write_forest_glb(const ForestExportJob& job, PieceWriter& out);
-Outcome<Done> write_forest_usda(const ForestExportJob& job, PieceWriter& out);
+Outcome<void> write_forest_gltf(const ForestExportJob& job, PieceWriter& out);
+Outcome<void> write_forest_glb(const ForestExportJob& job, PieceWriter& out);
+Outcome<void> write_forest_usda(const ForestExportJob& job, PieceWriter& out);
 
 /// Bytes of the transforms of a group: all translations, then all rotations, then all scales.
 inline constexpr std::uint64_t kTranslationBytes = 12;

@@ -100,7 +100,7 @@ void ForestDocument::put_data(const GltfSink& write) const {
 
 namespace {
 
-Outcome<Done> write(const ForestExportJob& job, bool binary, PieceWriter& out) {
+Outcome<void> write(const ForestExportJob& job, bool binary, PieceWriter& out) {
     if (job.form == ForestForm::Expanded && job.plan.branches() > kMostForestNodes) {
         return {Stop::Limit, messages_of(plant_limit_diagnostic(
                                  "the expanded forest",
@@ -119,11 +119,11 @@ Outcome<Done> write(const ForestExportJob& job, bool binary, PieceWriter& out) {
 
 } // namespace
 
-Outcome<Done> write_forest_gltf(const ForestExportJob& job, PieceWriter& out) {
+Outcome<void> write_forest_gltf(const ForestExportJob& job, PieceWriter& out) {
     return write(job, false, out);
 }
 
-Outcome<Done> write_forest_glb(const ForestExportJob& job, PieceWriter& out) {
+Outcome<void> write_forest_glb(const ForestExportJob& job, PieceWriter& out) {
     return write(job, true, out);
 }
 

@@ -186,7 +186,7 @@ private:
 
 } // namespace
 
-Outcome<Done> write_forest_usda(const ForestExportJob& job, PieceWriter& out) {
+Outcome<void> write_forest_usda(const ForestExportJob& job, PieceWriter& out) {
     const ForestPlan& plan = job.plan;
     // Integers of USD are signed.
     constexpr std::uint64_t kMost = 0x7FFFFFFF;

@@ -16,7 +16,7 @@ struct ExportJob {
 
 // Stops: Cancelled; glTF: Failed for a buffer or GLB of 4 GiB, Limit for too many joints.
 #define LSYS_EXPORT_FORMAT(enumerator, function, ...)                                              \
-    Outcome<Done> function(const ExportJob& job, PieceWriter& out);
+    Outcome<void> function(const ExportJob& job, PieceWriter& out);
 #include "runtime/export/formats.def"
 #undef LSYS_EXPORT_FORMAT
 

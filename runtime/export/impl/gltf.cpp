@@ -133,7 +133,7 @@ private:
     JsonWriter& json_;
 };
 
-Outcome<Done> write(const ExportJob& job, bool binary, PieceWriter& out) {
+Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
     const ExportInfo& info = job.info;
     std::optional<GltfMotion> moving;
     if (info.animation != nullptr) {
@@ -165,11 +165,11 @@ Outcome<Done> write(const ExportJob& job, bool binary, PieceWriter& out) {
 
 } // namespace
 
-Outcome<Done> write_gltf(const ExportJob& job, PieceWriter& out) {
+Outcome<void> write_gltf(const ExportJob& job, PieceWriter& out) {
     return write(job, false, out);
 }
 
-Outcome<Done> write_glb(const ExportJob& job, PieceWriter& out) {
+Outcome<void> write_glb(const ExportJob& job, PieceWriter& out) {
     return write(job, true, out);
 }
 

@@ -62,7 +62,7 @@ void put_faces(TriangleReader& indices, const MeshPart& part, bool textured, Pie
 
 } // namespace
 
-Outcome<Done> write_obj(const ExportJob& job, PieceWriter& out) {
+Outcome<void> write_obj(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
     out.put(fmt::format("# {}\n# {}\n# metres, +Y up\n", one_line(job.info.generator),
                         origin_line(job.info)));
@@ -93,7 +93,7 @@ Outcome<Done> write_obj(const ExportJob& job, PieceWriter& out) {
     return finish(out);
 }
 
-Outcome<Done> write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink) {
+Outcome<void> write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink& sink) {
     if (triangle_count(mesh) == 0) {
         return nothing_to_draw(info.subject);
     }

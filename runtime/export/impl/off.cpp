@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kLineBytes = 8 + 6 * (kNumberBytes + 1);
 
-Outcome<Done> write(const Mesh& mesh, bool plus, PieceWriter& out) {
+Outcome<void> write(const Mesh& mesh, bool plus, PieceWriter& out) {
     out.put(fmt::format("OFF\n{} {} 0\n", mesh.positions.size(), triangle_count(mesh)));
     const bool textured = is_complete(mesh, mesh.texture_coordinates);
     for (std::size_t i = 0; i < mesh.positions.size() && !out.stopped(); ++i) {
@@ -55,11 +55,11 @@ Outcome<Done> write(const Mesh& mesh, bool plus, PieceWriter& out) {
 
 } // namespace
 
-Outcome<Done> write_off(const ExportJob& job, PieceWriter& out) {
+Outcome<void> write_off(const ExportJob& job, PieceWriter& out) {
     return write(job.mesh, false, out);
 }
 
-Outcome<Done> write_off_plus(const ExportJob& job, PieceWriter& out) {
+Outcome<void> write_off_plus(const ExportJob& job, PieceWriter& out) {
     return write(job.mesh, true, out);
 }
 

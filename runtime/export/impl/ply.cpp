@@ -40,7 +40,7 @@ char* put_bytes(char* at, const T& value) {
 
 } // namespace
 
-Outcome<Done> write_ply(const ExportJob& job, PieceWriter& out) {
+Outcome<void> write_ply(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
     const bool textured = is_complete(mesh, mesh.texture_coordinates);
     const bool coloured = is_complete(mesh, mesh.colours);

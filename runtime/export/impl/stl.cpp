@@ -20,7 +20,7 @@ constexpr std::size_t kTriangleBytes = 4 * sizeof(glm::vec3) + 2;
 
 } // namespace
 
-Outcome<Done> write_stl(const ExportJob& job, PieceWriter& out) {
+Outcome<void> write_stl(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
     // Not `solid`: readers take files that begin with it for text.
     std::string header = fmt::format("STL in metres, +Y up. {}: {}", one_line(job.info.generator),

@@ -191,7 +191,7 @@ void Drawing::write() {
 
 } // namespace
 
-Outcome<Done> write_svg(const ExportJob& job, PieceWriter& out) {
+Outcome<void> write_svg(const ExportJob& job, PieceWriter& out) {
     Drawing(job.skeleton, job.info, out).write();
     return finish(out);
 }

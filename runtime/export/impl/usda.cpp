@@ -52,7 +52,7 @@ void put_header(const ExportInfo& info, PieceWriter& out) {
 
 } // namespace
 
-Outcome<Done> write_usda(const ExportJob& job, PieceWriter& out) {
+Outcome<void> write_usda(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
     const std::vector<std::string> names = usda_part_names(mesh);
     put_header(job.info, out);

@@ -45,7 +45,7 @@ constexpr std::string_view kTooLarge =
     "coarser --level may hold it";
 
 /// The message of an export that fails before it writes.
-std::string refusal(const Outcome<Done>& outcome) {
+std::string refusal(const Outcome<void>& outcome) {
     REQUIRE_FALSE(outcome.ok());
     CHECK(outcome.stop() == Stop::Failed);
     REQUIRE(outcome.messages().all().size() == 1);

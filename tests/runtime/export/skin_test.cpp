@@ -245,7 +245,7 @@ TEST_CASE("a skin has 65,535 joints that move, and no more") {
                               .picture_prefix = "",
                               .animation = &poses};
         std::uint64_t bytes = 0;
-        const Outcome<Done> outcome =
+        const Outcome<void> outcome =
             export_mesh(mesh, plant, ExportFormat::Glb, info, [&bytes](std::string_view piece) {
                 bytes += piece.size();
                 return true;

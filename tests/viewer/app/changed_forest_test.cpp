@@ -18,22 +18,22 @@ namespace {
 /// A tree that is drawn, by its place, and as what: branches of a level, or kTreeLevels.
 using Drawn = std::array<float, 4>;
 
-std::vector<Drawn> drawn_by(ForestView& view, const Camera& camera) {
-    RingOptions options = wood_rings();
-    options.horizon_pixels = 0.0F;
-    const ForestLists& lists = view.select(view_volume(camera, 640, 480), options);
+std::vector<Drawn> drawn_by(ForestLod& lod, const Camera& camera) {
+    LodOptions options = wood_lod();
+    options.cluster_pixels = 0.0F;
+    const DrawLists& lists = lod.select(make_frustum(camera, 640, 480), options);
     std::vector<Drawn> drawn;
     const auto add = [&](std::uint32_t number, std::uint32_t level) {
-        const glm::vec3& at = view.view_tree(number).position;
+        const glm::vec3& at = lod.lod_tree(number).position;
         drawn.push_back({at.x, at.y, at.z, static_cast<float>(level)});
     };
     for (const BranchRun& run : lists.runs) {
         for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
-            add(view.pool().branches()[lists.branches[i].place()].tree, run.level);
+            add(lod.pool().branches()[lists.branches[i].slot()].tree, run.level);
         }
     }
-    for (const Listed& tree : lists.trees) {
-        add(tree.number, kTreeLevels);
+    for (const DrawEntry& tree : lists.trees) {
+        add(tree.index, kTreeLevels);
     }
     std::sort(drawn.begin(), drawn.end());
     return drawn;
@@ -51,8 +51,8 @@ TEST_CASE("a forest that was changed is drawn as one that was always so") {
     LargeVector<Tree>& trees = part->forest.trees;
     const std::vector<Tree> last(trees.begin() + 2000, trees.end());
     trees.resize(2000);
-    ForestView changed(part->model);
-    ForestView wanted(whole->model);
+    ForestLod changed(part->model);
+    ForestLod wanted(whole->model);
     // Looked at before, so that lists and pool have to follow.
     static_cast<void>(drawn_by(changed, over_all()));
     for (std::uint32_t i = 0; i < last.size(); ++i) {
@@ -74,7 +74,7 @@ TEST_CASE("a forest that was changed is drawn as one that was always so") {
     }
     const auto fewer = make_wood(3000, 200.0F);
     fewer->forest.trees = left;
-    ForestView thinned(fewer->model);
+    ForestLod thinned(fewer->model);
     CHECK(changed.alive_count() == left.size());
     CHECK(drawn_by(changed, over_all()) == drawn_by(thinned, over_all()));
     Bounds all;
@@ -94,21 +94,21 @@ TEST_CASE("a forest that was changed is drawn as one that was always so") {
 
 TEST_CASE("a tree in the place of another is drawn as itself") {
     const auto wood = make_wood(100, 40.0F);
-    ForestView view(wood->model);
+    ForestLod lod(wood->model);
     const Camera camera{{20.0F, 8.0F, -10.0F}, {20.0F, 0.0F, 20.0F}, 60.0F};
-    const std::size_t before = drawn_by(view, camera).size();
+    const std::size_t before = drawn_by(lod, camera).size();
     Tree tree;
     tree.position = {20.0F, 0.0F, 0.0F};
     tree.number = kFirstPainted;
-    static_cast<void>(view.change_tree(100, tree, true));
-    const std::vector<Drawn> first = drawn_by(view, camera);
+    static_cast<void>(lod.change_tree(100, tree, true));
+    const std::vector<Drawn> first = drawn_by(lod, camera);
     REQUIRE(first.size() > before);
-    static_cast<void>(view.change_tree(100, tree, false));
-    CHECK(drawn_by(view, camera).size() == before);
+    static_cast<void>(lod.change_tree(100, tree, false));
+    CHECK(drawn_by(lod, camera).size() == before);
     tree.position = {22.0F, 0.0F, 2.0F};
     tree.number = kFirstPainted + 5;
-    static_cast<void>(view.change_tree(100, tree, true));
-    const std::vector<Drawn> second = drawn_by(view, camera);
+    static_cast<void>(lod.change_tree(100, tree, true));
+    const std::vector<Drawn> second = drawn_by(lod, camera);
     const auto stands = [&second](float x) {
         return std::any_of(second.begin(), second.end(),
                            [x](const Drawn& drawn) { return drawn[0] == x; });
@@ -119,11 +119,11 @@ TEST_CASE("a tree in the place of another is drawn as itself") {
 
 TEST_CASE("a forest without trees can be painted into") {
     const auto wood = make_wood(0, 40.0F);
-    ForestView view(wood->model);
+    ForestLod lod(wood->model);
     Tree tree;
     tree.position = {20.0F, 0.0F, 20.0F};
-    CHECK(view.change_tree(0, tree, true) == 0);
-    CHECK(view.alive_count() == 1);
-    CHECK_FALSE(view.bounds().empty);
-    CHECK_FALSE(drawn_by(view, {{20.0F, 8.0F, -10.0F}, {20.0F, 0.0F, 20.0F}, 60.0F}).empty());
+    CHECK(lod.change_tree(0, tree, true) == 0);
+    CHECK(lod.alive_count() == 1);
+    CHECK_FALSE(lod.bounds().empty);
+    CHECK_FALSE(drawn_by(lod, {{20.0F, 8.0F, -10.0F}, {20.0F, 0.0F, 20.0F}, 60.0F}).empty());
 }

@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// What a watch told.
+/// Reports of a watch.
 class Told {
 public:
     void add(const std::vector<std::string>& files) {

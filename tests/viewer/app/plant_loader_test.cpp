@@ -21,7 +21,7 @@ ViewOptions options_of(const std::string& file) {
     return options;
 }
 
-/// What is made within a long time.
+/// Next outcome, or none after a long time.
 LoadOutcome wait_for(PlantLoader& loader) {
     for (const auto start = SteadyClock::now(); SteadyClock::now() - start < 60s;) {
         if (std::optional<LoadOutcome> outcome = loader.take()) {

@@ -1,4 +1,4 @@
-// What the ground hides, beside lines of sight that are followed step by step.
+// Occlusion by the ground against lines of sight followed step by step.
 #include "tests/viewer/drawn_ground.h"
 #include "tests/viewer/wood.h"
 #include "viewer/scene/ground_horizon.h"
@@ -22,7 +22,7 @@ namespace {
 constexpr float kReach = 1500.0F; // m
 
 /// Whether the ground lies above the line between two points somewhere.
-bool is_blocked(const TerrainView& ground, const glm::vec3& eye, const glm::vec3& at) {
+bool is_blocked(const TerrainLod& ground, const glm::vec3& eye, const glm::vec3& at) {
     const float length = glm::distance(eye, at);
     for (float way = 1.0F; way < length; way += 0.2F + 0.002F * way) {
         const glm::vec3 on_line = eye + (at - eye) * (way / length);
@@ -53,7 +53,7 @@ Box box_on(const Terrain& terrain, std::mt19937& draws, const glm::vec3& eye) {
 
 TEST_CASE("what the ground hides cannot be seen") {
     const Terrain terrain = hills(1000.0F);
-    TerrainView ground(terrain, kReach);
+    TerrainLod ground(terrain, kReach);
     GroundHorizon horizon;
     std::mt19937 draws(4);
     std::uniform_real_distribution<float> part(0.0F, 1.0F);
@@ -63,8 +63,8 @@ TEST_CASE("what the ground hides cannot be seen") {
         glm::vec3 eye(200.0F + 600.0F * part(draws), 0.0F, 200.0F + 600.0F * part(draws));
         eye.y = terrain.height(eye.x, eye.z) + (view % 4 == 3 ? 25.0F : 1.7F);
         const Camera camera{eye, eye + glm::vec3(1.0F, 0.0F, 0.3F), 60.0F};
-        ground.select(view_volume(camera, 640, 360));
-        horizon.look(ground, eye);
+        ground.select(make_frustum(camera, 640, 360));
+        horizon.set_viewpoint(ground, eye);
         for (int i = 0; i < 300; ++i) {
             const Box box = box_on(terrain, draws, eye);
             if (!horizon.hides(box.low, box.high)) {
@@ -89,13 +89,13 @@ TEST_CASE("what the ground hides cannot be seen") {
 
 TEST_CASE("level ground hides nothing, and from below there is none") {
     const Terrain flat = Terrain::flat({0.0, 0.0, 1000.0, 1000.0}).value();
-    TerrainView level(flat, kReach);
+    TerrainLod level(flat, kReach);
     GroundHorizon horizon;
     CHECK_FALSE(horizon.hides({10.0F, -1.0F, 10.0F}, {20.0F, 5.0F, 20.0F}));
     std::mt19937 draws(5);
-    const auto look = [&](TerrainView& ground, const glm::vec3& eye) {
-        ground.select(view_volume({eye, eye + glm::vec3(1.0F, 0.0F, 0.0F), 60.0F}, 64, 36));
-        horizon.look(ground, eye);
+    const auto look = [&](TerrainLod& ground, const glm::vec3& eye) {
+        ground.select(make_frustum({eye, eye + glm::vec3(1.0F, 0.0F, 0.0F), 60.0F}, 64, 36));
+        horizon.set_viewpoint(ground, eye);
     };
     const glm::vec3 eye(500.0F, 1.7F, 500.0F);
     look(level, eye);
@@ -104,7 +104,7 @@ TEST_CASE("level ground hides nothing, and from below there is none") {
         REQUIRE_FALSE(horizon.hides(box.low, box.high + glm::vec3(0.0F, 0.1F, 0.0F)));
     }
     const Terrain terrain = hills(1000.0F);
-    TerrainView ground(terrain, kReach);
+    TerrainLod ground(terrain, kReach);
     const glm::vec3 below(500.0F, terrain.height(500.0F, 500.0F) - 2.0F, 500.0F);
     look(ground, below);
     for (int i = 0; i < 300; ++i) {
@@ -116,28 +116,28 @@ TEST_CASE("level ground hides nothing, and from below there is none") {
 TEST_CASE("trees behind the ground are left out, and no others") {
     const auto wood = make_wood_on_hills(6000, 600.0F);
     const TreeForm& form = wood->model.forms[0];
-    ForestView view(wood->model);
-    TerrainView ground(*wood->terrain, kReach);
+    ForestLod lod(wood->model);
+    TerrainLod ground(*wood->terrain, kReach);
     GroundHorizon horizon;
     std::uint64_t hidden = 0;
     for (const glm::vec2& at :
          {glm::vec2(300.0F, 300.0F), glm::vec2(100.0F, 420.0F), glm::vec2(510.0F, 80.0F)}) {
         const glm::vec3 eye(at.x, wood->terrain->height(at.x, at.y) + 1.7F, at.y);
         const Camera camera{eye, {300.0F, eye.y, 290.0F}, 60.0F};
-        const ViewVolume volume = view_volume(camera, 640, 480);
-        ground.select(volume);
-        horizon.look(ground, eye);
-        const ForestLists all = view.select(volume, wood_rings());
-        const ForestLists& some = view.select(volume, wood_rings(), &horizon);
+        const Frustum frustum = make_frustum(camera, 640, 480);
+        ground.select(frustum);
+        horizon.set_viewpoint(ground, eye);
+        const DrawLists all = lod.select(frustum, wood_lod());
+        const DrawLists& some = lod.select(frustum, wood_lod(), &horizon);
         CHECK(all.hidden == 0);
         hidden += some.hidden;
         std::set<std::uint32_t> left;
-        const auto collect = [&](const ForestLists& lists, const auto& take) {
-            for (const Listed& tree : lists.trees) {
-                take(tree.number);
+        const auto collect = [&](const DrawLists& lists, const auto& take) {
+            for (const DrawEntry& tree : lists.trees) {
+                take(tree.index);
             }
-            for (const Listed& clump : lists.clumps) {
-                const ForestCell& cell = view.cells()[clump.number];
+            for (const DrawEntry& cluster : lists.clusters) {
+                const ForestCell& cell = lod.cells()[cluster.index];
                 for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
                     take(t);
                 }
@@ -150,7 +150,7 @@ TEST_CASE("trees behind the ground are left out, and no others") {
                 return;
             }
             ++missing;
-            const ViewTree& seen = view.view_tree(tree);
+            const LodTree& seen = lod.lod_tree(tree);
             for (const float height : {form.low, form.high}) {
                 const glm::vec3 place = seen.position + glm::vec3(0.0F, seen.scale * height, 0.0F);
                 CAPTURE(tree, height);

@@ -11,7 +11,7 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::size_t kMostErrors = 16;
+constexpr std::size_t kMaxErrors = 16;
 
 std::string text_of(GLenum name) {
     const auto* const text = reinterpret_cast<const char*>(glGetString(name));
@@ -35,7 +35,7 @@ void GLAPIENTRY on_message(GLenum /*source*/,
     if (type != GL_DEBUG_TYPE_ERROR && severity != GL_DEBUG_SEVERITY_HIGH) {
         return;
     }
-    // The library's signature has a pointer to const; what was handed to it is not.
+    // The callback has a pointer to const; the registered one is not.
     static_cast<Device*>(const_cast<void*>(device))
         ->report(length < 0 ? std::string(message)
                             : std::string(message, static_cast<std::size_t>(length)));
@@ -68,7 +68,7 @@ void Device::end_pass() {
 }
 
 void Device::report(std::string message) {
-    if (errors_.size() < kMostErrors) {
+    if (errors_.size() < kMaxErrors) {
         errors_.push_back(std::move(message));
     }
 }

@@ -16,29 +16,29 @@ namespace lsys::view {
 
 namespace {
 
-// Bindings of forest.glsl and branch.frag.glsl.
+// Bindings in forest.glsl and branch.frag.glsl.
 constexpr GLuint kBranches = 0;
 constexpr GLuint kTrees = 1;
 constexpr GLuint kForms = 2;
-constexpr GLuint kLooks = 3;
+constexpr GLuint kMaterials = 3;
 constexpr GLuint kBranchAttribute = 4;
 
 struct Vertex {
     std::array<std::int16_t, 3> position{}; // in 1/32767 of the form's box
-    std::uint16_t look = 0;
+    std::uint16_t material = 0;
     std::array<std::int8_t, 2> normal{}; // octahedral, in 1/127
     std::array<std::uint8_t, 2> unused{};
     std::array<std::uint16_t, 2> texture_coordinate{}; // binary16
 };
 static_assert(sizeof(Vertex) == 16);
 
-struct Look {
+struct MaterialRecord {
     glm::vec3 colour{};
-    std::uint32_t kind = 0; // kTextured, kThrough
+    std::uint32_t kind = 0; // kTextured, kTranslucent
 };
-static_assert(sizeof(Look) == 16);
-constexpr std::uint32_t kTextured = 1; // what branch.frag.glsl asks for
-constexpr std::uint32_t kThrough = 2;
+static_assert(sizeof(MaterialRecord) == 16);
+constexpr std::uint32_t kTextured = 1; // bits in branch.frag.glsl
+constexpr std::uint32_t kTranslucent = 2;
 
 struct FormRecord {
     glm::vec4 cylinder{};
@@ -49,22 +49,22 @@ struct TreeRecord {
     glm::vec3 root{};
     float scale = 1.0F;
     std::uint32_t yaw_phase = 0;
-    std::uint32_t form_portrait = 0;
+    std::uint32_t form_impostor = 0;
 };
 static_assert(sizeof(TreeRecord) == 24);
 
-/// Records for trees that are added; with more, all are copied within the device.
+/// Spare records for added trees; beyond them the buffer is copied on the device.
 constexpr std::size_t kRoomForTrees = std::size_t{1} << 14U;
 
-TreeRecord record_of(const ViewTree& tree, const Tree& full) {
+TreeRecord record_of(const LodTree& tree, const Tree& full) {
     const float turns = full.yaw / (2.0F * std::numbers::pi_v<float>);
     const auto yaw = static_cast<std::uint32_t>(65536.0F * (turns - std::floor(turns))) & 0xFFFFU;
     const std::uint32_t phase = golden_multiple(full.number) >> 16U;
-    const auto portrait = static_cast<std::uint32_t>(tree.portrait & ~ViewTree::kGone);
-    return {tree.position, tree.scale, phase << 16U | yaw, portrait << 16U | tree.form};
+    const auto impostor = static_cast<std::uint32_t>(tree.impostor & ~LodTree::kRemoved);
+    return {tree.position, tree.scale, phase << 16U | yaw, impostor << 16U | tree.form};
 }
 
-/// Tells whether two are alike.
+/// Hash for comparing uploads.
 template <typename T>
 std::uint64_t digest_of(std::span<const T> items, std::uint64_t digest) {
     return combine_bytes(digest, {reinterpret_cast<const char*>(items.data()), items.size_bytes()});
@@ -74,7 +74,7 @@ std::int16_t snorm16(float value) {
     return static_cast<std::int16_t>(std::lround(std::clamp(value, -1.0F, 1.0F) * 32767.0F));
 }
 
-std::array<std::int8_t, 2> folded(const glm::vec3& n) {
+std::array<std::int8_t, 2> octahedral(const glm::vec3& n) {
     const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
     glm::vec2 e = sum > 0.0F ? glm::vec2(n.x, n.y) / sum : glm::vec2(0.0F);
     if (n.z < 0.0F) {
@@ -84,7 +84,7 @@ std::array<std::int8_t, 2> folded(const glm::vec3& n) {
     return {part(e.x), part(e.y)};
 }
 
-/// By a texture of the program; of a picture of a file only the mean colour is there.
+/// Textured by the program; pictures from files are reduced to their mean colour.
 bool is_textured(const Material& material) {
     return material.textured && material.picture == nullptr;
 }
@@ -99,40 +99,41 @@ BranchClass class_of(const Material& material) {
     return is_textured(material) ? BranchClass::TwoSided : BranchClass::Plain;
 }
 
-/// The looks of a mesh's materials, those alike once.
-std::vector<std::uint16_t> add_looks(const std::vector<Material>& materials,
-                                     std::vector<Look>& looks) {
+/// Appends the records of materials, equal ones once; returns their indices.
+std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
+                                         std::vector<MaterialRecord>& records) {
     std::vector<std::uint16_t> numbers;
     for (const Material& material : materials) {
-        Look look;
-        look.colour = glm::vec3(material.colour);
+        MaterialRecord record;
+        record.colour = glm::vec3(material.colour);
         if (material.picture != nullptr) {
-            look.colour *= mean_colour(*material.picture);
+            record.colour *= mean_colour(*material.picture);
         }
-        // Leaves, petals, and meshes of files that are seen from both sides: most are leaves.
-        const bool is_through = material.two_sided || material.kind == MaterialKind::Leaf ||
-                                material.kind == MaterialKind::Flower;
-        look.kind = (is_textured(material) ? kTextured : 0) | (is_through ? kThrough : 0);
-        const auto same = std::find_if(looks.begin(), looks.end(), [&](const Look& other) {
-            return other.colour == look.colour && other.kind == look.kind;
-        });
-        numbers.push_back(static_cast<std::uint16_t>(same - looks.begin()));
-        if (same == looks.end()) {
-            looks.push_back(look);
+        // Leaves, petals, and two-sided meshes from files, which are mostly leaves.
+        const bool is_translucent = material.two_sided || material.kind == MaterialKind::Leaf ||
+                                    material.kind == MaterialKind::Flower;
+        record.kind = (is_textured(material) ? kTextured : 0) | (is_translucent ? kTranslucent : 0);
+        const auto same =
+            std::find_if(records.begin(), records.end(), [&](const MaterialRecord& other) {
+                return other.colour == record.colour && other.kind == record.kind;
+            });
+        numbers.push_back(static_cast<std::uint16_t>(same - records.begin()));
+        if (same == records.end()) {
+            records.push_back(record);
         }
     }
     return numbers;
 }
 
-/// In the commands of what is drawn.
+/// Index of draw commands.
 constexpr std::size_t place_of(std::size_t kind, bool blends) {
     return kind + (blends ? kBranchClasses : 0);
 }
 
 } // namespace
 
-ForestBuffers::Drawn ForestBuffers::make_drawn(Device& device) {
-    Drawn drawn{Buffer(device), Buffer(device), Buffer(device), {}};
+ForestBuffers::DrawBuffers ForestBuffers::make_draw_buffers(Device& device) {
+    DrawBuffers drawn{Buffer(device), Buffer(device), Buffer(device), {}};
     for (Commands& commands : drawn.commands) {
         commands.buffer = Buffer(device);
     }
@@ -140,15 +141,16 @@ ForestBuffers::Drawn ForestBuffers::make_drawn(Device& device) {
 }
 
 ForestBuffers::ForestBuffers(Device& device)
-    : array_(make_vertex_array(device)), vertices_(device), indices_(device), looks_(device),
-      forms_(device), cells_(device), forest_(make_drawn(device)), portrait_(make_drawn(device)) {
+    : array_(make_vertex_array(device)), vertices_(device), indices_(device), materials_(device),
+      forms_(device), clusters_(device), forest_(make_draw_buffers(device)),
+      impostor_(make_draw_buffers(device)) {
     const GLuint array = array_.name();
     for (GLuint i = 0; i <= kBranchAttribute; ++i) {
         glEnableVertexArrayAttrib(array, i);
         glVertexArrayAttribBinding(array, i, i == kBranchAttribute ? 1 : 0);
     }
     glVertexArrayAttribFormat(array, 0, 3, GL_SHORT, GL_TRUE, offsetof(Vertex, position));
-    glVertexArrayAttribIFormat(array, 1, 1, GL_UNSIGNED_SHORT, offsetof(Vertex, look));
+    glVertexArrayAttribIFormat(array, 1, 1, GL_UNSIGNED_SHORT, offsetof(Vertex, material));
     glVertexArrayAttribFormat(array, 2, 2, GL_BYTE, GL_TRUE, offsetof(Vertex, normal));
     glVertexArrayAttribFormat(array, 3, 2, GL_HALF_FLOAT, GL_FALSE,
                               offsetof(Vertex, texture_coordinate));
@@ -156,12 +158,12 @@ ForestBuffers::ForestBuffers(Device& device)
     glVertexArrayBindingDivisor(array, 1, 1);
 }
 
-void ForestBuffers::turn_to(Subject subject) {
-    drawn_ = subject == Subject::Forest ? &forest_ : &portrait_;
+void ForestBuffers::use(BufferSet set) {
+    current_ = set == BufferSet::Forest ? &forest_ : &impostor_;
 }
 
-void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
-    std::vector<Look> looks;
+void ForestBuffers::upload(ForestModel& model, const ImpostorPlan& plan) {
+    std::vector<MaterialRecord> records;
     std::vector<FormRecord> forms;
     std::uint64_t vertex_count = 0;
     std::uint64_t index_count = 0;
@@ -179,7 +181,7 @@ void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
         boxes.push_back(box);
     }
     for (std::size_t f = 0; f < plan.forms.size(); ++f) {
-        const PictureForm& form = plan.forms[f];
+        const ImpostorForm& form = plan.forms[f];
         forms.push_back(
             {{form.cylinder.radius, form.cylinder.low, form.cylinder.high, boxes[f % boxes.size()]},
              {static_cast<float>(form.first_layer), f < boxes.size() ? 0.0F : 1.0F, 0.0F, 0.0F}});
@@ -202,14 +204,14 @@ void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
             const InstanceMeshes& meshes = (*of_levels)[l];
             const Mesh& mesh = meshes.mesh;
             const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
-            const std::vector<std::uint16_t> numbers = add_looks(mesh.materials, looks);
+            const std::vector<std::uint16_t> numbers = add_materials(mesh.materials, records);
             FormLevel& level = levels[l];
             level.base_vertex = static_cast<std::int32_t>(first_vertex);
             packed.assign(mesh.positions.size(), {});
             for (std::size_t v = 0; v < packed.size(); ++v) {
                 const glm::vec3 at = mesh.positions[v] / boxes[f];
                 packed[v].position = {snorm16(at.x), snorm16(at.y), snorm16(at.z)};
-                packed[v].normal = folded(mesh.normals[v]);
+                packed[v].normal = octahedral(mesh.normals[v]);
                 if (!mesh.texture_coordinates.empty()) {
                     const glm::vec2& uv = mesh.texture_coordinates[v];
                     packed[v].texture_coordinate = {glm::packHalf1x16(uv.x),
@@ -217,10 +219,10 @@ void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
                 }
             }
             const auto instances = static_cast<std::uint32_t>(meshes.first_part.size()) - 1;
-            level.pieces.resize(instances);
+            level.ranges.resize(instances);
             listed.clear();
             for (std::uint32_t i = 0; i < instances; ++i) {
-                // Parts are in order of materials, not of classes.
+                // Parts are sorted by material, not by class.
                 for (std::size_t kind = 0; kind < kBranchClasses; ++kind) {
                     const std::size_t before = listed.size();
                     for (const MeshPart& part : meshes.parts_of(i)) {
@@ -230,17 +232,17 @@ void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
                         }
                         for (std::uint64_t k = 0; k < part.index_count; ++k) {
                             const std::uint32_t vertex = indices[part.first_index + k];
-                            packed[vertex].look = numbers[part.material];
+                            packed[vertex].material = numbers[part.material];
                             listed.push_back(vertex);
                         }
                     }
-                    level.pieces[i].first[kind] = static_cast<std::uint32_t>(first_index + before);
-                    level.pieces[i].count[kind] =
+                    level.ranges[i].first[kind] = static_cast<std::uint32_t>(first_index + before);
+                    level.ranges[i].count[kind] =
                         static_cast<std::uint32_t>(listed.size() - before);
                 }
             }
             for (const std::uint16_t number : numbers) {
-                digest = digest_of(std::span<const Look>(&looks[number], 1), digest);
+                digest = digest_of(std::span<const MaterialRecord>(&records[number], 1), digest);
             }
             digest = digest_of(std::span<const Vertex>(packed), digest);
             digest = digest_of(std::span<const std::uint32_t>(listed), digest);
@@ -251,49 +253,49 @@ void ForestBuffers::upload(ForestModel& model, const PortraitPlan& plan) {
             first_index += listed.size();
         }
     }
-    looks_.fill(std::span<const Look>(looks));
+    materials_.fill(std::span<const MaterialRecord>(records));
     forms_.fill(std::span<const FormRecord>(forms));
     glVertexArrayVertexBuffer(array_.name(), 0, vertices_.name(), 0, sizeof(Vertex));
     glVertexArrayElementBuffer(array_.name(), indices_.name());
 }
 
-void ForestBuffers::upload_trees(const ForestView& view) {
-    const std::span<const ViewTree> trees = view.trees();
-    drawn_->trees.reserve((trees.size() + kRoomForTrees) * sizeof(TreeRecord));
+void ForestBuffers::upload_trees(const ForestLod& lod) {
+    const std::span<const LodTree> trees = lod.trees();
+    current_->trees.reserve((trees.size() + kRoomForTrees) * sizeof(TreeRecord));
     constexpr std::size_t kPiece = std::size_t{1} << 16U;
     std::vector<TreeRecord> records;
     for (std::size_t first = 0; first < trees.size(); first += kPiece) {
         records.clear();
         for (std::size_t t = first; t < std::min(first + kPiece, trees.size()); ++t) {
-            records.push_back(record_of(trees[t], view.model().forest->trees[trees[t].tree]));
+            records.push_back(record_of(trees[t], lod.model().forest->trees[trees[t].tree]));
         }
-        drawn_->trees.write(std::span<const TreeRecord>(records), first * sizeof(TreeRecord));
+        current_->trees.write(std::span<const TreeRecord>(records), first * sizeof(TreeRecord));
     }
-    const auto forms = static_cast<std::uint32_t>(view.model().forms.size());
+    const auto forms = static_cast<std::uint32_t>(lod.model().forms.size());
     records.clear();
-    for (const ForestCell& cell : view.cells()) {
+    for (const ForestCell& cell : lod.cells()) {
         const auto number = static_cast<std::uint32_t>(records.size());
-        // Turned by quarters, so that squares stay squares.
+        // Quarter turns keep cells aligned.
         const std::uint32_t drawn = golden_multiple(number);
         const std::uint32_t yaw = drawn >> 30U << 14U;
         const std::uint32_t phase = drawn & 0xFFFF0000U;
         records.push_back({cell.middle, cell.scale, phase | yaw, forms + cell.form});
     }
-    cells_.fill(std::span<const TreeRecord>(records));
+    clusters_.fill(std::span<const TreeRecord>(records));
 }
 
-void ForestBuffers::upload_tree(const ForestView& view, std::uint32_t number) {
+void ForestBuffers::upload_tree(const ForestLod& lod, std::uint32_t number) {
     const std::size_t offset = std::size_t{number} * sizeof(TreeRecord);
-    Buffer& trees = drawn_->trees;
+    Buffer& trees = current_->trees;
     if (offset + sizeof(TreeRecord) > trees.capacity()) {
         trees.grow(offset + kRoomForTrees * sizeof(TreeRecord));
     }
-    const TreeRecord record = record_of(view.view_tree(number), view.tree_of(number));
+    const TreeRecord record = record_of(lod.lod_tree(number), lod.tree_of(number));
     trees.write(std::span<const TreeRecord>(&record, 1), offset);
 }
 
-void ForestBuffers::bind_cells() const {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, cells_.name());
+void ForestBuffers::bind_clusters() const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, clusters_.name());
 }
 
 void ForestBuffers::set_trees(std::span<const Tree> trees, std::uint32_t form) {
@@ -301,45 +303,45 @@ void ForestBuffers::set_trees(std::span<const Tree> trees, std::uint32_t form) {
     for (const Tree& tree : trees) {
         records.push_back({tree.position, tree.scale, 0, form});
     }
-    drawn_->trees.fill(std::span<const TreeRecord>(records));
+    current_->trees.fill(std::span<const TreeRecord>(records));
 }
 
 void ForestBuffers::upload_branches(BranchPool& pool) {
     const std::span<const PoolBranch> all = pool.branches();
-    drawn_->branches.grow(std::bit_ceil(std::max<std::size_t>(all.size_bytes(), 1024)));
+    current_->branches.grow(std::bit_ceil(std::max<std::size_t>(all.size_bytes(), 1024)));
     for (const PoolSpan& span : pool.take_written()) {
-        drawn_->branches.write(all.subspan(span.first, span.count),
-                               span.first * sizeof(PoolBranch));
+        current_->branches.write(all.subspan(span.first, span.count),
+                                 span.first * sizeof(PoolBranch));
     }
 }
 
 void ForestBuffers::set_branches(std::span<const PoolBranch> branches) {
-    drawn_->branches.fill(branches);
+    current_->branches.fill(branches);
 }
 
-void ForestBuffers::command(const ForestLists& lists) {
-    drawn_->lists.fill(std::span<const ListedBranch>(lists.branches));
-    glVertexArrayVertexBuffer(array_.name(), 1, drawn_->lists.name(), 0, sizeof(ListedBranch));
+void ForestBuffers::upload_commands(const DrawLists& lists) {
+    current_->lists.fill(std::span<const BranchEntry>(lists.branches));
+    glVertexArrayVertexBuffer(array_.name(), 1, current_->lists.name(), 0, sizeof(BranchEntry));
     std::array<std::vector<DrawCommand>, 2 * kBranchClasses> commands;
     for (const BranchRun& run : lists.runs) {
         const FormLevel& level = form_levels_[run.form][run.level];
-        const Piece& piece = level.pieces[run.instance];
+        const IndexRanges& ranges = level.ranges[run.instance];
         for (std::size_t kind = 0; kind < kBranchClasses; ++kind) {
-            if (piece.count[kind] != 0) {
-                commands[place_of(kind, run.blends)].push_back({piece.count[kind], run.count,
-                                                                piece.first[kind],
+            if (ranges.count[kind] != 0) {
+                commands[place_of(kind, run.blends)].push_back({ranges.count[kind], run.count,
+                                                                ranges.first[kind],
                                                                 level.base_vertex, run.first});
             }
         }
     }
     for (std::size_t i = 0; i < commands.size(); ++i) {
-        drawn_->commands[i].buffer.fill(std::span<const DrawCommand>(commands[i]));
-        drawn_->commands[i].count = static_cast<std::uint32_t>(commands[i].size());
+        current_->commands[i].buffer.fill(std::span<const DrawCommand>(commands[i]));
+        current_->commands[i].count = static_cast<std::uint32_t>(commands[i].size());
     }
 }
 
 std::uint64_t ForestBuffers::draw(BranchClass kind, bool blends) const {
-    const Commands& commands = drawn_->commands[place_of(static_cast<std::size_t>(kind), blends)];
+    const Commands& commands = current_->commands[place_of(static_cast<std::size_t>(kind), blends)];
     if (commands.count == 0) {
         return 0;
     }
@@ -353,10 +355,10 @@ std::uint64_t ForestBuffers::draw(BranchClass kind, bool blends) const {
 }
 
 void ForestBuffers::bind_storage() const {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBranches, drawn_->branches.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, drawn_->trees.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBranches, current_->branches.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, current_->trees.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kForms, forms_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kLooks, looks_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kMaterials, materials_.name());
 }
 
 } // namespace lsys::view

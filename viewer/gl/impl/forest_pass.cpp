@@ -23,16 +23,16 @@ constexpr GLuint kBarkTexture = 1;
 constexpr GLuint kLeafTexture = 2;
 constexpr GLuint kAlbedos = 3;
 constexpr GLuint kNormals = 4;
-constexpr GLuint kBoxes = 4; // binding of impostor.vert.glsl
-// The sun's map: half its side where the eye is near the ground, and at most (m).
-constexpr float kNearestLit = 45.0F;
-constexpr float kFarthestLit = 400.0F;
-constexpr float kGroundBeyond = 3000.0F; // m, of ground that is drawn around the forest
+constexpr GLuint kBoxes = 4; // in impostor.vert.glsl
+// Half side of the shadow map near the ground, and its max, m.
+constexpr float kMinShadowRange = 45.0F;
+constexpr float kMaxShadowRange = 400.0F;
+constexpr float kGroundBeyond = 3000.0F; // m, range of the ground beyond the forest
 
-/// What stands in the sun's map, seen from above: of all that lies between two heights.
-/// `shadow_from_world`: as shadow_matrix() has it.
+/// Box of the casters between two heights that can shade the map. `shadow_from_world`: see
+/// shadow_matrix().
 Bounds casters_of(const glm::mat4& shadow_from_world, float low, float high) {
-    constexpr float kFarthest = -3.0F; // in depths of the map, where the sun is low
+    constexpr float kFarthest = -3.0F; // in map depths, for a low sun
     const glm::mat4 world_from_shadow = glm::inverse(shadow_from_world);
     Bounds casters;
     for (const float x : {-1.0F, 1.0F}) {
@@ -58,10 +58,10 @@ double seconds_since(Clock::time_point start) {
 } // namespace
 
 ForestPass::ForestPass(Device& device)
-    : device_(&device), buffers_(device), portraits_(device), terrain_(device),
+    : device_(&device), buffers_(device), impostors_(device), terrain_(device),
       quads_(make_vertex_array(device)), quad_trees_(device) {
-    glVertexArrayAttribIFormat(quads_.name(), 0, 1, GL_UNSIGNED_INT, offsetof(Listed, number));
-    glVertexArrayAttribFormat(quads_.name(), 1, 1, GL_FLOAT, GL_FALSE, offsetof(Listed, part));
+    glVertexArrayAttribIFormat(quads_.name(), 0, 1, GL_UNSIGNED_INT, offsetof(DrawEntry, index));
+    glVertexArrayAttribFormat(quads_.name(), 1, 2, GL_FLOAT, GL_FALSE, offsetof(DrawEntry, range));
     for (const GLuint attribute : {0U, 1U}) {
         glEnableVertexArrayAttrib(quads_.name(), attribute);
         glVertexArrayAttribBinding(quads_.name(), attribute, 0);
@@ -78,7 +78,7 @@ Result<void> ForestPass::reload(const ShaderSource& shaders) {
         }
         programs[windy ? 1 : 0] = std::move(made.value());
     }
-    if (Result<void> done = portraits_.reload(shaders); !done) {
+    if (Result<void> done = impostors_.reload(shaders); !done) {
         return done;
     }
     if (Result<void> done = terrain_.reload(shaders); !done) {
@@ -91,14 +91,14 @@ Result<void> ForestPass::reload(const ShaderSource& shaders) {
 void ForestPass::show(ForestModel model) {
     const Clock::time_point start = Clock::now();
     lists_ = nullptr;
-    view_.reset();
+    lod_.reset();
     model_ = std::move(model);
-    view_ = std::make_unique<ForestView>(model_);
-    PortraitPlan plan = plan_portraits(*view_);
-    has_cells_ = plan.has_cells;
+    lod_ = std::make_unique<ForestLod>(model_);
+    ImpostorPlan plan = plan_impostors(*lod_);
+    has_clusters_ = plan.has_clusters;
     buffers_.upload(model_, plan);
-    portraits_.begin(model_, std::move(plan), buffers_);
-    buffers_.upload_trees(*view_);
+    impostors_.begin(model_, std::move(plan), buffers_);
+    buffers_.upload_trees(*lod_);
     const Region& region = model_.terrain->region();
     terrain_.show(*model_.terrain,
                   static_cast<float>(std::hypot(region.width, region.depth)) + kGroundBeyond);
@@ -106,34 +106,34 @@ void ForestPass::show(ForestModel model) {
     bake_seconds_ = 0.0;
 }
 
-bool ForestPass::make_portraits(double seconds, MaterialTextures& textures) {
+bool ForestPass::bake_impostors(double seconds, MaterialTextures& textures) {
     const Clock::time_point start = Clock::now();
-    while (!portraits_.is_done()) {
-        portraits_.step(model_, buffers_, textures);
+    while (!impostors_.is_done()) {
+        impostors_.step(model_, buffers_, textures);
         if (seconds_since(start) >= seconds) {
             break;
         }
     }
     bake_seconds_ += seconds_since(start);
-    return portraits_.is_done();
+    return impostors_.is_done();
 }
 
 void ForestPass::change_tree(std::uint32_t index, const Tree& tree, bool alive) {
-    const std::uint32_t number = view_->change_tree(index, tree, alive);
-    if (alive && number >= view_->trees().size()) {
-        buffers_.upload_tree(*view_, number);
+    const std::uint32_t number = lod_->change_tree(index, tree, alive);
+    if (alive && number >= lod_->trees().size()) {
+        buffers_.upload_tree(*lod_, number);
     }
 }
 
-Bounds ForestPass::lit_bounds(const Frame& frame) const {
+Bounds ForestPass::shadow_bounds(const Frame& frame) const {
     const Camera& camera = frame.camera;
     const float ground = model_.terrain->height(camera.eye.x, camera.eye.z);
     const float above = std::max(camera.eye.y - ground, 0.0F);
-    float half = kNearestLit;
-    while (half < kFarthestLit && half < 1.2F * above) {
+    float half = kMinShadowRange;
+    while (half < kMaxShadowRange && half < 1.2F * above) {
         half *= 1.5F;
     }
-    // In front of the eye, or where it looks at from above.
+    // In front of the eye, or at the point it looks at from above.
     const glm::vec3 along = forward_of(camera);
     const glm::vec2 flat(along.x, along.z);
     const float length = glm::length(flat);
@@ -147,7 +147,7 @@ Bounds ForestPass::lit_bounds(const Frame& frame) const {
     Bounds lit;
     lit.add({middle.x - half, all.low.y, middle.y - half});
     lit.add({middle.x + half, all.high.y, middle.y + half});
-    // No larger than the forest.
+    // Clip to the forest.
     lit.low = glm::max(lit.low, all.low - glm::vec3(half * 0.25F, 0.0F, half * 0.25F));
     lit.high = glm::min(lit.high, all.high + glm::vec3(half * 0.25F, 0.0F, half * 0.25F));
     if (lit.low.x >= lit.high.x || lit.low.z >= lit.high.z) {
@@ -159,35 +159,35 @@ Bounds ForestPass::lit_bounds(const Frame& frame) const {
 
 void ForestPass::prepare(const Frame& frame) {
     const Clock::time_point start = Clock::now();
-    volume_ = view_volume(frame.camera, frame.width, frame.height);
-    RingOptions rings;
-    rings.most_triangles = frame.most_triangles;
-    rings.most_expansions = frame.most_expansions;
-    rings.wind = frame.wind;
+    frustum_ = make_frustum(frame.camera, frame.width, frame.height);
+    LodOptions options;
+    options.max_triangles = frame.max_triangles;
+    options.max_expansions = frame.max_expansions;
+    options.wind = frame.wind;
     constexpr float kStill = 1e-4F; // m/s
     is_windy_ = glm::length(frame.wind.velocity) >= kStill;
-    rings.horizon_pixels = has_cells_ ? rings.horizon_pixels : 0.0F;
-    terrain_.prepare(volume_);
-    // Edges of triangles hide nothing.
+    options.cluster_pixels = has_clusters_ ? options.cluster_pixels : 0.0F;
+    terrain_.prepare(frustum_);
+    // Wireframes occlude nothing.
     const bool hides = frame.style != PlantStyle::Wireframe;
-    horizon_.look(*terrain_.view(), volume_.eye);
-    lists_ = &view_->select(volume_, rings, hides ? &horizon_ : nullptr);
+    horizon_.set_viewpoint(*terrain_.lod(), frustum_.eye);
+    lists_ = &lod_->select(frustum_, options, hides ? &horizon_ : nullptr);
     cull_seconds_ = seconds_since(start);
-    buffers_.upload_branches(view_->pool());
-    buffers_.command(*lists_);
+    buffers_.upload_branches(lod_->pool());
+    buffers_.upload_commands(*lists_);
 }
 
-void ForestPass::draw_impostors(std::span<const Listed> trees, FrameStats& stats) {
+void ForestPass::draw_impostors(std::span<const DrawEntry> trees, FrameStats& stats) {
     if (trees.empty()) {
         return;
     }
     quad_trees_.fill(trees);
-    // Most of a quad is empty, and light is the dear part: it is looked for only where a tree is
-    // seen. A software renderer does not skip what comes after a texel was discarded.
+    // Depth pass first: most of a quad is empty and lighting is expensive, so light only visible
+    // texels. A software renderer keeps shading after `discard`.
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     const auto whole = static_cast<std::size_t>(
         std::partition_point(trees.begin(), trees.end(),
-                             [](const Listed& tree) { return tree.part == kWhole; }) -
+                             [](const DrawEntry& tree) { return tree.range.is_whole(); }) -
         trees.begin());
     stats.draws += draw_quads(programs().impostor_depth, 0, whole);
     stats.draws += draw_quads(programs().blending_impostor_depth, whole, trees.size() - whole);
@@ -205,11 +205,11 @@ ForestPass::draw_quads(const ProgramObject& program, std::size_t first, std::siz
     if (count == 0) {
         return 0;
     }
-    glVertexArrayVertexBuffer(quads_.name(), 0, quad_trees_.name(), 0, sizeof(Listed));
+    glVertexArrayVertexBuffer(quads_.name(), 0, quad_trees_.name(), 0, sizeof(DrawEntry));
     glUseProgram(program.name());
-    glBindTextureUnit(kAlbedos, portraits_.albedos());
-    glBindTextureUnit(kNormals, portraits_.normals());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBoxes, portraits_.boxes());
+    glBindTextureUnit(kAlbedos, impostors_.albedos());
+    glBindTextureUnit(kNormals, impostors_.normals());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBoxes, impostors_.boxes());
     glBindVertexArray(quads_.name());
     glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count),
                                       static_cast<GLuint>(first));
@@ -218,16 +218,16 @@ ForestPass::draw_quads(const ProgramObject& program, std::size_t first, std::siz
 
 void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats) {
     std::vector<std::uint32_t> numbers;
-    view_->find_within(casters_of(shadow_from_world, bounds().low.y, bounds().high.y), numbers);
-    std::vector<Listed> trees;
+    lod_->find_within(casters_of(shadow_from_world, bounds().low.y, bounds().high.y), numbers);
+    std::vector<DrawEntry> trees;
     trees.reserve(numbers.size());
     for (const std::uint32_t number : numbers) {
-        trees.push_back({number, kWhole});
+        trees.push_back({number, {}});
     }
     buffers_.bind_storage();
     glDisable(GL_CULL_FACE);
     if (!trees.empty()) {
-        quad_trees_.fill(std::span<const Listed>(trees));
+        quad_trees_.fill(std::span<const DrawEntry>(trees));
         stats.shadow.draws += draw_quads(programs().impostor_shadow, 0, trees.size());
         stats.shadow.triangles += 2 * trees.size();
     }
@@ -253,9 +253,9 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     stats.branches.triangles += lists_->triangles;
     glDisable(GL_CULL_FACE);
     draw_impostors(lists_->trees, stats.impostors);
-    if (!lists_->clumps.empty()) {
-        buffers_.bind_cells();
-        draw_impostors(lists_->clumps, stats.impostors);
+    if (!lists_->clusters.empty()) {
+        buffers_.bind_clusters();
+        draw_impostors(lists_->clusters, stats.impostors);
         buffers_.bind_storage();
     }
     const FrameStats ground = terrain_.draw();
@@ -265,8 +265,8 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     stats.far_trees = lists_->far_trees;
     stats.blended_trees = lists_->blended;
     stats.hidden_trees = lists_->hidden;
-    stats.horizon_trees = lists_->clumped_trees;
-    stats.horizon_cells = lists_->clumps.size();
+    stats.clustered_trees = lists_->clustered_trees;
+    stats.clusters = lists_->clusters.size();
     stats.drawn_branches = lists_->branches.size();
     stats.expanded_trees = lists_->expanded;
     stats.waiting_trees = lists_->waiting;
@@ -276,14 +276,14 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
 
 ForestSizes ForestPass::sizes() const {
     ForestSizes sizes;
-    sizes.trees = view_->alive_count();
+    sizes.trees = lod_->alive_count();
     sizes.tree_bytes =
-        view_->byte_count() + buffers_.tree_bytes() + model_.forest->trees.size() * sizeof(Tree);
+        lod_->byte_count() + buffers_.tree_bytes() + model_.forest->trees.size() * sizeof(Tree);
     sizes.branch_bytes = buffers_.branch_bytes();
     sizes.mesh_bytes = buffers_.mesh_bytes();
-    sizes.texture_bytes = portraits_.texture_bytes() + terrain_.texture_bytes();
+    sizes.texture_bytes = impostors_.texture_bytes() + terrain_.texture_bytes();
     sizes.upload_milliseconds = 1e3 * upload_seconds_;
-    sizes.portrait_milliseconds = 1e3 * bake_seconds_;
+    sizes.impostor_milliseconds = 1e3 * bake_seconds_;
     return sizes;
 }
 

@@ -1,4 +1,4 @@
-// ForestPrograms: the shaders that forests are drawn with.
+// ForestPrograms: shader programs of forests.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -7,24 +7,24 @@
 
 namespace lsys::view {
 
-/// By class: ForestBuffers::draw().
+/// Programs by draw class: ForestBuffers::draw().
 struct BranchPrograms {
-    ProgramObject solid; // one-sided, two-sided
+    ProgramObject solid; // one-sided and two-sided
     ProgramObject plain;
     ProgramObject cut_out;
 };
 
 struct ForestPrograms {
     BranchPrograms branches;
-    ProgramObject impostor_depth; // drawn first, and light only where it is the same
-    // The same for what is drawn as two things; light is found alike.
+    ProgramObject impostor_depth; // depth pass before the colour pass
+    // For entries in two LOD bands; the colour pass is the same.
     BranchPrograms blending_branches;
     ProgramObject blending_impostor_depth;
     ProgramObject impostor;
     ProgramObject impostor_shadow;
 };
 
-/// `windy`: trees move; without, no time is lost on that. Error: a shader does not compile.
+/// `windy`: trees sway; a variant without wind is faster. Error: a shader does not compile.
 [[nodiscard]] Result<ForestPrograms>
 make_forest_programs(Device& device, const ShaderSource& shaders, bool windy);
 

@@ -1,4 +1,4 @@
-// FrameBlock: what all shaders of a frame know; shaders/frame.glsl has the same fields.
+// FrameBlock: uniforms shared by all shaders; shaders/frame.glsl declares the same fields.
 #pragma once
 
 #include "viewer/gl/renderer.h"
@@ -23,14 +23,14 @@ struct FrameBlock {
 };
 static_assert(sizeof(FrameBlock) == 3 * 64 + 8 * 16);
 
-/// Of the part of a frame's picture within `area`. `shadow_texels`: along a side of the map.
+/// Uniforms of the part of a picture within `area`. `shadow_texels`: side of the shadow map.
 [[nodiscard]] FrameBlock make_frame_block(const Frame& frame,
                                           const PixelArea& area,
                                           const glm::mat4& shadow_from_world,
                                           std::uint32_t shadow_texels);
 
-/// Takes the box to the cube of a shadow map whose light comes from `to_sun`; depth 0 is nearest
-/// to the sun. `texels`: the size of the map, so that its texels stay where they are in the world.
+/// Shadow map matrix of a box for light from `to_sun`; depth 0 is nearest to the sun. `texels`:
+/// side of the map; the matrix moves in whole texels, so that shadows do not shimmer.
 [[nodiscard]] glm::mat4
 shadow_matrix(const Bounds& bounds, const glm::vec3& to_sun, std::uint32_t texels);
 

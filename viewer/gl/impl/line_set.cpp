@@ -32,11 +32,11 @@ void LineSet::upload(std::span<const LineVertex> lines) {
 std::uint64_t LineSet::draw() const {
     glBindVertexArray(array_.name());
     std::uint64_t draws = 0;
-    // A draw counts in 31 bits, in whole lines.
-    constexpr std::uint64_t kMost = std::numeric_limits<GLsizei>::max() - 1;
-    for (std::uint64_t first = 0; first < count_; first += kMost) {
+    // Draw calls count in 31 bits, in whole lines.
+    constexpr std::uint64_t kMax = std::numeric_limits<GLsizei>::max() - 1;
+    for (std::uint64_t first = 0; first < count_; first += kMax) {
         glDrawArrays(GL_LINES, static_cast<GLint>(first),
-                     static_cast<GLsizei>(std::min(count_ - first, kMost)));
+                     static_cast<GLsizei>(std::min(count_ - first, kMax)));
         ++draws;
     }
     return draws;

@@ -1,4 +1,4 @@
-// LineSet: lines on the device, each vertex with a colour of its own.
+// LineSet: coloured lines on the device.
 #pragma once
 
 #include "viewer/gl/impl/objects.h"
@@ -14,7 +14,7 @@ public:
     explicit LineSet(Device& device);
 
     void upload(std::span<const LineVertex> lines);
-    /// With the program of shaders/line bound; returns the number of draws.
+    /// Draws with the bound program of shaders/line; returns the count of draw calls.
     std::uint64_t draw() const;
 
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }

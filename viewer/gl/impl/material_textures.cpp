@@ -10,9 +10,9 @@ namespace lsys::view {
 
 namespace {
 
-constexpr float kOpaque = 0.5F; // from where a texel is there
+constexpr float kOpaque = 0.5F; // min opacity of opaque texels
 
-/// The part of the texels that are there when opacities are multiplied by `factor`.
+/// Opaque part of the texels with opacities scaled by `factor`.
 double coverage(const std::vector<std::uint8_t>& texels, float factor) {
     std::size_t there = 0;
     for (std::size_t i = 3; i < texels.size(); i += 4) {
@@ -21,7 +21,7 @@ double coverage(const std::vector<std::uint8_t>& texels, float factor) {
     return 4.0 * static_cast<double>(there) / static_cast<double>(texels.size());
 }
 
-/// Half the size. Colours are means of what is there.
+/// Next mip level; colours are weighted by opacity.
 Texture halved(const Texture& texture) {
     Texture half;
     half.width = std::max(texture.width / 2, 1U);
@@ -55,8 +55,8 @@ Texture halved(const Texture& texture) {
     return half;
 }
 
-/// Multiplies opacities so that as much is there as in the whole picture, or a leaf would vanish
-/// with the distance (Castano 2010, "Computing Alpha Mipmaps").
+/// Scales opacities to the coverage `wanted`; otherwise leaves vanish with distance (Castano 2010,
+/// "Computing Alpha Mipmaps").
 void keep_coverage(Texture& texture, double wanted) {
     float low = 0.25F;
     float high = 8.0F;

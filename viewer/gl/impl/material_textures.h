@@ -1,5 +1,4 @@
-// MaterialTextures: the pictures of runtime/meshing/texture.h on the device, made when first asked
-// for.
+// MaterialTextures: textures of runtime/meshing/texture.h on the device, made on first use.
 #pragma once
 
 #include "runtime/meshing/texture.h"
@@ -13,10 +12,10 @@ class MaterialTextures {
 public:
     explicit MaterialTextures(Device& device) : device_(&device) {}
 
-    /// Of a kind that has_texture().
+    /// Requires has_texture(kind).
     [[nodiscard]] GLuint base(MaterialKind kind);
     [[nodiscard]] GLuint bark_normals();
-    /// A picture of a file, with coverage kept if it has holes.
+    /// Texture of a picture file; mip levels keep coverage if it has holes.
     [[nodiscard]] TextureObject make(const Texture& picture) const;
 
 private:

@@ -1,4 +1,4 @@
-// OpenGL objects that delete themselves. Each is made for a Device, which counts it; move only.
+// Owners of OpenGL objects. Each is counted by its Device. Move only.
 #pragma once
 
 #include "viewer/gl/impl/device.h"
@@ -10,7 +10,7 @@
 
 namespace lsys::view {
 
-/// A name of OpenGL and how it is deleted. `Kind::destroy(name)`.
+/// A named OpenGL object; Kind::destroy(name) deletes it.
 template <typename Kind>
 class Object {
 public:
@@ -92,8 +92,7 @@ using ProgramObject = Object<ProgramKind>;
     return {device, name};
 }
 
-/// Memory of the device. Grows when more is put into it than there is room for, and is then another
-/// object: bind it after it was filled.
+/// A buffer on the device. Growing replaces the object, so bind it after filling.
 class Buffer {
 public:
     Buffer() = default;
@@ -102,7 +101,7 @@ public:
     [[nodiscard]] GLuint name() const { return object_.name(); }
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
 
-    /// Room for `bytes`; what it held is lost if it has to grow.
+    /// Ensures room for `bytes`; growing drops the contents.
     void reserve(std::size_t bytes) {
         if (bytes <= capacity_ && object_) {
             return;
@@ -114,7 +113,7 @@ public:
         glNamedBufferStorage(name, static_cast<GLsizeiptr>(capacity_), nullptr,
                              GL_DYNAMIC_STORAGE_BIT);
     }
-    /// Room for `bytes`; keeps what it held.
+    /// Ensures room for `bytes`; keeps the contents.
     void grow(std::size_t bytes) {
         if (bytes <= capacity_ && object_) {
             return;

@@ -13,7 +13,7 @@ struct Attribute {
     GLint floats;
 };
 constexpr std::array<Attribute, 4> kAttributes = {{{0, 3}, {1, 3}, {2, 2}, {3, 4}}};
-// What mesh.frag.glsl asks for.
+// Uniforms and bindings of mesh.frag.glsl.
 constexpr GLint kColour = 0;
 constexpr GLint kKind = 1;
 constexpr GLuint kBaseTexture = 1;
@@ -53,7 +53,7 @@ void PlantMesh::upload(const Mesh& mesh, const MaterialTextures& textures) {
         TextureObject& picture = pictures_.emplace_back();
         if (material.picture != nullptr) {
             picture = textures.make(*material.picture);
-            material.picture.reset(); // it may be large
+            material.picture.reset(); // may be large
         }
     }
     triangles_ = mesh.indices.size() / 3;
@@ -87,10 +87,10 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, bool shaded) const {
             glBindTextureUnit(kNormalTexture, textures.bark_normals());
         }
         (material.two_sided ? glDisable : glEnable)(GL_CULL_FACE);
-        // A draw counts in 31 bits, in whole triangles.
-        constexpr std::uint64_t kMost = std::numeric_limits<GLsizei>::max() / 3 * std::uint64_t{3};
-        for (std::uint64_t first = 0; first < part.index_count; first += kMost) {
-            const std::uint64_t count = std::min(part.index_count - first, kMost);
+        // Draw calls count in 31 bits, in whole triangles.
+        constexpr std::uint64_t kMax = std::numeric_limits<GLsizei>::max() / 3 * std::uint64_t{3};
+        for (std::uint64_t first = 0; first < part.index_count; first += kMax) {
+            const std::uint64_t count = std::min(part.index_count - first, kMax);
             const std::uintptr_t offset = (part.first_index + first) * sizeof(std::uint32_t);
             glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
                            reinterpret_cast<const void*>(offset)); // NOLINT: OpenGL's signature

@@ -1,4 +1,4 @@
-// PlantMesh: the triangles of one plant on the device, a draw for each material.
+// PlantMesh: triangles of one plant on the device; one draw call per material.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -14,9 +14,10 @@ class PlantMesh {
 public:
     explicit PlantMesh(Device& device);
 
-    /// Memory that is large enough is used again.
+    /// Reuses buffers that are large enough.
     void upload(const Mesh& mesh, const MaterialTextures& textures);
-    /// With the program of shaders/mesh or shaders/shadow bound; returns the number of draws.
+    /// Draws with the bound program of shaders/mesh or shaders/shadow; returns the count of draw
+    /// calls.
     std::uint64_t draw(MaterialTextures& textures, bool shaded) const;
 
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
@@ -31,7 +32,7 @@ private:
     Buffer indices_;
     std::vector<MeshPart> parts_;
     std::vector<Material> materials_;
-    std::vector<TextureObject> pictures_; // of files, by material
+    std::vector<TextureObject> pictures_; // pictures from files, by material
     std::uint64_t triangles_ = 0;
     Bounds bounds_;
 };

@@ -16,10 +16,10 @@ namespace {
 
 struct Assembly {
     std::string text;
-    std::vector<std::string> files; // by the numbers that `#line` gives them
+    std::vector<std::string> files; // by number in `#line`
 };
 
-/// Puts a file and what it includes, each at most once, behind `assembly`.
+/// Appends a file and its includes, each once, to `assembly`.
 Result<void> assemble(const ShaderSource& source, std::string_view name, Assembly& assembly) {
     if (std::find(assembly.files.begin(), assembly.files.end(), name) != assembly.files.end()) {
         return {};

@@ -1,5 +1,5 @@
-// Program: shaders of viewer/shaders, compiled and linked. A shader's text may include another one
-// by a line `#include "name.glsl"`; faults are shown with the file and line where they are.
+// Compiles and links the shaders of viewer/shaders. Shaders may contain `#include "name.glsl"`;
+// errors are reported with file and line.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -11,7 +11,7 @@
 
 namespace lsys::view {
 
-/// `defines` are lines of `#define`, put before the text.
+/// `defines`: lines of `#define`, put before the text.
 [[nodiscard]] Result<ProgramObject> make_program(Device& device,
                                                  const ShaderSource& source,
                                                  std::string_view vertex,

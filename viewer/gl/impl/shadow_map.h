@@ -1,5 +1,4 @@
-// ShadowMap: how far the sun's light reaches, as a depth texture that stays until what stands in
-// the light changes.
+// ShadowMap: depth texture seen from the sun, reused until its contents change.
 #pragma once
 
 #include "viewer/gl/impl/objects.h"
@@ -17,13 +16,13 @@ public:
     [[nodiscard]] std::uint32_t texels() const { return texels_; }
     [[nodiscard]] GLuint texture() const { return depth_.name(); }
 
-    /// Whether it has to be drawn for this matrix.
+    /// Whether it must be redrawn for `matrix`.
     [[nodiscard]] bool is_stale(const glm::mat4& matrix) const {
         return stale_ || matrix != matrix_;
     }
-    /// What casts shadows has changed.
+    /// Call when shadow casters have changed.
     void invalidate() { stale_ = true; }
-    /// Binds and clears it; what is drawn next casts shadows.
+    /// Binds and clears the map for drawing of casters.
     void begin(const glm::mat4& matrix);
 
 private:

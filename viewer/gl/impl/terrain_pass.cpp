@@ -14,7 +14,7 @@ namespace lsys::view {
 
 namespace {
 
-// What terrain.*.glsl ask for.
+// Uniforms and bindings of terrain.*.glsl.
 constexpr GLuint kHeights = 1;
 constexpr GLuint kNoise = 2;
 constexpr GLint kOrigins = 0;
@@ -23,7 +23,7 @@ constexpr GLint kLevels = 13;
 constexpr std::uint32_t kNoiseTexels = 128;
 constexpr GLsizei kPatchIndices = 6 * kPatchCells * kPatchCells;
 
-/// Smooth noise that repeats after the texture, 0 to 1: a sum of octaves of values.
+/// Tileable value noise, 0 to 1, in octaves.
 float noise_at(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
     float sum = 0.0F;
     float weight = 0.0F;
@@ -47,7 +47,7 @@ float noise_at(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
         weight += part;
         part *= 0.6F;
     }
-    // Spread about the middle, where sums crowd.
+    // Raise the contrast: sums cluster around the mean.
     return std::clamp(0.5F + 1.6F * (sum / weight - 0.5F), 0.0F, 1.0F);
 }
 
@@ -90,7 +90,7 @@ Result<void> TerrainPass::reload(const ShaderSource& shaders) {
 }
 
 void TerrainPass::show(const Terrain& terrain, float reach) {
-    view_ = std::make_unique<TerrainView>(terrain, reach);
+    lod_ = std::make_unique<TerrainLod>(terrain, reach);
     if (!noise_) {
         noise_ = make_noise(*device_);
         std::vector<std::array<std::uint8_t, 2>> corners;
@@ -124,16 +124,16 @@ void TerrainPass::show(const Terrain& terrain, float reach) {
     const auto size = static_cast<GLsizei>(kHeightTexels);
     heights_ = make_texture(*device_, GL_TEXTURE_2D_ARRAY);
     glTextureStorage3D(heights_.name(), 1, GL_R32F, size, size,
-                       static_cast<GLsizei>(view_->levels()));
+                       static_cast<GLsizei>(lod_->levels()));
     glTextureParameteri(heights_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(heights_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-void TerrainPass::prepare(const ViewVolume& volume) {
-    view_->select(volume);
+void TerrainPass::prepare(const Frustum& frustum) {
+    lod_->select(frustum);
     const auto size = static_cast<GLsizei>(kHeightTexels);
-    for (const std::uint32_t level : view_->changed()) {
-        const std::vector<float>& heights = view_->grid(level).heights;
+    for (const std::uint32_t level : lod_->changed()) {
+        const std::vector<float>& heights = lod_->grid(level).heights;
         glTextureSubImage3D(heights_.name(), 0, 0, 0, static_cast<GLint>(level), size, size, 1,
                             GL_RED, GL_FLOAT, heights.data());
         device_->add_upload(heights.size() * sizeof(float));
@@ -142,7 +142,7 @@ void TerrainPass::prepare(const ViewVolume& volume) {
 
 FrameStats TerrainPass::draw() {
     FrameStats stats;
-    const std::vector<TerrainPatch>& patches = view_->patches();
+    const std::vector<TerrainPatch>& patches = lod_->patches();
     if (patches.empty()) {
         return stats;
     }
@@ -151,14 +151,14 @@ FrameStats TerrainPass::draw() {
     glVertexArrayVertexBuffer(array_.name(), 1, patches_.name(), 0, sizeof(TerrainPatch));
     glUseProgram(program_.name());
     std::array<GLint, std::size_t{2} * kTerrainLevels> origins{};
-    for (std::uint32_t level = 0; level < view_->levels(); ++level) {
-        origins[std::size_t{2} * level] = view_->grid(level).origin.x;
-        origins[std::size_t{2} * level + 1] = view_->grid(level).origin.y;
+    for (std::uint32_t level = 0; level < lod_->levels(); ++level) {
+        origins[std::size_t{2} * level] = lod_->grid(level).origin.x;
+        origins[std::size_t{2} * level + 1] = lod_->grid(level).origin.y;
     }
     glUniform2iv(kOrigins, static_cast<GLsizei>(kTerrainLevels), origins.data());
-    glUniform4f(kRanges, kFinestCell, TerrainView::range(0),
-                TerrainView::morph_start(0) / TerrainView::range(0), view_->eye_height());
-    glUniform1i(kLevels, static_cast<GLint>(view_->levels()));
+    glUniform4f(kRanges, kFinestCell, TerrainLod::range(0),
+                TerrainLod::morph_start(0) / TerrainLod::range(0), lod_->eye_height());
+    glUniform1i(kLevels, static_cast<GLint>(lod_->levels()));
     glBindTextureUnit(kHeights, heights_.name());
     glBindTextureUnit(kNoise, noise_.name());
     glEnable(GL_CULL_FACE);
@@ -172,9 +172,9 @@ FrameStats TerrainPass::draw() {
 }
 
 std::uint64_t TerrainPass::texture_bytes() const {
-    return view_ == nullptr ? 0
-                            : std::uint64_t{4} * kHeightTexels * kHeightTexels * view_->levels() +
-                                  std::uint64_t{4} * kNoiseTexels * kNoiseTexels * 4 / 3;
+    return lod_ == nullptr ? 0
+                           : std::uint64_t{4} * kHeightTexels * kHeightTexels * lod_->levels() +
+                                 std::uint64_t{4} * kNoiseTexels * kNoiseTexels * 4 / 3;
 }
 
 std::vector<float> TerrainPass::read_heights(std::uint32_t level) const {

@@ -1,11 +1,11 @@
-// TerrainPass: the ground of a forest on the device: heights around the camera as a texture, and
-// one small grid that is drawn for each patch of a TerrainView.
+// TerrainPass: draws the ground of a forest: a texture of heights around the camera, and one small
+// grid drawn per patch of a TerrainLod.
 #pragma once
 
 #include "grammar/base/result.h"
 #include "viewer/gl/impl/objects.h"
 #include "viewer/gl/renderer.h"
-#include "viewer/scene/terrain_view.h"
+#include "viewer/scene/terrain_lod.h"
 
 #include <cstdint>
 #include <memory>
@@ -16,23 +16,23 @@ class TerrainPass {
 public:
     explicit TerrainPass(Device& device);
 
-    /// Error: a shader does not compile; the ones before stay.
+    /// Error: a shader does not compile; the old one stays in use.
     [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
-    /// The ground that is drawn from now on; it outlives the pass or the next call.
+    /// Replaces the ground; it must outlive the pass or the next call.
     void show(const Terrain& terrain, float reach);
-    /// Selects for a camera and uploads what is new.
-    void prepare(const ViewVolume& volume);
-    /// What was selected.
+    /// Selects patches for a camera and uploads new heights.
+    void prepare(const Frustum& frustum);
+    /// Draws the selected patches.
     FrameStats draw();
 
-    [[nodiscard]] const TerrainView* view() const { return view_.get(); }
+    [[nodiscard]] const TerrainLod* lod() const { return lod_.get(); }
     [[nodiscard]] std::uint64_t texture_bytes() const;
-    /// A level's heights as the device has them, by rows.
+    /// Heights of a level read back from the device, in rows.
     [[nodiscard]] std::vector<float> read_heights(std::uint32_t level) const;
 
 private:
     Device* device_;
-    std::unique_ptr<TerrainView> view_;
+    std::unique_ptr<TerrainLod> lod_;
     ProgramObject program_;
     TextureObject heights_;
     TextureObject noise_;

@@ -1,0 +1,98 @@
+#include "runtime/pipeline/scene_overrides.h"
+
+#include <catch2/catch.hpp>
+
+namespace lsys {
+
+namespace {
+
+Scene two_species() {
+    Scene scene;
+    for (const char* name : {"oak", "birch"}) {
+        SceneSpecies& species = scene.species.emplace_back();
+        species.name = name;
+        species.cache.heroes = 3;
+        scene.placement.species.emplace_back();
+    }
+    scene.placement.count = 100;
+    scene.placement.region = {0.0, 0.0, 50.0, 20.0};
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("unset overrides keep the values of a scene") {
+    Scene scene = two_species();
+    scene.placement.years = 7;
+    REQUIRE(apply(SceneOverrides{}, scene));
+    CHECK(scene.species[1].cache.heroes == 3);
+    CHECK(scene.placement.count == 100);
+    CHECK(scene.placement.years == 7);
+    CHECK(scene.terrain.kind == TerrainKind::Flat);
+}
+
+TEST_CASE("overrides of a species are stronger than those of all species") {
+    Scene scene = two_species();
+    SceneOverrides overrides;
+    overrides.heroes = 5;
+    overrides.species["birch"].heroes = 9;
+    overrides.species["birch"].min_scale = 2.0F;
+    overrides.species["elm"].heroes = 1; // is not in the scene
+    REQUIRE(apply(overrides, scene));
+    CHECK(scene.species[0].cache.heroes == 5);
+    CHECK(scene.species[1].cache.heroes == 9);
+    CHECK(scene.placement.species[0].least_scale == 1.0F);
+    CHECK(scene.placement.species[1].least_scale == 2.0F);
+    CHECK(scene.placement.species[1].greatest_scale == 2.0F);
+}
+
+TEST_CASE("of two overrides the one applied last wins") {
+    Scene scene = two_species();
+    SceneOverrides command_line;
+    command_line.count = 10;
+    command_line.spacing = 4.0;
+    SceneOverrides window;
+    window.count = 20;
+    REQUIRE(apply(command_line, scene));
+    REQUIRE(apply(window, scene));
+    CHECK(scene.placement.count == 20);
+    CHECK(scene.placement.spacing == 4.0);
+    CHECK(command_line != window);
+}
+
+TEST_CASE("a tile needs a placement with tiles") {
+    Scene scene = two_species();
+    SceneOverrides overrides;
+    overrides.tile = ForestTile{2, -1, 30.0};
+    CHECK_FALSE(apply(overrides, scene));
+    overrides.method = PlacementMethod::Jittered;
+    REQUIRE(apply(overrides, scene));
+    CHECK(scene.placement.region == Region{60.0, -30.0, 30.0, 30.0});
+    CHECK(scene.terrain.region == scene.placement.region);
+}
+
+TEST_CASE("overrides tell whether trees may stand elsewhere") {
+    SceneOverrides overrides;
+    CHECK_FALSE(overrides.changes_placement());
+    overrides.heroes = 4;
+    overrides.species["oak"].rho = 0.5F;
+    CHECK_FALSE(overrides.changes_placement());
+    overrides.species["oak"].share = 2.0;
+    CHECK(overrides.changes_placement());
+    overrides = {};
+    overrides.density_map = "map.png";
+    CHECK(overrides.changes_placement());
+}
+
+TEST_CASE("another method of placement gets values for about as many trees") {
+    const Scene scene = two_species();
+    SceneOverrides overrides;
+    choose_method(overrides, PlacementMethod::UniformCells, scene);
+    CHECK(overrides.method == PlacementMethod::UniformCells);
+    CHECK(overrides.density == 0.1); // 100 trees on 1000 m^2
+    CHECK_FALSE(overrides.count);
+    choose_method(overrides, PlacementMethod::Domination, scene);
+    CHECK(overrides.years == 50U);
+}
+
+} // namespace lsys

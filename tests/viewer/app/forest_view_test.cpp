@@ -1,0 +1,520 @@
+// The view of a forest without a window: swap of forests, painting, the scene file.
+#include "tests/support/lsc_run.h"
+#include "tests/viewer/lsview_run.h"
+#include "viewer/app/controls.h"
+#include "viewer/app/view_switcher.h"
+#include "viewer/gl/headless_context.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <filesystem>
+#include <sstream>
+#include <thread>
+
+using namespace lsys;
+using namespace lsys::tests;
+using namespace lsys::view;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr std::uint32_t kWidth = 96;
+constexpr std::uint32_t kHeight = 64;
+constexpr const char* kBush = "#n = 3;\n#set names letters;\n#set angle 25;\n#w : A;\n"
+                              "#p : A : ~ 0.5 : F[+A][-A]/A;\n#q : A : ~ 0.5 : F[+A]//A;\n";
+
+std::string wood(int trees, const std::string& more = {}) {
+    return "key = 3\n\n[terrain]\nkind = \"noise\"\nsize = 60\nheight = 6\nfeature = 30\n\n"
+           "[placement]\nmethod = \"uniform\"\ncount = " +
+           std::to_string(trees) +
+           "\n\n[[species]]\nname = \"bush\"\ngrammar = \"bush.lsys\"\nheroes = 3\n" + more;
+}
+
+ViewOptions options_of(const std::string& file) {
+    ViewOptions options;
+    options.file = file;
+    options.is_forest = true;
+    options.files = {file};
+    options.run.limits.max_modules = std::uint64_t{1} << 24;
+    options.run.limits.max_bytes = std::uint64_t{1} << 30;
+    options.messages.verbose = true;
+    return options;
+}
+
+/// The views of a window that was opened with a scene, and what they say.
+class Viewed {
+public:
+    explicit Viewed(const ViewOptions& options)
+        : context_(std::move(HeadlessContext::make().value())),
+          console_({in_, out_, err, false, nullptr, "lsview"}, options.messages),
+          renderer(std::move(Renderer::make(built_in_shader).value())),
+          views(options, console_, *renderer, [] {}) {}
+
+    ForestView& forest() { return *views.forest(); }
+
+    /// One picture, as a window makes it. `seconds` that it is said to have taken.
+    bool step(double seconds = 0.0) {
+        views.shown().update();
+        const bool drew = views.shown().draw(kWidth, kHeight);
+        if (drew) {
+            views.shown().shown(seconds);
+        }
+        return drew;
+    }
+    /// Steps until `done`, but not for ever.
+    template <typename Condition>
+    bool until(Condition&& done) {
+        for (const auto start = SteadyClock::now(); SteadyClock::now() - start < 60s;) {
+            step();
+            if (done()) {
+                return true;
+            }
+            std::this_thread::sleep_for(1ms);
+        }
+        return false;
+    }
+    bool until_swaps(std::uint64_t count) {
+        return until([&] { return forest().stats().swaps >= count && forest().has_impostors(); });
+    }
+    bool until_trees(std::uint64_t count) {
+        return until(
+            [&] { return forest().painting().tree_count() == count && forest().has_impostors(); });
+    }
+    std::vector<std::uint8_t> picture() {
+        REQUIRE(until([&] { return !forest().is_coarse(); }));
+        std::vector<std::uint8_t> pixels;
+        renderer->read(pixels);
+        return pixels;
+    }
+    /// Looks straight down on a place.
+    void look_at(float x, float z) {
+        forest().settings.camera = {{x, 60.0F, z + 0.1F}, {x, 0.0F, z}, 40.0F};
+    }
+    /// One press of the tool in the middle of the picture.
+    void press() {
+        forest().apply_tool({0.0F, 0.0F}, true, false);
+        forest().end_stroke();
+    }
+
+private:
+    std::unique_ptr<HeadlessContext> context_;
+    std::istringstream in_;
+    std::ostringstream out_;
+
+public:
+    std::ostringstream err;
+
+private:
+    Console console_;
+
+public:
+    std::unique_ptr<Renderer> renderer;
+    ViewSwitcher views;
+};
+
+/// A scene and its grammar in a folder of their own.
+struct WoodFolder {
+    explicit WoodFolder(const std::string& text) : scene(folder / "wood.toml") {
+        write_text(folder / "bush.lsys", kBush);
+        write_text(scene, text);
+    }
+    ScratchFolder folder;
+    std::string scene;
+};
+
+void wait_for_watch() {
+    std::this_thread::sleep_for(100ms);
+}
+
+} // namespace
+
+TEST_CASE("a scene is shown, and one that changes in its place") {
+    const WoodFolder files(wood(200));
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    CHECK(viewed.err.str().find("wood.toml: 200 trees of 1 species") != std::string::npos);
+    CHECK(viewed.forest().stats().drawn.triangles > 0);
+    REQUIRE(viewed.forest().stats().caches.size() == 1);
+    CHECK(viewed.forest().stats().caches[0].heroes == 3);
+    CHECK(viewed.forest().stats().caches[0].hits > 0);
+    const std::vector<std::uint8_t> before = viewed.picture();
+    wait_for_watch();
+    write_text(files.scene, wood(20));
+    REQUIRE(viewed.until_trees(20));
+    CHECK(viewed.picture() != before);
+    // A grammar named by the scene.
+    const std::uint64_t swaps = viewed.forest().stats().swaps;
+    wait_for_watch();
+    write_text(files.folder / "bush.lsys",
+               "#n = 1;\n#set names letters;\n#w : A;\n#p : A : * : FFFF;\n");
+    REQUIRE(viewed.until_swaps(swaps + 1));
+    CHECK(viewed.forest().stats().caches[0].branches == 3);
+    CHECK(viewed.renderer->errors().empty());
+}
+
+TEST_CASE("a scene or grammar in error leaves the picture as it was") {
+    const WoodFolder files(wood(100));
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    const std::vector<std::uint8_t> before = viewed.picture();
+    wait_for_watch();
+    write_text(files.scene, wood(100) + "colour = 3\n");
+    REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
+    const LscRun said = run_lsc({"forest", files.scene, "--check"}, "");
+    CHECK(said.status == 1);
+    CHECK(viewed.forest().messages() == said.err);
+    CHECK(viewed.picture() == before);
+    write_text(files.scene, wood(100));
+    REQUIRE(viewed.until([&] { return !viewed.forest().failed(); }));
+    wait_for_watch();
+    write_text(files.folder / "bush.lsys", "#n = 3;\n#w : F(;\n");
+    REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
+    CHECK(viewed.forest().messages().find("bush.lsys:2:") != std::string::npos);
+    // A slider does not hide that the grammar is in error.
+    viewed.forest().settings.edits.key = 9;
+    for (int i = 0; i < 50; ++i) {
+        viewed.step();
+        std::this_thread::sleep_for(2ms);
+    }
+    CHECK(viewed.forest().failed());
+    write_text(files.folder / "bush.lsys", kBush);
+    REQUIRE(viewed.until([&] { return !viewed.forest().failed(); }));
+    CHECK(viewed.forest().messages().empty());
+}
+
+TEST_CASE("a scene that is deleted while it is shown is told, and comes back") {
+    const WoodFolder files(wood(50));
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    const std::vector<std::uint8_t> before = viewed.picture();
+    wait_for_watch();
+    std::filesystem::remove(files.scene);
+    REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
+    CHECK(viewed.forest().messages().find("wood.toml") != std::string::npos);
+    CHECK(viewed.picture() == before);
+    viewed.look_at(30.0F, 30.0F);
+    viewed.forest().settings.tool = PaintTool::OneTree;
+    viewed.press();
+    viewed.forest().save();
+    CHECK(viewed.forest().note().find("not saved: ") == 0);
+    CHECK(viewed.forest().is_unsaved());
+    CHECK_FALSE(std::filesystem::exists(files.scene));
+    write_text(files.scene, wood(60));
+    REQUIRE(viewed.until_trees(61)); // painted trees stay
+    CHECK_FALSE(viewed.forest().failed());
+}
+
+TEST_CASE("what a scene names and is missing is told at its place, and waited for") {
+    const WoodFolder files(wood(20));
+    std::filesystem::remove(files.folder / "bush.lsys");
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
+    CHECK(viewed.forest().document() == nullptr);
+    CHECK(viewed.forest().messages().find("wood.toml:15:") != std::string::npos);
+    wait_for_watch();
+    write_text(files.folder / "bush.lsys", kBush);
+    REQUIRE(viewed.until_trees(20));
+    CHECK_FALSE(viewed.forest().failed());
+    wait_for_watch();
+    write_text(files.scene, wood(20) + "\n[[species]]\ngrammar = \"none.lsys\"\n");
+    REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
+    wait_for_watch();
+    write_text(files.folder / "none.lsys", kBush);
+    REQUIRE(viewed.until([&] { return viewed.forest().document()->scene.species.size() == 2; }));
+}
+
+TEST_CASE("what is set in the window takes the place of what the scene says") {
+    const WoodFolder files(wood(100));
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    SceneOverrides& edits = viewed.forest().settings.edits;
+    edits.count = 40;
+    REQUIRE(viewed.until_trees(40));
+    edits.species["bush"].heroes = 5;
+    REQUIRE(viewed.until([&] { return viewed.forest().stats().caches[0].heroes == 5; }));
+    edits.species["bush"].min_scale = 2.0F;
+    edits.species["bush"].max_scale = 2.0F;
+    REQUIRE(viewed.until(
+        [&] { return viewed.forest().document()->grown.forest.trees[0].scale == 2.0F; }));
+    choose_method(edits, PlacementMethod::PoissonDisk, viewed.forest().document()->scene);
+    REQUIRE(viewed.until([&] {
+        return viewed.forest().document()->scene.placement.method == PlacementMethod::PoissonDisk;
+    }));
+    CHECK(viewed.forest().painting().tree_count() > 25); // of 40
+    CHECK(viewed.forest().painting().tree_count() < 60);
+    edits.terrain = TerrainKind::Flat;
+    REQUIRE(viewed.until(
+        [&] { return viewed.forest().document()->grown.forest.trees[0].position.y == 0.0F; }));
+    edits.spacing = -1.0;
+    REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
+    CHECK(viewed.forest().messages().find("placement: ") != std::string::npos);
+    edits = {};
+    REQUIRE(viewed.until_trees(100));
+    CHECK_FALSE(viewed.forest().failed());
+}
+
+TEST_CASE("a forest grows from its first year to its last") {
+    const WoodFolder files("key = 3\n[terrain]\nsize = 40\n[placement]\nmethod = \"domination\"\n"
+                           "count = 60\nyears = 30\n[[species]]\nname = \"bush\"\n"
+                           "grammar = \"bush.lsys\"\nstages = [1, 3]\nyears_of_stage = 10\n");
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    CHECK(viewed.forest().default_years() == 30);
+    CHECK(viewed.forest().years() == 30);
+    const std::uint64_t grown = viewed.forest().painting().tree_count();
+    viewed.forest().set_years(1);
+    REQUIRE(viewed.until([&] { return viewed.forest().painting().tree_count() != grown; }));
+    viewed.forest().settings.years_per_second = 100.0F;
+    viewed.forest().play_or_pause();
+    REQUIRE(viewed.until([&] { return !viewed.forest().settings.plays; }));
+    REQUIRE(viewed.until([&] { return viewed.forest().painting().tree_count() == grown; }));
+    CHECK(viewed.forest().stats().swaps >= 4);
+    viewed.forest().play_or_pause();
+    CHECK(viewed.forest().years() == 1);
+}
+
+TEST_CASE("trees are painted, undone, saved, and read again") {
+    const WoodFolder files(wood(50));
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    ForestView& forest = viewed.forest();
+    forest.settings.tool = PaintTool::OneTree;
+    for (int i = 0; i < 10; ++i) {
+        viewed.look_at(5.0F + 5.0F * static_cast<float>(i), 30.0F);
+        viewed.press();
+    }
+    CHECK(forest.painting().tree_count() == 60);
+    forest.undo();
+    CHECK(forest.painting().tree_count() == 59);
+    viewed.look_at(30.0F, 30.0F);
+    const std::vector<std::uint8_t> painted = viewed.picture();
+    // The eye above a place is where the tree stands.
+    const std::uint64_t swaps = forest.stats().swaps;
+    CHECK(forest.is_unsaved());
+    forest.save();
+    CHECK(forest.note() == "saved " + files.scene);
+    CHECK_FALSE(forest.is_unsaved());
+    for (int i = 0; i < 100; ++i) {
+        viewed.step();
+        std::this_thread::sleep_for(3ms);
+    }
+    CHECK(forest.stats().swaps == swaps); // nobody else has changed the file
+    forest.redo();
+    CHECK(forest.painting().tree_count() == 60);
+    forest.undo();
+    const std::string text = read_text(files.scene);
+    CHECK(text.starts_with(wood(50)));
+    Viewed again(options_of(files.scene));
+    REQUIRE(again.until_swaps(1));
+    CHECK(again.forest().painting().tree_count() == 59);
+    CHECK(again.forest().painting().painted_count() == 9);
+    again.look_at(30.0F, 30.0F);
+    CHECK(again.picture() == painted);
+}
+
+TEST_CASE("trees erased from another placement than the file's are told when they are saved") {
+    const WoodFolder files(wood(200));
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    ForestView& forest = viewed.forest();
+    viewed.look_at(30.0F, 30.0F);
+    forest.settings.tool = PaintTool::Eraser;
+    forest.settings.brush.radius = 10.0F;
+    viewed.press();
+    REQUIRE(forest.painting().tree_count() < 200);
+    forest.save();
+    CHECK(forest.note() == "saved " + files.scene);
+    forest.settings.edits.key = 4;
+    REQUIRE(viewed.until_swaps(2));
+    forest.save();
+    CHECK(forest.note().find("erased from another placement") != std::string::npos);
+}
+
+TEST_CASE("a brush and an eraser work along the way of the mouse") {
+    const WoodFolder files(wood(1));
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    ForestView& forest = viewed.forest();
+    forest.settings.tool = PaintTool::Brush;
+    forest.settings.brush.radius = 3.0F;
+    forest.settings.brush.density = 0.3F;
+    viewed.look_at(30.0F, 30.0F);
+    forest.apply_tool({-0.8F, 0.0F}, true, false);
+    const std::uint64_t first = forest.painting().tree_count();
+    forest.apply_tool({0.8F, 0.0F}, false, false);
+    forest.end_stroke();
+    const std::uint64_t all = forest.painting().tree_count();
+    CHECK(first > 2);
+    CHECK(all > 2 * first);
+    const std::vector<std::uint8_t> row = viewed.picture();
+    forest.apply_tool({0.0F, 0.0F}, true, true);
+    forest.end_stroke();
+    CHECK(forest.painting().tree_count() < all);
+    CHECK(viewed.picture() != row);
+    forest.undo();
+    CHECK(forest.painting().tree_count() == all);
+    CHECK(viewed.picture() == row);
+    forest.undo();
+    CHECK(forest.painting().tree_count() == 1);
+    // Nothing is painted into the sky.
+    forest.settings.camera = {{30.0F, 20.0F, 30.0F}, {30.0F, 40.0F, 0.0F}, 40.0F};
+    forest.apply_tool({0.0F, 0.0F}, true, false);
+    CHECK(forest.painting().tree_count() == 1);
+}
+
+TEST_CASE("what is painted outlives a grammar that changes, and can still be undone") {
+    const WoodFolder files(wood(50));
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    ForestView& forest = viewed.forest();
+    forest.settings.tool = PaintTool::OneTree;
+    viewed.look_at(30.0F, 30.0F);
+    viewed.press();
+    wait_for_watch();
+    write_text(files.folder / "bush.lsys",
+               "#n = 1;\n#set names letters;\n#w : A;\n#p : A : * : FFFF;\n");
+    REQUIRE(viewed.until_swaps(2));
+    CHECK(forest.painting().tree_count() == 51);
+    CHECK(forest.is_unsaved());
+    forest.undo();
+    CHECK(forest.painting().tree_count() == 50);
+    forest.redo();
+    // Other trees were placed: what was painted stays.
+    forest.settings.edits.count = 70;
+    REQUIRE(viewed.until_trees(71));
+    CHECK(forest.is_unsaved());
+    // Somebody else paints into the file.
+    wait_for_watch();
+    write_text(files.scene, wood(50) + "\n[painted]\ntrees = [[\"bush\", 1, 1, 0, 1]]\n");
+    REQUIRE(viewed.until([&] { return forest.note().find("has changed") != std::string::npos; }));
+    CHECK(forest.painting().tree_count() == 71);
+    forest.save();
+    CHECK(read_text(files.scene).find("\"bush\", 1, 1, 0, 1") == std::string::npos);
+}
+
+TEST_CASE("slow pictures are coarser while something moves, and whole when all rests") {
+    const WoodFolder files(wood(50));
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    ForestView& forest = viewed.forest();
+    viewed.look_at(30.0F, 30.0F);
+    const std::vector<std::uint8_t> whole = viewed.picture();
+    forest.settings.camera = moved(forest.settings.camera, 1.0F, 0.0F, 0.0F);
+    REQUIRE(viewed.step(1.0));
+    CHECK_FALSE(forest.is_coarse()); // nobody knew
+    viewed.look_at(30.0F, 30.0F);
+    REQUIRE(viewed.step(1.0));
+    CHECK(forest.is_coarse());
+    CHECK(forest.is_busy());
+    CHECK(viewed.picture() == whole);
+    CHECK_FALSE(forest.is_coarse());
+}
+
+TEST_CASE("dropped files show plants and forests in turn") {
+    const WoodFolder files(wood(50));
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    Controls controls;
+    PanelState panels;
+    const PixelArea area{0, 0, kWidth, kHeight};
+    const auto drop = [&](const std::string& file) {
+        WindowInput input;
+        input.dropped = {file};
+        controls.apply(input, 0.01, area, viewed.views, panels);
+    };
+    drop(files.folder / "bush.lsys");
+    REQUIRE(viewed.views.plant() != nullptr);
+    REQUIRE(viewed.until([&] { return viewed.views.plant()->document() != nullptr; }));
+    CHECK(viewed.views.last_scene() == files.scene);
+    drop(files.scene);
+    REQUIRE(viewed.views.forest() != nullptr);
+    REQUIRE(viewed.until_swaps(1));
+    // Not before what was painted was saved, unless asked twice.
+    viewed.look_at(30.0F, 30.0F);
+    viewed.forest().settings.tool = PaintTool::OneTree;
+    viewed.press();
+    drop(files.folder / "bush.lsys");
+    REQUIRE(viewed.views.forest() != nullptr);
+    WindowInput closes;
+    closes.closes = true;
+    controls.apply(closes, 0.01, area, viewed.views, panels);
+    CHECK_FALSE(panels.quits);
+    controls.apply(closes, 0.01, area, viewed.views, panels);
+    CHECK(panels.quits);
+    drop(files.folder / "bush.lsys");
+    CHECK(viewed.views.plant() != nullptr);
+    CHECK(viewed.renderer->errors().empty());
+}
+
+TEST_CASE("keys and mouse choose and use the tools of a forest") {
+    const WoodFolder files(wood(10));
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    viewed.look_at(30.0F, 30.0F);
+    ForestViewSettings& settings = viewed.forest().settings;
+    Controls controls;
+    PanelState panels;
+    const PixelArea area{100, 0, kWidth, kHeight};
+    const auto press = [&](Key key, bool control = false) {
+        WindowInput input;
+        input.presses = {{key, control, false}};
+        controls.apply(input, 0.01, area, viewed.views, panels);
+    };
+    press(Key::B);
+    CHECK(settings.tool == PaintTool::Brush);
+    const float radius = settings.brush.radius;
+    press(Key::PageUp);
+    CHECK(settings.brush.radius > radius);
+    press(Key::O);
+    CHECK(settings.tool == PaintTool::OneTree);
+    WindowInput input;
+    // The middle of a picture that begins 100 pixels from the left.
+    input.pointer_events = {{{148.0F, 32.0F}, PointerEvent::Kind::Press, false},
+                            {{149.0F, 32.0F}, PointerEvent::Kind::Move, false},
+                            {{149.0F, 32.0F}, PointerEvent::Kind::Release, false}};
+    controls.apply(input, 0.01, area, viewed.views, panels);
+    CHECK(viewed.forest().painting().painted_count() == 1);
+    CHECK(viewed.forest().note() == "1 tree came, 0 went; 11 trees");
+    input.pointer_events[0].shift = true;
+    settings.brush.radius = 1.0F;
+    controls.apply(input, 0.01, area, viewed.views, panels);
+    CHECK(viewed.forest().painting().painted_count() == 0);
+    press(Key::Z, true);
+    CHECK(viewed.forest().painting().painted_count() == 1);
+    press(Key::Y, true);
+    CHECK(viewed.forest().painting().painted_count() == 0);
+    press(Key::X);
+    CHECK(settings.tool == PaintTool::Eraser);
+    const Camera before = settings.camera;
+    WindowInput drag;
+    drag.left_drag = {30.0F, 0.0F};
+    controls.apply(drag, 0.01, area, viewed.views, panels);
+    CHECK(settings.camera == before);
+    press(Key::Escape);
+    CHECK(settings.tool == PaintTool::None);
+    controls.apply(drag, 0.01, area, viewed.views, panels);
+    CHECK_FALSE(settings.camera == before);
+    press(Key::N);
+    CHECK(settings.edits.key == 4);
+    press(Key::S, true);
+    CHECK(viewed.forest().note().find("saved ") == 0);
+    press(Key::Q, true);
+    CHECK(panels.quits);
+}
+
+TEST_CASE("a hundred exchanges of forests leave nothing behind") {
+    const WoodFolder files(wood(20));
+    Viewed viewed(options_of(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    std::uint64_t objects = 0;
+    for (std::uint64_t i = 1; i <= 100; ++i) {
+        viewed.forest().settings.edits.count = 20 + i % 5;
+        REQUIRE(viewed.until_trees(20 + i % 5));
+        if (i == 10) {
+            objects = viewed.renderer->live_objects();
+        }
+    }
+    CHECK(viewed.renderer->live_objects() == objects);
+    CHECK(viewed.renderer->errors().empty());
+}

@@ -1,0 +1,41 @@
+// The command line of lsview.
+#include "viewer/app/options.h"
+
+#include <catch2/catch.hpp>
+
+using namespace lsys;
+using namespace lsys::view;
+
+namespace {
+
+template <typename Result>
+Result parsed(const std::vector<std::string>& arguments) {
+    const ParsedOptions options = parse_options(arguments);
+    REQUIRE(std::holds_alternative<Result>(options));
+    return std::get<Result>(options);
+}
+
+} // namespace
+
+TEST_CASE("the help of lsview names options as they are written") {
+    const std::string help = parsed<PrintText>({"--help"}).text;
+    CHECK(help.find("--no-shadows ") != std::string::npos);
+    CHECK(help.find("--no-ground ") != std::string::npos);
+    CHECK(help.find('{') == std::string::npos);
+}
+
+TEST_CASE("options switch shadows and the ground off") {
+    const ViewOptions usual = parsed<ViewOptions>({"tree.lsys"});
+    CHECK(usual.shadows);
+    CHECK(usual.ground);
+    CHECK_FALSE(usual.is_forest);
+    const ViewOptions bare = parsed<ViewOptions>({"tree.lsys", "--no-shadows", "--no-ground"});
+    CHECK_FALSE(bare.shadows);
+    CHECK_FALSE(bare.ground);
+}
+
+TEST_CASE("an option of forests shows a grammar as a forest") {
+    CHECK(parsed<ViewOptions>({"tree.lsys", "--heroes", "3"}).is_forest);
+    CHECK(parsed<ViewOptions>({"wood.toml"}).is_forest);
+    CHECK_FALSE(parsed<ViewOptions>({"tree.lsys", "-s", "3", "-D", "a=1"}).is_forest);
+}

@@ -1,0 +1,312 @@
+// The view of a plant without a window: swap of plants, pictures.
+#include "tests/support/lsc_run.h"
+#include "tests/viewer/lsview_run.h"
+#include "viewer/app/controls.h"
+#include "viewer/app/plant_view.h"
+#include "viewer/gl/headless_context.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <filesystem>
+#include <sstream>
+#include <thread>
+
+using namespace lsys;
+using namespace lsys::tests;
+using namespace lsys::view;
+using namespace std::chrono_literals;
+
+namespace {
+
+ViewOptions options_of(const std::string& file) {
+    ViewOptions options;
+    options.file = file;
+    options.run.limits.max_bytes = std::uint64_t{1} << 30;
+    options.messages.verbose = true;
+    return options;
+}
+
+/// A view of `file` and what it says.
+class Viewed {
+public:
+    explicit Viewed(const ViewOptions& options)
+        : context_(std::move(HeadlessContext::make().value())),
+          console_({in_, out_, err, false, nullptr, "lsview"}, options.messages),
+          renderer(std::move(Renderer::make(built_in_shader).value())),
+          view(options, console_, *renderer, [] {}) {}
+
+    /// One picture, as a window makes it.
+    void step() {
+        view.update();
+        if (view.draw(64, 48)) {
+            view.shown(0.0);
+        }
+    }
+    /// Steps until `done`, but not for ever.
+    template <typename Condition>
+    bool until(Condition&& done) {
+        for (const auto start = SteadyClock::now(); SteadyClock::now() - start < 30s;) {
+            step();
+            if (done()) {
+                return true;
+            }
+            std::this_thread::sleep_for(1ms);
+        }
+        return false;
+    }
+    bool until_swaps(std::uint64_t count) {
+        return until([&] { return view.stats().swaps >= count; });
+    }
+    std::vector<std::uint8_t> picture() {
+        std::vector<std::uint8_t> pixels;
+        renderer->read(pixels);
+        return pixels;
+    }
+
+private:
+    std::unique_ptr<HeadlessContext> context_;
+    std::istringstream in_;
+    std::ostringstream out_;
+
+public:
+    std::ostringstream err;
+
+private:
+    Console console_;
+
+public:
+    std::unique_ptr<Renderer> renderer;
+    PlantView view;
+};
+
+std::string plant(int segments) {
+    return "#n = 1;\n#p : G : * : F;\n#w : G" +
+           std::string(static_cast<std::size_t>(segments - 1), 'F') + ";\n" +
+           "#set names letters;\n";
+}
+
+} // namespace
+
+TEST_CASE("a hundred reloads leave nothing behind") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    write_text(file, plant(1));
+    Viewed viewed(options_of(file));
+    REQUIRE(viewed.until_swaps(1));
+    std::uint64_t objects = 0;
+    for (int i = 1; i <= 100; ++i) {
+        write_text(file, plant(1 + i % 7));
+        viewed.view.reload();
+        REQUIRE(viewed.until([&] {
+            return viewed.view.document()->plant.modules == static_cast<std::uint64_t>(1 + i % 7);
+        }));
+        if (i == 10) {
+            objects = viewed.renderer->live_objects();
+        }
+    }
+    CHECK(viewed.renderer->live_objects() == objects);
+    CHECK(viewed.renderer->errors().empty());
+}
+
+TEST_CASE("a file that changes is shown, and one in error leaves the picture as it was") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    write_text(file, plant(2));
+    Viewed viewed(options_of(file));
+    REQUIRE(viewed.until_swaps(1));
+    CHECK(viewed.err.str().find("loaded " + file + ": 2 modules, 2 segments") != std::string::npos);
+    const std::vector<std::uint8_t> before = viewed.picture();
+    // The watch has to have begun.
+    std::this_thread::sleep_for(100ms);
+    write_text(file, plant(9));
+    REQUIRE(viewed.until([&] { return viewed.view.document()->plant.modules == 9; }));
+    const std::vector<std::uint8_t> after = viewed.picture();
+    CHECK(before != after);
+    write_text(file, "#n = 0;\n#w : F(;\n");
+    REQUIRE(viewed.until([&] { return viewed.view.failed(); }));
+    CHECK(viewed.view.messages() == run_lsc({"check", file}, "").err);
+    CHECK(viewed.err.str().find(viewed.view.messages()) != std::string::npos);
+    CHECK(viewed.view.document()->plant.modules == 9);
+    CHECK(viewed.picture() == after);
+    write_text(file, plant(2));
+    REQUIRE(viewed.until([&] { return !viewed.view.failed(); }));
+    CAPTURE(viewed.view.messages());
+    CHECK(viewed.view.messages().empty());
+}
+
+TEST_CASE("a missing file that is included is waited for") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    write_text(file, "#include \"axiom.lsys\";\n#n = 0;\n");
+    Viewed viewed(options_of(file));
+    REQUIRE(viewed.until([&] { return viewed.view.failed(); }));
+    CHECK(viewed.view.document() == nullptr);
+    std::this_thread::sleep_for(100ms);
+    write_text(folder / "axiom.lsys", "#w : F;\n");
+    REQUIRE(viewed.until_swaps(1));
+    CHECK_FALSE(viewed.view.failed());
+}
+
+TEST_CASE("settings make the plant anew, and constants that vanish are let go") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    write_text(file, "#n = 3;\n#param a 2 {1, 5};\n#w : F(a) A;\n#p : A : * : F A;\n");
+    Viewed viewed(options_of(file));
+    REQUIRE(viewed.until_swaps(1));
+    CHECK(viewed.view.generations() == 3);
+    viewed.view.settings.definitions = {{"a", 4.0F}};
+    viewed.view.settings.generations = 1;
+    REQUIRE(viewed.until([&] { return viewed.view.document()->plant.generations == 1; }));
+    REQUIRE(viewed.until(
+        [&] { return viewed.view.document()->plant.skeleton.segments[0].length == 4.0F; }));
+    CHECK(viewed.view.default_generations() == 3);
+    // Outside of its bounds: an error, and back.
+    viewed.view.settings.definitions[0].value = 9.0F;
+    REQUIRE(viewed.until([&] { return viewed.view.failed(); }));
+    viewed.view.settings.definitions[0].value = 3.0F;
+    REQUIRE(viewed.until([&] { return !viewed.view.failed(); }));
+    write_text(file, "#n = 0;\n#w : F(1);\n");
+    REQUIRE(viewed.until([&] { return viewed.view.document()->plant.modules == 1; }));
+    CHECK(viewed.view.settings.definitions.empty());
+}
+
+TEST_CASE("growth plays from the axiom to the end") {
+    Viewed viewed(options_of(sample("teach-param")));
+    REQUIRE(viewed.until_swaps(1));
+    viewed.view.settings.generations_per_second = 1000.0F;
+    viewed.view.play_or_pause();
+    CHECK(viewed.view.generations() == 0);
+    REQUIRE(viewed.until([&] { return !viewed.view.settings.plays; }));
+    REQUIRE(viewed.until([&] { return viewed.view.document()->plant.generations == 7; }));
+    CHECK(viewed.view.stats().swaps == 9); // the first, then 0 to 7
+}
+
+TEST_CASE("a plant bends in the wind and stands again without") {
+    Viewed viewed(options_of(sample("crankshaw-7-1")));
+    REQUIRE(viewed.until_swaps(1));
+    viewed.step();
+    const std::vector<std::uint8_t> still = viewed.picture();
+    viewed.view.settings.simulates = true;
+    viewed.view.settings.bending.forces.wind.velocity = {20.0F, 0.0F, 0.0F};
+    REQUIRE(viewed.until([&] { return viewed.view.stats().bend_time > 0.5; }));
+    CHECK(viewed.picture() != still);
+    viewed.view.settings.bending.stiffness = 0.5F;
+    viewed.step();
+    REQUIRE(viewed.until([&] { return viewed.view.stats().bend_time < 0.5; }));
+    viewed.view.settings.simulates = false;
+    viewed.step();
+    CHECK(viewed.picture() == still);
+}
+
+TEST_CASE("another file is opened with all in view") {
+    Viewed viewed(options_of(sample("teach-param")));
+    REQUIRE(viewed.until_swaps(1));
+    const Camera before = viewed.view.settings.camera;
+    viewed.view.open(sample("crankshaw-7-1"));
+    REQUIRE(viewed.until_swaps(2));
+    CHECK_FALSE(viewed.view.settings.camera == before);
+    CHECK(viewed.view.document()->plant.generations == viewed.view.default_generations());
+}
+
+TEST_CASE("keys change what is shown, letters move while flying") {
+    Viewed viewed(options_of(sample("teach-param")));
+    REQUIRE(viewed.until_swaps(1));
+    PlantViewSettings& settings = viewed.view.settings;
+    Controls controls;
+    PanelState panels;
+    const auto press = [&](Key key, bool control = false) {
+        WindowInput input;
+        input.presses = {{key, control}};
+        controls.apply(input, 0.01, 600.0F, viewed.view, panels);
+    };
+    press(Key::W);
+    CHECK(settings.style == PlantStyle::Wireframe);
+    press(Key::I);
+    CHECK(settings.style == PlantStyle::None);
+    press(Key::L);
+    CHECK(settings.lines == LineKind::Skeleton);
+    press(Key::S);
+    CHECK_FALSE(settings.shadows);
+    press(Key::PageDown);
+    CHECK(viewed.view.generations() == 6);
+    press(Key::N);
+    CHECK(settings.seed == 1);
+    press(Key::F1);
+    CHECK(panels.help);
+    press(Key::Escape);
+    CHECK_FALSE(panels.help);
+    press(Key::Q);
+    CHECK_FALSE(panels.quits);
+    const Camera before = settings.camera;
+    press(Key::Tab);
+    press(Key::G);
+    CHECK(settings.ground);
+    WindowInput flying;
+    flying.held = {Key::W};
+    controls.apply(flying, 0.1, 600.0F, viewed.view, panels);
+    CHECK(glm::dot(settings.camera.eye - before.eye, forward_of(before)) > 0.0F);
+    flying.held = {};
+    flying.motion = {50.0F, 0.0F};
+    const Camera there = settings.camera;
+    controls.apply(flying, 0.1, 600.0F, viewed.view, panels);
+    CHECK(settings.camera.eye == there.eye);
+    CHECK_FALSE(settings.camera.target == there.target);
+    press(Key::Tab);
+    CHECK_FALSE(panels.flies);
+    press(Key::Q, true);
+    CHECK(panels.quits);
+}
+
+TEST_CASE("the mouse orbits, pans and zooms") {
+    Viewed viewed(options_of(sample("teach-param")));
+    REQUIRE(viewed.until_swaps(1));
+    Camera& camera = viewed.view.settings.camera;
+    Controls controls;
+    PanelState panels;
+    const auto apply = [&](const WindowInput& input) {
+        controls.apply(input, 0.01, 600.0F, viewed.view, panels);
+    };
+    const Camera before = camera;
+    WindowInput input;
+    input.left_drag = {100.0F, 20.0F};
+    apply(input);
+    CHECK(camera.target == before.target);
+    CHECK_FALSE(camera.eye == before.eye);
+    camera = before;
+    input = {};
+    input.right_drag = {60.0F, 0.0F}; // the picture follows the mouse to the right
+    apply(input);
+    CHECK(glm::dot(camera.target - before.target, right_of(before)) < 0.0F);
+    camera = before;
+    input = {};
+    input.wheel = 1.0F;
+    apply(input);
+    CHECK(glm::distance(camera.eye, camera.target) < glm::distance(before.eye, before.target));
+}
+
+TEST_CASE("shaders that change are compiled, and those with mistakes leave the picture") {
+    const ScratchFolder folder;
+    const std::string shaders = LSYS_SOURCE_DIR "/viewer/shaders/";
+    for (const auto& entry : std::filesystem::directory_iterator(shaders)) {
+        std::filesystem::copy(entry.path(), folder.path() / entry.path().filename());
+    }
+    ViewOptions options = options_of(sample("teach-param"));
+    options.shaders = folder / "";
+    Viewed viewed(options);
+    REQUIRE(viewed.until_swaps(1));
+    viewed.step();
+    const std::vector<std::uint8_t> before = viewed.picture();
+    std::this_thread::sleep_for(100ms); // the watch has begun
+    const std::string sky = read_text(folder / "sky.frag.glsl");
+    write_text(folder / "sky.frag.glsl", "out vec4 colour;\nvoid main() { colour = x; }\n");
+    REQUIRE(viewed.until([&] { return !viewed.view.shader_message().empty(); }));
+    CHECK(viewed.view.shader_message().find("sky.frag.glsl:2") != std::string::npos);
+    CHECK(viewed.picture() == before);
+    write_text(folder / "sky.frag.glsl",
+               "out vec4 colour;\nvoid main() { colour = vec4(1.0, 0.0, 0.0, 1.0); }\n");
+    REQUIRE(viewed.until([&] { return viewed.view.shader_message().empty(); }));
+    viewed.step();
+    CHECK(viewed.picture() != before);
+    CHECK(viewed.view.stats().swaps == 1);
+}

@@ -1,0 +1,428 @@
+#include "viewer/app/forest_view.h"
+
+#include "runtime/pipeline/forest.h"
+#include "runtime/pipeline/stopwatch.h"
+#include "runtime/program/files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace lsys::view {
+
+namespace {
+
+constexpr double kMilliseconds = 1e3;
+// Time for baking of impostors between two events, s.
+constexpr double kBakeTime = 0.02;
+// Limit per picture, so that a flying camera does not stutter.
+constexpr std::uint32_t kMaxExpansions = 1000;
+// Slower pictures, s, are reduced in quality during motion, and redrawn after a rest, s.
+constexpr double kSlowPicture = 0.12;
+constexpr double kRest = 0.25;
+constexpr std::uint64_t kFewestTriangles = 20'000;
+
+ForestViewSettings first_settings(const ViewOptions& options) {
+    ForestViewSettings settings;
+    settings.shadows = options.shadows;
+    settings.antialiasing = options.samples > 1;
+    settings.wireframe = options.style == PlantStyle::Wireframe;
+    settings.windy = options.wind.has_value();
+    settings.wind = options.wind.value_or(Wind{{5.0F, 0.0F, 0.0F}, 0.5F});
+    settings.max_triangles = options.max_triangles;
+    return settings;
+}
+
+} // namespace
+
+std::vector<CacheNumbers> cache_numbers(const Forest& forest) {
+    std::vector<CacheNumbers> numbers;
+    for (const ForestSpecies& species : forest.species) {
+        for (const ForestStage& stage : species.stages) {
+            CacheNumbers& each = numbers.emplace_back();
+            each.species = species.name;
+            each.generations = stage.generations;
+            each.heroes = stage.cache.heroes;
+            each.keys = stage.cache.slots.size();
+            each.branches = stage.cache.instances.size();
+            each.bytes = stage.cache.byte_count();
+            for (const InstanceSlot& slot : stage.cache.slots) {
+                each.hits += slot.hits;
+                each.misses += slot.misses;
+                each.dropped += slot.dropped;
+            }
+        }
+    }
+    return numbers;
+}
+
+ForestView::ForestView(const ViewOptions& options,
+                       const Console& console,
+                       Renderer& renderer,
+                       std::function<void()> wake)
+    : View(options, console, renderer), settings(first_settings(options)), wake_(std::move(wake)),
+      painting_(renderer), frame_next_(options.camera.empty()), loader_(make_forest, wake_),
+      watch_(FileWatch::Options{},
+             [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
+                 files_changed(files, since);
+             }) {
+    files_ = options_.files;
+    watch_files();
+}
+
+ForestView::~ForestView() {
+    renderer_->show_lines({});
+    renderer_->show_plant(Mesh{}); // releases the plant
+}
+
+/// Runs on a thread of the watch.
+void ForestView::files_changed(const std::vector<std::string>& files,
+                               SteadyClock::time_point since) {
+    const auto shaders = std::count_if(files.begin(), files.end(),
+                                       [this](const std::string& each) { return is_shader(each); });
+    if (shaders != 0) {
+        ask_for_shaders();
+        wake_();
+    }
+    if (static_cast<std::size_t>(shaders) == files.size()) {
+        return;
+    }
+    if (files.size() == 1) {
+        const std::lock_guard lock(saved_mutex_);
+        const Result<std::string> text = read_file(files.front(), {kMaxSourceBytes}, console_);
+        if (!saved_text_.empty() && text && text.value() == saved_text_) {
+            return; // written by save()
+        }
+        saved_text_.clear();
+    }
+    loader_.repeat(since);
+}
+
+void ForestView::watch_files() {
+    watch_.watch(watched(files_));
+}
+
+std::uint32_t ForestView::default_years() const {
+    return default_years_;
+}
+
+std::uint32_t ForestView::years() const {
+    return settings.edits.years.value_or(default_years_);
+}
+
+void ForestView::set_years(std::uint32_t years) {
+    settings.edits.years = years;
+    settings.plays = false;
+}
+
+bool ForestView::update() {
+    bool has_news = false;
+    if (reload_shaders()) {
+        has_impostors_ = false;
+        watch_files();
+        has_news = true;
+    }
+    if (std::optional<ForestOutcome> outcome = loader_.take()) {
+        take_outcome(std::move(*outcome));
+        has_news = true;
+    }
+    if (!has_impostors_ && document_ != nullptr) {
+        has_impostors_ = renderer_->bake_impostors(kBakeTime);
+        changed_ = changed_ || has_impostors_;
+    }
+    grow();
+    if (document_ != nullptr) {
+        settings.camera = above_ground(settings.camera, *document_->grown.terrain);
+    }
+    show_outline();
+    if (requested_ != settings.edits) {
+        ask();
+    }
+    return has_news;
+}
+
+void ForestView::ask() {
+    requested_ = settings.edits;
+    // After an error read all files again: the cause may lie in any.
+    loader_.request({options_, settings.edits, failed() ? nullptr : document_, SteadyClock::now()});
+}
+
+void ForestView::take_outcome(ForestOutcome outcome) {
+    if (outcome.request.options.files != options_.files) {
+        return; // a newer one follows
+    }
+    const bool fine = outcome.document != nullptr;
+    take_messages(outcome.messages, fine);
+    if (fine) {
+        files_ = outcome.files;
+        swap(std::move(outcome));
+    } else {
+        settings.plays = false;
+        for (const std::string& file : outcome.files) {
+            if (std::find(files_.begin(), files_.end(), file) == files_.end()) {
+                files_.push_back(file);
+            }
+        }
+    }
+    watch_files();
+}
+
+void ForestView::swap(ForestOutcome outcome) {
+    const SteadyClock::time_point start = SteadyClock::now();
+    const std::shared_ptr<ForestDocument> before = document_;
+    const std::shared_ptr<ForestDocument> document = std::move(outcome.document);
+    const Camera overall = overview(*document, aspect_);
+    if (Result<void> shown = renderer_->show_forest(document->model); !shown) {
+        shader_message_ = shown.error().message;
+        console_.error(shader_message_);
+        return;
+    }
+    document_ = document;
+    has_impostors_ = false;
+    if (std::exchange(frame_next_, false)) {
+        settings.camera = overall;
+    }
+    if (const std::string note = painting_.set_document(document_); !note.empty()) {
+        set_note(note);
+    }
+    const PlacementOptions& placement = document_->scene.placement;
+    if (!outcome.request.edits.years) {
+        default_years_ = placement.method == PlacementMethod::Domination ? placement.years : 0;
+    }
+    settings.brush.species = static_cast<std::uint16_t>(
+        std::min<std::size_t>(settings.brush.species, document_->scene.species.size() - 1));
+    if (before == nullptr) {
+        const PlacementSpecies& first = placement.species.front();
+        settings.brush.least_scale = first.least_scale;
+        settings.brush.greatest_scale = first.greatest_scale;
+    }
+    stats_.caches = cache_numbers(document_->grown.forest);
+    stats_.upload_seconds = seconds_since(start);
+    stats_.make_seconds = outcome.seconds;
+    since_ = outcome.request.since;
+    stats_.swap_seconds = seconds_since(since_);
+    ++stats_.swaps;
+    logs_next_frame_ = true;
+    changed_ = true;
+}
+
+bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
+    Frame frame;
+    frame.camera = settings.camera;
+    frame.width = width;
+    frame.height = height;
+    frame.shadows = settings.shadows;
+    frame.samples = settings.antialiasing ? 4 : 1;
+    frame.style = settings.wireframe ? PlantStyle::Wireframe : PlantStyle::Surface;
+    frame.max_triangles = settings.max_triangles;
+    frame.max_expansions = kMaxExpansions;
+    if (settings.windy) {
+        frame.wind = settings.wind;
+        frame.time = seconds_since(start_);
+    }
+    if (document_ != nullptr) {
+        frame.light = forest_light(*document_);
+    }
+    const bool moves = settings.windy || settings.plays || has_worked_ ||
+                       (frame_ && !(frame_->camera == frame.camera));
+    if (moves) {
+        last_motion_ = SteadyClock::now();
+    } else if (is_slow_ && loader_.is_busy()) {
+        return false; // draw the next forest instead
+    }
+    has_worked_ = false;
+    is_coarse_ = is_slow_ && seconds_since(last_motion_) < kRest;
+    if (is_coarse_) {
+        frame.samples = 1;
+        frame.max_triangles = std::min(frame.max_triangles, coarse_triangles_);
+    }
+    if (!draw_frame(frame)) {
+        return false;
+    }
+    stats_.drawn = drawn_;
+    changed_ = changed_ || renderer_->forest_stats().waiting_trees != 0;
+    return true;
+}
+
+void ForestView::shown(double draw_seconds) {
+    stats_.draw_seconds = draw_seconds;
+    if (!is_coarse_) {
+        is_slow_ = draw_seconds > kSlowPicture;
+    } else if (draw_seconds > kSlowPicture) {
+        coarse_triangles_ = std::max(coarse_triangles_ / 2, kFewestTriangles);
+    } else if (draw_seconds < 0.25 * kSlowPicture) {
+        coarse_triangles_ = std::min(coarse_triangles_ * 2, settings.max_triangles);
+    }
+    if (!std::exchange(logs_next_frame_, false)) {
+        return;
+    }
+    stats_.shown_seconds = seconds_since(since_);
+    console_.detail(fmt::format(
+        "loaded {}: {} trees of {} species, {:.0f} ms; changed after {:.0f} ms, seen {:.0f} ms "
+        "after the change",
+        file(), painting_.tree_count(), document_->scene.species.size(),
+        kMilliseconds * stats_.make_seconds, kMilliseconds * stats_.swap_seconds,
+        kMilliseconds * stats_.shown_seconds));
+}
+
+void ForestView::grow() {
+    const SteadyClock::time_point now = SteadyClock::now();
+    if (!settings.plays || document_ == nullptr) {
+        last_growth_ = now;
+        return;
+    }
+    const double passed = std::chrono::duration<double>(now - last_growth_).count();
+    const double years_passed = passed * static_cast<double>(settings.years_per_second);
+    const bool is_made = requested_ == settings.edits && !loader_.is_busy();
+    if (!is_made || years_passed < 1.0) {
+        return;
+    }
+    last_growth_ = now;
+    // Slow pictures skip years.
+    constexpr double kMaxYears = 1000.0;
+    const auto next = years() + static_cast<std::uint32_t>(std::min(years_passed, kMaxYears));
+    settings.plays = next < default_years_;
+    settings.edits.years = std::min(next, default_years_);
+}
+
+void ForestView::play_or_pause() {
+    if (default_years_ == 0) {
+        set_note("only a forest placed by domination grows");
+        return;
+    }
+    settings.plays = !settings.plays;
+    if (settings.plays && years() >= default_years_) {
+        settings.edits.years = 1;
+    }
+}
+
+void ForestView::open(const std::string& file) {
+    options_.file = file;
+    options_.overrides = {};
+    options_.files = {file};
+    settings.edits = {};
+    settings.plays = false;
+    frame_next_ = true;
+    files_ = {file};
+    requested_.reset();
+    watch_files();
+}
+
+void ForestView::reload() {
+    loader_.repeat(SteadyClock::now());
+    if (!options_.shaders.empty()) {
+        ask_for_shaders();
+    }
+}
+
+void ForestView::frame_all() {
+    settings.camera = framing(settings.camera, renderer_->bounds(), aspect_);
+}
+
+std::optional<glm::dvec3> ForestView::ground_at(const glm::vec2& place) {
+    const Camera& camera = settings.camera;
+    return painting_.pick(
+        {glm::dvec3(camera.eye), glm::dvec3(direction_at(camera, place.x, place.y))});
+}
+
+void ForestView::hover(const glm::vec2& place) {
+    pointed_ = place;
+}
+
+void ForestView::show_outline() {
+    std::optional<glm::dvec3> place;
+    if (settings.tool != PaintTool::None && document_ != nullptr) {
+        if (!pointed_) {
+            return; // the outline stays
+        }
+        place = ground_at(*pointed_);
+    }
+    pointed_.reset();
+    if (place) {
+        const float radius = settings.tool == PaintTool::OneTree ? 0.0F : settings.brush.radius;
+        renderer_->show_lines(
+            painting_.outline(*place, radius, settings.tool == PaintTool::Eraser));
+        changed_ = true;
+    } else if (has_outline_) {
+        renderer_->show_lines({});
+        changed_ = true;
+    }
+    has_outline_ = place.has_value();
+}
+
+void ForestView::apply_tool(const glm::vec2& place, bool begins, bool erases) {
+    begins_stroke_ = begins_stroke_ || begins;
+    if (const std::optional<glm::dvec3> ground = ground_at(place)) {
+        painting_.move_tool(*ground, std::exchange(begins_stroke_, false),
+                            erases ? PaintTool::Eraser : settings.tool, settings.brush);
+        has_stroke_ = true;
+        has_worked_ = true;
+        changed_ = true;
+    }
+}
+
+std::string ForestView::painted_text(const char* what) const {
+    const auto trees = [](std::uint64_t count) {
+        return fmt::format("{} {}", count, count == 1 ? "tree" : "trees");
+    };
+    const PaintCount& count = painting_.count();
+    return fmt::format("{}added {}, removed {}; {}", what, trees(count.added), count.removed,
+                       trees(painting_.tree_count()));
+}
+
+void ForestView::end_stroke() {
+    begins_stroke_ = false;
+    if (std::exchange(has_stroke_, false)) {
+        set_note(painted_text(""));
+    }
+}
+
+void ForestView::undo() {
+    if (!painting_.can_undo()) {
+        set_note("nothing to undo");
+        return;
+    }
+    painting_.undo();
+    changed_ = true;
+    set_note(painted_text("undo: "));
+}
+
+void ForestView::redo() {
+    if (!painting_.can_redo()) {
+        set_note("nothing to redo");
+        return;
+    }
+    painting_.redo();
+    changed_ = true;
+    set_note(painted_text("redo: "));
+}
+
+void ForestView::save() {
+    if (!is_scene(file())) {
+        set_note("this forest has no scene file to save to");
+        return;
+    }
+    const std::lock_guard lock(saved_mutex_);
+    const Result<void> saved = painting_.save(file(), console_);
+    if (!saved) {
+        set_note(fmt::format("not saved: {}", saved.error().message));
+        return;
+    }
+    saved_text_ = painting_.saved_text();
+    const bool is_other_placement =
+        settings.edits.changes_placement() || options_.overrides.changes_placement();
+    // The file identifies them by number only.
+    const bool is_doubtful = is_other_placement && painting_.has_erased();
+    set_note(fmt::format("saved {}{}", file(),
+                         is_doubtful
+                             ? "; but trees were erased from another placement than the file's, "
+                               "where other trees may have their numbers"
+                             : ""));
+}
+
+bool ForestView::is_busy() const {
+    return loader_.is_busy() || settings.plays || settings.windy || !has_impostors_ || is_coarse_;
+}
+
+} // namespace lsys::view

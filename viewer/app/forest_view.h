@@ -1,0 +1,162 @@
+// ForestView: the state of a window with a forest, without the window. Watches the scene, its
+// grammars and their includes; forests are made on another thread and swapped between two pictures.
+#pragma once
+
+#include "viewer/app/file_watch.h"
+#include "viewer/app/forest_loader.h"
+#include "viewer/app/forest_painting.h"
+#include "viewer/app/view.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys::view {
+
+inline constexpr float kMaxBrush = 500.0F; // m, radius
+
+/// Settings of the user.
+struct ForestViewSettings {
+    SceneOverrides edits; // applied after those of the command line; changes make a new forest
+
+    Camera camera;
+    bool shadows = true;
+    bool antialiasing = true;
+    bool wireframe = false;
+    bool windy = false; // wind is on
+    Wind wind;
+    std::uint64_t max_triangles = 1'500'000;
+
+    bool plays = false;
+    float years_per_second = 5.0F;
+
+    PaintTool tool = PaintTool::None;
+    Brush brush;
+};
+
+/// Statistics of the instance cache of a species and number of generations.
+struct CacheNumbers {
+    std::string species;
+    std::uint32_t generations = 0;
+    std::uint32_t heroes = 0;
+    std::uint64_t keys = 0;
+    std::uint64_t branches = 0; // kept
+    std::uint64_t hits = 0;
+    std::uint64_t misses = 0;
+    std::uint64_t dropped = 0;
+    std::uint64_t bytes = 0;
+};
+
+/// Statistics of the forest shown.
+struct ForestViewStats {
+    double make_seconds = 0.0;   // all work of the loader
+    double upload_seconds = 0.0; // time of the swap
+    double swap_seconds = 0.0;   // from the change to the swap
+    double shown_seconds = 0.0;  // from the change to the first picture on the screen
+    double draw_seconds = 0.0;   // last picture
+    FrameStats drawn;
+    std::uint64_t swaps = 0;
+    std::vector<CacheNumbers> caches;
+};
+
+class ForestView final : public View {
+public:
+    /// `wake` is called on any thread when update() has work.
+    ForestView(const ViewOptions& options,
+               const Console& console,
+               Renderer& renderer,
+               std::function<void()> wake);
+    ~ForestView() override;
+
+    ForestViewSettings settings;
+
+    bool update() override;
+    bool draw(std::uint32_t width, std::uint32_t height) override;
+    void shown(double draw_seconds) override;
+    [[nodiscard]] bool is_busy() const override;
+    void reload() override;
+    void frame_all() override;
+    [[nodiscard]] const std::string& file() const override { return options_.file; }
+    [[nodiscard]] Camera& camera() override { return settings.camera; }
+    [[nodiscard]] bool is_unsaved() const override { return painting_.is_unsaved(); }
+
+    /// Opens another scene and frames it.
+    void open(const std::string& file);
+    /// Restarts at the first year when all years are shown.
+    void play_or_pause();
+    void set_years(std::uint32_t years);
+    [[nodiscard]] std::uint32_t years() const;
+    /// Years of the scene without edits; 0: it does not grow.
+    [[nodiscard]] std::uint32_t default_years() const;
+
+    /// Moves the tool to a place of the last picture: right and up from its centre, in half picture
+    /// heights.
+    void hover(const glm::vec2& place);
+    /// Applies the tool there. `begins`: starts a stroke. `erases`: uses the eraser instead.
+    void apply_tool(const glm::vec2& place, bool begins, bool erases);
+    /// Ends a stroke and reports its changes.
+    void end_stroke();
+    void undo();
+    void redo();
+    /// Saves painted trees in the scene file and reports the result.
+    void save();
+
+    /// Last forest without errors; null: none yet.
+    [[nodiscard]] const ForestDocument* document() const { return document_.get(); }
+    [[nodiscard]] const ForestViewStats& stats() const { return stats_; }
+    [[nodiscard]] const ForestPainting& painting() const { return painting_; }
+    /// Whether the last picture had reduced quality because of motion.
+    [[nodiscard]] bool is_coarse() const { return is_coarse_; }
+    /// Whether all impostors are baked.
+    [[nodiscard]] bool has_impostors() const { return has_impostors_; }
+
+private:
+    void take_outcome(ForestOutcome outcome);
+    void swap(ForestOutcome outcome);
+    void show_outline();
+    [[nodiscard]] std::string painted_text(const char* what) const;
+    void watch_files();
+    void grow();
+    void ask();
+    void files_changed(const std::vector<std::string>& files, SteadyClock::time_point since);
+    [[nodiscard]] std::optional<glm::dvec3> ground_at(const glm::vec2& place);
+
+    std::function<void()> wake_;
+    std::shared_ptr<ForestDocument> document_;
+    ForestPainting painting_;
+    std::vector<std::string> files_;
+    bool frame_next_ = false; // at the next swap
+    bool logs_next_frame_ = false;
+    bool has_impostors_ = true;
+    std::optional<SceneOverrides> requested_;
+    std::uint32_t default_years_ = 0;
+    SteadyClock::time_point since_; // change that led to the forest shown
+    SteadyClock::time_point last_growth_;
+    SteadyClock::time_point start_ = SteadyClock::now(); // of the wind
+    std::optional<glm::vec2> pointed_;
+    bool has_outline_ = false;
+    bool begins_stroke_ = false; // at the next point on the ground
+    bool has_stroke_ = false;
+    bool has_worked_ = false; // since the last picture
+    bool is_slow_ = false;    // last picture at full quality
+    bool is_coarse_ = false;
+    std::uint64_t coarse_triangles_ = 200'000;
+    SteadyClock::time_point last_motion_;
+    ForestViewStats stats_;
+
+    std::mutex saved_mutex_;
+    std::string saved_text_; // text last written by this view
+    ForestLoader loader_;
+    FileWatch watch_; // last member: it calls the loader
+};
+
+/// Cache statistics by species and stage.
+[[nodiscard]] std::vector<CacheNumbers> cache_numbers(const Forest& forest);
+
+} // namespace lsys::view

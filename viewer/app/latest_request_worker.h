@@ -1,0 +1,128 @@
+// LatestRequestWorker: handles requests on a thread of its own. A new request replaces a pending
+// one; a running one is cancelled when it takes long.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace lsys::view {
+
+using SteadyClock = std::chrono::steady_clock;
+
+/// `Request` has `since`, the time of its cause, and `again`, whether it repeats because files
+/// changed.
+template <typename Request, typename Outcome>
+class LatestRequestWorker {
+public:
+    /// Time that a request may run while a newer one is pending.
+    static constexpr std::chrono::milliseconds kPatience{100};
+    using Run = std::function<Outcome(const Request& request, const std::atomic<bool>& cancelled)>;
+
+    /// `done` is called on the worker's thread whenever take() has an outcome.
+    LatestRequestWorker(Run run, std::function<void()> done)
+        : run_request_(std::move(run)), done_(std::move(done)), thread_([this] { loop(); }) {}
+    LatestRequestWorker(const LatestRequestWorker&) = delete;
+    LatestRequestWorker& operator=(const LatestRequestWorker&) = delete;
+    /// Cancels the running request.
+    ~LatestRequestWorker() {
+        {
+            const std::lock_guard lock(mutex_);
+            stops_ = true;
+            cancelled_ = true;
+            changed_.notify_one();
+        }
+        thread_.join();
+    }
+
+    void request(Request request) {
+        const std::lock_guard lock(mutex_);
+        enqueue(std::move(request));
+    }
+    /// Repeats the last request after a change of files; callable from any thread. Cancels the
+    /// running one. Without a request, nothing.
+    void repeat(SteadyClock::time_point since) {
+        const std::lock_guard lock(mutex_);
+        if (last_) {
+            cancelled_ = is_running_;
+            Request request = *last_;
+            request.since = since;
+            request.again = true;
+            enqueue(std::move(request));
+        }
+    }
+    /// Takes the last outcome. Cancels the running request if it has run long and a newer one is
+    /// pending, so that a dragged slider shows intermediate results.
+    [[nodiscard]] std::optional<Outcome> take() {
+        const std::lock_guard lock(mutex_);
+        if (pending_ && is_running_ && SteadyClock::now() - began_ > kPatience) {
+            cancelled_ = true;
+        }
+        return std::exchange(outcome_, std::nullopt);
+    }
+    /// Whether a request is pending or running, or an outcome was not taken.
+    [[nodiscard]] bool is_busy() const {
+        const std::lock_guard lock(mutex_);
+        return is_running_ || pending_ || outcome_;
+    }
+
+private:
+    void enqueue(Request request) {
+        // Keep the request to read changed files until an outcome of it is taken.
+        request.again = request.again || (pending_ && pending_->again) ||
+                        (running_again_ && (is_running_ || outcome_));
+        last_ = request;
+        pending_ = std::move(request);
+        changed_.notify_one();
+    }
+
+    void loop() {
+        while (true) {
+            std::optional<Request> request;
+            {
+                std::unique_lock lock(mutex_);
+                is_running_ = false;
+                changed_.wait(lock, [this] { return pending_ || stops_; });
+                if (stops_) {
+                    return;
+                }
+                request = std::exchange(pending_, std::nullopt);
+                is_running_ = true;
+                running_again_ = request->again;
+                began_ = SteadyClock::now();
+                cancelled_ = false;
+            }
+            Outcome outcome = run_request_(*request, cancelled_);
+            {
+                const std::lock_guard lock(mutex_);
+                if (cancelled_) {
+                    continue;
+                }
+                outcome_ = std::move(outcome);
+                is_running_ = false;
+            }
+            done_();
+        }
+    }
+
+    Run run_request_;
+    std::function<void()> done_;
+    mutable std::mutex mutex_; // guards all below
+    std::condition_variable changed_;
+    std::optional<Request> pending_;
+    std::optional<Request> last_;
+    std::optional<Outcome> outcome_;
+    bool is_running_ = false;
+    bool running_again_ = false;
+    bool stops_ = false;
+    SteadyClock::time_point began_;
+    std::atomic<bool> cancelled_{false};
+    std::thread thread_; // last member: it uses the others
+};
+
+} // namespace lsys::view

@@ -1,0 +1,309 @@
+#include "viewer/app/plant_view.h"
+
+#include "runtime/pipeline/stopwatch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace lsys::view {
+
+namespace {
+
+constexpr double kMilliseconds = 1e3;
+
+/// Whether both settings make the same plant.
+bool makes_same_plant(const PlantViewSettings& a, const PlantViewSettings& b) {
+    return a.file == b.file && a.generations == b.generations && a.seed == b.seed &&
+           a.mesh == b.mesh && a.definitions == b.definitions;
+}
+
+bool is_same(const Bending& a, const Bending& b) {
+    return a.stiffness == b.stiffness && a.forces.gravity == b.forces.gravity &&
+           a.forces.wind == b.forces.wind && a.forces.damping == b.forces.damping;
+}
+
+PlantViewSettings first_settings(const ViewOptions& options) {
+    PlantViewSettings settings;
+    settings.file = options.file;
+    settings.definitions = options.grammar.definitions;
+    settings.generations = options.grammar.generations;
+    settings.seed = options.seed;
+    settings.mesh = options.mesh;
+    settings.style = options.style;
+    settings.lines = options.lines;
+    settings.shadows = options.shadows;
+    settings.ground = options.ground;
+    settings.antialiasing = options.samples > 1;
+    settings.simulates = options.gravity || options.wind;
+    if (settings.simulates) {
+        settings.bending.forces.gravity = options.gravity.value_or(0.0F);
+    }
+    settings.bending.forces.wind = options.wind.value_or(Wind{});
+    settings.bending.forces.threads = options.run.threads;
+    return settings;
+}
+
+} // namespace
+
+PlantView::PlantView(const ViewOptions& options,
+                     const Console& console,
+                     Renderer& renderer,
+                     std::function<void()> wake)
+    : View(options, console, renderer), settings(first_settings(options)), wake_(std::move(wake)),
+      frame_next_(options.camera.empty()), loader_(wake_),
+      watch_(FileWatch::Options{},
+             [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
+                 const auto shaders =
+                     std::count_if(files.begin(), files.end(),
+                                   [this](const std::string& each) { return is_shader(each); });
+                 if (shaders != 0) {
+                     ask_for_shaders();
+                     wake_();
+                 }
+                 if (static_cast<std::size_t>(shaders) != files.size()) {
+                     loader_.repeat(since);
+                 }
+             }) {
+    files_ = {settings.file};
+    watch_files();
+}
+
+ViewOptions PlantView::wanted() const {
+    ViewOptions wanted = options_;
+    wanted.file = settings.file;
+    wanted.grammar.definitions = {};
+    wanted.grammar.optional_definitions = settings.definitions;
+    wanted.grammar.generations = settings.generations;
+    wanted.seed = settings.seed;
+    wanted.mesh = settings.mesh;
+    return wanted;
+}
+
+std::uint32_t PlantView::default_generations() const {
+    const std::uint32_t own =
+        document_ == nullptr ? 0 : document_->grammar.bytecode.generations.value_or(0);
+    return options_.file == settings.file ? options_.grammar.generations.value_or(own) : own;
+}
+
+std::uint32_t PlantView::generations() const {
+    return settings.generations.value_or(default_generations());
+}
+
+bool PlantView::update() {
+    bool has_news = false;
+    if (reload_shaders()) {
+        watch_files();
+        has_news = true;
+    }
+    if (std::optional<LoadOutcome> outcome = loader_.take()) {
+        take_outcome(std::move(*outcome));
+        has_news = true;
+    }
+    grow();
+    bend();
+    if (shown_lines_ != settings.lines) {
+        show_lines();
+    }
+    if (!requested_ || !makes_same_plant(*requested_, settings)) {
+        requested_ = settings;
+        loader_.request(wanted(), SteadyClock::now());
+    }
+    return has_news;
+}
+
+void PlantView::take_outcome(LoadOutcome outcome) {
+    if (outcome.options.file != settings.file) {
+        return; // a newer one follows
+    }
+    const bool fine = outcome.document != nullptr;
+    take_messages(outcome.messages, fine);
+    if (fine) {
+        files_ = outcome.files;
+        swap(std::move(outcome));
+    } else {
+        // The correction may be made in any old or new file.
+        for (const std::string& file : outcome.files) {
+            if (std::find(files_.begin(), files_.end(), file) == files_.end()) {
+                files_.push_back(file);
+            }
+        }
+    }
+    watch_files();
+}
+
+/// Drops values of constants that the file no longer has.
+void PlantView::drop_unknown_definitions() {
+    if (!document_->grammar.program) {
+        return;
+    }
+    const auto is_unknown = [&](const Definition& definition) {
+        const std::vector<Constant>& constants = document_->grammar.program->constants;
+        return std::none_of(constants.begin(), constants.end(), [&](const Constant& constant) {
+            return document_->grammar.names.text(constant.name) == definition.name;
+        });
+    };
+    if (std::erase_if(settings.definitions, is_unknown) != 0 && requested_) {
+        requested_->definitions = settings.definitions; // same plant
+    }
+}
+
+void PlantView::swap(LoadOutcome outcome) {
+    const SteadyClock::time_point start = SteadyClock::now();
+    document_ = outcome.document;
+    drop_unknown_definitions();
+    motion_.reset();
+    bending_.reset();
+    renderer_->show_plant(document_->mesh);
+    show_lines();
+    if (std::exchange(frame_next_, false)) {
+        settings.camera = first_view(settings.camera, renderer_->bounds(), aspect_);
+    }
+    if (std::exchange(is_new_file_, false)) {
+        settings.bending.forces.damping = document_->grammar.bytecode.settings.damping;
+    }
+    stats_.upload_seconds = seconds_since(start);
+    stats_.make_seconds = outcome.seconds;
+    stats_.swap_seconds = seconds_since(outcome.since);
+    ++stats_.swaps;
+    shown_outcome_ = std::move(outcome);
+    logs_next_frame_ = true;
+    changed_ = true;
+}
+
+void PlantView::show_lines() {
+    shown_lines_ = settings.lines;
+    const PlantDocument* const plant = document();
+    if (plant == nullptr) {
+        return;
+    }
+    const bool is_bent = motion_ != nullptr && !bent_.skeleton.segments.empty();
+    const Skeleton& skeleton = is_bent ? bent_.skeleton : plant->plant.skeleton;
+    renderer_->show_lines(make_lines(skeleton, shown_lines_));
+    changed_ = true;
+}
+
+void PlantView::watch_files() {
+    watch_.watch(watched(files_));
+}
+
+void PlantView::grow() {
+    const SteadyClock::time_point now = SteadyClock::now();
+    if (!settings.plays || document_ == nullptr) {
+        last_growth_ = now;
+        return;
+    }
+    const double interval = 1.0 / static_cast<double>(settings.generations_per_second);
+    const bool is_made =
+        requested_ && makes_same_plant(*requested_, settings) && !loader_.is_busy();
+    if (!is_made || std::chrono::duration<double>(now - last_growth_).count() < interval) {
+        return;
+    }
+    last_growth_ = now;
+    const std::uint32_t end = default_generations();
+    const std::uint32_t next = failed() ? end : generations() + 1;
+    settings.plays = next < end;
+    settings.generations = std::min(next, end);
+}
+
+void PlantView::play_or_pause() {
+    settings.plays = !settings.plays;
+    if (settings.plays && generations() >= default_generations()) {
+        settings.generations = 0;
+    }
+}
+
+void PlantView::bend() {
+    if (document_ == nullptr || (!settings.simulates && motion_ == nullptr)) {
+        return;
+    }
+    if (!settings.simulates) {
+        motion_.reset();
+        bending_.reset();
+        bent_ = {};
+        renderer_->show_plant(document_->mesh);
+        show_lines();
+        return;
+    }
+    if (motion_ == nullptr) {
+        bent_ = {};
+        MeshOptions mesh = settings.mesh;
+        mesh.threads = options_.run.threads;
+        mesh.max_bytes = options_.run.limits.max_bytes;
+        motion_ = std::make_unique<PlantMotion>(document_, settings.bending, mesh, wake_);
+        bending_ = settings.bending;
+    } else if (!is_same(*bending_, settings.bending)) {
+        motion_->set(settings.bending);
+        bending_ = settings.bending;
+    }
+    if (motion_->take(bent_)) {
+        renderer_->show_plant(bent_.mesh);
+        stats_.bend_seconds = bent_.seconds;
+        stats_.bend_time = bent_.time;
+        changed_ = true;
+        if (shown_lines_ != LineKind::None) {
+            show_lines();
+        }
+    }
+}
+
+bool PlantView::draw(std::uint32_t width, std::uint32_t height) {
+    Frame frame;
+    frame.camera = settings.camera;
+    frame.width = width;
+    frame.height = height;
+    frame.shadows = settings.shadows;
+    frame.ground = settings.ground;
+    frame.samples = settings.antialiasing ? 4 : 1;
+    frame.style = settings.style;
+    if (!draw_frame(frame)) {
+        return false;
+    }
+    stats_.drawn = drawn_;
+    return true;
+}
+
+void PlantView::shown(double draw_seconds) {
+    stats_.draw_seconds = draw_seconds;
+    if (!std::exchange(logs_next_frame_, false)) {
+        return;
+    }
+    stats_.shown_seconds = seconds_since(shown_outcome_.since);
+    console_.detail(
+        fmt::format("loaded {}: {} modules, {} segments, {} triangles, {:.0f} ms; seen "
+                    "{:.0f} ms after the change",
+                    shown_outcome_.options.file, document_->plant.modules,
+                    document_->plant.skeleton.segments.size(), document_->mesh.indices.size() / 3,
+                    kMilliseconds * stats_.make_seconds, kMilliseconds * stats_.shown_seconds));
+}
+
+void PlantView::open(const std::string& file) {
+    settings.file = file;
+    settings.definitions.clear();
+    settings.generations.reset();
+    settings.seed.reset();
+    settings.plays = false;
+    frame_next_ = true;
+    is_new_file_ = true;
+    files_ = {file};
+    requested_.reset();
+    watch_files();
+}
+
+void PlantView::reload() {
+    loader_.repeat(SteadyClock::now());
+    if (!options_.shaders.empty()) {
+        ask_for_shaders();
+    }
+}
+
+void PlantView::frame_all() {
+    settings.camera = framing(settings.camera, renderer_->bounds(), aspect_);
+}
+
+bool PlantView::is_busy() const {
+    return loader_.is_busy() || settings.plays || motion_ != nullptr;
+}
+
+} // namespace lsys::view

@@ -1,0 +1,118 @@
+// PlantView: the state of a window with a plant, without the window. Watches files; plants are made
+// on other threads and swapped between two pictures. Every call needs a current OpenGL context.
+#pragma once
+
+#include "viewer/app/file_watch.h"
+#include "viewer/app/plant_loader.h"
+#include "viewer/app/plant_motion.h"
+#include "viewer/app/view.h"
+#include "viewer/gl/renderer.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys::view {
+
+/// Settings of the user.
+struct PlantViewSettings {
+    // Sources: a change makes a new plant.
+    std::string file;
+    std::vector<Definition> definitions; // replace constants of the grammar
+    std::optional<std::uint32_t> generations;
+    std::optional<std::uint64_t> seed;
+    MeshOptions mesh;
+
+    // Appearance.
+    Camera camera;
+    PlantStyle style = PlantStyle::Surface;
+    LineKind lines = LineKind::None;
+    bool shadows = true;
+    bool ground = true;
+    bool antialiasing = true;
+
+    bool simulates = false;
+    Bending bending;
+
+    bool plays = false;
+    float generations_per_second = 2.0F;
+};
+
+/// Statistics of the plant shown.
+struct PlantViewStats {
+    double upload_seconds = 0.0;
+    double make_seconds = 0.0;  // all work of the loader
+    double swap_seconds = 0.0;  // from the change to the swap
+    double shown_seconds = 0.0; // from the change to the first picture on the screen
+    double draw_seconds = 0.0;  // last picture
+    double bend_seconds = 0.0;  // last moment
+    double bend_time = 0.0;     // s, simulated
+    FrameStats drawn;
+    std::uint64_t swaps = 0;
+};
+
+class PlantView final : public View {
+public:
+    /// `wake` is called on any thread when update() has work.
+    PlantView(const ViewOptions& options,
+              const Console& console,
+              Renderer& renderer,
+              std::function<void()> wake);
+
+    PlantViewSettings settings;
+
+    bool update() override;
+    bool draw(std::uint32_t width, std::uint32_t height) override;
+    void shown(double draw_seconds) override;
+    [[nodiscard]] bool is_busy() const override;
+    void reload() override;
+    void frame_all() override;
+    [[nodiscard]] const std::string& file() const override { return settings.file; }
+    [[nodiscard]] Camera& camera() override { return settings.camera; }
+
+    /// Opens another file and frames it.
+    void open(const std::string& file);
+    /// Restarts at the axiom when all generations are shown.
+    void play_or_pause();
+
+    /// Last plant without errors; null: none yet.
+    [[nodiscard]] const PlantDocument* document() const { return document_.get(); }
+    [[nodiscard]] const PlantViewStats& stats() const { return stats_; }
+    /// Generations without settings.
+    [[nodiscard]] std::uint32_t default_generations() const;
+    [[nodiscard]] std::uint32_t generations() const;
+
+private:
+    void take_outcome(LoadOutcome outcome);
+    void swap(LoadOutcome outcome);
+    void show_lines();
+    void watch_files();
+    void grow();
+    void bend();
+    void drop_unknown_definitions();
+    [[nodiscard]] ViewOptions wanted() const;
+
+    std::function<void()> wake_;
+
+    std::shared_ptr<const PlantDocument> document_;
+    LoadOutcome shown_outcome_;
+    std::vector<std::string> files_;
+    bool frame_next_ = false; // at the next swap
+    bool is_new_file_ = true; // take the damping of its grammar
+    bool logs_next_frame_ = false;
+    PlantViewStats stats_;
+
+    std::optional<PlantViewSettings> requested_; // last request
+    LineKind shown_lines_ = LineKind::None;
+    SteadyClock::time_point last_growth_;
+    BentPlant bent_;
+    std::optional<Bending> bending_; // settings of motion_
+    std::unique_ptr<PlantMotion> motion_;
+    PlantLoader loader_;
+    FileWatch watch_; // last member: it calls the loader
+};
+
+} // namespace lsys::view

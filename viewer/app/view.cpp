@@ -1,0 +1,120 @@
+#include "viewer/app/view.h"
+
+#include "runtime/meshing/texture.h"
+#include "runtime/program/files.h"
+#include "viewer/app/shader_folder.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <ostream>
+#include <system_error>
+#include <utility>
+
+namespace lsys::view {
+
+View::View(const ViewOptions& options, const Console& console, Renderer& renderer)
+    : options_(options), console_(console), renderer_(&renderer) {}
+
+namespace {
+
+/// One entry per diagnostic and per other message.
+std::vector<ShownMessage> entries_of(const Messages& messages) {
+    std::vector<ShownMessage> entries;
+    for (const Message& message : messages.all()) {
+        if (message.kind == Message::Kind::Error) {
+            entries.push_back({Severity::Error, "error: " + message.text, {}});
+        } else if (message.kind == Message::Kind::Info || message.kind == Message::Kind::Help) {
+            entries.push_back({Severity::Note, message.text, {}});
+        }
+        const SourceMap none;
+        const SourceMap& sources = message.sources ? *message.sources : none;
+        for (const Diagnostic& diagnostic : message.diagnostics.all()) {
+            ShownMessage& entry = entries.emplace_back();
+            entry.severity = diagnostic.severity;
+            render(diagnostic, sources, {MessageFormat::Short}, entry.head);
+            render(diagnostic, sources, {MessageFormat::Human}, entry.text);
+            entry.head.erase(entry.head.find_last_not_of('\n') + 1);
+            // The text repeats the head in its first line.
+            entry.text.erase(0, entry.text.find('\n') + 1);
+            constexpr std::size_t kMaxEntries = 50; // same as terminals
+            if (entries.size() >= kMaxEntries) {
+                return entries;
+            }
+        }
+    }
+    return entries;
+}
+
+} // namespace
+
+void View::take_messages(const Messages& messages, bool fine) {
+    std::string text = messages_text(messages, options_.messages, "lsview");
+    if (text != text_) {
+        text_ = std::move(text);
+        entries_ = entries_of(messages);
+        console_.io().err << text_ << std::flush;
+    }
+    failed_ = !fine;
+}
+
+bool View::reload_shaders() {
+    if (!shaders_changed_.exchange(false)) {
+        return false;
+    }
+    const Result<void> loaded = renderer_->reload(shaders_of(options_.shaders, console_));
+    shader_message_ = loaded ? std::string() : loaded.error().message;
+    if (loaded) {
+        console_.detail("loaded the shaders");
+    } else {
+        console_.error(shader_message_);
+    }
+    changed_ = true;
+    return true;
+}
+
+bool View::is_shader(const std::string& file) const {
+    return !options_.shaders.empty() && std::filesystem::path(file).extension() == ".glsl";
+}
+
+std::vector<std::string> View::watched(std::vector<std::string> files) const {
+    const std::vector<std::string> shaders = shader_files(options_.shaders);
+    files.insert(files.end(), shaders.begin(), shaders.end());
+    return files;
+}
+
+bool View::draw_frame(const Frame& frame) {
+    aspect_ = static_cast<float>(frame.width) / static_cast<float>(frame.height);
+    if (!changed_ && frame_ == frame) {
+        return false;
+    }
+    changed_ = false;
+    drawn_ = renderer_->draw(frame, {0, 0, frame.width, frame.height});
+    frame_ = frame;
+    return true;
+}
+
+void View::write_screenshot() {
+    if (!frame_) {
+        return;
+    }
+    const std::string stem = std::filesystem::path(file()).stem().string();
+    std::string name;
+    std::error_code error;
+    for (std::uint32_t number = 1; name.empty() || std::filesystem::exists(name, error); ++number) {
+        name = fmt::format("{}-{}.png", stem, number);
+    }
+    Texture picture;
+    picture.width = frame_->width;
+    picture.height = frame_->height;
+    renderer_->read(picture.texels);
+    const Result<void> written = write_file(name, encode_png(picture), console_);
+    set_note(written ? fmt::format("wrote {}", name) : written.error().message);
+}
+
+void View::set_note(const std::string& note) {
+    note_ = note;
+    console_.info(note);
+}
+
+} // namespace lsys::view

@@ -1,0 +1,97 @@
+// View: common state of plant and forest views: last picture, messages, shaders. Every call needs a
+// current OpenGL context.
+#pragma once
+
+#include "grammar/base/outcome.h"
+#include "runtime/program/console.h"
+#include "viewer/app/options.h"
+#include "viewer/gl/renderer.h"
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys::view {
+
+/// A message in the overlay.
+struct ShownMessage {
+    Severity severity = Severity::Note;
+    std::string head; // `file:line:column: severity: message [code]`
+    std::string text; // all of it, with source lines
+};
+
+class View {
+public:
+    View(const ViewOptions& options, const Console& console, Renderer& renderer);
+    View(const View&) = delete;
+    View& operator=(const View&) = delete;
+    virtual ~View() = default;
+
+    /// Call between two pictures: takes finished work and requests what the settings need. Returns
+    /// whether messages changed.
+    virtual bool update() = 0;
+    /// Draws unless nothing changed. Returns whether it drew.
+    virtual bool draw(std::uint32_t width, std::uint32_t height) = 0;
+    /// Call when the last picture is on the screen; it took `draw_seconds`.
+    virtual void shown(double draw_seconds) = 0;
+    /// Whether work or motion goes on, so that update() is due soon.
+    [[nodiscard]] virtual bool is_busy() const = 0;
+    /// Reads all files again.
+    virtual void reload() = 0;
+    /// Moves the camera to show everything.
+    virtual void frame_all() = 0;
+    [[nodiscard]] virtual const std::string& file() const = 0;
+    [[nodiscard]] virtual Camera& camera() = 0;
+    /// Whether there are unsaved changes.
+    [[nodiscard]] virtual bool is_unsaved() const { return false; }
+
+    /// Copies the last picture to a part of the window whose context is current.
+    void present(const PixelArea& area) { renderer_->present(area); }
+    /// Writes the last picture to a new file and reports its name.
+    void write_screenshot();
+    void set_note(const std::string& note);
+
+    /// Messages of the last request, formatted as `lsc` does.
+    [[nodiscard]] const std::string& messages() const { return text_; }
+    /// Messages of the last request, one by one.
+    [[nodiscard]] const std::vector<ShownMessage>& entries() const { return entries_; }
+    /// Whether the last request failed.
+    [[nodiscard]] bool failed() const { return failed_; }
+    [[nodiscard]] const std::string& shader_message() const { return shader_message_; }
+    /// Last note, for example "wrote plant-1.png".
+    [[nodiscard]] const std::string& note() const { return note_; }
+    [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
+
+protected:
+    /// Implements draw().
+    bool draw_frame(const Frame& frame);
+    /// Stores the messages of a request; prints them if they differ from the last ones.
+    void take_messages(const Messages& messages, bool fine);
+    void ask_for_shaders() { shaders_changed_ = true; }
+    /// Reloads shaders if they changed. Returns whether messages changed.
+    bool reload_shaders();
+    [[nodiscard]] bool is_shader(const std::string& file) const;
+    /// Adds the shader files.
+    [[nodiscard]] std::vector<std::string> watched(std::vector<std::string> files) const;
+
+    ViewOptions options_;
+    Console console_;
+    Renderer* renderer_;
+    std::string shader_message_;
+    // Last picture.
+    std::optional<Frame> frame_;
+    FrameStats drawn_;
+    float aspect_ = 1.0F;
+    bool changed_ = true;
+
+private:
+    std::string text_;
+    std::vector<ShownMessage> entries_;
+    std::string note_;
+    bool failed_ = false;
+    std::atomic<bool> shaders_changed_{false};
+};
+
+} // namespace lsys::view

@@ -1,0 +1,65 @@
+#include "viewer/app/view_switcher.h"
+
+#include "runtime/pipeline/forest.h"
+
+#include <utility>
+
+namespace lsys::view {
+
+ViewSwitcher::ViewSwitcher(const ViewOptions& options,
+                           const Console& console,
+                           Renderer& renderer,
+                           std::function<void()> wake)
+    : options_(options), console_(console), renderer_(&renderer), wake_(std::move(wake)) {
+    make(options_);
+}
+
+void ViewSwitcher::make(const ViewOptions& options) {
+    plant_ = nullptr;
+    forest_ = nullptr;
+    shown_.reset(); // first: it watches files and draws
+    if (options.is_forest) {
+        auto forest = std::make_unique<ForestView>(options, console_, *renderer_, wake_);
+        forest_ = forest.get();
+        shown_ = std::move(forest);
+    } else {
+        auto plant = std::make_unique<PlantView>(options, console_, *renderer_, wake_);
+        plant_ = plant.get();
+        shown_ = std::move(plant);
+    }
+}
+
+void ViewSwitcher::open(const std::string& file) {
+    if (shown_->is_unsaved() && refused_ != file) {
+        refused_ = file;
+        shown_->set_note("what was painted is not saved: Ctrl+S saves it; ask again to leave it");
+        return;
+    }
+    refused_.clear();
+    const bool is_forest = is_scene(file);
+    if (forest_ != nullptr && is_scene(forest_->file())) {
+        last_scene_ = forest_->file();
+    }
+    if (is_forest && forest_ != nullptr) {
+        forest_->open(file);
+        return;
+    }
+    if (!is_forest && plant_ != nullptr) {
+        plant_->open(file);
+        return;
+    }
+    // Options of the command line belong to its own file.
+    ViewOptions options = options_;
+    options.file = file;
+    options.is_forest = is_forest;
+    options.overrides = {};
+    options.files = {file};
+    options.grammar.definitions.clear();
+    options.grammar.generations.reset();
+    options.grammar.dialect.clear();
+    options.seed.reset();
+    options.camera.clear();
+    make(options);
+}
+
+} // namespace lsys::view

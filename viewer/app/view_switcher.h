@@ -1,0 +1,45 @@
+// ViewSwitcher: holds the view of a plant or of a forest, by the kind of the file.
+#pragma once
+
+#include "viewer/app/forest_view.h"
+#include "viewer/app/plant_view.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace lsys::view {
+
+class ViewSwitcher {
+public:
+    ViewSwitcher(const ViewOptions& options,
+                 const Console& console,
+                 Renderer& renderer,
+                 std::function<void()> wake);
+
+    [[nodiscard]] View& shown() { return *shown_; }
+    /// Null if the other kind is shown.
+    [[nodiscard]] PlantView* plant() { return plant_; }
+    [[nodiscard]] ForestView* forest() { return forest_; }
+
+    /// Opens and frames another file: a scene as a forest, a grammar as a plant. With unsaved
+    /// changes the first call only warns.
+    void open(const std::string& file);
+    /// Scene shown before the plant; empty: none.
+    [[nodiscard]] const std::string& last_scene() const { return last_scene_; }
+
+private:
+    void make(const ViewOptions& options);
+
+    ViewOptions options_;
+    Console console_;
+    Renderer* renderer_;
+    std::function<void()> wake_;
+    std::string last_scene_;
+    std::string refused_; // refused because of unsaved changes
+    PlantView* plant_ = nullptr;
+    ForestView* forest_ = nullptr;
+    std::unique_ptr<View> shown_;
+};
+
+} // namespace lsys::view

@@ -1,0 +1,30 @@
+// HeadlessContext: an OpenGL 4.5 core context without a window, on machines with or without a
+// display. Tried in turn: EGL without a surface, EGL on a device, a hidden window.
+#pragma once
+
+#include "grammar/base/result.h"
+
+#include <memory>
+#include <string>
+
+namespace lsys::view {
+
+class HeadlessContext {
+public:
+    /// Makes a context and makes it current on this thread. Error: the reason of each failure.
+    [[nodiscard]] static Result<std::unique_ptr<HeadlessContext>> make();
+    HeadlessContext(const HeadlessContext&) = delete;
+    HeadlessContext& operator=(const HeadlessContext&) = delete;
+    ~HeadlessContext();
+
+    /// How the context was made, for example "EGL without a surface".
+    [[nodiscard]] const std::string& way() const { return way_; }
+
+private:
+    struct State;
+    HeadlessContext();
+    std::unique_ptr<State> state_;
+    std::string way_;
+};
+
+} // namespace lsys::view

@@ -1,0 +1,345 @@
+#include "viewer/gl/impl/impostor_atlas.h"
+
+#include "grammar/base/hash.h"
+#include "viewer/gl/impl/frame_block.h"
+#include "viewer/gl/impl/program.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace lsys::view {
+
+namespace {
+
+constexpr std::uint32_t kSupersampling = 2; // along a side
+constexpr std::uint32_t kWidth = ImpostorAtlas::kYaws * ImpostorAtlas::kTile;
+constexpr std::uint32_t kHeight = ImpostorAtlas::kElevations * ImpostorAtlas::kTile;
+constexpr GLsizei kLevels = 6; // mip levels; tiles of the last have 4 texels a side
+constexpr std::array<float, ImpostorAtlas::kElevations> kElevation = {0.0F, 0.6108652F, 1.3089969F};
+/// Margin of opaque_box() in texels: coarse mip levels spill over the edges of fine ones.
+constexpr float kBoxMargin = 2.5F;
+constexpr GLint kCentre = 2;
+constexpr GLint kToEye = 3;
+constexpr GLint kRight = 4;
+constexpr GLint kUp = 5;
+
+/// The form whose layers include `layer`; layers of a form are contiguous.
+const Cylinder& cylinder_of(const ImpostorPlan& plan, std::uint32_t layer) {
+    return std::find_if(plan.forms.rbegin(), plan.forms.rend(),
+                        [layer](const ImpostorForm& each) { return each.first_layer <= layer; })
+        ->cylinder;
+}
+
+/// Hash of the visible contents of a layer; never 0.
+std::uint64_t key_of(const ImpostorLayer& impostor,
+                     const Cylinder& cylinder,
+                     const ForestModel& model,
+                     std::uint64_t meshes) {
+    std::uint64_t key = combine(meshes, model.forest->key);
+    const auto add = [&key](std::uint64_t word) { key = combine(key, word); };
+    const auto add_length = [&add](float length) { add(std::bit_cast<std::uint32_t>(length)); };
+    add(impostor.level);
+    for (const float length : {cylinder.radius, cylinder.low, cylinder.high}) {
+        add_length(length);
+    }
+    for (const Tree& tree : impostor.trees) {
+        add(tree.number);
+        for (const float length :
+             {tree.position.x, tree.position.y, tree.position.z, tree.yaw, tree.scale}) {
+            add_length(length);
+        }
+    }
+    return key | 1U;
+}
+
+/// Draw lists of the branches of a layer.
+DrawLists lists_of(const TreeForm& form,
+                   std::uint32_t form_index,
+                   std::uint32_t level,
+                   const std::vector<PoolBranch>& branches) {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> by_mesh;
+    for (std::uint32_t i = 0; i < branches.size(); ++i) {
+        by_mesh[branches[i].mesh].push_back(i);
+    }
+    DrawLists lists;
+    for (const auto& [mesh, places] : by_mesh) {
+        if (form.mesh_triangles[level][mesh] != 0) {
+            lists.runs.push_back({form_index, level, mesh,
+                                  static_cast<std::uint32_t>(lists.branches.size()),
+                                  static_cast<std::uint32_t>(places.size())});
+            for (const std::uint32_t place : places) {
+                lists.branches.emplace_back(place);
+            }
+        }
+    }
+    return lists;
+}
+
+} // namespace
+
+Result<void> ImpostorAtlas::reload(const ShaderSource& shaders) {
+    Result<ProgramObject> solid =
+        make_program(*device_, shaders, "branch.vert.glsl", "branch.frag.glsl", "#define BAKE\n");
+    if (!solid) {
+        return solid.error();
+    }
+    Result<ProgramObject> cut_out =
+        make_program(*device_, shaders, "branch.vert.glsl", "branch.frag.glsl",
+                     "#define BAKE\n#define CUT_OUT\n");
+    if (!cut_out) {
+        return cut_out.error();
+    }
+    solid_ = std::move(solid.value());
+    cut_out_ = std::move(cut_out.value());
+    keys_.assign(keys_.size(), 0);
+    find_missing();
+    return {};
+}
+
+void ImpostorAtlas::find_missing() {
+    bake_.reset();
+    pending_.clear();
+    for (std::uint32_t layer = layers_; layer-- > 0;) {
+        if (keys_[layer] != target_keys_[layer]) {
+            pending_.push_back(layer);
+        }
+    }
+}
+
+void ImpostorAtlas::draw_elevation(const Cylinder& form,
+                                   std::uint32_t e,
+                                   const ForestBuffers& buffers,
+                                   Buffer& frame) const {
+    const float half_height = 0.5F * (form.high - form.low);
+    const glm::vec3 middle(0.0F, 0.5F * (form.low + form.high), 0.0F);
+    const float deep = kImpostorMargin * std::hypot(form.radius, half_height);
+    const float wide = kImpostorMargin * form.radius;
+    const float high = kImpostorMargin * (half_height * std::cos(kElevation[e]) +
+                                          form.radius * std::sin(kElevation[e]));
+    for (std::uint32_t y = 0; y < kYaws; ++y) {
+        const float yaw =
+            2.0F * std::numbers::pi_v<float> * static_cast<float>(y) / static_cast<float>(kYaws);
+        const glm::vec3 to_eye(std::sin(yaw) * std::cos(kElevation[e]), std::sin(kElevation[e]),
+                               std::cos(yaw) * std::cos(kElevation[e]));
+        const glm::vec3 right(std::cos(yaw), 0.0F, -std::sin(yaw));
+        const glm::vec3 up = glm::cross(to_eye, right);
+        FrameBlock block;
+        glm::mat4& matrix = block.view_projection;
+        for (glm::length_t c = 0; c < 3; ++c) {
+            matrix[c] = {right[c] / wide, up[c] / high, 0.5F * to_eye[c] / deep, 0.0F};
+        }
+        matrix[3] = {-glm::dot(right, middle) / wide, -glm::dot(up, middle) / high,
+                     0.5F - 0.5F * glm::dot(to_eye, middle) / deep, 1.0F};
+        frame.fill(std::span<const FrameBlock>(&block, 1));
+        glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame.name());
+        glViewport(static_cast<GLint>(y * kTile * kSupersampling), 0,
+                   static_cast<GLsizei>(kTile * kSupersampling),
+                   static_cast<GLsizei>(kTile * kSupersampling));
+        for (const ProgramObject* program : {&solid_, &cut_out_}) {
+            glUseProgram(program->name());
+            glUniform4f(kCentre, middle.x, middle.y, middle.z, deep);
+            glUniform3f(kToEye, to_eye.x, to_eye.y, to_eye.z);
+            glUniform3f(kRight, right.x, right.y, right.z);
+            glUniform3f(kUp, up.x, up.y, up.z);
+            if (program == &cut_out_) {
+                buffers.draw(BranchClass::CutOut);
+            } else {
+                buffers.draw(BranchClass::OneSided);
+                buffers.draw(BranchClass::TwoSided);
+                buffers.draw(BranchClass::Plain);
+            }
+        }
+        device_->end_pass();
+    }
+}
+
+void ImpostorAtlas::upload_layer(std::uint32_t layer, ImpostorTexels picture) {
+    const double wanted = coverage_of(picture);
+    for (GLint level = 0; level < kLevels; ++level) {
+        dilate(picture, 2);
+        const std::vector<std::uint8_t> scaled = with_coverage(picture, wanted);
+        if (level == 0) {
+            find_boxes(layer, scaled);
+        }
+        const auto width = static_cast<GLsizei>(picture.width);
+        const auto height = static_cast<GLsizei>(picture.height);
+        glTextureSubImage3D(albedos_.name(), level, 0, 0, static_cast<GLint>(layer), width, height,
+                            1, GL_RGBA, GL_UNSIGNED_BYTE, scaled.data());
+        glTextureSubImage3D(normals_.name(), level, 0, 0, static_cast<GLint>(layer), width, height,
+                            1, GL_RGBA, GL_UNSIGNED_BYTE, picture.normals.data());
+        device_->add_upload(scaled.size() + picture.normals.size());
+        picture = halved(picture);
+    }
+}
+
+void ImpostorAtlas::find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos) {
+    for (std::uint32_t e = 0; e < kElevations; ++e) {
+        for (std::uint32_t y = 0; y < kYaws; ++y) {
+            boxes_[layer][std::size_t{e} * kYaws + y] =
+                opaque_box(albedos, kWidth, {y * kTile, e * kTile, kTile}, kBoxMargin);
+        }
+    }
+    box_buffer_.write(std::span<const LayerBoxes>(&boxes_[layer], 1), layer * sizeof(LayerBoxes));
+}
+
+void ImpostorAtlas::make_layers(const std::vector<std::uint64_t>& keys) {
+    const auto count = static_cast<std::uint32_t>(keys.size());
+    if (count == layers_ && albedos_) {
+        return;
+    }
+    const std::array<TextureObject, 2> before = {std::move(albedos_), std::move(normals_)};
+    const std::vector<std::uint64_t> keys_before = std::exchange(keys_, {});
+    const std::vector<LayerBoxes> boxes_before = std::exchange(boxes_, {});
+    keys_.assign(count, 0);
+    boxes_.resize(count);
+    layers_ = count;
+    texture_bytes_ = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        TextureObject& texture = i == 0 ? albedos_ : normals_;
+        texture = make_texture(*device_, GL_TEXTURE_2D_ARRAY);
+        glTextureStorage3D(texture.name(), kLevels, GL_RGBA8, static_cast<GLsizei>(kWidth),
+                           static_cast<GLsizei>(kHeight), static_cast<GLsizei>(layers_));
+        glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+        glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        texture_bytes_ += std::uint64_t{4} * kWidth * kHeight * layers_ * 4 / 3;
+        for (GLint level = 0; level < kLevels; ++level) {
+            glClearTexImage(texture.name(), level, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+        }
+        for (std::uint32_t layer = 0; layer < count; ++layer) {
+            const auto same = std::find(keys_before.begin(), keys_before.end(), keys[layer]);
+            if (same == keys_before.end()) {
+                continue;
+            }
+            keys_[layer] = keys[layer];
+            boxes_[layer] = boxes_before[static_cast<std::size_t>(same - keys_before.begin())];
+            for (GLint level = 0; level < kLevels; ++level) {
+                glCopyImageSubData(before[i].name(), GL_TEXTURE_2D_ARRAY, level, 0, 0,
+                                   static_cast<GLint>(same - keys_before.begin()), texture.name(),
+                                   GL_TEXTURE_2D_ARRAY, level, 0, 0, static_cast<GLint>(layer),
+                                   static_cast<GLsizei>(kWidth >> level),
+                                   static_cast<GLsizei>(kHeight >> level), 1);
+            }
+        }
+    }
+    box_buffer_.fill(std::span<const LayerBoxes>(boxes_));
+}
+
+void ImpostorAtlas::begin(const ForestModel& model,
+                          ImpostorPlan plan,
+                          const ForestBuffers& buffers) {
+    plan_ = std::move(plan);
+    target_keys_.clear();
+    for (std::uint32_t layer = 0; layer < plan_.layers.size(); ++layer) {
+        const ImpostorLayer& impostor = plan_.layers[layer];
+        target_keys_.push_back(
+            key_of(impostor, cylinder_of(plan_, layer), model, buffers.mesh_digest(impostor.form)));
+    }
+    make_layers(target_keys_);
+    find_missing();
+}
+
+ImpostorAtlas::BakeState ImpostorAtlas::make_bake_state() const {
+    BakeState bake;
+    const auto width = static_cast<GLsizei>(kWidth * kSupersampling);
+    const auto height = static_cast<GLsizei>(kTile * kSupersampling); // one elevation
+    bake.target = make_framebuffer(*device_);
+    constexpr std::array<GLenum, 3> kFormats = {GL_RGBA8, GL_RGBA8, GL_DEPTH_COMPONENT32F};
+    constexpr std::array<GLenum, 3> kPoints = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
+                                               GL_DEPTH_ATTACHMENT};
+    for (std::size_t i = 0; i < bake.storage.size(); ++i) {
+        bake.storage[i] = make_renderbuffer(*device_);
+        glNamedRenderbufferStorage(bake.storage[i].name(), kFormats[i], width, height);
+        glNamedFramebufferRenderbuffer(bake.target.name(), kPoints[i], GL_RENDERBUFFER,
+                                       bake.storage[i].name());
+    }
+    glNamedFramebufferDrawBuffers(bake.target.name(), 2, kPoints.data());
+    bake.frame = Buffer(*device_);
+    bake.row = {kWidth * kSupersampling, kTile * kSupersampling, {}, {}};
+    bake.row.albedos.resize(std::size_t{4} * bake.row.width * bake.row.height);
+    bake.row.normals.resize(bake.row.albedos.size());
+    return bake;
+}
+
+void ImpostorAtlas::begin_layer(std::uint32_t layer,
+                                const ForestModel& model,
+                                ForestBuffers& buffers) const {
+    const ImpostorLayer& impostor = plan_.layers[layer];
+    const TreeForm& form = model.forms[impostor.form];
+    std::vector<PoolBranch> branches;
+    TreeExpander expander(*form.cache, model.forest->key);
+    for (std::uint32_t t = 0; t < impostor.trees.size(); ++t) {
+        expander.expand(impostor.trees[t], [&](const BranchInstance& branch) {
+            branches.push_back(pool_branch(branch, form.cache->instances[branch.instance], t));
+        });
+    }
+    buffers.set_trees(impostor.trees, impostor.form);
+    buffers.set_branches(branches);
+    buffers.upload_commands(lists_of(form, impostor.form, impostor.level, branches));
+}
+
+void ImpostorAtlas::step(const ForestModel& model,
+                         ForestBuffers& buffers,
+                         MaterialTextures& textures) {
+    if (pending_.empty()) {
+        return;
+    }
+    const std::uint32_t layer = pending_.back();
+    if (!bake_) {
+        bake_ = make_bake_state();
+    }
+    BakeState& bake = *bake_;
+    buffers.use(BufferSet::Impostor);
+    if (bake.elevation == 0) {
+        bake.all = {kWidth, kHeight, {}, {}};
+    }
+    begin_layer(layer, model, buffers);
+    buffers.bind_storage();
+    glBindFramebuffer(GL_FRAMEBUFFER, bake.target.name());
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glEnable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_GEQUAL);
+    glBindTextureUnit(1, textures.base(MaterialKind::Bark));
+    glBindTextureUnit(2, textures.base(MaterialKind::Leaf));
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    constexpr std::array<GLfloat, 4> kNothing{};
+    constexpr GLfloat kFar = 0.0F;
+    glClearNamedFramebufferfv(bake.target.name(), GL_COLOR, 0, kNothing.data());
+    glClearNamedFramebufferfv(bake.target.name(), GL_COLOR, 1, kNothing.data());
+    glClearNamedFramebufferfv(bake.target.name(), GL_DEPTH, 0, &kFar);
+    draw_elevation(cylinder_of(plan_, layer), bake.elevation, buffers, bake.frame);
+    const auto width = static_cast<GLsizei>(bake.row.width);
+    const auto height = static_cast<GLsizei>(bake.row.height);
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bake.row.albedos.data());
+    glReadBuffer(GL_COLOR_ATTACHMENT1);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bake.row.normals.data());
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    buffers.use(BufferSet::Forest);
+    const ImpostorTexels half = halved(bake.row);
+    bake.all.albedos.insert(bake.all.albedos.end(), half.albedos.begin(), half.albedos.end());
+    bake.all.normals.insert(bake.all.normals.end(), half.normals.begin(), half.normals.end());
+    if (++bake.elevation < kElevations) {
+        return;
+    }
+    bake.elevation = 0;
+    upload_layer(layer, std::move(bake.all));
+    keys_[layer] = target_keys_[layer];
+    pending_.pop_back();
+    if (pending_.empty()) {
+        bake_.reset();
+    }
+}
+
+} // namespace lsys::view

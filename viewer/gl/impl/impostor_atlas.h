@@ -1,0 +1,89 @@
+// ImpostorAtlas: texture array of impostors. A layer for each impostor of a form, with tiles for
+// kYaws directions at kElevations elevations; shaders/impostor.glsl has the same numbers.
+#pragma once
+
+#include "grammar/base/result.h"
+#include "viewer/gl/impl/forest_buffers.h"
+#include "viewer/gl/impl/material_textures.h"
+#include "viewer/gl/renderer.h"
+#include "viewer/scene/forest_model.h"
+#include "viewer/scene/impostor_plan.h"
+#include "viewer/scene/impostor_texels.h"
+
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace lsys::view {
+
+class ImpostorAtlas {
+public:
+    static constexpr std::uint32_t kYaws = 8;
+    static constexpr std::uint32_t kElevations = 3;
+    static constexpr std::uint32_t kTile = 128; // texels
+
+    explicit ImpostorAtlas(Device& device) : device_(&device), box_buffer_(device) {}
+
+    /// Recompiles the shaders; impostors stay until they are baked again.
+    [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
+    /// Starts a new plan. Unchanged layers are kept and not baked again; new layers are empty until
+    /// they are baked.
+    void begin(const ForestModel& model, ImpostorPlan plan, const ForestBuffers& buffers);
+    [[nodiscard]] bool is_done() const { return pending_.empty(); }
+    /// Bakes one elevation of one missing layer. Leaves other shaders, programs and targets bound.
+    void step(const ForestModel& model, ForestBuffers& buffers, MaterialTextures& textures);
+
+    [[nodiscard]] GLuint albedos() const { return albedos_.name(); }
+    [[nodiscard]] GLuint normals() const { return normals_.name(); }
+    /// Buffer of opaque_box() of each tile, by layer, elevation and yaw.
+    [[nodiscard]] GLuint boxes() const { return box_buffer_.name(); }
+    [[nodiscard]] std::uint64_t texture_bytes() const { return texture_bytes_; }
+    [[nodiscard]] std::uint32_t layers() const { return layers_; }
+
+private:
+    /// Targets of baking; kept while layers are missing.
+    struct BakeState {
+        Framebuffer target;
+        std::array<Renderbuffer, 3> storage; // albedos, normals, depths
+        Buffer frame;
+        ImpostorTexels row; // one elevation, supersampled
+        ImpostorTexels all; // finished elevations of the layer
+        std::uint32_t elevation = 0;
+    };
+
+    using LayerBoxes = std::array<glm::vec4, std::size_t{kYaws} * kElevations>;
+
+    void find_missing();
+    void make_layers(const std::vector<std::uint64_t>& keys);
+    [[nodiscard]] BakeState make_bake_state() const;
+    /// Sets up meshes and commands of a layer.
+    void begin_layer(std::uint32_t layer, const ForestModel& model, ForestBuffers& buffers) const;
+    /// Draws the tiles of one elevation.
+    void draw_elevation(const Cylinder& form,
+                        std::uint32_t elevation,
+                        const ForestBuffers& buffers,
+                        Buffer& frame) const;
+    void upload_layer(std::uint32_t layer, ImpostorTexels picture);
+    void find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos);
+
+    Device* device_;
+    ProgramObject solid_;
+    ProgramObject cut_out_;
+    TextureObject albedos_;
+    TextureObject normals_;
+    std::vector<LayerBoxes> boxes_; // by layer
+    Buffer box_buffer_;
+    ImpostorPlan plan_;
+    std::vector<std::uint64_t> keys_;        // hash of the contents of each layer; 0: empty
+    std::vector<std::uint64_t> target_keys_; // hash of the wanted contents
+    std::vector<std::uint32_t> pending_;     // layers to bake, the next one last
+    std::optional<BakeState> bake_;
+    std::uint32_t layers_ = 0;
+    std::uint64_t texture_bytes_ = 0;
+};
+
+} // namespace lsys::view

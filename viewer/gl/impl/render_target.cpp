@@ -1,0 +1,87 @@
+#include "viewer/gl/impl/render_target.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace lsys::view {
+
+namespace {
+
+Renderbuffer make_storage(Device& device,
+                          GLenum format,
+                          std::uint32_t width,
+                          std::uint32_t height,
+                          std::uint32_t samples) {
+    Renderbuffer buffer = make_renderbuffer(device);
+    glNamedRenderbufferStorageMultisample(
+        buffer.name(), samples > 1 ? static_cast<GLsizei>(samples) : 0, format,
+        static_cast<GLsizei>(width), static_cast<GLsizei>(height));
+    return buffer;
+}
+
+} // namespace
+
+void RenderTarget::begin(std::uint32_t width, std::uint32_t height, std::uint32_t samples) {
+    if (width != width_ || height != height_ || samples != samples_) {
+        width_ = width;
+        height_ = height;
+        samples_ = samples;
+        colour_ = make_storage(*device_, GL_RGBA8, width, height, samples);
+        depth_ = make_storage(*device_, GL_DEPTH_COMPONENT32F, width, height, samples);
+        drawn_ = make_framebuffer(*device_);
+        glNamedFramebufferRenderbuffer(drawn_.name(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                                       colour_.name());
+        glNamedFramebufferRenderbuffer(drawn_.name(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
+                                       depth_.name());
+        resolved_ = {};
+        resolved_colour_ = {};
+        if (samples > 1) {
+            resolved_colour_ = make_storage(*device_, GL_RGBA8, width, height, 1);
+            resolved_ = make_framebuffer(*device_);
+            glNamedFramebufferRenderbuffer(resolved_.name(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                                           resolved_colour_.name());
+        }
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
+    glViewport(0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(height));
+    glDepthMask(GL_TRUE);
+    constexpr GLfloat kInfinitelyFar = 0.0F;
+    glClearNamedFramebufferfv(drawn_.name(), GL_DEPTH, 0, &kInfinitelyFar);
+}
+
+void RenderTarget::resolve() {
+    if (resolved_) {
+        const auto width = static_cast<GLint>(width_);
+        const auto height = static_cast<GLint>(height_);
+        glBlitNamedFramebuffer(drawn_.name(), resolved_.name(), 0, 0, width, height, 0, 0, width,
+                               height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    }
+}
+
+void RenderTarget::read(std::vector<std::uint8_t>& pixels) const {
+    const std::size_t row = std::size_t{4} * width_;
+    pixels.resize(row * height_);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_ ? resolved_.name() : drawn_.name());
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, static_cast<GLsizei>(width_), static_cast<GLsizei>(height_), GL_RGBA,
+                 GL_UNSIGNED_BYTE, pixels.data());
+    const auto begin = pixels.begin();
+    for (std::size_t low = 0, high = height_; low + 1 < high; ++low) {
+        --high;
+        std::swap_ranges(begin + static_cast<std::ptrdiff_t>(low * row),
+                         begin + static_cast<std::ptrdiff_t>((low + 1) * row),
+                         begin + static_cast<std::ptrdiff_t>(high * row));
+    }
+}
+
+void RenderTarget::present(const PixelArea& area) const {
+    const auto x = static_cast<GLint>(area.x);
+    const auto y = static_cast<GLint>(area.y);
+    const bool same_size = area.width == width_ && area.height == height_;
+    glBlitNamedFramebuffer(resolved_ ? resolved_.name() : drawn_.name(), 0, 0, 0,
+                           static_cast<GLint>(width_), static_cast<GLint>(height_), x, y,
+                           x + static_cast<GLint>(area.width), y + static_cast<GLint>(area.height),
+                           GL_COLOR_BUFFER_BIT, same_size ? GL_NEAREST : GL_LINEAR);
+}
+
+} // namespace lsys::view

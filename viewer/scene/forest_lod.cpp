@@ -1,0 +1,182 @@
+#include "viewer/scene/forest_lod.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsys::view {
+
+namespace {
+
+constexpr double kTreesOfCell = 16.0;
+
+} // namespace
+
+ForestLod::ForestLod(const ForestModel& model) : model_(model), added_(model.terrain->region()) {
+    std::uint32_t meshes = 0;
+    for (const TreeForm& form : model_.forms) {
+        expanders_.emplace_back(*form.cache, model_.forest->key);
+        first_mesh_.push_back(meshes);
+        meshes += (kBlending + 1) * static_cast<std::uint32_t>(form.cache->instances.size());
+    }
+    mesh_counts_.resize(meshes);
+    sort_into_cells();
+}
+
+Sphere ForestLod::bounding_sphere(const LodTree& tree, float yaw) const {
+    const TreeForm& form = model_.forms[tree.form];
+    const glm::vec3& c = form.sphere.centre;
+    const glm::vec3 turned(std::cos(yaw) * c.x + std::sin(yaw) * c.z, c.y,
+                           std::cos(yaw) * c.z - std::sin(yaw) * c.x);
+    return {tree.position + tree.scale * turned, tree.scale * form.sphere.radius};
+}
+
+Sphere ForestLod::impostor_sphere(const LodTree& tree) const {
+    const TreeForm& form = model_.forms[tree.form];
+    return {tree.position + glm::vec3(0.0F, tree.scale * 0.5F * (form.low + form.high), 0.0F),
+            tree.scale * std::hypot(form.radius, 0.5F * form.height())};
+}
+
+std::uint64_t ForestLod::cell_of(const glm::vec3& place) const {
+    const auto column =
+        static_cast<std::uint64_t>(static_cast<double>(place.x - cells_low_.x) / cell_size_);
+    const auto row =
+        static_cast<std::uint64_t>(static_cast<double>(place.z - cells_low_.y) / cell_size_);
+    return std::min(row, rows_ - 1) * columns_ + std::min(column, columns_ - 1);
+}
+
+LodTree ForestLod::make_lod_tree(const Tree& tree, std::uint32_t index) {
+    LodTree made;
+    made.position = tree.position;
+    made.scale = tree.scale;
+    made.tree = index;
+    made.form = static_cast<std::uint16_t>(model_.form_of(tree));
+    made.impostor = static_cast<std::uint16_t>(
+        model_.forms[made.form].impostor_of[expanders_[made.form].root_instance(tree)]);
+    return made;
+}
+
+void ForestLod::sort_into_cells() {
+    const LargeVector<Tree>& trees = model_.forest->trees;
+    alive_count_ = trees.size();
+    if (trees.empty()) {
+        return;
+    }
+    glm::vec2 low(trees.front().position.x, trees.front().position.z);
+    glm::vec2 high = low;
+    for (const Tree& tree : trees) {
+        const glm::vec2 at(tree.position.x, tree.position.z);
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    }
+    const double area = std::max(static_cast<double>(high.x - low.x), 1.0) *
+                        std::max(static_cast<double>(high.y - low.y), 1.0);
+    cell_size_ = std::sqrt(area * kTreesOfCell / static_cast<double>(trees.size()));
+    cells_low_ = low;
+    columns_ = static_cast<std::uint64_t>(static_cast<double>(high.x - low.x) / cell_size_) + 1;
+    rows_ = static_cast<std::uint64_t>(static_cast<double>(high.y - low.y) / cell_size_) + 1;
+    cells_.resize(columns_ * rows_);
+    for (const Tree& tree : trees) {
+        ++cells_[cell_of(tree.position)].count;
+    }
+    std::uint32_t sum = 0;
+    for (ForestCell& cell : cells_) {
+        cell.first = sum;
+        sum += cell.count;
+        cell.count = 0;
+    }
+    trees_.resize(trees.size());
+    for (std::uint32_t i = 0; i < trees.size(); ++i) {
+        ForestCell& cell = cells_[cell_of(trees[i].position)];
+        trees_[cell.first + cell.count++] = make_lod_tree(trees[i], i);
+    }
+    std::vector<std::uint32_t> of_form(model_.forms.size());
+    for (ForestCell& cell : cells_) {
+        Bounds box;
+        std::fill(of_form.begin(), of_form.end(), 0);
+        glm::dvec4 total(0.0);
+        for (std::uint32_t i = 0; i < cell.count; ++i) {
+            const LodTree& tree = trees_[cell.first + i];
+            const Sphere reach = bounding_sphere(tree, trees[tree.tree].yaw);
+            const Sphere impostor = impostor_sphere(tree);
+            for (const Sphere& sphere : {reach, impostor}) {
+                box.add(sphere.centre - sphere.radius);
+                box.add(sphere.centre + sphere.radius);
+            }
+            cell.tallest = std::max(cell.tallest, tree.scale * model_.forms[tree.form].height());
+            ++of_form[tree.form];
+            total += glm::dvec4(glm::dvec3(tree.position), static_cast<double>(tree.scale));
+        }
+        total /= std::max(static_cast<double>(cell.count), 1.0);
+        cell.middle = glm::vec3(total);
+        cell.scale = static_cast<float>(total.w);
+        cell.low = box.low;
+        cell.high = box.high;
+        cell.form = static_cast<std::uint16_t>(std::max_element(of_form.begin(), of_form.end()) -
+                                               of_form.begin());
+        if (cell.count != 0) {
+            bounds_.add(box.low);
+            bounds_.add(box.high);
+        }
+    }
+}
+
+void ForestLod::find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const {
+    for (const ForestCell& cell : cells_) {
+        if (cell.count != 0 && cell.low.x <= box.high.x && cell.high.x >= box.low.x &&
+            cell.low.z <= box.high.z && cell.high.z >= box.low.z) {
+            for (std::uint32_t i = 0; i < cell.count; ++i) {
+                if (!trees_[cell.first + i].is_removed()) {
+                    trees.push_back(cell.first + i);
+                }
+            }
+        }
+    }
+    added_.visit(
+        [&](const AddedTrees::Cell& cell) {
+            return cell.low.x <= box.high.x && cell.high.x >= box.low.x &&
+                   cell.low.z <= box.high.z && cell.high.z >= box.low.z;
+        },
+        [&](std::uint32_t slot) { trees.push_back(first_added() + slot); });
+}
+
+std::uint32_t ForestLod::change_tree(std::uint32_t index, const Tree& tree, bool alive) {
+    if (index >= trees_.size()) {
+        const std::uint32_t slot = index - first_added();
+        const bool was_alive = added_.is_alive(slot);
+        if (alive && added_.differs(slot, tree)) {
+            pool_.forget(index);
+            const LodTree made = make_lod_tree(tree, index);
+            Bounds box;
+            for (const Sphere& sphere : {bounding_sphere(made, tree.yaw), impostor_sphere(made)}) {
+                box.add(sphere.centre - sphere.radius);
+                box.add(sphere.centre + sphere.radius);
+            }
+            added_.put(slot, tree, made, box);
+            bounds_.add(box.low);
+            bounds_.add(box.high);
+        }
+        added_.set_alive(slot, alive);
+        alive_count_ += static_cast<std::uint64_t>(alive) - static_cast<std::uint64_t>(was_alive);
+        return index;
+    }
+    ForestCell& cell = cells_[cell_of(tree.position)];
+    std::uint32_t number = cell.first;
+    while (trees_[number].tree != index) {
+        ++number;
+    }
+    if (trees_[number].is_removed() == alive) {
+        trees_[number].impostor ^= LodTree::kRemoved;
+        cell.removed += alive ? ~std::uint32_t{0} : 1U;
+        alive_count_ += alive ? 1 : ~std::uint64_t{0};
+    }
+    return number;
+}
+
+std::uint64_t ForestLod::byte_count() const {
+    return trees_.size() * sizeof(LodTree) + cells_.size() * sizeof(ForestCell);
+}
+
+} // namespace lsys::view

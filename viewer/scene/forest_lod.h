@@ -1,0 +1,250 @@
+// ForestLod: level of detail of each tree of a forest for a camera. Trees lie in square cells of
+// the ground; each tree in view is in one LOD band, by its height in the picture:
+//   near     branches of the finest level
+//   middle   branches of coarser levels
+//   far      an impostor
+//   horizon  one cluster impostor for all trees of its cell
+// Branches are made when a tree comes near and forgotten after it has left. Draw lists are a
+// function of forest and camera alone, not of earlier cameras.
+#pragma once
+
+#include "runtime/physics/physics.h"
+#include "viewer/scene/added_trees.h"
+#include "viewer/scene/branch_pool.h"
+#include "viewer/scene/forest_model.h"
+#include "viewer/scene/frustum.h"
+#include "viewer/scene/ground_horizon.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace lsys::view {
+
+struct LodOptions {
+    /// Min height of a tree in pixels for each level of branches.
+    std::array<float, kTreeLevels> level_pixels{860.0F, 430.0F, 260.0F, 150.0F};
+    /// Below this height of its tallest tree, a cell is drawn as a cluster.
+    float cluster_pixels = 8.0F; // 0: never
+    /// Up to this factor above the limit of a coarser band, both bands are drawn, each in a part of
+    /// the pixels, so that nothing pops.
+    float blend = 1.25F;
+    /// Max triangles of branches; with more, all heights count as smaller by one factor.
+    std::uint64_t max_triangles = 1'500'000;
+    /// Max trees expanded into branches per picture; others stay impostors until the next.
+    std::uint32_t max_expansions = ~0U;
+    /// Wind, which moves trees beyond their bounds at rest.
+    Wind wind;
+};
+
+/// Max displacement of trees by wind; bounds swayed() of shaders/forest.glsl.
+struct Sway {
+    float of_height = 0.0F; // m per metre of the tree's height
+    float of_width = 0.0F;
+    float flutter = 0.0F; // m
+
+    [[nodiscard]] float of(float height, float width) const {
+        return of_height * height + of_width * width + flutter;
+    }
+};
+[[nodiscard]] Sway sway_in(const Wind& wind);
+
+/// Pixels drawn of an object while it blends with another: those whose number, 0 to 1, lies in
+/// [low, high). pixel_number() in shaders/blend.glsl numbers the pixels.
+struct BlendRange {
+    float low = 0.0F;
+    float high = 1.0F;
+
+    [[nodiscard]] bool is_whole() const { return low <= 0.0F && high >= 1.0F; }
+    friend bool operator==(const BlendRange&, const BlendRange&) = default;
+};
+
+/// An impostor of a tree or of a cell.
+struct DrawEntry {
+    std::uint32_t index = 0;
+    BlendRange range;
+
+    friend bool operator==(const DrawEntry&, const DrawEntry&) = default;
+};
+
+/// A branch: slot in the pool and weight of blending, packed as shaders/branch.vert.glsl reads
+/// them.
+class BranchEntry {
+public:
+    static constexpr std::uint32_t kSlotBits = 24;
+    static constexpr std::uint32_t kBlendSteps = 255;
+
+    BranchEntry() = default;
+    /// `steps`: weight in 1/kBlendSteps; pixels with lower numbers are drawn.
+    explicit BranchEntry(std::uint32_t slot, std::uint32_t steps = kBlendSteps)
+        : bits_(steps << kSlotBits | slot) {}
+    [[nodiscard]] std::uint32_t slot() const { return bits_ & ((1U << kSlotBits) - 1); }
+    [[nodiscard]] std::uint32_t steps() const { return bits_ >> kSlotBits; }
+
+    friend bool operator==(const BranchEntry&, const BranchEntry&) = default;
+
+private:
+    std::uint32_t bits_ = 0;
+};
+static_assert(sizeof(BranchEntry) == 4);
+static_assert(BranchPool::kMaxBranches <= 1U << BranchEntry::kSlotBits);
+
+/// Branches of one instance at one level.
+struct BranchRun {
+    std::uint32_t form = 0;
+    std::uint32_t level = 0;
+    std::uint32_t instance = 0;
+    std::uint32_t first = 0; // in DrawLists::branches
+    std::uint32_t count = 0;
+    bool blends = false; // with impostors of the same trees
+};
+
+struct DrawLists {
+    std::vector<BranchEntry> branches; // grouped by run
+    std::vector<BranchRun> runs;
+    // Sorted: whole ones before blended ones.
+    std::vector<DrawEntry> trees;    // impostors; index: see ForestLod::lod_tree()
+    std::vector<DrawEntry> clusters; // index: cell
+    std::array<std::uint32_t, kTreeLevels> trees_of_level{}; // count of trees with branches in view
+    std::uint64_t far_trees = 0;                             // trees in `trees` without branches
+    std::uint64_t clustered_trees = 0; // trees of `clusters`, without those in `trees`
+    std::uint64_t blended = 0;         // trees drawn in two bands
+    std::uint64_t hidden = 0;          // trees occluded by the ground
+    std::uint64_t triangles = 0;       // of branches
+    std::uint32_t expanded = 0;        // trees expanded into branches for this picture
+    std::uint32_t waiting = 0;         // near trees without branches yet, drawn as impostors
+    float detail = 1.0F;               // factor of heights that keeps max_triangles
+};
+
+/// A square of the ground.
+struct ForestCell {
+    std::uint32_t first = 0; // in ForestLod::trees()
+    std::uint32_t count = 0;
+    glm::vec3 low{}; // bounding box of its trees
+    glm::vec3 high{};
+    glm::vec3 middle{};        // mean position of its trees
+    float scale = 1.0F;        // mean scale of its trees
+    float tallest = 0.0F;      // m
+    std::uint16_t form = 0;    // most frequent form of its trees
+    std::uint32_t removed = 0; // count of removed trees; with any, the cell is never a cluster
+};
+
+class ForestLod {
+public:
+    /// The model must outlive this object.
+    explicit ForestLod(const ForestModel& model);
+
+    /// Adds or removes a tree, in time independent of the size of the forest. `index`: in
+    /// Forest::trees, or beyond them for added trees, numbered in order; a removed one may be
+    /// replaced. Returns the index for lod_tree().
+    std::uint32_t change_tree(std::uint32_t index, const Tree& tree, bool alive);
+
+    /// Draw lists of a camera. `ground`: occluder, or null.
+    [[nodiscard]] const DrawLists&
+    select(const Frustum& frustum, const LodOptions& options, GroundHorizon* ground = nullptr);
+
+    [[nodiscard]] const ForestModel& model() const { return model_; }
+    /// Trees of the forest, by cell. Indices of added trees follow.
+    [[nodiscard]] std::span<const LodTree> trees() const { return trees_; }
+    [[nodiscard]] const LodTree& lod_tree(std::uint32_t number) const {
+        return number < trees_.size() ? trees_[number] : added_.at(number - first_added());
+    }
+    [[nodiscard]] const Tree& tree_of(std::uint32_t number) const {
+        return number < trees_.size() ? model_.forest->trees[trees_[number].tree]
+                                      : added_.tree(number - first_added());
+    }
+    /// Count of trees without removed ones.
+    [[nodiscard]] std::uint64_t alive_count() const { return alive_count_; }
+    [[nodiscard]] std::span<const ForestCell> cells() const { return cells_; }
+    [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+    [[nodiscard]] double cell_size() const { return cell_size_; } // m
+    [[nodiscard]] BranchPool& pool() { return pool_; }
+    /// Appends the trees of all cells that overlap a box seen from above.
+    void find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const;
+    /// Bounding sphere of a tree with any branches.
+    [[nodiscard]] Sphere bounding_sphere(const LodTree& tree, float yaw) const;
+    /// Bounding sphere of its impostor.
+    [[nodiscard]] Sphere impostor_sphere(const LodTree& tree) const;
+    [[nodiscard]] std::uint64_t byte_count() const;
+
+private:
+    /// A tree high enough for branches.
+    struct Candidate {
+        std::uint32_t tree = 0;
+        float pixels = 0.0F;
+    };
+
+    /// A tree with branches in view.
+    struct VisibleTree {
+        std::uint32_t first = 0; // in visible_branches_
+        std::uint32_t end = 0;
+        std::uint32_t first_mesh = 0; // in mesh_counts_
+    };
+    /// Group of mesh_counts_ for blended trees; groups below it are levels.
+    static constexpr std::uint32_t kBlending = kTreeLevels;
+
+    void sort_into_cells();
+    [[nodiscard]] std::uint32_t first_added() const {
+        return static_cast<std::uint32_t>(trees_.size());
+    }
+    [[nodiscard]] std::uint64_t cell_of(const glm::vec3& place) const;
+    [[nodiscard]] LodTree make_lod_tree(const Tree& tree, std::uint32_t index);
+    /// `weight`: of its impostor against the cluster.
+    void visit_tree(std::uint32_t number,
+                    const Frustum& frustum,
+                    const LodOptions& options,
+                    float weight = 1.0F);
+    /// Lists a cell as a cluster, as its trees, or as both.
+    void visit_cell(std::uint32_t index,
+                    float distance,
+                    const Frustum& frustum,
+                    const LodOptions& options);
+    /// Branches of a tree in the pool, made if needed. Count 0: none in this picture.
+    [[nodiscard]] PoolSpan branches_of(std::uint32_t number, const LodOptions& options);
+    /// Sorts visible branches into runs.
+    void list_runs();
+    [[nodiscard]] float sway_of(const LodTree& tree) const; // m
+    /// Bounding box of its impostor as seen from `eye`.
+    [[nodiscard]] Bounds impostor_box(const LodTree& tree, const glm::vec3& eye) const;
+    [[nodiscard]] bool is_behind_ground(const Bounds& box, float sway) const;
+    /// Grows a sphere around a part of a tree by the wind.
+    [[nodiscard]] Sphere swaying(const Sphere& sphere, const LodTree& tree) const;
+    /// Appends the visible branches of a tree to visible_branches_.
+    void cull_branches(const PoolSpan& span,
+                       const LodTree& tree,
+                       float yaw,
+                       std::uint32_t blend_steps,
+                       const Frustum& frustum);
+    /// Returns kTreeLevels for an impostor.
+    [[nodiscard]] static std::uint32_t level_of(float pixels, const LodOptions& options);
+    [[nodiscard]] float detail_in_budget(const LodOptions& options) const;
+    void list_branches(const Frustum& frustum, const LodOptions& options);
+
+    const ForestModel& model_;
+    LargeVector<LodTree> trees_;
+    std::vector<ForestCell> cells_;
+    Bounds bounds_;
+    double cell_size_ = 1.0;
+    glm::vec2 cells_low_{}; // corner of the first cell
+    std::uint64_t columns_ = 0;
+    std::uint64_t rows_ = 0;
+    AddedTrees added_;
+    std::uint64_t alive_count_ = 0;
+    BranchPool pool_;
+    std::vector<TreeExpander> expanders_;   // by form
+    std::vector<std::uint32_t> first_mesh_; // by form
+    DrawLists lists_;
+    std::vector<Candidate> candidates_;
+    std::vector<DrawEntry> far_;
+    std::vector<BranchEntry> visible_branches_;
+    std::vector<PoolBranch> made_branches_;
+    std::vector<VisibleTree> visible_trees_; // owners of visible_branches_
+    Sway sway_;
+    GroundHorizon* ground_ = nullptr;                            // during select()
+    std::vector<std::pair<float, std::uint32_t>> visible_cells_; // distance and cell
+    std::vector<std::uint32_t> mesh_counts_;
+};
+
+} // namespace lsys::view

@@ -1,0 +1,333 @@
+// The LOD band of each tree of a picture: ForestLod::select().
+#include "viewer/scene/forest_lod.h"
+#include "viewer/scene/impostor_plan.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace lsys::view {
+
+namespace {
+
+constexpr std::uint32_t kFewTrees = 8; // min trees of a cluster
+constexpr std::uint32_t kFramesKept = 32;
+constexpr int kDetailSteps = 24;
+constexpr float kNearest = 0.1F; // m: min distance
+
+float pixels_of(const Frustum& frustum, const glm::vec3& place, float height) {
+    return height * frustum.pixels / std::max(glm::distance(frustum.eye, place), kNearest);
+}
+
+/// Weight of the finer of two LOD bands for a height of `pixels`: 0 up to the `limit` of the
+/// coarser one, 1 from `blend` times the limit on.
+float finer_weight(float pixels, float limit, float blend) {
+    return blend > 1.0F ? std::clamp((pixels / limit - 1.0F) / (blend - 1.0F), 0.0F, 1.0F) : 1.0F;
+}
+
+/// Max displacement by wind, m, of trees whose height and width are at most those of a box.
+float sway_within(const glm::vec3& low, const glm::vec3& high, const Sway& sway) {
+    const glm::vec3 size = high - low;
+    return sway.of(size.y, std::max(size.x, size.z));
+}
+
+/// Bounding sphere of a box of trees in the wind.
+Sphere swaying_box(const glm::vec3& low, const glm::vec3& high, const Sway& sway) {
+    return {0.5F * (low + high), 0.5F * glm::distance(low, high) + sway_within(low, high, sway)};
+}
+
+} // namespace
+
+Sway sway_in(const Wind& wind) {
+    // Max values of the terms of swayed() in shaders/forest.glsl.
+    constexpr float kPush = 0.004F;
+    constexpr float kTrunk = 1.35F * 1.2F * 1.2F;
+    constexpr float kBoughs = 0.35F * 1.54F;
+    constexpr float kMaxFlutter = 0.05F;
+    const float gust = 1.0F + std::abs(wind.gust);
+    const float push = kPush * glm::length(wind.velocity) * gust;
+    return {push * kTrunk, push * gust * kBoughs,
+            std::min(push, kMaxFlutter) * std::numbers::sqrt3_v<float>};
+}
+
+const DrawLists&
+ForestLod::select(const Frustum& frustum, const LodOptions& options, GroundHorizon* ground) {
+    lists_.branches.clear();
+    lists_.runs.clear();
+    lists_.trees.clear();
+    lists_.clusters.clear();
+    lists_.trees_of_level = {};
+    lists_.far_trees = 0;
+    lists_.clustered_trees = 0;
+    lists_.blended = 0;
+    lists_.hidden = 0;
+    lists_.triangles = 0;
+    lists_.expanded = 0;
+    lists_.waiting = 0;
+    sway_ = sway_in(options.wind);
+    ground_ = ground;
+    candidates_.clear();
+    far_.clear();
+    visible_cells_.clear();
+    for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+        const ForestCell& cell = cells_[c];
+        if (cell.count == 0) {
+            continue;
+        }
+        if (frustum.intersects(swaying_box(cell.low, cell.high, sway_))) {
+            visible_cells_.emplace_back(
+                glm::distance(frustum.eye, glm::clamp(frustum.eye, cell.low, cell.high)), c);
+        }
+    }
+    std::sort(visible_cells_.begin(), visible_cells_.end());
+    for (const auto& [distance, c] : visible_cells_) {
+        const ForestCell& cell = cells_[c];
+        if (is_behind_ground({cell.low, cell.high, false},
+                             sway_within(cell.low, cell.high, sway_))) {
+            lists_.hidden += cell.count;
+            continue;
+        }
+        visit_cell(c, distance, frustum, options);
+    }
+    added_.visit(
+        [&](const AddedTrees::Cell& cell) {
+            return frustum.intersects(swaying_box(cell.low, cell.high, sway_));
+        },
+        [&](std::uint32_t slot) { visit_tree(first_added() + slot, frustum, options); });
+    lists_.detail = detail_in_budget(options);
+    pool_.begin_frame(kFramesKept);
+    list_branches(frustum, options);
+    lists_.far_trees += far_.size();
+    lists_.trees.insert(lists_.trees.end(), far_.begin(), far_.end());
+    for (std::vector<DrawEntry>* list : {&lists_.trees, &lists_.clusters}) {
+        std::stable_partition(list->begin(), list->end(),
+                              [](const DrawEntry& each) { return each.range.is_whole(); });
+    }
+    return lists_;
+}
+
+float ForestLod::sway_of(const LodTree& tree) const {
+    const TreeForm& form = model_.forms[tree.form];
+    const float width = glm::length(form.sphere.centre) + form.sphere.radius;
+    return sway_.of(tree.scale * form.height(), tree.scale * width);
+}
+
+Sphere ForestLod::swaying(const Sphere& sphere, const LodTree& tree) const {
+    return {sphere.centre, sphere.radius + sway_of(tree)};
+}
+
+Bounds ForestLod::impostor_box(const LodTree& tree, const glm::vec3& eye) const {
+    // Impostors have a margin, and those seen from above lean back: shaders/impostor.glsl.
+    constexpr float kLevel = 0.3F; // sine of the max elevation of side views
+    const Sphere sphere = impostor_sphere(tree);
+    const float wide = kImpostorMargin * sphere.radius;
+    const bool is_level =
+        std::abs(eye.y - sphere.centre.y) < kLevel * glm::distance(eye, sphere.centre);
+    const float high =
+        is_level ? kImpostorMargin * 0.5F * tree.scale * model_.forms[tree.form].height() : wide;
+    const glm::vec3 half(wide, high, wide);
+    return {sphere.centre - half, sphere.centre + half, false};
+}
+
+bool ForestLod::is_behind_ground(const Bounds& box, float sway) const {
+    return ground_ != nullptr && ground_->hides(box.low - sway, box.high + sway);
+}
+
+void ForestLod::visit_cell(std::uint32_t index,
+                           float distance,
+                           const Frustum& frustum,
+                           const LodOptions& options) {
+    const ForestCell& cell = cells_[index];
+    float weight = 1.0F; // of its trees
+    if (cell.count >= kFewTrees && cell.removed == 0 && options.cluster_pixels > 0.0F) {
+        const float pixels = cell.tallest * frustum.pixels / std::max(distance, kNearest);
+        weight = pixels < options.cluster_pixels
+                     ? 0.0F
+                     : finer_weight(pixels, options.cluster_pixels, options.blend);
+    }
+    if (weight < 1.0F) {
+        lists_.clusters.push_back({index, {weight, 1.0F}});
+    }
+    if (weight <= 0.0F) {
+        lists_.clustered_trees += cell.count;
+        return;
+    }
+    lists_.blended += weight < 1.0F ? cell.count : 0;
+    for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
+        if (!trees_[t].is_removed()) {
+            visit_tree(t, frustum, options, weight);
+        }
+    }
+}
+
+void ForestLod::visit_tree(std::uint32_t number,
+                           const Frustum& frustum,
+                           const LodOptions& options,
+                           float weight) {
+    const LodTree& tree = lod_tree(number);
+    const Sphere impostor = impostor_sphere(tree);
+    const float pixels =
+        pixels_of(frustum, impostor.centre, tree.scale * model_.forms[tree.form].height());
+    if (pixels >= options.level_pixels.back()) {
+        if (frustum.intersects(swaying(bounding_sphere(tree, tree_of(number).yaw), tree))) {
+            candidates_.push_back({number, pixels});
+        }
+    } else if (frustum.intersects(swaying(impostor, tree))) {
+        if (is_behind_ground(impostor_box(tree, frustum.eye), sway_of(tree))) {
+            ++lists_.hidden;
+            return;
+        }
+        far_.push_back({number, {0.0F, weight}});
+    }
+}
+
+std::uint32_t ForestLod::level_of(float pixels, const LodOptions& options) {
+    std::uint32_t level = 0;
+    while (level < kTreeLevels && pixels < options.level_pixels[level]) {
+        ++level;
+    }
+    return level;
+}
+
+float ForestLod::detail_in_budget(const LodOptions& options) const {
+    const auto fits = [&](float detail) {
+        double triangles = 0.0;
+        for (const Candidate& candidate : candidates_) {
+            const std::uint32_t level = level_of(candidate.pixels * detail, options);
+            if (level < kTreeLevels) {
+                triangles += model_.forms[lod_tree(candidate.tree).form].triangles[level];
+            }
+        }
+        return triangles <= static_cast<double>(options.max_triangles);
+    };
+    if (fits(1.0F)) {
+        return 1.0F;
+    }
+    // Bisection, so that a small move of the camera changes the level of few trees.
+    float most = 0.0F; // fits: no tree has branches
+    float least = 1.0F;
+    for (int step = 0; step < kDetailSteps; ++step) {
+        const float middle = 0.5F * (most + least);
+        (fits(middle) ? most : least) = middle;
+    }
+    return most;
+}
+
+void ForestLod::cull_branches(const PoolSpan& span,
+                              const LodTree& tree,
+                              float yaw,
+                              std::uint32_t blend_steps,
+                              const Frustum& frustum) {
+    const Sphere whole = swaying(bounding_sphere(tree, yaw), tree);
+    const bool is_within = frustum.contains(whole);
+    const float sway = whole.radius - tree.scale * model_.forms[tree.form].sphere.radius;
+    const std::vector<Sphere>& spheres = model_.forms[tree.form].mesh_spheres;
+    for (std::uint32_t place = span.first; place < span.first + span.count; ++place) {
+        const PoolBranch& branch = pool_.branches()[place];
+        const Sphere& sphere = spheres[branch.mesh];
+        if (sphere.radius < 0.0F) {
+            continue;
+        }
+        if (is_within ||
+            frustum.intersects({branch.at(sphere.centre), branch.scale * sphere.radius + sway})) {
+            visible_branches_.emplace_back(place, blend_steps);
+        }
+    }
+}
+
+PoolSpan ForestLod::branches_of(std::uint32_t number, const LodOptions& options) {
+    const PoolSpan span = pool_.find(number);
+    if (span.count != 0 || lists_.expanded >= options.max_expansions) {
+        return span;
+    }
+    const std::uint32_t form = lod_tree(number).form;
+    const InstanceCache& cache = *model_.forms[form].cache;
+    made_branches_.clear();
+    expanders_[form].expand(tree_of(number), [&](const BranchInstance& branch) {
+        made_branches_.push_back(pool_branch(branch, cache.instances[branch.instance], number));
+    });
+    const PoolSpan made = pool_.add(number, made_branches_);
+    lists_.expanded += made.count != 0 ? 1 : 0;
+    return made;
+}
+
+void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options) {
+    visible_branches_.clear();
+    visible_trees_.clear();
+    std::fill(mesh_counts_.begin(), mesh_counts_.end(), 0);
+    constexpr std::uint32_t kAll = BranchEntry::kBlendSteps;
+    for (const Candidate& candidate : candidates_) {
+        const LodTree& tree = lod_tree(candidate.tree);
+        const float pixels = candidate.pixels * lists_.detail;
+        const std::uint32_t level = level_of(pixels, options);
+        const PoolSpan span =
+            level == kTreeLevels ? PoolSpan{} : branches_of(candidate.tree, options);
+        if (span.count == 0) {
+            lists_.trees.push_back({candidate.tree, {}});
+            ++lists_.far_trees;
+            lists_.waiting += level == kTreeLevels ? 0 : 1;
+            continue;
+        }
+        std::uint32_t steps = kAll;
+        if (level + 1 == kTreeLevels) {
+            const float weight = finer_weight(pixels, options.level_pixels.back(), options.blend);
+            steps = static_cast<std::uint32_t>(std::lround(weight * static_cast<float>(kAll)));
+        }
+        const auto instances =
+            static_cast<std::uint32_t>(model_.forms[tree.form].cache->instances.size());
+        const auto first = static_cast<std::uint32_t>(visible_branches_.size());
+        cull_branches(span, tree, tree_of(candidate.tree).yaw, steps, frustum);
+        if (visible_branches_.size() == first) {
+            continue;
+        }
+        ++lists_.trees_of_level[level];
+        if (steps != kAll) {
+            const float weight = static_cast<float>(steps) / static_cast<float>(kAll);
+            lists_.trees.push_back({candidate.tree, {weight, 1.0F}});
+            ++lists_.blended;
+        }
+        visible_trees_.push_back(
+            {first, static_cast<std::uint32_t>(visible_branches_.size()),
+             first_mesh_[tree.form] + (steps == kAll ? level : kBlending) * instances});
+        for (std::uint32_t i = first; i < visible_branches_.size(); ++i) {
+            const std::uint32_t mesh = pool_.branches()[visible_branches_[i].slot()].mesh;
+            ++mesh_counts_[visible_trees_.back().first_mesh + mesh];
+        }
+    }
+    list_runs();
+}
+
+void ForestLod::list_runs() {
+    // Finer levels first: they are nearer, and occlude the rest.
+    std::uint32_t first = 0;
+    for (std::uint32_t group = 0; group <= kBlending; ++group) {
+        const std::uint32_t level = std::min(group, kTreeLevels - 1);
+        for (std::uint32_t f = 0; f < model_.forms.size(); ++f) {
+            const TreeForm& form = model_.forms[f];
+            const auto instances = static_cast<std::uint32_t>(form.cache->instances.size());
+            for (std::uint32_t i = 0; i < instances; ++i) {
+                std::uint32_t& place = mesh_counts_[first_mesh_[f] + group * instances + i];
+                const std::uint32_t count = std::exchange(place, first); // end of its list so far
+                if (count != 0) {
+                    lists_.runs.push_back({f, level, i, first, count, group == kBlending});
+                    lists_.triangles += std::uint64_t{count} * form.mesh_triangles[level][i];
+                    first += count;
+                }
+            }
+        }
+    }
+    lists_.branches.resize(visible_branches_.size());
+    for (const VisibleTree& tree : visible_trees_) {
+        for (std::uint32_t i = tree.first; i < tree.end; ++i) {
+            const BranchEntry branch = visible_branches_[i];
+            const std::uint32_t mesh = pool_.branches()[branch.slot()].mesh;
+            lists_.branches[mesh_counts_[tree.first_mesh + mesh]++] = branch;
+        }
+    }
+}
+
+} // namespace lsys::view

@@ -1,0 +1,85 @@
+#include "viewer/scene/impostor_plan.h"
+
+#include "grammar/base/hash.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lsys::view {
+
+namespace {
+
+/// Finest level of impostors, and the max triangles of a tree at that level.
+constexpr std::uint32_t kFinestLevel = 1;
+constexpr double kMaxTriangles = 70'000.0;
+constexpr std::uint32_t kRow = 4; // trees along a side of a cluster
+
+/// Deterministic number from 0 to 1.
+float drawn(std::uint32_t a, std::uint32_t b) {
+    return unit_float(lattice32(a, b));
+}
+
+/// Mean scale of the trees of each form; 0 without trees.
+std::vector<float> mean_scales(const ForestLod& lod) {
+    std::vector<double> sums(lod.model().forms.size());
+    std::vector<double> counts(sums.size());
+    for (const LodTree& tree : lod.trees()) {
+        sums[tree.form] += static_cast<double>(tree.scale);
+        counts[tree.form] += 1.0;
+    }
+    std::vector<float> scales(sums.size());
+    for (std::size_t f = 0; f < sums.size(); ++f) {
+        scales[f] = counts[f] > 0.0 ? static_cast<float>(sums[f] / counts[f]) : 0.0F;
+    }
+    return scales;
+}
+
+} // namespace
+
+ImpostorPlan plan_impostors(const ForestLod& lod) {
+    ImpostorPlan plan;
+    const std::vector<TreeForm>& forms = lod.model().forms;
+    for (std::uint32_t f = 0; f < forms.size(); ++f) {
+        const TreeForm& form = forms[f];
+        plan.forms.push_back(
+            {{form.radius, form.low, form.high}, static_cast<std::uint32_t>(plan.layers.size())});
+        std::uint32_t level = kFinestLevel;
+        while (level + 1 < kTreeLevels && form.triangles[level] > kMaxTriangles) {
+            ++level;
+        }
+        for (const Tree& tree : form.impostor_trees) {
+            plan.layers.push_back({f, level, {tree}});
+        }
+    }
+    plan.has_clusters = lod.trees().size() >= kMinTreesForClusters;
+    if (!plan.has_clusters) {
+        return plan;
+    }
+    const std::vector<float> scales = mean_scales(lod);
+    for (std::uint32_t f = 0; f < forms.size(); ++f) {
+        const TreeForm& form = forms[f];
+        const float side =
+            static_cast<float>(lod.cell_size()) / (scales[f] > 0.0F ? scales[f] : 1.0F);
+        const float step = side / static_cast<float>(kRow);
+        plan.forms.push_back(
+            {{0.5F * side * std::numbers::sqrt2_v<float> + form.radius, form.low, form.high},
+             static_cast<std::uint32_t>(plan.layers.size())});
+        ImpostorLayer& cell = plan.layers.emplace_back();
+        cell.form = f;
+        cell.level = kTreeLevels - 1;
+        for (std::uint32_t i = 0; i < kRow * kRow; ++i) {
+            Tree tree = form.impostor_trees[i % form.impostor_trees.size()];
+            const std::uint32_t row = i / kRow;
+            tree.yaw = 2.0F * std::numbers::pi_v<float> * drawn(i, 1);
+            tree.position.x =
+                step * (static_cast<float>(i % kRow) + 0.1F + 0.8F * drawn(i, 2)) - 0.5F * side;
+            tree.position.z =
+                step * (static_cast<float>(row) + 0.1F + 0.8F * drawn(i, 3)) - 0.5F * side;
+            cell.trees.push_back(tree);
+        }
+    }
+    return plan;
+}
+
+} // namespace lsys::view

@@ -1,0 +1,48 @@
+// ImpostorTexels: texels of impostors on the CPU: mip levels and empty borders.
+#pragma once
+
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lsys::view {
+
+/// RGBA texels of adjacent tiles.
+struct ImpostorTexels {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<std::uint8_t> albedos; // square roots of linear RGB; opacity
+    std::vector<std::uint8_t> normals; // normal (2), depth, translucency
+};
+
+/// Next mip level; texels are weighted by opacity.
+[[nodiscard]] ImpostorTexels halved(const ImpostorTexels& from);
+
+/// Fills empty texels with the colours of their neighbours, so that filters stay clean.
+void dilate(ImpostorTexels& picture, std::uint32_t rounds);
+
+/// Mean opacity.
+[[nodiscard]] double coverage_of(const ImpostorTexels& picture);
+
+/// Opacities scaled so that `wanted` of the texels stay opaque at this mip level; otherwise trees
+/// thin out with distance (Castano 2010, "Computing Alpha Mipmaps").
+[[nodiscard]] std::vector<std::uint8_t> with_coverage(const ImpostorTexels& picture, double wanted);
+
+/// A square of texels.
+struct Tile {
+    std::uint32_t x = 0; // first texel
+    std::uint32_t y = 0;
+    std::uint32_t side = 0;
+};
+
+/// Bounding box of the opaque texels of a tile, grown by `margin` texels within the tile: min x,
+/// min y, max x, max y as parts of its side. All 0 without opaque texels. `picture`: RGBA texels in
+/// rows of `width`.
+[[nodiscard]] glm::vec4 opaque_box(std::span<const std::uint8_t> picture,
+                                   std::uint32_t width,
+                                   const Tile& tile,
+                                   float margin);
+
+} // namespace lsys::view

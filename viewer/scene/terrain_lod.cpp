@@ -1,0 +1,148 @@
+#include "viewer/scene/terrain_lod.h"
+
+#include "runtime/base/workers.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsys::view {
+
+namespace {
+
+constexpr std::int32_t kNodeCells = 2 * static_cast<std::int32_t>(kPatchCells);
+constexpr float kNearestRange = 34.0F; // m, of level 0
+// No gaps between levels: vertices of the finer level have morphed at its range, and those of the
+// coarser level start no nearer than the farthest corner of a node that meets that range: 0.85 * 2
+// * 34 >= 34 + sqrt(2) * 16.
+constexpr float kMorphStart = 0.85F;
+// The grid follows the camera in steps, so that it is seldom rebuilt.
+constexpr std::int64_t kGridStep = 16;
+constexpr std::uint64_t kRowsOfPiece = 16;
+
+std::int64_t floor_to(double value, std::int64_t step) {
+    return static_cast<std::int64_t>(std::floor(value / static_cast<double>(step))) * step;
+}
+
+} // namespace
+
+float TerrainLod::range(std::uint32_t level) {
+    return kNearestRange * static_cast<float>(1U << level);
+}
+
+float TerrainLod::morph_start(std::uint32_t level) {
+    return kMorphStart * range(level);
+}
+
+TerrainLod::TerrainLod(const Terrain& terrain, float reach) : terrain_(terrain) {
+    while (levels_ < kTerrainLevels && range(levels_ - 1) < reach) {
+        ++levels_;
+    }
+}
+
+void TerrainLod::make_grid(std::uint32_t level, const glm::vec3& eye) {
+    const auto size = static_cast<double>(cell(level));
+    const auto half = static_cast<std::int64_t>(kHeightTexels) / 2 - kGridStep / 2;
+    const glm::ivec2 origin(floor_to(static_cast<double>(eye.x) / size, kGridStep) - half,
+                            floor_to(static_cast<double>(eye.z) / size, kGridStep) - half);
+    HeightGrid& grid = grids_[level];
+    if (grid.is_valid && grid.origin == origin) {
+        return;
+    }
+    grid.is_valid = true;
+    grid.origin = origin;
+    grid.heights.resize(std::size_t{kHeightTexels} * kHeightTexels);
+    Workers workers(0);
+    workers.for_each(kHeightTexels / kRowsOfPiece, [&](std::uint64_t piece) {
+        for (std::uint64_t row = piece * kRowsOfPiece; row < (piece + 1) * kRowsOfPiece; ++row) {
+            const float z =
+                static_cast<float>(origin.y + static_cast<std::int32_t>(row)) * cell(level);
+            for (std::uint64_t column = 0; column < kHeightTexels; ++column) {
+                const float x =
+                    static_cast<float>(origin.x + static_cast<std::int32_t>(column)) * cell(level);
+                grid.heights[row * kHeightTexels + column] = terrain_.height(x, z);
+            }
+        }
+    });
+    const auto [low, high] = std::minmax_element(grid.heights.begin(), grid.heights.end());
+    grid.lowest = *low;
+    grid.highest = *high;
+    changed_.push_back(level);
+}
+
+void TerrainLod::select(const Frustum& frustum) {
+    patches_.clear();
+    changed_.clear();
+    eye_ = frustum.eye;
+    eye_height_ = std::max(eye_.y - terrain_.height(eye_.x, eye_.z), 0.0F);
+    for (std::uint32_t level = 0; level < levels_; ++level) {
+        if (range(level) > eye_height_ || level + 1 == levels_) {
+            make_grid(level, eye_);
+        }
+    }
+    const std::uint32_t top = levels_ - 1;
+    const double node = static_cast<double>(cell(top)) * kNodeCells;
+    const auto reach = static_cast<double>(range(top));
+    const auto index = [&](double at) { return static_cast<std::int64_t>(std::floor(at / node)); };
+    for (std::int64_t z = index(static_cast<double>(eye_.z) - reach);
+         z <= index(static_cast<double>(eye_.z) + reach); ++z) {
+        for (std::int64_t x = index(static_cast<double>(eye_.x) - reach);
+             x <= index(static_cast<double>(eye_.x) + reach); ++x) {
+            visit({x, z, top}, frustum);
+        }
+    }
+    std::stable_sort(
+        patches_.begin(), patches_.end(),
+        [](const TerrainPatch& a, const TerrainPatch& b) { return a.level < b.level; });
+}
+
+float TerrainLod::distance_to(const Node& node) const {
+    const float size = cell(node.level) * static_cast<float>(kNodeCells);
+    const glm::vec2 low(static_cast<float>(node.x) * size, static_cast<float>(node.z) * size);
+    const glm::vec2 eye(eye_.x, eye_.z);
+    const glm::vec2 away = eye - glm::clamp(eye, low, low + size);
+    return glm::length(glm::vec3(away, eye_height_));
+}
+
+bool TerrainLod::is_seen(const TerrainPatch& at, std::int32_t cells, const Frustum& frustum) const {
+    const HeightGrid& grid = grids_[at.level];
+    const float size = cell(at.level);
+    const glm::vec3 low(static_cast<float>(at.x) * size, grid.lowest,
+                        static_cast<float>(at.z) * size);
+    const glm::vec3 high(static_cast<float>(at.x + cells) * size, grid.highest,
+                         static_cast<float>(at.z + cells) * size);
+    return std::all_of(frustum.planes.begin(), frustum.planes.end(), [&](const glm::vec4& plane) {
+        // Corner farthest inside the plane.
+        const glm::vec3 corner(plane.x > 0.0F ? high.x : low.x, plane.y > 0.0F ? high.y : low.y,
+                               plane.z > 0.0F ? high.z : low.z);
+        return glm::dot(glm::vec3(plane), corner) + plane.w >= 0.0F;
+    });
+}
+
+bool TerrainLod::visit(const Node& node, const Frustum& frustum) {
+    if (distance_to(node) >= range(node.level)) {
+        return false;
+    }
+    const TerrainPatch all{static_cast<std::int32_t>(node.x) * kNodeCells,
+                           static_cast<std::int32_t>(node.z) * kNodeCells, node.level};
+    if (!is_seen(all, kNodeCells, frustum)) {
+        return true;
+    }
+    for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
+        const bool finer = node.level != 0 && visit({2 * node.x + (quarter & 1U),
+                                                     2 * node.z + (quarter >> 1U), node.level - 1},
+                                                    frustum);
+        constexpr auto kCells = static_cast<std::int32_t>(kPatchCells);
+        const TerrainPatch patch{all.x + static_cast<std::int32_t>(quarter & 1U) * kCells,
+                                 all.z + static_cast<std::int32_t>(quarter >> 1U) * kCells,
+                                 node.level};
+        if (!finer && is_seen(patch, kCells, frustum)) {
+            patches_.push_back(patch);
+        }
+    }
+    return true;
+}
+
+} // namespace lsys::view

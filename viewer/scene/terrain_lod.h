@@ -1,0 +1,94 @@
+// TerrainLod: patches of the ground and their level of detail for a camera (CDLOD, Strugar 2010,
+// "Continuous Distance-Dependent Level of Detail for Rendering Heightmaps"). The ground is an
+// unbounded quadtree. Each level has a height grid around the camera, twice as coarse as the level
+// before. Grid heights are the terrain's, so every drawn vertex lies on the terrain. No OpenGL.
+#pragma once
+
+#include "runtime/terrain/terrain.h"
+#include "viewer/scene/frustum.h"
+
+#include <glm/vec2.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace lsys::view {
+
+inline constexpr std::uint32_t kPatchCells = 8;     // along a side: a quarter of a node
+inline constexpr std::uint32_t kHeightTexels = 256; // along a side of the grid of a level
+inline constexpr std::uint32_t kTerrainLevels = 12;
+inline constexpr float kFinestCell = 0.5F; // m
+
+/// A quarter of a node: kPatchCells cells along a side.
+struct TerrainPatch {
+    std::int32_t x = 0; // lowest corner, in cells of its level
+    std::int32_t z = 0;
+    std::uint32_t level = 0;
+
+    friend bool operator==(const TerrainPatch&, const TerrainPatch&) = default;
+};
+
+/// Heights of a level around the camera.
+struct HeightGrid {
+    glm::ivec2 origin{}; // first texel, in cells of the level
+    bool is_valid = false;
+    float lowest = 0.0F;
+    float highest = 0.0F;
+    std::vector<float> heights; // in rows along X
+
+    /// `x`, `z`: in cells of the level.
+    [[nodiscard]] float at(std::int32_t x, std::int32_t z) const {
+        return heights[static_cast<std::size_t>(z - origin.y) * kHeightTexels +
+                       static_cast<std::size_t>(x - origin.x)];
+    }
+};
+
+class TerrainLod {
+public:
+    /// The terrain must outlive this object. `reach`: range of the drawn ground, m.
+    TerrainLod(const Terrain& terrain, float reach);
+
+    /// Updates the height grids for a camera and lists visible patches, finest levels first.
+    void select(const Frustum& frustum);
+    [[nodiscard]] const std::vector<TerrainPatch>& patches() const { return patches_; }
+    [[nodiscard]] const HeightGrid& grid(std::uint32_t level) const { return grids_[level]; }
+    /// Levels whose grid was updated by the last select().
+    [[nodiscard]] const std::vector<std::uint32_t>& changed() const { return changed_; }
+    [[nodiscard]] std::uint32_t levels() const { return levels_; }
+
+    /// Max distance from the eye at which a level is drawn, m.
+    [[nodiscard]] static float range(std::uint32_t level);
+    /// Distance from the eye, m, where vertices begin to morph to the next level; they are there at
+    /// range().
+    [[nodiscard]] static float morph_start(std::uint32_t level);
+    [[nodiscard]] static float cell(std::uint32_t level) {
+        return kFinestCell * static_cast<float>(1U << level);
+    }
+    /// Height of the eye above the ground below it, m. Distances to the ground use this height
+    /// everywhere.
+    [[nodiscard]] float eye_height() const { return eye_height_; }
+
+private:
+    struct Node {
+        std::int64_t x = 0; // in nodes of its level
+        std::int64_t z = 0;
+        std::uint32_t level = 0;
+    };
+    void make_grid(std::uint32_t level, const glm::vec3& eye);
+    /// Returns whether the node was drawn, whole or by its children.
+    bool visit(const Node& node, const Frustum& frustum);
+    [[nodiscard]] float distance_to(const Node& node) const;
+    [[nodiscard]] bool
+    is_seen(const TerrainPatch& at, std::int32_t cells, const Frustum& frustum) const;
+
+    const Terrain& terrain_;
+    std::uint32_t levels_ = 1;
+    std::array<HeightGrid, kTerrainLevels> grids_;
+    std::vector<TerrainPatch> patches_;
+    std::vector<std::uint32_t> changed_;
+    glm::vec3 eye_{};
+    float eye_height_ = 0.0F;
+};
+
+} // namespace lsys::view
