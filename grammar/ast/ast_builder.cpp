@@ -29,6 +29,15 @@ int comparison_level(BinaryOperation operation) {
     }
 }
 
+Expression make_node(ExpressionKind kind, SourceSpan span) {
+    Expression node;
+    node.kind = kind;
+    node.file = span.file;
+    node.begin = span.begin;
+    node.end = span.end;
+    return node;
+}
+
 } // namespace
 
 AstBuilder::AstBuilder(const ScannedText& scanned, Ast& ast, const ParseContext& context)
@@ -47,32 +56,20 @@ ExpressionId AstBuilder::add(const Expression& expression) {
 }
 
 ExpressionId AstBuilder::number(float value, SourceSpan span) {
-    Expression node;
-    node.kind = ExpressionKind::Number;
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
+    Expression node = make_node(ExpressionKind::Number, span);
     node.value = value;
     return add(node);
 }
 
 ExpressionId AstBuilder::name(NameId name, SourceSpan span) {
-    Expression node;
-    node.kind = ExpressionKind::Name;
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
+    Expression node = make_node(ExpressionKind::Name, span);
     node.name = name;
     return add(node);
 }
 
 ExpressionId AstBuilder::unary(UnaryOperation operation, ExpressionId operand, SourceSpan span) {
-    Expression node;
-    node.kind = ExpressionKind::Unary;
+    Expression node = make_node(ExpressionKind::Unary, span);
     node.operation = static_cast<std::uint8_t>(operation);
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
     node.left = operand;
     return add(node);
 }
@@ -92,23 +89,15 @@ ExpressionId AstBuilder::binary(BinaryOperation operation,
             report_chained_comparison(diagnostics_, ast_, left, span);
         }
     }
-    Expression node;
-    node.kind = ExpressionKind::Binary;
+    Expression node = make_node(ExpressionKind::Binary, span);
     node.operation = static_cast<std::uint8_t>(operation);
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
     node.left = left;
     node.right = right;
     return add(node);
 }
 
 ExpressionId AstBuilder::grouping(ExpressionId inner, SourceSpan span) {
-    Expression node;
-    node.kind = ExpressionKind::Grouping;
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
+    Expression node = make_node(ExpressionKind::Grouping, span);
     node.left = inner;
     return add(node);
 }
@@ -119,11 +108,7 @@ ExpressionId AstBuilder::range(std::uint32_t count, SourceSpan span) {
         report_bad_range(diagnostics_, count, span);
         return error(span);
     }
-    Expression node;
-    node.kind = ExpressionKind::Range;
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
+    Expression node = make_node(ExpressionKind::Range, span);
     node.left = arguments_[arguments_.size() - 2];
     node.right = arguments_[arguments_.size() - 1];
     drop_arguments(count);
@@ -131,11 +116,7 @@ ExpressionId AstBuilder::range(std::uint32_t count, SourceSpan span) {
 }
 
 ExpressionId AstBuilder::call(NameId function, std::uint32_t count, SourceSpan span) {
-    Expression node;
-    node.kind = ExpressionKind::Call;
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
+    Expression node = make_node(ExpressionKind::Call, span);
     node.name = function;
     node.arguments = static_cast<std::uint32_t>(ast_.argument_lists.size());
     ast_.argument_lists.push_back(take_arguments(count));
@@ -147,11 +128,7 @@ ExpressionId AstBuilder::negated(float value, SourceSpan number_span, SourceSpan
 }
 
 ExpressionId AstBuilder::error(SourceSpan span) {
-    Expression node;
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
-    return add(node);
+    return add(make_node(ExpressionKind::Error, span));
 }
 
 std::uint32_t AstBuilder::argument(std::uint32_t count_before, ExpressionId value) {
