@@ -3,6 +3,7 @@
 #include "grammar/ast/ast_builder.h"
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
+#include "grammar/base/characters.h"
 #include "grammar/base/contract.h"
 #include "grammar/base/hash.h"
 #include "grammar/base/utf8.h"
@@ -20,7 +21,7 @@ constexpr std::array<CharacterClass, 128> kClasses = [] {
         classes[static_cast<std::size_t>(c)] = CharacterClass::Blank;
     }
     for (std::size_t c = 0; c < 128; ++c) {
-        if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_') {
+        if (is_letter(static_cast<char>(c))) {
             classes[c] = CharacterClass::Letter;
         }
     }
@@ -36,7 +37,7 @@ CharacterClass class_of(char c) {
 }
 
 bool is_word(char c) {
-    return class_of(c) == CharacterClass::Letter || (c >= '0' && c <= '9');
+    return class_of(c) == CharacterClass::Letter || is_digit(c);
 }
 
 } // namespace
@@ -158,7 +159,7 @@ void AstBuilder::push_letters(TextRange word) {
     bool reported = false;
     for (std::uint32_t at = word.begin; at < word.end; ++at) {
         const char c = scanned_.text[at];
-        if ((c >= '0' && c <= '9') || c == '_') {
+        if (is_digit(c) || c == '_') {
             if (!reported) {
                 report_not_a_letter(diagnostics_, scanned_.span(at, at + 1), c);
                 reported = true;

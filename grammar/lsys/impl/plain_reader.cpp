@@ -1,5 +1,6 @@
 #include "grammar/lsys/impl/plain_reader.h"
 
+#include "grammar/base/characters.h"
 #include "grammar/lsys/impl/look_alikes.h"
 
 #include <algorithm>
@@ -12,10 +13,6 @@ namespace {
 /// Whether `c` goes on with a character of several bytes.
 bool is_continuation(char c) {
     return (static_cast<unsigned char>(c) & 0xC0u) == 0x80;
-}
-
-bool is_word_byte(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');
 }
 
 } // namespace
@@ -86,11 +83,11 @@ void PlainReader::report_group() {
             : group_.plain == ":" ? "this is " + what + "; parts are separated by `:`"
                                   : "this looks like `" + group_.plain + "` but is " + what;
         Diagnostic& diagnostic = diagnostics_->add(DiagnosticCode::LookAlike, span, message);
-        diagnostic.fixes.push_back({group_.plain.empty() ? "remove it"
-                                    : is_blank           ? "write a blank"
-                                                         : "write `" + group_.plain + "`",
-                                    {{span, group_.plain}},
-                                    true});
+        add_fix(diagnostic,
+                group_.plain.empty() ? "remove it"
+                : is_blank           ? "write a blank"
+                                     : "write `" + group_.plain + "`",
+                span, group_.plain, true);
         if (!std::exchange(explained_, true)) {
             diagnostic.notes.emplace_back(
                 "text copied from a PDF or a word processor holds such characters; `lsc check "
@@ -101,7 +98,7 @@ void PlainReader::report_group() {
 }
 
 bool PlainReader::is_word_at(std::uint32_t at) const {
-    if (is_word_byte(text_[at])) {
+    if (is_word_character(text_[at])) {
         return true;
     }
     while (at > 0 && is_continuation(text_[at])) {

@@ -231,13 +231,10 @@ void close_quotes(ParseSession& session, std::uint32_t after, char* buffer) {
 
 /// A translation is plain text but in back quotes.
 void report_stray_character(ParseSession& session) {
-    const ScanState& scan = session.scan;
     if (session.wants(DiagnosticCode::UnknownCharacter)) {
-        const std::string_view text =
-            session.scanned.text.substr(scan.begin, scan.end - scan.begin);
-        session.context.diagnostics.add(DiagnosticCode::UnknownCharacter,
-                                        session.scanned.span(scan.begin, scan.end),
-                                        "`" + std::string(text) + "` has no meaning in a grammar");
+        const std::string_view text = session.match_text();
+        session.report(DiagnosticCode::UnknownCharacter,
+                       "`" + std::string(text) + "` has no meaning in a grammar");
     }
 }
 
@@ -253,17 +250,17 @@ void report_foreign_look_alike(ParseSession& session,
         code_point_name(character) +
         (look_alike.name.empty() ? std::string() : " (" + std::string(look_alike.name) + ")");
     const std::string plain(look_alike.plain);
-    Diagnostic& diagnostic = session.context.diagnostics.add(
+    Diagnostic& diagnostic = session.report(
         DiagnosticCode::ForeignFeature, place,
         plain.empty() ? "an invisible character, " + what + ", cannot be a module"
         : plain == " "
             ? "a blank that is no plain one but " + what + " cannot be a module"
             : "this looks like `" + plain + "` but is " + what + ", which cannot be a module");
-    diagnostic.fixes.push_back({plain.empty()  ? std::string("remove it")
-                                : plain == " " ? std::string("write a plain blank")
-                                               : "write `" + plain + "`",
-                                {{place, plain}},
-                                false});
+    add_fix(diagnostic,
+            plain.empty()  ? std::string("remove it")
+            : plain == " " ? std::string("write a plain blank")
+                           : "write `" + plain + "`",
+            place, plain, false);
 }
 
 } // namespace
