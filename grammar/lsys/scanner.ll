@@ -113,8 +113,8 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
         }
         return INITIAL;
     };
-    if (scan.draining != Drain::Nothing) {
-        return drain(session);
+    if (scan.inserting != Insertion::None) {
+        return insert_token(session);
     }
     /* The start condition follows the part of the statement, which changes only where a token is returned. */
     BEGIN(start_condition(scan));
@@ -185,7 +185,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           if (begins_statement(session.scanned.text, scan.begin)) {
                               scan.next_statement = scan.begin;
                               SHORTEN(0);
-                              return start_drain(session, Drain::NextStatement, {});
+                              return begin_insertion(session, Insertion::NextStatement, {});
                           }
                           if (YY_START == EXPRESSION || YY_START == SETTING) {
                               report_stray_hash(session);
@@ -516,7 +516,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               keep_comment(session);
                           }
                           scan.next_statement = scan.end;
-                          return start_drain(session, Drain::EndOfFile, {});
+                          return begin_insertion(session, Insertion::EndOfFile, {});
                         }
 
 %%

@@ -193,7 +193,7 @@ void report_missing_semicolon(ParseSession& session) {
     }
     Diagnostic& diagnostic = session.report(DiagnosticCode::MissingSemicolon, place,
                                             "`;` is missing at the end of a statement");
-    if (scan.draining != Drain::EndOfFile) {
+    if (scan.inserting != Insertion::EndOfFile) {
         diagnostic.labels.push_back(
             {session.scanned.span(scan.next_statement, scan.next_statement + 1),
              "the next statement begins here"});

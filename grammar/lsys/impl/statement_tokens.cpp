@@ -343,7 +343,7 @@ Token colon_after_modules(ParseSession& session) {
 Token colon_in_expression(ParseSession& session) {
     ScanState& scan = session.scan;
     if (!scan.open.empty() && (scan.part == Part::Head || scan.part == Part::Condition)) {
-        return start_drain(session, Drain::Colon, session.match());
+        return begin_insertion(session, Insertion::Colon, session.match());
     }
     const SourceSpan span = session.token();
     if (scan.part == Part::Condition) {
@@ -355,7 +355,7 @@ Token colon_in_expression(ParseSession& session) {
 std::optional<Token> semicolon(ParseSession& session) {
     ScanState& scan = session.scan;
     if (scan.statement_open) {
-        return start_drain(session, Drain::Semicolon, session.match());
+        return begin_insertion(session, Insertion::Semicolon, session.match());
     }
     if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::StraySemicolon)) {
         const SourceSpan span = session.match();
@@ -451,24 +451,24 @@ void report_missing_parts(ParseSession& session) {
 
 } // namespace
 
-Token start_drain(ParseSession& session, Drain kind, SourceSpan own) {
+Token begin_insertion(ParseSession& session, Insertion kind, SourceSpan written) {
     ScanState& scan = session.scan;
-    scan.draining = kind;
-    scan.drained = own;
+    scan.inserting = kind;
+    scan.pending_span = written;
     if (!scan.skipping && !scan.open.empty()) {
         report_unclosed(session);
     }
-    if (kind != Drain::Colon && (scan.part == Part::Head || scan.part == Part::Condition)) {
+    if (kind != Insertion::Colon && (scan.part == Part::Head || scan.part == Part::Condition)) {
         if (!scan.skipping) {
             report_missing_parts(session);
         }
         session.failed = true;
         session.builder.spoil();
     }
-    return drain(session);
+    return insert_token(session);
 }
 
-Token drain(ParseSession& session) {
+Token insert_token(ParseSession& session) {
     ScanState& scan = session.scan;
     if (!scan.open.empty()) {
         const SourceSpan place = session.supplied();
@@ -482,9 +482,9 @@ Token drain(ParseSession& session) {
             return Token(Parser::token::TOK_RPAREN, place).as_supplied();
         }
     }
-    if (scan.draining == Drain::Colon) {
-        const SourceSpan colon = scan.drained;
-        scan.draining = Drain::Nothing;
+    if (scan.inserting == Insertion::Colon) {
+        const SourceSpan colon = scan.pending_span;
+        scan.inserting = Insertion::None;
         scan.last_end = scan.end;
         scan.enter(scan.part == Part::Head ? Part::Condition : Part::Successor);
         return Token(Parser::token::TOK_COLON, colon);
@@ -502,13 +502,13 @@ Token drain(ParseSession& session) {
         scan.statement_open = false;
         scan.skipping = false;
         scan.ended_part = std::exchange(scan.part, Part::Between);
-        if (scan.draining == Drain::Semicolon) {
-            scan.draining = Drain::Nothing;
+        if (scan.inserting == Insertion::Semicolon) {
+            scan.inserting = Insertion::None;
             scan.last_end = scan.end;
-            return Token(Parser::token::TOK_SEMICOLON, scan.drained);
+            return Token(Parser::token::TOK_SEMICOLON, scan.pending_span);
         }
-        if (scan.draining == Drain::NextStatement) {
-            scan.draining = Drain::Nothing;
+        if (scan.inserting == Insertion::NextStatement) {
+            scan.inserting = Insertion::None;
         }
         scan.semicolon_supplied = true;
         return Token(Parser::token::TOK_SEMICOLON, place).as_supplied();

@@ -89,7 +89,8 @@ std::string joined(const std::vector<std::string>& words) {
 
 std::string found_in_words(const Unexpected& error, const ScanState& scan) {
     if (error.text.empty()) {
-        return scan.draining == Drain::EndOfFile ? "the end of the file" : "the next statement";
+        return scan.inserting == Insertion::EndOfFile ? "the end of the file"
+                                                      : "the next statement";
     }
     return "`" + shown(error.text) + "`";
 }
