@@ -275,7 +275,7 @@ void AstBuilder::production(ModuleList successor) {
 }
 
 void AstBuilder::recover() {
-    spoilt_ = true;
+    is_discarded_ = true;
     arguments_.clear();
 }
 
@@ -294,9 +294,9 @@ bool AstBuilder::has_room(SourceSpan span) {
 }
 
 bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
-    const bool kept = keep && !spoilt_ && has_room(span);
+    const bool kept = keep && !is_discarded_ && has_room(span);
     if (!kept) {
-        take_back_node();
+        rollback();
         ast_.incomplete = true;
     } else if (has_node_) {
         statement_.span = span;
@@ -304,7 +304,7 @@ bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
     }
     take_marks();
     has_node_ = false;
-    spoilt_ = false;
+    is_discarded_ = false;
     arguments_.clear();
     production_ = ProductionNode{};
     list_place_ = {};
@@ -317,7 +317,7 @@ void AstBuilder::take_marks() {
              ast_.calls.size(),          ast_.set_values.size()};
 }
 
-void AstBuilder::take_back_node() {
+void AstBuilder::rollback() {
     if (has_node_) {
         switch (statement_.kind) {
         case StatementKind::Generations:

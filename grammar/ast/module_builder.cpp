@@ -313,9 +313,9 @@ ExpressionId AstBuilder::plain_number(std::uint32_t begin, std::uint32_t end) {
 void AstBuilder::count_bracket(char bracket, SourceSpan span) {
     if (bracket == ']') {
         open_brackets_ -= open_brackets_ == 0 ? 0u : 1u;
-    } else if (++open_brackets_ > kMaxNesting && !spoilt_) {
+    } else if (++open_brackets_ > kMaxNesting && !is_discarded_) {
         report_too_deep(diagnostics_, span, "branches `[`");
-        spoilt_ = true;
+        is_discarded_ = true;
     }
 }
 

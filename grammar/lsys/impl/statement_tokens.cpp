@@ -463,7 +463,7 @@ Token begin_insertion(ParseSession& session, Insertion kind, SourceSpan written)
             report_missing_parts(session);
         }
         session.failed = true;
-        session.builder.spoil();
+        session.builder.discard_statement();
     }
     return insert_token(session);
 }
@@ -521,7 +521,7 @@ Token lose_statement(ParseSession& session) {
     const SourceSpan span = session.token();
     scan.skipping = true;
     session.failed = true;
-    session.builder.spoil();
+    session.builder.discard_statement();
     return Token(Parser::token::TOK_YYerror, span);
 }
 
