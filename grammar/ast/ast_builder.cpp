@@ -44,7 +44,7 @@ AstBuilder::AstBuilder(const ScannedText& scanned, Ast& ast, const ParseContext&
     : scanned_(scanned), ast_(ast), sources_(context.sources), names_(context.names),
       diagnostics_(context.diagnostics), words_(256) {
     single_.fill(kUnset);
-    finish_statement({}, true); // takes the marks
+    finish_statement({}, true); // sets the watermark
 }
 
 // ------------------------------------------------------------------------------------- expressions
@@ -217,7 +217,7 @@ void AstBuilder::set_number(ExpressionId value, SourceSpan span) {
 }
 
 void AstBuilder::set(NameId key, SourceSpan key_span) {
-    const auto first = static_cast<std::uint32_t>(mark_.set_values);
+    const auto first = static_cast<std::uint32_t>(watermark_.set_values);
     const auto count = static_cast<std::uint32_t>(ast_.set_values.size()) - first;
     begin_node(StatementKind::Set, ast_.sets.size());
     ast_.sets.push_back({key, key_span, {first, count}});
@@ -302,7 +302,7 @@ bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
         statement_.span = span;
         ast_.statements.push_back(statement_);
     }
-    take_marks();
+    set_watermark();
     has_node_ = false;
     is_discarded_ = false;
     arguments_.clear();
@@ -311,10 +311,10 @@ bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
     return kept;
 }
 
-void AstBuilder::take_marks() {
-    mark_ = {ast_.expressions.size(),    ast_.expression_lists.size(),
-             ast_.argument_lists.size(), ast_.modules.size(),
-             ast_.calls.size(),          ast_.set_values.size()};
+void AstBuilder::set_watermark() {
+    watermark_ = {ast_.expressions.size(),    ast_.expression_lists.size(),
+                  ast_.argument_lists.size(), ast_.modules.size(),
+                  ast_.calls.size(),          ast_.set_values.size()};
 }
 
 void AstBuilder::rollback() {
@@ -352,12 +352,12 @@ void AstBuilder::rollback() {
             break;
         }
     }
-    ast_.expressions.truncate(mark_.expressions);
-    ast_.expression_lists.truncate(mark_.expression_lists);
-    ast_.argument_lists.truncate(mark_.argument_lists);
-    ast_.modules.truncate(mark_.modules);
-    ast_.calls.truncate(mark_.calls);
-    ast_.set_values.truncate(mark_.set_values);
+    ast_.expressions.truncate(watermark_.expressions);
+    ast_.expression_lists.truncate(watermark_.expression_lists);
+    ast_.argument_lists.truncate(watermark_.argument_lists);
+    ast_.modules.truncate(watermark_.modules);
+    ast_.calls.truncate(watermark_.calls);
+    ast_.set_values.truncate(watermark_.set_values);
 }
 
 SourceSpan AstBuilder::name_without_hash(SourceSpan label) const {

@@ -114,9 +114,8 @@ public:
     /// Ends the current statement: keeps its nodes, or rolls them back and marks the Ast as
     /// incomplete. Returns whether it was kept.
     bool finish_statement(SourceSpan span, bool keep);
-    /// What stands in the Ast now belongs to finished statements, such as those of an included
-    /// file.
-    void take_marks();
+    /// Counts all present nodes to finished statements, for example those of an included file.
+    void set_watermark();
 
 private:
     /// The last name of the module list at hand: whose parameters a parenthesis behind it holds.
@@ -126,8 +125,8 @@ private:
         Bare,
         Called, // has its parameters
     };
-    /// How much of the Ast belongs to finished statements.
-    struct Mark {
+    /// Sizes of the Ast without the current statement, to which a rollback returns.
+    struct Watermark {
         std::size_t expressions = 0;
         std::size_t expression_lists = 0;
         std::size_t argument_lists = 0;
@@ -178,7 +177,7 @@ private:
     bool has_node_ = false;
     Statement statement_;
     ProductionNode production_; // parts as they come
-    Mark mark_;
+    Watermark watermark_;
 };
 
 } // namespace lsys

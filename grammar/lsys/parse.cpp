@@ -61,7 +61,7 @@ void ParseSession::end_statement(SourceSpan span, bool whole) {
     ast_.files.push_back({file, node.path_span});
     parse_file(file, context, ast_, *includes);
     includes->leave();
-    builder.take_marks();
+    builder.set_watermark();
 }
 
 Ast parse_lsys(FileId root, const ParseContext& context) {
