@@ -11,7 +11,7 @@
 #include "grammar/lsys/impl/expression_tokens.h"
 #include "grammar/lsys/impl/lookahead.h"
 #include "grammar/lsys/impl/module_tokens.h"
-#include "grammar/lsys/impl/plain_text.h"
+#include "grammar/lsys/impl/normalized_text.h"
 #include "grammar/lsys/impl/scanning.h"
 #include "grammar/lsys/impl/statement_tokens.h"
 #include "grammar/lsys/impl/statement_ends.h"
@@ -363,7 +363,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
 
 <MODULES,OBJECT_NAME>{
   "`"[^`\n\0]*"`"       {
-                          read_in_quotes(session, TEXT);
+                          normalize_quoted(session, TEXT);
                           const SourceSpan span = session.token();
                           if (session.builder.module_names() == ModuleNames::Characters &&
                               scan.part != Part::ObjectName) {
@@ -502,8 +502,8 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
 }
 <INITIAL,OPENING,OBJECT_NAME,OBJECT_VALUE,SETTING,MODULES,EXPRESSION>{
   [\x80-\xFF][\x80-\xBF]* { /* one character */
-                          const int plain = read_as_plain(session, yytext, yyleng);
-                          SHORTEN(plain);
+                          const int length = normalize_character(session, yytext, yyleng);
+                          SHORTEN(length);
                         }
 }
 
