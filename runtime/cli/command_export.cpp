@@ -1,6 +1,7 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/derivation_report.h"
 #include "runtime/cli/export_stats.h"
+#include "runtime/cli/output_set.h"
 #include "runtime/cli/plant_options.h"
 #include "runtime/cli/progress.h"
 #include "runtime/derive/runtime_diagnostic.h"
@@ -19,7 +20,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -31,37 +31,8 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Hands bytes to an output until it refuses them.
-class Sink {
-public:
-    Sink(Output& output, const Console& console) : output_(output), console_(console) {}
-
-    [[nodiscard]] bool operator()(std::string_view bytes) {
-        if (console_.interrupted()) {
-            return false;
-        }
-        written_ += bytes.size();
-        const Result<Done> done = output_.write(bytes);
-        if (!done) {
-            failure_ = done.error();
-        }
-        return !failure_;
-    }
-    [[nodiscard]] std::uint64_t written() const { return written_; }
-    [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
-
-private:
-    Output& output_;
-    const Console& console_;
-    std::uint64_t written_ = 0;
-    std::optional<Error> failure_;
-};
-
-/// What the end of an export makes of the run.
-ExitStatus tell_exported(ExportStatus status,
-                         const Sink& sink,
-                         const Grammar& grammar,
-                         const Console& console) {
+/// Prints why an export ended without its file; returns the exit status.
+ExitStatus report_export(ExportStatus status, const Grammar& grammar, const Console& console) {
     switch (status) {
     case ExportStatus::Ok:
         return ExitStatus::Ok;
@@ -80,51 +51,13 @@ ExitStatus tell_exported(ExportStatus status,
                 "another format, which is any but glTF: `-o tree.ply`"),
             ExitStatus::Limit, grammar, console);
     case ExportStatus::Stopped:
-        return sink.failure() ? report_error(*sink.failure(), console) : ExitStatus::Interrupted;
+        return ExitStatus::Interrupted;
     case ExportStatus::OutOfMemory:
         return show_diagnostic(no_memory_diagnostic("the file"), ExitStatus::Limit, grammar,
                                console);
     }
     return ExitStatus::Failure;
 }
-
-/// Files of one plant, all complete or all absent.
-class Files {
-public:
-    Files(const Grammar& grammar, const Console& console) : grammar_(grammar), console_(console) {}
-
-    /// Writes one, which is not to be seen yet.
-    ExitStatus add(const std::string& path,
-                   ExportTiming& timing,
-                   const std::function<ExportStatus(const ByteSink&)>& write) {
-        Result<Output> output = Output::open(path, console_);
-        if (!output) {
-            return report_error(output.error(), console_);
-        }
-        Sink sink(output.value(), console_);
-        const ExportStatus status = write([&sink](std::string_view bytes) { return sink(bytes); });
-        timing.bytes += sink.written();
-        const ExitStatus told = tell_exported(status, sink, grammar_, console_);
-        if (told != ExitStatus::Ok) {
-            return told;
-        }
-        if (const Result<Done> finished = output.value().finish(); !finished) {
-            return report_error(finished.error(), console_);
-        }
-        outputs_.push_back(std::move(output.value()));
-        return told;
-    }
-    /// Lets all be seen.
-    ExitStatus commit() {
-        const Result<Done> done = commit_all(outputs_);
-        return done ? ExitStatus::Ok : report_error(done.error(), console_);
-    }
-
-private:
-    const Grammar& grammar_;
-    const Console& console_;
-    std::vector<Output> outputs_;
-};
 
 /// One export: what all its files share.
 struct Export {
@@ -142,23 +75,21 @@ struct Export {
 /// What lies beside the file at `path`: pictures, and the materials of an OBJ. `info` gets their
 /// names.
 ExitStatus
-add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info, Files& files) {
+add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info, OutputSet& files) {
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
     std::vector<PictureFile> pictures;
     if (make_picture_files(run.mesh, run.format, info, pictures) != ExportStatus::Ok) {
         return show_diagnostic(no_memory_diagnostic("the pictures"), ExitStatus::Limit, run.grammar,
                                run.console);
     }
-    const auto put = [](std::string_view bytes, const ByteSink& sink) {
-        return sink(bytes) ? ExportStatus::Ok : ExportStatus::Stopped;
-    };
     for (const PictureFile& picture : pictures) {
         if (!run.pictures.insert(picture.name).second) {
             continue;
         }
         const ExitStatus status =
-            files.add(path.parent_path() / picture.name, run.timing,
-                      [&](const ByteSink& sink) { return put(picture.bytes, sink); });
+            files.add(path.parent_path() / picture.name, [&](const ByteSink& sink) {
+                return sink(picture.bytes) ? ExitStatus::Ok : ExitStatus::Interrupted;
+            });
         if (status != ExitStatus::Ok) {
             return status;
         }
@@ -168,8 +99,9 @@ add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info,
     }
     const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
     info.mtl_name = library.filename().string();
-    return files.add(library.string(), run.timing,
-                     [&](const ByteSink& sink) { return write_mtl(run.mesh, info, sink); });
+    return files.add(library.string(), [&](const ByteSink& sink) {
+        return report_export(write_mtl(run.mesh, info, sink), run.grammar, run.console);
+    });
 }
 
 /// Whether something can lie beside it: standard output, pipes and devices have no folder of
@@ -208,19 +140,21 @@ ExitStatus write_plant(Export& run,
     info.user_meshes = &run.plant.user_meshes;
     info.animation = animation;
     info.threads = command.run.threads;
-    Files files(run.grammar, run.console);
+    OutputSet files(run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
         status = add_side_files(run, path, info, files);
     }
     if (status == ExitStatus::Ok) {
-        status = files.add(path, run.timing, [&](const ByteSink& sink) {
-            return export_mesh(run.mesh, skeleton, run.format, info, sink);
+        status = files.add(path, [&](const ByteSink& sink) {
+            return report_export(export_mesh(run.mesh, skeleton, run.format, info, sink),
+                                 run.grammar, run.console);
         });
     }
     if (status == ExitStatus::Ok) {
         status = files.commit();
     }
+    run.timing.bytes += files.byte_count();
     run.timing.write_seconds += seconds_since(start);
     return status;
 }

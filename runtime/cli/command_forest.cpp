@@ -1,4 +1,5 @@
 #include "runtime/cli/commands.h"
+#include "runtime/cli/output_set.h"
 #include "runtime/export/export_forest.h"
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/stopwatch.h"
@@ -117,53 +118,8 @@ ExitStatus make_meshes(Run& run) {
     return ExitStatus::Ok;
 }
 
-/// Writes the bytes of `write` to `path` and adds the file to `outputs`, not to be seen yet.
-template <typename Write>
-ExitStatus
-add_output(Run& run, const std::string& path, const Write& write, std::vector<Output>& outputs) {
-    Result<Output> output = Output::open(path, run.console);
-    if (!output) {
-        return report_error(output.error(), run.console);
-    }
-    std::optional<Error> failure;
-    const ExitStatus status = write([&](std::string_view bytes) {
-        if (run.console.interrupted()) {
-            return false;
-        }
-        const Result<Done> done = output.value().write(bytes);
-        if (!done) {
-            failure = done.error();
-        }
-        return done.ok();
-    });
-    if (failure) {
-        return report_error(*failure, run.console);
-    }
-    if (status != ExitStatus::Ok) {
-        return status;
-    }
-    if (const Result<Done> finished = output.value().finish(); !finished) {
-        return report_error(finished.error(), run.console);
-    }
-    outputs.push_back(std::move(output.value()));
-    return ExitStatus::Ok;
-}
-
-/// Lets the files be seen, all or none.
-ExitStatus show_outputs(std::vector<Output>& outputs, const Console& console) {
-    const Result<Done> done = commit_all(outputs);
-    return done ? ExitStatus::Ok : report_error(done.error(), console);
-}
-
-/// Writes the bytes of `write` to `path`, complete or not at all.
-template <typename Write>
-ExitStatus write_output(Run& run, const std::string& path, const Write& write) {
-    std::vector<Output> outputs;
-    const ExitStatus status = add_output(run, path, write, outputs);
-    return status == ExitStatus::Ok ? show_outputs(outputs, run.console) : status;
-}
-
-ExitStatus tell(ForestExportStatus status, const Run& run) {
+/// Prints why an export ended without its file; returns the exit status.
+ExitStatus report_export(ForestExportStatus status, const Run& run) {
     switch (status) {
     case ForestExportStatus::Ok:
         return ExitStatus::Ok;
@@ -192,11 +148,12 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     info.cell = run.command.cell;
     info.threads = run.command.run.threads;
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
-    std::vector<Output> outputs; // pictures before the file that names them
+    OutputSet outputs(run.console); // pictures before the file that names them
     if (run.target.forest == ForestFormat::Usda) {
         info.textures = path != "-";
         std::vector<PictureFile> pictures;
-        const ExitStatus status = tell(make_forest_picture_files(scene, info, pictures), run);
+        const ExitStatus status =
+            report_export(make_forest_picture_files(scene, info, pictures), run);
         if (status != ExitStatus::Ok) {
             return status;
         }
@@ -206,18 +163,17 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
             const auto put = [&](const ByteSink& sink) {
                 return sink(picture.bytes) ? ExitStatus::Ok : ExitStatus::Interrupted;
             };
-            if (const ExitStatus added = add_output(run, beside, put, outputs);
-                added != ExitStatus::Ok) {
+            if (const ExitStatus added = outputs.add(beside, put); added != ExitStatus::Ok) {
                 return added;
             }
         }
     }
     const ForestForm form = run.command.expand ? ForestForm::Expanded : ForestForm::Instanced;
     const auto put = [&](const ByteSink& sink) {
-        return tell(export_forest(scene, run.target.forest, form, info, sink), run);
+        return report_export(export_forest(scene, run.target.forest, form, info, sink), run);
     };
-    const ExitStatus status = add_output(run, path, put, outputs);
-    return status == ExitStatus::Ok ? show_outputs(outputs, run.console) : status;
+    const ExitStatus status = outputs.add(path, put);
+    return status == ExitStatus::Ok ? outputs.commit() : status;
 }
 
 ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& path) {
@@ -243,7 +199,8 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
     info.generator = "lsc " LSC_VERSION;
     info.textures = run.target.mesh == ExportFormat::Glb || run.target.mesh == ExportFormat::Gltf;
     const Skeleton none;
-    return write_output(run, path, [&](const ByteSink& sink) {
+    OutputSet outputs(run.console);
+    const ExitStatus status = outputs.add(path, [&](const ByteSink& sink) {
         switch (export_mesh(mesh, none, run.target.mesh, info, sink)) {
         case ExportStatus::Ok:
             return ExitStatus::Ok;
@@ -261,6 +218,7 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
         return report_error(Error{"the forest is larger than a file of this format can be"},
                             run.console);
     });
+    return status == ExitStatus::Ok ? outputs.commit() : status;
 }
 
 ExitStatus write_forest(Run& run, const std::string& path) {
@@ -276,8 +234,7 @@ ExitStatus write_forest(Run& run, const std::string& path) {
         break;
     }
     const std::string text = forest_stats_json(scene, {true, run.command.run.threads}) + "\n";
-    const Result<Done> done = write_file(path, text, run.console);
-    return done ? ExitStatus::Ok : report_error(done.error(), run.console);
+    return report_result(write_file(path, text, run.console), run.console);
 }
 
 /// The statistics as a table.
@@ -346,8 +303,7 @@ ExitStatus print_stats(const Run& run) {
         const ForestCounts counts = count_forest(run.grown.forest, run.command.run.threads);
         text = stats_text(run, counts, counting.seconds());
     }
-    const Result<Done> done = run.console.write(text);
-    return done ? ExitStatus::Ok : report_error(done.error(), run.console);
+    return report_result(run.console.write(text), run.console);
 }
 
 /// The forest in `frames` of its years, the last one included.

@@ -62,8 +62,7 @@ ExitStatus import_text(const std::string& path,
 
 ExitStatus
 write_imported(const std::string& path, const std::string& text, const Console& console) {
-    const Result<Done> written = write_file(path, text, console);
-    return written ? ExitStatus::Ok : report_error(written.error(), console);
+    return report_result(write_file(path, text, console), console);
 }
 
 /// The regular files of a folder by name.
@@ -134,7 +133,7 @@ write_named(const std::string& path, const std::string& text, const FolderImport
     if (done) {
         done = output.value().commit();
     }
-    return done ? ExitStatus::Ok : report_error(done.error(), import.console);
+    return report_result(done, import.console);
 }
 
 /// Imports one system to `stem`.lsys and prints a line about it.

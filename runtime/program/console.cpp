@@ -160,6 +160,10 @@ ExitStatus report_error(const Error& error, const Console& console) {
     return ExitStatus::Failure;
 }
 
+ExitStatus report_result(const Result<Done>& result, const Console& console) {
+    return result ? ExitStatus::Ok : report_error(result.error(), console);
+}
+
 ExitStatus Console::show(Diagnostic diagnostic, ExitStatus status) const {
     Diagnostics diagnostics;
     diagnostics.add(std::move(diagnostic));
