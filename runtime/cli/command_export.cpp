@@ -211,9 +211,9 @@ ExitStatus write_bent(Export& run) {
     }
     for (std::uint32_t frame = 1; frame <= command.frames; ++frame) {
         physics.pose(bent);
-        const ExitStatus status = write_plant(run, bent, numbered(command.output, frame));
+        const ExitStatus status = write_plant(run, bent, numbered_path(command.output, frame));
         if (status != ExitStatus::Ok) {
-            note_frames(command.output, frame - 1, command.frames, run.console);
+            report_complete_frames(command.output, frame - 1, command.frames, run.console);
             return status;
         }
         for (std::uint32_t step = 0; step < steps; ++step) {

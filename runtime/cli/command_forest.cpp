@@ -330,10 +330,10 @@ ExitStatus write_years(Run& run) {
             }
         }
         run.grown.forest.trees = domination.trees();
-        const std::string path = numbered(run.command.output, frame);
+        const std::string path = numbered_path(run.command.output, frame);
         const ExitStatus status = write_forest(run, path);
         if (status != ExitStatus::Ok) {
-            note_frames(run.command.output, frame - 1, run.command.frames, run.console);
+            report_complete_frames(run.command.output, frame - 1, run.command.frames, run.console);
             return status;
         }
         run.console.detail(

@@ -89,8 +89,8 @@ struct FolderImport {
     fs::path folder;
     std::set<std::string> names; // of the files of this run
     ExitStatus status = ExitStatus::Ok;
-    std::uint64_t done = 0;
-    std::uint64_t lost = 0;
+    std::uint64_t imported = 0;
+    std::uint64_t failed = 0;
 };
 
 /// `name` as that of a file.
@@ -152,7 +152,7 @@ Result<Done> import_one(const std::string& path,
         to = new_path(stem, import);
         one = write_named(to, imported.text, import);
     }
-    (one == ExitStatus::Ok ? import.done : import.lost) += 1;
+    (one == ExitStatus::Ok ? import.imported : import.failed) += 1;
     import.status = worse(import.status, one);
     const std::string what =
         options.system.empty() ? path : fmt::format("{}: `{}`", path, options.system);
@@ -179,7 +179,7 @@ Result<Done> import_systems(const std::string& path,
             return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
         });
         if (!known.insert(low).second) {
-            ++import.lost;
+            ++import.failed;
             import.status = worse(import.status, ExitStatus::AuthorErrors);
             if (Result<Done> written = import.console.write(fmt::format(
                     "{}: `{}`: a second system of this name, not imported\n", path, system));
@@ -215,7 +215,7 @@ ExitStatus end_import(const Result<Done>& result, const FolderImport& import) {
         return import.status;
     }
     const Result<Done> written =
-        import.console.write(fmt::format("{} imported, {} not\n", import.done, import.lost));
+        import.console.write(fmt::format("{} imported, {} not\n", import.imported, import.failed));
     return written ? import.status : report_error(written.error(), import.console);
 }
 

@@ -36,7 +36,7 @@ struct FixedGrammar {
     std::vector<std::string> lines;
     std::uint64_t fix_count = 0;
     /// Files outside the scope that have certain fixes left.
-    std::set<std::string> left;
+    std::set<std::string> out_of_scope;
     /// What the repaired text compiles to, with the diagnostics that are left; their fixes are
     /// offers.
     CompiledText compiled;

@@ -59,7 +59,7 @@ Result<Done> RepairAttempt::run() {
         if (Result<Done> done = compile_changed(subject_, fixed_.changed, compiled); !done) {
             return done;
         }
-        fixed_.left.clear();
+        fixed_.out_of_scope.clear();
         read_files();
         read_syntax_errors();
         if (round == 0) {
@@ -130,7 +130,7 @@ bool RepairAttempt::may_apply(const Diagnostic& diagnostic, const Fix& fix) {
     for (const Edit& edit : fix.edits) {
         const std::string& path = sources.file(edit.span.file).path();
         if (!subject_.scope.contains(path)) {
-            fixed_.left.insert(path);
+            fixed_.out_of_scope.insert(path);
             return false;
         }
     }

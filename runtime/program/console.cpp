@@ -48,7 +48,7 @@ Result<Done> output_result(std::ostream& out) {
     std::string message = "cannot write standard output";
     if (reason != 0) {
         message += ": ";
-        message += reason_text(reason);
+        message += errno_text(reason);
     }
     return Error{message};
 }
