@@ -120,7 +120,7 @@ public:
 private:
     /// The last name of the module list at hand: whose parameters a parenthesis behind it holds.
     enum class LastName : std::uint8_t {
-        Lost,  // reported, and no module
+        None,  // a reported character that is no module
         Empty, // a text without characters
         Bare,
         Called, // has its parameters
@@ -141,8 +141,8 @@ private:
     void rollback();
     void begin_node(StatementKind kind, std::size_t index);
     void push_module(NameId name, TextRange text);
-    void push_written(NameId name, SourceSpan span);
-    [[nodiscard]] SourceSpan of_list(SourceSpan span);
+    void push_with_place(NameId name, SourceSpan span);
+    [[nodiscard]] SourceSpan place_in_list(SourceSpan span);
     void extend_list(ModuleList& list, SourceSpan span);
     [[nodiscard]] bool begin_call(SourceSpan parentheses, CallNode& call);
     std::uint32_t read_plain_arguments(std::uint32_t open, std::uint32_t name_end);
@@ -171,7 +171,7 @@ private:
 
     std::vector<ExpressionId> arguments_;
     std::uint32_t open_brackets_ = 0; // `[` of the module list at hand
-    LastName last_name_ = LastName::Lost;
+    LastName last_name_ = LastName::None;
     SourceSpan list_place_;     // of a translation: the last in the file of the statement's modules
     bool is_discarded_ = false; // the current statement
     bool has_node_ = false;
