@@ -29,13 +29,22 @@ int comparison_level(BinaryOperation operation) {
     }
 }
 
+Expression make_node(ExpressionKind kind, SourceSpan span) {
+    Expression node;
+    node.kind = kind;
+    node.file = span.file;
+    node.begin = span.begin;
+    node.end = span.end;
+    return node;
+}
+
 } // namespace
 
 AstBuilder::AstBuilder(const ScannedText& scanned, Ast& ast, const ParseContext& context)
     : scanned_(scanned), ast_(ast), sources_(context.sources), names_(context.names),
       diagnostics_(context.diagnostics), words_(256) {
     single_.fill(kUnset);
-    finish_statement({}, true); // takes the marks
+    finish_statement({}, true); // sets the watermark
 }
 
 // ------------------------------------------------------------------------------------- expressions
@@ -47,32 +56,20 @@ ExpressionId AstBuilder::add(const Expression& expression) {
 }
 
 ExpressionId AstBuilder::number(float value, SourceSpan span) {
-    Expression node;
-    node.kind = ExpressionKind::Number;
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
+    Expression node = make_node(ExpressionKind::Number, span);
     node.value = value;
     return add(node);
 }
 
 ExpressionId AstBuilder::name(NameId name, SourceSpan span) {
-    Expression node;
-    node.kind = ExpressionKind::Name;
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
+    Expression node = make_node(ExpressionKind::Name, span);
     node.name = name;
     return add(node);
 }
 
 ExpressionId AstBuilder::unary(UnaryOperation operation, ExpressionId operand, SourceSpan span) {
-    Expression node;
-    node.kind = ExpressionKind::Unary;
+    Expression node = make_node(ExpressionKind::Unary, span);
     node.operation = static_cast<std::uint8_t>(operation);
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
     node.left = operand;
     return add(node);
 }
@@ -92,23 +89,15 @@ ExpressionId AstBuilder::binary(BinaryOperation operation,
             report_chained_comparison(diagnostics_, ast_, left, span);
         }
     }
-    Expression node;
-    node.kind = ExpressionKind::Binary;
+    Expression node = make_node(ExpressionKind::Binary, span);
     node.operation = static_cast<std::uint8_t>(operation);
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
     node.left = left;
     node.right = right;
     return add(node);
 }
 
 ExpressionId AstBuilder::grouping(ExpressionId inner, SourceSpan span) {
-    Expression node;
-    node.kind = ExpressionKind::Grouping;
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
+    Expression node = make_node(ExpressionKind::Grouping, span);
     node.left = inner;
     return add(node);
 }
@@ -119,11 +108,7 @@ ExpressionId AstBuilder::range(std::uint32_t count, SourceSpan span) {
         report_bad_range(diagnostics_, count, span);
         return error(span);
     }
-    Expression node;
-    node.kind = ExpressionKind::Range;
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
+    Expression node = make_node(ExpressionKind::Range, span);
     node.left = arguments_[arguments_.size() - 2];
     node.right = arguments_[arguments_.size() - 1];
     drop_arguments(count);
@@ -131,11 +116,7 @@ ExpressionId AstBuilder::range(std::uint32_t count, SourceSpan span) {
 }
 
 ExpressionId AstBuilder::call(NameId function, std::uint32_t count, SourceSpan span) {
-    Expression node;
-    node.kind = ExpressionKind::Call;
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
+    Expression node = make_node(ExpressionKind::Call, span);
     node.name = function;
     node.arguments = static_cast<std::uint32_t>(ast_.argument_lists.size());
     ast_.argument_lists.push_back(take_arguments(count));
@@ -147,11 +128,7 @@ ExpressionId AstBuilder::negated(float value, SourceSpan number_span, SourceSpan
 }
 
 ExpressionId AstBuilder::error(SourceSpan span) {
-    Expression node;
-    node.file = span.file;
-    node.begin = span.begin;
-    node.end = span.end;
-    return add(node);
+    return add(make_node(ExpressionKind::Error, span));
 }
 
 std::uint32_t AstBuilder::argument(std::uint32_t count_before, ExpressionId value) {
@@ -240,7 +217,7 @@ void AstBuilder::set_number(ExpressionId value, SourceSpan span) {
 }
 
 void AstBuilder::set(NameId key, SourceSpan key_span) {
-    const auto first = static_cast<std::uint32_t>(mark_.set_values);
+    const auto first = static_cast<std::uint32_t>(watermark_.set_values);
     const auto count = static_cast<std::uint32_t>(ast_.set_values.size()) - first;
     begin_node(StatementKind::Set, ast_.sets.size());
     ast_.sets.push_back({key, key_span, {first, count}});
@@ -298,7 +275,7 @@ void AstBuilder::production(ModuleList successor) {
 }
 
 void AstBuilder::recover() {
-    spoilt_ = true;
+    is_discarded_ = true;
     arguments_.clear();
 }
 
@@ -317,30 +294,30 @@ bool AstBuilder::has_room(SourceSpan span) {
 }
 
 bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
-    const bool kept = keep && !spoilt_ && has_room(span);
+    const bool kept = keep && !is_discarded_ && has_room(span);
     if (!kept) {
-        take_back_node();
+        rollback();
         ast_.incomplete = true;
     } else if (has_node_) {
         statement_.span = span;
         ast_.statements.push_back(statement_);
     }
-    take_marks();
+    set_watermark();
     has_node_ = false;
-    spoilt_ = false;
+    is_discarded_ = false;
     arguments_.clear();
     production_ = ProductionNode{};
     list_place_ = {};
     return kept;
 }
 
-void AstBuilder::take_marks() {
-    mark_ = {ast_.expressions.size(),    ast_.expression_lists.size(),
-             ast_.argument_lists.size(), ast_.modules.size(),
-             ast_.calls.size(),          ast_.set_values.size()};
+void AstBuilder::set_watermark() {
+    watermark_ = {ast_.expressions.size(),    ast_.expression_lists.size(),
+                  ast_.argument_lists.size(), ast_.modules.size(),
+                  ast_.calls.size(),          ast_.set_values.size()};
 }
 
-void AstBuilder::take_back_node() {
+void AstBuilder::rollback() {
     if (has_node_) {
         switch (statement_.kind) {
         case StatementKind::Generations:
@@ -375,12 +352,12 @@ void AstBuilder::take_back_node() {
             break;
         }
     }
-    ast_.expressions.truncate(mark_.expressions);
-    ast_.expression_lists.truncate(mark_.expression_lists);
-    ast_.argument_lists.truncate(mark_.argument_lists);
-    ast_.modules.truncate(mark_.modules);
-    ast_.calls.truncate(mark_.calls);
-    ast_.set_values.truncate(mark_.set_values);
+    ast_.expressions.truncate(watermark_.expressions);
+    ast_.expression_lists.truncate(watermark_.expression_lists);
+    ast_.argument_lists.truncate(watermark_.argument_lists);
+    ast_.modules.truncate(watermark_.modules);
+    ast_.calls.truncate(watermark_.calls);
+    ast_.set_values.truncate(watermark_.set_values);
 }
 
 SourceSpan AstBuilder::name_without_hash(SourceSpan label) const {

@@ -1,7 +1,7 @@
 // Builds the Ast of one file, node by node, as the parser asks. It knows what nodes look like and
 // nothing of tokens; the mistakes it reports are those that only show when nodes are put together
 // (depth of brackets, chained comparisons, ranges that are not two values).
-// A statement's nodes are kept by finish_statement() or taken back, so the Ast holds whole
+// finish_statement() keeps the nodes of a statement or rolls them back, so the Ast holds whole
 // statements.
 #pragma once
 
@@ -106,28 +106,27 @@ public:
                           Stage stage = Stage::Rewrite);
     void production(ModuleList successor);
 
-    /// The statement at hand will not be kept.
-    void spoil() { spoilt_ = true; }
-    /// The same, where the parser goes on within the statement after an error.
+    /// Lets finish_statement() roll the current statement back.
+    void discard_statement() { is_discarded_ = true; }
+    /// Discards the current statement and its open arguments; the parser goes on within it.
     void recover();
 
-    /// Keeps the statement made since the last call, or takes all of it back. Returns whether it
-    /// was kept; what is taken back makes the Ast incomplete.
+    /// Ends the current statement: keeps its nodes, or rolls them back and marks the Ast as
+    /// incomplete. Returns whether it was kept.
     bool finish_statement(SourceSpan span, bool keep);
-    /// What stands in the Ast now belongs to finished statements, such as those of an included
-    /// file.
-    void take_marks();
+    /// Counts all present nodes to finished statements, for example those of an included file.
+    void set_watermark();
 
 private:
     /// The last name of the module list at hand: whose parameters a parenthesis behind it holds.
     enum class LastName : std::uint8_t {
-        Lost,  // reported, and no module
+        None,  // a reported character that is no module
         Empty, // a text without characters
         Bare,
         Called, // has its parameters
     };
-    /// How much of the Ast belongs to finished statements.
-    struct Mark {
+    /// Sizes of the Ast without the current statement, to which a rollback returns.
+    struct Watermark {
         std::size_t expressions = 0;
         std::size_t expression_lists = 0;
         std::size_t argument_lists = 0;
@@ -139,11 +138,11 @@ private:
     ExpressionId add(const Expression& expression);
     ListRange take_arguments(std::uint32_t count);
     [[nodiscard]] bool has_room(SourceSpan span);
-    void take_back_node();
+    void rollback();
     void begin_node(StatementKind kind, std::size_t index);
     void push_module(NameId name, TextRange text);
-    void push_written(NameId name, SourceSpan span);
-    [[nodiscard]] SourceSpan of_list(SourceSpan span);
+    void push_with_place(NameId name, SourceSpan span);
+    [[nodiscard]] SourceSpan place_in_list(SourceSpan span);
     void extend_list(ModuleList& list, SourceSpan span);
     [[nodiscard]] bool begin_call(SourceSpan parentheses, CallNode& call);
     std::uint32_t read_plain_arguments(std::uint32_t open, std::uint32_t name_end);
@@ -172,13 +171,13 @@ private:
 
     std::vector<ExpressionId> arguments_;
     std::uint32_t open_brackets_ = 0; // `[` of the module list at hand
-    LastName last_name_ = LastName::Lost;
-    SourceSpan list_place_; // of a translation: the last in the file of the statement's modules
-    bool spoilt_ = false;   // the statement at hand is not to be kept
+    LastName last_name_ = LastName::None;
+    SourceSpan list_place_;     // of a translation: the last in the file of the statement's modules
+    bool is_discarded_ = false; // the current statement
     bool has_node_ = false;
     Statement statement_;
     ProductionNode production_; // parts as they come
-    Mark mark_;
+    Watermark watermark_;
 };
 
 } // namespace lsys

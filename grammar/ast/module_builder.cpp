@@ -3,6 +3,7 @@
 #include "grammar/ast/ast_builder.h"
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
+#include "grammar/base/characters.h"
 #include "grammar/base/contract.h"
 #include "grammar/base/hash.h"
 #include "grammar/base/utf8.h"
@@ -20,7 +21,7 @@ constexpr std::array<CharacterClass, 128> kClasses = [] {
         classes[static_cast<std::size_t>(c)] = CharacterClass::Blank;
     }
     for (std::size_t c = 0; c < 128; ++c) {
-        if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_') {
+        if (is_letter(static_cast<char>(c))) {
             classes[c] = CharacterClass::Letter;
         }
     }
@@ -36,20 +37,20 @@ CharacterClass class_of(char c) {
 }
 
 bool is_word(char c) {
-    return class_of(c) == CharacterClass::Letter || (c >= '0' && c <= '9');
+    return class_of(c) == CharacterClass::Letter || is_digit(c);
 }
 
 } // namespace
 
 ModuleList AstBuilder::empty_modules(SourceSpan where) {
     open_brackets_ = 0;
-    last_name_ = LastName::Lost;
+    last_name_ = LastName::None;
     return {static_cast<std::uint32_t>(ast_.modules.size()), 0, where};
 }
 
 /// The span, or that of what came before where it is of another file: the modules of a statement
 /// are kept with offsets alone. Only parts of a translation can be of several files.
-SourceSpan AstBuilder::of_list(SourceSpan span) {
+SourceSpan AstBuilder::place_in_list(SourceSpan span) {
     if (scanned_.translation == nullptr) {
         return span;
     }
@@ -68,7 +69,7 @@ void AstBuilder::extend_list(ModuleList& list, SourceSpan span) {
 /// `text`: the name in the scanned text, with its back quotes.
 void AstBuilder::push_module(NameId name, TextRange text) {
     if (scanned_.translation != nullptr || scanned_.map != nullptr) {
-        push_written(name, of_list(scanned_.span(text.begin, text.end)));
+        push_with_place(name, place_in_list(scanned_.span(text.begin, text.end)));
     } else {
         ast_.modules.push_back({name, scanned_.source_begin(text.begin)});
     }
@@ -76,7 +77,7 @@ void AstBuilder::push_module(NameId name, TextRange text) {
 }
 
 /// Keeps where the name ends, if its file does not tell.
-void AstBuilder::push_written(NameId name, SourceSpan span) {
+void AstBuilder::push_with_place(NameId name, SourceSpan span) {
     ast_.modules.push_back({name, span.begin});
     const std::string_view text = names_.text(name);
     const std::string_view written = sources_.text(span);
@@ -135,7 +136,7 @@ ModuleList AstBuilder::modules(ModuleList list, TextRange run) {
         push_module(name, {at, at + 1});
         name_end = ++at;
     }
-    extend_list(list, of_list(scanned_.span(run.begin, run.end)));
+    extend_list(list, place_in_list(scanned_.span(run.begin, run.end)));
     return list;
 }
 
@@ -158,12 +159,12 @@ void AstBuilder::push_letters(TextRange word) {
     bool reported = false;
     for (std::uint32_t at = word.begin; at < word.end; ++at) {
         const char c = scanned_.text[at];
-        if ((c >= '0' && c <= '9') || c == '_') {
+        if (is_digit(c) || c == '_') {
             if (!reported) {
                 report_not_a_letter(diagnostics_, scanned_.span(at, at + 1), c);
                 reported = true;
             }
-            last_name_ = LastName::Lost;
+            last_name_ = LastName::None;
             continue;
         }
         push_module(intern_word(scanned_.text.substr(at, 1)), {at, at + 1});
@@ -175,8 +176,8 @@ ModuleList AstBuilder::quoted_module(ModuleList list, NameId name, SourceSpan sp
     if (text == "[" || text == "]") {
         count_bracket(text[0], span);
     }
-    span = of_list(span);
-    push_written(name, span);
+    span = place_in_list(span);
+    push_with_place(name, span);
     last_name_ = LastName::Bare;
     extend_list(list, span);
     return list;
@@ -211,14 +212,14 @@ ModuleList AstBuilder::quoted_text(ModuleList list, TextRange quoted) {
         at += length;
     }
     text_end_ = quoted.end;
-    extend_list(list, of_list(scanned_.span(quoted.begin, quoted.end)));
+    extend_list(list, place_in_list(scanned_.span(quoted.begin, quoted.end)));
     return list;
 }
 
 ModuleList
 AstBuilder::module_arguments(ModuleList list, std::uint32_t count, SourceSpan parentheses) {
     CallNode call;
-    parentheses = of_list(parentheses);
+    parentheses = place_in_list(parentheses);
     if (!begin_call(parentheses, call)) {
         drop_arguments(count);
         return list;
@@ -235,7 +236,7 @@ AstBuilder::module_arguments(ModuleList list, std::uint32_t count, SourceSpan pa
 /// Whether the last module of the list takes `parentheses`. Sets CallNode::module.
 bool AstBuilder::begin_call(SourceSpan parentheses, CallNode& call) {
     switch (last_name_) {
-    case LastName::Lost:
+    case LastName::None:
         return false;
     case LastName::Empty:
         if (diagnostics_.admits(DiagnosticCode::BadQuotedName)) {
@@ -268,8 +269,8 @@ std::uint32_t AstBuilder::read_plain_arguments(std::uint32_t open, std::uint32_t
     if (!begin_call({}, call)) { // of a name that was no module
         return static_cast<std::uint32_t>(text.find(')', open)) + 1;
     }
-    call.name_end = of_list(scanned_.span(name_end, name_end)).end;
-    call.open = of_list(scanned_.span(open, open + 1)).begin;
+    call.name_end = place_in_list(scanned_.span(name_end, name_end)).end;
+    call.open = place_in_list(scanned_.span(open, open + 1)).begin;
     call.arguments.first = static_cast<std::uint32_t>(ast_.expression_lists.size());
     std::uint32_t at = open + 1;
     while (text[at] != ')') {
@@ -296,7 +297,7 @@ std::uint32_t AstBuilder::read_plain_arguments(std::uint32_t open, std::uint32_t
         ++call.arguments.count;
     }
     ++at;
-    call.end = of_list(scanned_.span(at - 1, at)).end;
+    call.end = place_in_list(scanned_.span(at - 1, at)).end;
     ast_.calls.push_back(call);
     return at;
 }
@@ -312,9 +313,9 @@ ExpressionId AstBuilder::plain_number(std::uint32_t begin, std::uint32_t end) {
 void AstBuilder::count_bracket(char bracket, SourceSpan span) {
     if (bracket == ']') {
         open_brackets_ -= open_brackets_ == 0 ? 0u : 1u;
-    } else if (++open_brackets_ > kMaxNesting && !spoilt_) {
+    } else if (++open_brackets_ > kMaxNesting && !is_discarded_) {
         report_too_deep(diagnostics_, span, "branches `[`");
-        spoilt_ = true;
+        is_discarded_ = true;
     }
 }
 

@@ -1,5 +1,6 @@
 #include "grammar/ast/number.h"
 
+#include "grammar/base/characters.h"
 #include "grammar/base/contract.h"
 
 #include <charconv>
@@ -10,10 +11,6 @@
 namespace lsys {
 
 namespace {
-
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
 
 /// Whether the value of `text` is 1 or more; only its order of magnitude counts, because it is
 /// asked of values that binary32 cannot hold.

@@ -3,16 +3,16 @@
 namespace lsys {
 
 void TextMap::replace(std::uint32_t begin, std::uint32_t end, std::string_view replacement) {
-    LSYS_CHECK(begin >= taken_ && begin <= end && end <= source_.size(), begin, end, taken_);
-    text_.append(source_.substr(taken_, begin - taken_));
+    LSYS_CHECK(begin >= consumed_ && begin <= end && end <= source_.size(), begin, end, consumed_);
+    text_.append(source_.substr(consumed_, begin - consumed_));
     text_.append(replacement);
-    taken_ = end;
+    consumed_ = end;
     edits_.push_back({begin, end, static_cast<std::uint32_t>(text_.size())});
 }
 
 void TextMap::finish() {
-    text_.append(source_.substr(taken_));
-    taken_ = static_cast<std::uint32_t>(source_.size());
+    text_.append(source_.substr(consumed_));
+    consumed_ = static_cast<std::uint32_t>(source_.size());
 }
 
 /// The number of edits whose replacement ends at or before `offset`.
@@ -20,12 +20,12 @@ std::size_t TextMap::edits_ending_by(std::uint32_t offset) const {
     const auto ends_by = [&](std::size_t index) { return edits_[index].text_end <= offset; };
     // A few steps from the last answer, else a bisection.
     for (int step = 0; step < 4; ++step) {
-        if (near_ > 0 && !ends_by(near_ - 1)) {
-            --near_;
-        } else if (near_ < edits_.size() && ends_by(near_)) {
-            ++near_;
+        if (hint_ > 0 && !ends_by(hint_ - 1)) {
+            --hint_;
+        } else if (hint_ < edits_.size() && ends_by(hint_)) {
+            ++hint_;
         } else {
-            return near_;
+            return hint_;
         }
     }
     std::size_t low = 0;
@@ -38,7 +38,7 @@ std::size_t TextMap::edits_ending_by(std::uint32_t offset) const {
             high = middle;
         }
     }
-    return near_ = low;
+    return hint_ = low;
 }
 
 std::uint32_t TextMap::source_begin(std::uint32_t offset) const {

@@ -41,9 +41,9 @@ private:
 
     std::string_view source_;
     std::string text_;
-    std::uint32_t taken_ = 0; // of source_
+    std::uint32_t consumed_ = 0; // of source_
     ChunkedVector<Edit> edits_;
-    mutable std::size_t near_ = 0; // the last answer; questions come in ascending order, nearly
+    mutable std::size_t hint_ = 0; // the last answer; questions come in ascending order, nearly
 };
 
 /// A file as it is scanned. Offsets of scanned text become places of the file here and nowhere

@@ -78,25 +78,25 @@ std::vector<FileId> Translation::files() const {
 /// The part that the byte at `offset` is of; the last one for what lies behind it.
 const Translation::Part& Translation::part_at(std::uint32_t offset) const {
     LSYS_CHECK(!parts_.empty());
-    if (near_ >= parts_.size()) {
-        near_ = 0;
+    if (hint_ >= parts_.size()) {
+        hint_ = 0;
     }
     const auto begin_of = [&](std::size_t part) { return part == 0 ? 0 : parts_[part - 1].end; };
     for (int step = 0; step < 4; ++step) {
-        if (offset < begin_of(near_)) {
-            --near_;
-        } else if (offset >= parts_[near_].end && near_ + 1 < parts_.size()) {
-            ++near_;
+        if (offset < begin_of(hint_)) {
+            --hint_;
+        } else if (offset >= parts_[hint_].end && hint_ + 1 < parts_.size()) {
+            ++hint_;
         } else {
-            return parts_[near_];
+            return parts_[hint_];
         }
     }
     const auto found =
         std::upper_bound(parts_.begin(), parts_.end(), offset,
                          [](std::uint32_t value, const Part& part) { return value < part.end; });
-    near_ = found == parts_.end() ? parts_.size() - 1
+    hint_ = found == parts_.end() ? parts_.size() - 1
                                   : static_cast<std::size_t>(found - parts_.begin());
-    return parts_[near_];
+    return parts_[hint_];
 }
 
 SourceSpan Translation::origin(std::uint32_t begin, std::uint32_t end) const {

@@ -68,7 +68,7 @@ private:
     std::string text_; // offsets into it have 32 bits
     std::vector<Part> parts_;
     std::map<std::string, std::string> replaced_names_;
-    mutable std::size_t near_ = 0; // the last answer; questions come in ascending order, nearly
+    mutable std::size_t hint_ = 0; // the last answer; questions come in ascending order, nearly
 };
 
 } // namespace lsys

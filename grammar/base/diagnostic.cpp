@@ -86,6 +86,15 @@ Diagnostic make_diagnostic(DiagnosticCode code, SourceSpan span, std::string mes
     return diagnostic;
 }
 
+void add_fix(Diagnostic& diagnostic,
+             std::string title,
+             SourceSpan span,
+             std::string replacement,
+             bool is_machine_applicable) {
+    diagnostic.fixes.push_back(
+        {std::move(title), {{span, std::move(replacement)}}, is_machine_applicable});
+}
+
 bool has_certain_fix(const Diagnostic& diagnostic) {
     return std::any_of(diagnostic.fixes.begin(), diagnostic.fixes.end(),
                        [](const Fix& fix) { return fix.machine_applicable && !fix.edits.empty(); });

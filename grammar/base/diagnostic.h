@@ -69,6 +69,12 @@ struct Diagnostic {
     std::vector<Fix> fixes;
 };
 
+/// Adds a fix of one edit, which replaces `span`.
+void add_fix(Diagnostic& diagnostic,
+             std::string title,
+             SourceSpan span,
+             std::string replacement,
+             bool is_machine_applicable);
 /// Whether one of the fixes of a diagnostic is machine applicable.
 [[nodiscard]] bool has_certain_fix(const Diagnostic& diagnostic);
 /// Leaves all fixes of a diagnostic as offers.

@@ -1,6 +1,9 @@
 #include "grammar/base/names.h"
 
+#include "grammar/base/characters.h"
 #include "grammar/base/contract.h"
+
+#include <algorithm>
 
 namespace lsys {
 
@@ -35,18 +38,8 @@ std::string_view Names::written(NameId id) const {
 }
 
 bool is_identifier(std::string_view text) {
-    const auto letter = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-    };
-    if (text.empty() || !letter(text[0])) {
-        return false;
-    }
-    for (const char c : text) {
-        if (!letter(c) && !(c >= '0' && c <= '9')) {
-            return false;
-        }
-    }
-    return true;
+    return !text.empty() && is_letter(text[0]) &&
+           std::all_of(text.begin(), text.end(), is_word_character);
 }
 
 } // namespace lsys

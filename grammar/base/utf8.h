@@ -21,10 +21,11 @@ struct CodePoint {
 /// Appends `value` as UTF-8.
 void append_utf8(char32_t value, std::string& out);
 
-/// Columns that a terminal gives to `value`: 0 for combining characters, 2 for wide ones (East
-/// Asian Width W and F, Unicode 14), else 1. Says nothing about control characters.
+/// Columns of `value` on a terminal: 0 for combining and format characters (a zero-width space), 2
+/// for wide characters (East Asian Width W and F), else 1, also for control characters. Source:
+/// utf8proc, Unicode 15.
 [[nodiscard]] std::uint32_t display_width(char32_t value);
-/// The same of a text; a control character counts as one column.
+/// Sum of the widths of the characters of `text`.
 [[nodiscard]] std::uint32_t text_width(std::string_view text);
 
 } // namespace lsys

@@ -1,7 +1,7 @@
 #include "grammar/lsys/parse.h"
 
+#include "grammar/lsys/impl/normalized_text.h"
 #include "grammar/lsys/impl/parse_session.h"
-#include "grammar/lsys/impl/plain_text.h"
 #include "grammar/lsys/impl/scanning.h"
 #include "grammar/lsys/impl/statement_ends.h"
 
@@ -12,12 +12,12 @@ namespace lsys {
 
 namespace {
 
-void parse_text(const PlainText& plain,
+void parse_text(const NormalizedText& normalized,
                 const ParseContext& context,
                 Ast& ast,
                 IncludeChain& includes) {
-    ParseSession session(context, plain.scanned, ast, &includes);
-    session.builder.set_names(plain.names);
+    ParseSession session(context, normalized.scanned, ast, &includes);
+    session.builder.set_names(normalized.names);
     const lsys_grammar::Scanning scanning(session);
     lsys_grammar::Parser parser(session, scanning.scanner());
     const int failed = parser.parse();
@@ -26,7 +26,7 @@ void parse_text(const PlainText& plain,
 
 /// Parses one file to its end; its includes are parsed within.
 void parse_file(FileId file, const ParseContext& context, Ast& ast, IncludeChain& includes) {
-    parse_text(make_plain(file, context), context, ast, includes);
+    parse_text(normalize_source(file, context), context, ast, includes);
 }
 
 } // namespace
@@ -85,7 +85,7 @@ void ParseSession::end_statement(SourceSpan span, bool whole) {
     ast_.files.push_back({file, node.path_span});
     parse_file(file, context, ast_, *includes);
     includes->leave();
-    builder.take_marks();
+    builder.set_watermark();
 }
 
 Ast parse_lsys(FileId root, const ParseContext& context) {
@@ -103,7 +103,7 @@ Ast parse_translation(const Translation& translation, const ParseContext& contex
         ast.files.push_back({file, {}});
     }
     IncludeChain includes(context, translation.file());
-    parse_text(make_plain(translation, context), context, ast, includes);
+    parse_text(normalize_source(translation, context), context, ast, includes);
     std::sort(ast.written_names.begin(), ast.written_names.end());
     for (const auto& [name, original] : translation.replaced_names()) {
         context.names.set_written(context.names.intern(name), original);

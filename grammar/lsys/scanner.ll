@@ -11,7 +11,7 @@
 #include "grammar/lsys/impl/expression_tokens.h"
 #include "grammar/lsys/impl/lookahead.h"
 #include "grammar/lsys/impl/module_tokens.h"
-#include "grammar/lsys/impl/plain_text.h"
+#include "grammar/lsys/impl/normalized_text.h"
 #include "grammar/lsys/impl/scanning.h"
 #include "grammar/lsys/impl/statement_tokens.h"
 #include "grammar/lsys/impl/statement_ends.h"
@@ -38,6 +38,13 @@
         const SourceSpan span = session.token();                                                   \
         scan.after_operator();                                                                     \
         return Token(Parser::token::TOK_##kind, span);                                                          \
+    } while (false)
+/* Passes over a comment and goes on as now. */
+#define BEGIN_COMMENT(condition)                                                                   \
+    do {                                                                                           \
+        scan.comment_begin = scan.begin;                                                           \
+        scan.comment_return = YY_START;                                                            \
+        BEGIN(condition);                                                                          \
     } while (false)
 /* Two values side by side: an operator or comma is supplied first. */
 #define BEGIN_VALUE()                                                                              \
@@ -106,8 +113,8 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
         }
         return INITIAL;
     };
-    if (scan.draining != Drain::Nothing) {
-        return drain(session);
+    if (scan.inserting != Insertion::None) {
+        return insert_token(session);
     }
     /* The start condition follows the part of the statement, which changes only where a token is returned. */
     BEGIN(start_condition(scan));
@@ -118,14 +125,11 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
 }
 <INITIAL,OPENING,OBJECT_NAME,OBJECT_VALUE,SETTING,MODULES,EXPRESSION,SKIP>{
   "/*"                  {
-                          scan.comment_begin = scan.begin;
-                          scan.comment_return = YY_START;
-                          BEGIN(COMMENT);
+                          BEGIN_COMMENT(COMMENT);
                         }
   ";"                   {
                           if (is_colour_symbol(session)) {
-                              const SourceSpan span = session.token();
-                              return Token(Parser::token::TOK_QUOTED, read_as_module(session, ";"), span);
+                              return read_as_module(session, ";");
                           }
                           if (const auto token = semicolon(session)) {
                               return *token;
@@ -154,15 +158,11 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
 
 <INITIAL>{
   "//"                  {
-                          scan.comment_begin = scan.begin;
-                          scan.comment_return = INITIAL;
-                          BEGIN(LINE_COMMENT);
+                          BEGIN_COMMENT(LINE_COMMENT);
                         }
   "#"[ \t]*{IDENT}      {
                           if (is_hash_comment(session, TEXT)) {
-                              scan.comment_begin = scan.begin;
-                              scan.comment_return = INITIAL;
-                              BEGIN(LINE_COMMENT);
+                              BEGIN_COMMENT(LINE_COMMENT);
                           } else {
                               return start_statement(session, TEXT);
                           }
@@ -185,7 +185,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           if (begins_statement(session.scanned.text, scan.begin)) {
                               scan.next_statement = scan.begin;
                               SHORTEN(0);
-                              return start_drain(session, Drain::NextStatement, {});
+                              return begin_insertion(session, Insertion::NextStatement, {});
                           }
                           if (YY_START == EXPRESSION || YY_START == SETTING) {
                               report_stray_hash(session);
@@ -195,8 +195,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               }
                           } else if (YY_START == MODULES) {
                               report_foreign_symbol(session, '#');
-                              const SourceSpan span = session.token();
-                              return Token(Parser::token::TOK_QUOTED, read_as_module(session, "#"), span);
+                              return read_as_module(session, "#");
                           } else if (YY_START != SKIP) {
                               return Token(Parser::token::TOK_OTHER, session.token());
                           }
@@ -253,9 +252,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
 <OBJECT_VALUE>{
   {IDENT}               { return Token(Parser::token::TOK_IDENTIFIER, session.builder.intern(TEXT), session.token()); }
   "("                   {
-                          const SourceSpan span = session.token();
-                          scan.push(OpenBracket::Kind::Module);
-                          return Token(Parser::token::TOK_OPEN, span);
+                          return opening(session, OpenBracket::Kind::Module, Parser::token::TOK_OPEN);
                         }
   "\""                  {
                           return unclosed_quote(session);
@@ -265,9 +262,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
 <OBJECT_VALUE,SETTING>{
   "//"                  {
                           report_comment_in_statement(session);
-                          scan.comment_begin = scan.begin;
-                          scan.comment_return = YY_START;
-                          BEGIN(LINE_COMMENT);
+                          BEGIN_COMMENT(LINE_COMMENT);
                         }
 }
 <OBJECT_NAME,OBJECT_VALUE>{
@@ -290,9 +285,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                         }
   "-"                   { return Token(Parser::token::TOK_MINUS, session.token()); }
   "("                   {
-                          const SourceSpan span = session.token();
-                          scan.push(OpenBracket::Kind::Group);
-                          return Token(Parser::token::TOK_LPAREN, span);
+                          return opening(session, OpenBracket::Kind::Group, Parser::token::TOK_LPAREN);
                         }
   [=:]                  {
                           if (!is_needless_sign(session)) {
@@ -316,20 +309,15 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           return Token(Parser::token::TOK_NAMES, {scan.begin, scan.end}, span);
                         }
   "("                   {
-                          const SourceSpan span = session.token();
-                          scan.push(OpenBracket::Kind::Module);
-                          return Token(Parser::token::TOK_OPEN, span);
+                          return opening(session, OpenBracket::Kind::Module, Parser::token::TOK_OPEN);
                         }
   ")"+                  {
                           switch (extra_parenthesis(session)) {
-                          case Stray::Module: {
+                          case Stray::Module:
                               SHORTEN(1);
-                              const SourceSpan span = session.token();
-                              return Token(Parser::token::TOK_QUOTED, read_as_module(session, "]"), span);
-                          }
-                          case Stray::Lost: {
+                              return read_as_module(session, "]");
+                          case Stray::Lost:
                               return lose_statement(session);
-                          }
                           default:
                               break;
                           }
@@ -339,41 +327,29 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               return colon_after_modules(session);
                           }
                         }
-  "<"                   {
+  [<>]                  {
                           if (scan.part == Part::Head) {
-                              return Token(Parser::token::TOK_CLT, session.token());
+                              return Token(yytext[0] == '<' ? Parser::token::TOK_CLT : Parser::token::TOK_CGT,
+                                           session.token());
                           }
                           report_foreign_symbol(session, yytext[0]);
-                          const SourceSpan span = session.token();
-                          return Token(Parser::token::TOK_QUOTED, read_as_module(session, TEXT), span);
-                        }
-  ">"                   {
-                          if (scan.part == Part::Head) {
-                              return Token(Parser::token::TOK_CGT, session.token());
-                          }
-                          report_foreign_symbol(session, yytext[0]);
-                          const SourceSpan span = session.token();
-                          return Token(Parser::token::TOK_QUOTED, read_as_module(session, TEXT), span);
+                          return read_as_module(session, TEXT);
                         }
   [@*~=?,]|{NUMBER}     {
                           switch (stray_in_modules(session, TEXT)) {
                           case Stray::Skip:
                               break;
-                          case Stray::Module: {
-                              const SourceSpan span = session.token();
-                              return Token(Parser::token::TOK_QUOTED, read_as_module(session, TEXT), span);
-                          }
+                          case Stray::Module:
+                              return read_as_module(session, TEXT);
                           case Stray::Range:
                               BEGIN(RANGE);
                               break;
-                          case Stray::Colon: {
+                          case Stray::Colon:
                               SHORTEN(0);
                               scan.enter(Part::Condition);
                               return Token(Parser::token::TOK_COLON, session.supplied());
-                          }
-                          case Stray::Lost: {
+                          case Stray::Lost:
                               return lose_statement(session);
-                          }
                           }
                         }
 }
@@ -387,7 +363,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
 
 <MODULES,OBJECT_NAME>{
   "`"[^`\n\0]*"`"       {
-                          read_in_quotes(session, TEXT);
+                          normalize_quoted(session, TEXT);
                           const SourceSpan span = session.token();
                           if (session.builder.module_names() == ModuleNames::Characters &&
                               scan.part != Part::ObjectName) {
@@ -435,23 +411,14 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           if (!is_call) {
                               BEGIN_VALUE();
                           }
-                          const SourceSpan span = session.token();
-                          scan.push(is_call ? OpenBracket::Kind::Call : OpenBracket::Kind::Group);
-                          if (scan.depth > kMaxNesting) {
-                              return too_deep(session);
-                          }
-                          return Token(Parser::token::TOK_LPAREN, span);
+                          return opening(session, is_call ? OpenBracket::Kind::Call : OpenBracket::Kind::Group,
+                                         Parser::token::TOK_LPAREN);
                         }
   "{"                   {
                           if (!begins_bounds(scan)) {
                               BEGIN_VALUE();
                           }
-                          const SourceSpan span = session.token();
-                          scan.push(OpenBracket::Kind::Brace);
-                          if (scan.depth > kMaxNesting) {
-                              return too_deep(session);
-                          }
-                          return Token(Parser::token::TOK_LBRACE, span);
+                          return opening(session, OpenBracket::Kind::Brace, Parser::token::TOK_LBRACE);
                         }
   [)}]                  {
                           const std::optional<Token> token =
@@ -480,26 +447,10 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           if (scan.value_before) {
                               OPERATOR(MINUS);
                           }
-                          const SourceSpan span = session.token();
-                          if (!lengthen_chain(session)) {
-                              return too_deep(session);
-                          }
-                          return Token(Parser::token::TOK_MINUS, span);
+                          return nesting_operator(session, Parser::token::TOK_MINUS);
                         }
-  "!"                   {
-                          const SourceSpan span = session.token();
-                          if (!lengthen_chain(session)) {
-                              return too_deep(session);
-                          }
-                          return Token(Parser::token::TOK_NOT, span);
-                        }
-  "^"                   {
-                          const SourceSpan span = session.token();
-                          if (!lengthen_chain(session)) {
-                              return too_deep(session);
-                          }
-                          return Token(Parser::token::TOK_CARET, span);
-                        }
+  "!"                   { return nesting_operator(session, Parser::token::TOK_NOT); }
+  "^"                   { return nesting_operator(session, Parser::token::TOK_CARET); }
   "!"{BLANK}+"="        { report_split_operator(session, TEXT); OPERATOR(NOT_EQUAL); }
   "="{BLANK}+"="        { report_split_operator(session, TEXT); OPERATOR(EQUAL); }
   "<"{BLANK}+"="        { report_split_operator(session, TEXT); OPERATOR(LESS_EQUAL); }
@@ -514,11 +465,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
   "==="                 { report_wrong_operator(session, "=="); OPERATOR(EQUAL); }
   "**"                  {
                           report_wrong_operator(session, "^");
-                          const SourceSpan span = session.token();
-                          if (!lengthen_chain(session)) {
-                              return too_deep(session);
-                          }
-                          return Token(Parser::token::TOK_CARET, span);
+                          return nesting_operator(session, Parser::token::TOK_CARET);
                         }
   "%"                   {
                           if (scan.value_before) {
@@ -539,9 +486,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               OPERATOR(SLASH);
                           }
                           report_comment_in_statement(session);
-                          scan.comment_begin = scan.begin;
-                          scan.comment_return = YY_START;
-                          BEGIN(LINE_COMMENT);
+                          BEGIN_COMMENT(LINE_COMMENT);
                         }
   "//*"                 { SHORTEN(1); OPERATOR(SLASH); }
   ":"                   {
@@ -557,8 +502,8 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
 }
 <INITIAL,OPENING,OBJECT_NAME,OBJECT_VALUE,SETTING,MODULES,EXPRESSION>{
   [\x80-\xFF][\x80-\xBF]* { /* one character */
-                          const int plain = read_as_plain(session, yytext, yyleng);
-                          SHORTEN(plain);
+                          const int length = normalize_character(session, yytext, yyleng);
+                          SHORTEN(length);
                         }
 }
 
@@ -571,7 +516,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               keep_comment(session);
                           }
                           scan.next_statement = scan.end;
-                          return start_drain(session, Drain::EndOfFile, {});
+                          return begin_insertion(session, Insertion::EndOfFile, {});
                         }
 
 %%

@@ -111,7 +111,7 @@ ExitStatus fix_file(const std::string& path,
     }
     const ExitStatus status =
         console.show(fixed.compiled.diagnostics, *fixed.compiled.grammar.sources);
-    for (const std::string& left : fixed.left) {
+    for (const std::string& left : fixed.out_of_scope) {
         console.info(fmt::format("`{}` is left as it is: it lies outside the folder of `{}`", left,
                                  shown_path(path)));
     }

@@ -29,8 +29,7 @@ ExitStatus run_compile(const CompileCommand& command, const Console& console) {
     }
     const std::string bytes = write_module_file(bytecode);
     if (const Result<void> written = write_file(command.output, bytes, console); !written) {
-        console.error(written.error().message);
-        return ExitStatus::Failure;
+        return report_error(written.error(), console);
     }
     console.detail(fmt::format("`{}`: {} bytes, {} symbols, {} productions", command.output,
                                bytes.size(), bytecode.symbols.size(), bytecode.productions.size()));

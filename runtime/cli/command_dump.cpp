@@ -67,10 +67,7 @@ std::string find_conflict(const DumpCommand& command) {
 
 ExitStatus
 write_stage(const DumpCommand& command, const std::string& text, const Console& console) {
-    if (const Result<void> written = write_file(command.output, text, console); !written) {
-        return report_error(written.error(), console);
-    }
-    return ExitStatus::Ok;
+    return report_result(write_file(command.output, text, console), console);
 }
 
 /// Tokens and the tree need no compiler, and are there for wrong grammars too.
@@ -146,8 +143,7 @@ ExitStatus write_lines(const DumpCommand& command,
             text.clear();
         }
     }
-    const Result<void> done = output.value().commit();
-    return done ? ExitStatus::Ok : report_error(done.error(), console);
+    return report_result(output.value().commit(), console);
 }
 
 ExitStatus dump_plant(const DumpCommand& command, Grammar& grammar, const Console& console) {

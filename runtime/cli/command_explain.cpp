@@ -84,15 +84,7 @@ ExitStatus run_explain(const ExplainCommand& command, const Console& console) {
         }
         text = explain(info(*code), *found);
     }
-    Result<void> written = console.write(text);
-    if (written) {
-        written = console.flush();
-    }
-    if (!written) {
-        console.error(written.error().message);
-        return ExitStatus::Failure;
-    }
-    return ExitStatus::Ok;
+    return report_result(console.write(text), console);
 }
 
 } // namespace lsys::lsc

@@ -1,6 +1,7 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/derivation_report.h"
 #include "runtime/cli/export_stats.h"
+#include "runtime/cli/output_set.h"
 #include "runtime/cli/plant_options.h"
 #include "runtime/cli/progress.h"
 #include "runtime/derive/runtime_diagnostic.h"
@@ -19,7 +20,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -30,71 +30,6 @@
 namespace lsys::lsc {
 
 namespace {
-
-/// Hands bytes to an output until it refuses them.
-class Sink {
-public:
-    Sink(Output& output, const Console& console) : output_(output), console_(console) {}
-
-    [[nodiscard]] bool operator()(std::string_view bytes) {
-        if (console_.interrupted()) {
-            return false;
-        }
-        written_ += bytes.size();
-        const Result<void> done = output_.write(bytes);
-        if (!done) {
-            failure_ = done.error();
-        }
-        return !failure_;
-    }
-    [[nodiscard]] std::uint64_t written() const { return written_; }
-    [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
-
-private:
-    Output& output_;
-    const Console& console_;
-    std::uint64_t written_ = 0;
-    std::optional<Error> failure_;
-};
-
-/// Files of one plant, all complete or all absent.
-class Files {
-public:
-    explicit Files(const Console& console) : console_(console) {}
-
-    /// Writes one, which is not to be seen yet.
-    ExitStatus add(const std::string& path,
-                   ExportTiming& timing,
-                   const std::function<Outcome<void>(const ByteSink&)>& write) {
-        Result<Output> output = Output::open(path, console_);
-        if (!output) {
-            return report_error(output.error(), console_);
-        }
-        Sink sink(output.value(), console_);
-        Outcome<void> written = write([&sink](std::string_view bytes) { return sink(bytes); });
-        timing.bytes += sink.written();
-        if (sink.failure()) {
-            return report_error(*sink.failure(), console_);
-        }
-        if (const ExitStatus status = console_.take(std::move(written)); status != ExitStatus::Ok) {
-            return status;
-        }
-        if (const Result<void> finished = output.value().finish(); !finished) {
-            return report_error(finished.error(), console_);
-        }
-        outputs_.push_back(std::move(output.value()));
-        return status;
-    }
-    /// Lets all be seen.
-    ExitStatus commit() {
-        const Result<void> done = commit_all(outputs_);
-        return done ? ExitStatus::Ok : report_error(done.error(), console_);
-    }
-
-private:
-    const Console& console_;
-    std::vector<Output> outputs_;
-};
 
 /// One export: what all its files share.
 struct Export {
@@ -112,7 +47,7 @@ struct Export {
 /// What lies beside the file at `path`: pictures, and the materials of an OBJ. `info` gets their
 /// names.
 ExitStatus
-add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info, Files& files) {
+add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info, OutputSet& files) {
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
     std::vector<PictureFile> pictures;
     ExitStatus status = run.console.take(make_picture_files(run.mesh, run.format, info), pictures);
@@ -123,7 +58,7 @@ add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info,
         if (!run.pictures.insert(picture.name).second) {
             continue;
         }
-        status = files.add(path.parent_path() / picture.name, run.timing,
+        status = files.add(path.parent_path() / picture.name,
                            [&](const ByteSink& sink) { return write_picture_file(picture, sink); });
         if (status != ExitStatus::Ok) {
             return status;
@@ -134,7 +69,7 @@ add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info,
     }
     const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
     info.mtl_name = library.filename().string();
-    return files.add(library.string(), run.timing,
+    return files.add(library.string(),
                      [&](const ByteSink& sink) { return write_mtl(run.mesh, info, sink); });
 }
 
@@ -174,19 +109,20 @@ ExitStatus write_plant(Export& run,
     info.user_meshes = &run.plant.user_meshes;
     info.animation = animation;
     info.threads = command.run.threads;
-    Files files(run.console);
+    OutputSet files(run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
         status = add_side_files(run, path, info, files);
     }
     if (status == ExitStatus::Ok) {
-        status = files.add(path, run.timing, [&](const ByteSink& sink) {
+        status = files.add(path, [&](const ByteSink& sink) {
             return export_mesh(run.mesh, skeleton, run.format, info, sink);
         });
     }
     if (status == ExitStatus::Ok) {
         status = files.commit();
     }
+    run.timing.bytes += files.byte_count();
     run.timing.write_seconds += seconds_since(start);
     return status;
 }
@@ -238,9 +174,9 @@ ExitStatus write_bent(Export& run) {
     }
     for (std::uint32_t frame = 1; frame <= command.frames; ++frame) {
         physics.pose(bent);
-        const ExitStatus status = write_plant(run, bent, numbered(command.output, frame));
+        const ExitStatus status = write_plant(run, bent, numbered_path(command.output, frame));
         if (status != ExitStatus::Ok) {
-            note_frames(command.output, frame - 1, command.frames, run.console);
+            report_complete_frames(command.output, frame - 1, command.frames, run.console);
             return status;
         }
         for (std::uint32_t step = 0; step < steps; ++step) {

@@ -1,4 +1,5 @@
 #include "runtime/cli/commands.h"
+#include "runtime/cli/output_set.h"
 #include "runtime/export/export_forest.h"
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/stopwatch.h"
@@ -112,52 +113,6 @@ ExitStatus make_meshes(Run& run) {
     return ExitStatus::Ok;
 }
 
-/// Writes the bytes of `write` to `path` and adds the file to `outputs`, not to be seen yet.
-template <typename Write>
-ExitStatus
-add_output(Run& run, const std::string& path, const Write& write, std::vector<Output>& outputs) {
-    Result<Output> output = Output::open(path, run.console);
-    if (!output) {
-        return report_error(output.error(), run.console);
-    }
-    std::optional<Error> failure;
-    Outcome<void> written = write([&](std::string_view bytes) {
-        if (run.console.interrupted()) {
-            return false;
-        }
-        const Result<void> done = output.value().write(bytes);
-        if (!done) {
-            failure = done.error();
-        }
-        return done.ok();
-    });
-    if (failure) {
-        return report_error(*failure, run.console);
-    }
-    if (const ExitStatus status = run.console.take(std::move(written)); status != ExitStatus::Ok) {
-        return status;
-    }
-    if (const Result<void> finished = output.value().finish(); !finished) {
-        return report_error(finished.error(), run.console);
-    }
-    outputs.push_back(std::move(output.value()));
-    return ExitStatus::Ok;
-}
-
-/// Lets the files be seen, all or none.
-ExitStatus show_outputs(std::vector<Output>& outputs, const Console& console) {
-    const Result<void> done = commit_all(outputs);
-    return done ? ExitStatus::Ok : report_error(done.error(), console);
-}
-
-/// Writes the bytes of `write` to `path`, complete or not at all.
-template <typename Write>
-ExitStatus write_output(Run& run, const std::string& path, const Write& write) {
-    std::vector<Output> outputs;
-    const ExitStatus status = add_output(run, path, write, outputs);
-    return status == ExitStatus::Ok ? show_outputs(outputs, run.console) : status;
-}
-
 ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string& path) {
     ForestExportInfo info;
     info.name = std::filesystem::path(path).stem().string();
@@ -165,7 +120,7 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     info.cell = run.command.cell;
     info.threads = run.command.run.threads;
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
-    std::vector<Output> outputs; // pictures before the file that names them
+    OutputSet outputs(run.console); // pictures before the file that names them
     if (traits_of(run.target.format).pictures != ExportPictures::Inside) {
         info.textures = path != "-";
         std::vector<PictureFile> pictures;
@@ -180,8 +135,7 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
             const auto put = [&](const ByteSink& sink) {
                 return write_picture_file(picture, sink);
             };
-            if (const ExitStatus added = add_output(run, beside, put, outputs);
-                added != ExitStatus::Ok) {
+            if (const ExitStatus added = outputs.add(beside, put); added != ExitStatus::Ok) {
                 return added;
             }
         }
@@ -190,14 +144,14 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     const auto put = [&](const ByteSink& sink) {
         return export_forest(scene, run.target.format, form, info, sink);
     };
-    const ExitStatus status = add_output(run, path, put, outputs);
-    return status == ExitStatus::Ok ? show_outputs(outputs, run.console) : status;
+    const ExitStatus status = outputs.add(path, put);
+    return status == ExitStatus::Ok ? outputs.commit() : status;
 }
 
 ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& path) {
     const RunOptions& options = run.command.run;
     Mesh mesh;
-    const ExitStatus status =
+    ExitStatus status =
         run.console.take(bake_forest(scene, options.limits.max_bytes, options.threads), mesh);
     if (status != ExitStatus::Ok) {
         return status;
@@ -209,9 +163,11 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
     info.generator = "lsc " LSC_VERSION;
     info.textures = traits_of(run.target.format).pictures == ExportPictures::Inside;
     const Skeleton none;
-    return write_output(run, path, [&](const ByteSink& sink) {
+    OutputSet outputs(run.console);
+    status = outputs.add(path, [&](const ByteSink& sink) {
         return export_mesh(mesh, none, run.target.format, info, sink);
     });
+    return status == ExitStatus::Ok ? outputs.commit() : status;
 }
 
 ExitStatus write_forest(Run& run, const std::string& path) {
@@ -227,8 +183,7 @@ ExitStatus write_forest(Run& run, const std::string& path) {
         break;
     }
     const std::string text = forest_stats_json(scene, {true, run.command.run.threads}) + "\n";
-    const Result<void> done = write_file(path, text, run.console);
-    return done ? ExitStatus::Ok : report_error(done.error(), run.console);
+    return report_result(write_file(path, text, run.console), run.console);
 }
 
 /// The statistics as a table.
@@ -297,8 +252,7 @@ ExitStatus print_stats(const Run& run) {
         const ForestCounts counts = count_forest(run.grown.forest, run.command.run.threads);
         text = stats_text(run, counts, counting.seconds());
     }
-    const Result<void> done = run.console.write(text);
-    return done ? ExitStatus::Ok : report_error(done.error(), run.console);
+    return report_result(run.console.write(text), run.console);
 }
 
 /// The forest in `frames` of its years, the last one included.
@@ -325,10 +279,10 @@ ExitStatus write_years(Run& run) {
             }
         }
         run.grown.forest.trees = domination.trees();
-        const std::string path = numbered(run.command.output, frame);
+        const std::string path = numbered_path(run.command.output, frame);
         const ExitStatus status = write_forest(run, path);
         if (status != ExitStatus::Ok) {
-            note_frames(run.command.output, frame - 1, run.command.frames, run.console);
+            report_complete_frames(run.command.output, frame - 1, run.command.frames, run.console);
             return status;
         }
         run.console.detail(

@@ -49,8 +49,7 @@ format_file(const std::string& path, const FormatCommand& command, const Console
         return ExitStatus::Ok;
     }
     if (Result<void> written = write_file(path, *text, console); !written) {
-        console.error(written.error().message);
-        return ExitStatus::Failure;
+        return report_error(written.error(), console);
     }
     if (path != "-") {
         console.detail(fmt::format("`{}`: formatted", shown_path(path)));

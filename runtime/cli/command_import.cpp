@@ -62,8 +62,7 @@ ExitStatus import_text(const std::string& path,
 
 ExitStatus
 write_imported(const std::string& path, const std::string& text, const Console& console) {
-    const Result<void> written = write_file(path, text, console);
-    return written ? ExitStatus::Ok : report_error(written.error(), console);
+    return report_result(write_file(path, text, console), console);
 }
 
 /// The regular files of a folder by name.
@@ -90,8 +89,8 @@ struct FolderImport {
     fs::path folder;
     std::set<std::string> names; // of the files of this run
     ExitStatus status = ExitStatus::Ok;
-    std::uint64_t done = 0;
-    std::uint64_t lost = 0;
+    std::uint64_t imported = 0;
+    std::uint64_t failed = 0;
 };
 
 /// `name` as that of a file.
@@ -134,7 +133,7 @@ write_named(const std::string& path, const std::string& text, const FolderImport
     if (done) {
         done = output.value().commit();
     }
-    return done ? ExitStatus::Ok : report_error(done.error(), import.console);
+    return report_result(done, import.console);
 }
 
 /// Imports one system to `stem`.lsys and prints a line about it.
@@ -153,7 +152,7 @@ Result<void> import_one(const std::string& path,
         to = new_path(stem, import);
         one = write_named(to, imported.text, import);
     }
-    (one == ExitStatus::Ok ? import.done : import.lost) += 1;
+    (one == ExitStatus::Ok ? import.imported : import.failed) += 1;
     import.status = worse(import.status, one);
     const std::string what =
         options.system.empty() ? path : fmt::format("{}: `{}`", path, options.system);
@@ -180,7 +179,7 @@ Result<void> import_systems(const std::string& path,
             return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
         });
         if (!known.insert(low).second) {
-            ++import.lost;
+            ++import.failed;
             import.status = worse(import.status, ExitStatus::AuthorErrors);
             if (Result<void> written = import.console.write(fmt::format(
                     "{}: `{}`: a second system of this name, not imported\n", path, system));
@@ -216,7 +215,7 @@ ExitStatus end_import(const Result<void>& result, const FolderImport& import) {
         return import.status;
     }
     const Result<void> written =
-        import.console.write(fmt::format("{} imported, {} not\n", import.done, import.lost));
+        import.console.write(fmt::format("{} imported, {} not\n", import.imported, import.failed));
     return written ? import.status : report_error(written.error(), import.console);
 }
 

@@ -22,23 +22,12 @@ namespace lsys::lsc {
 
 namespace {
 
+constexpr const char* kListHint = "`lsc --help` lists the commands";
+
 void add_message_options(CLI::App& app, MessageOptions& options) {
     app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
     add_messages(app, options);
 }
-
-/// Every command's options while they are parsed.
-struct AllCommands {
-    ImportCommand imported;
-    CheckCommand check;
-    CompileCommand compile;
-    DumpCommand dump;
-    ExportCommand exported;
-    ForestCommand forest;
-    StatsCommand stats;
-    FormatCommand format;
-    ExplainCommand explain;
-};
 
 void add_check(CLI::App& app, CheckCommand& command) {
     app.add_option("FILE", command.files, "Grammars; `-` is standard input")->required();
@@ -309,7 +298,7 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name) {
 std::optional<UsageError> unknown_command(std::span<const std::string> arguments,
                                           const CLI::App& app) {
     if (arguments.empty()) {
-        return UsageError{"no command is given", "`lsc --help` lists the commands"};
+        return UsageError{"no command is given", kListHint};
     }
     const std::string& first = arguments.front();
     if (first.starts_with('-') || find_command(app, first) != nullptr) {
@@ -319,8 +308,7 @@ std::optional<UsageError> unknown_command(std::span<const std::string> arguments
     for (const CLI::App* command : app.get_subcommands({})) {
         names.push_back(command->get_name());
     }
-    UsageError usage{fmt::format("`{}` is not a command", first),
-                     "`lsc --help` lists the commands"};
+    UsageError usage{fmt::format("`{}` is not a command", first), kListHint};
     if (const auto nearest = nearest_name(first, names)) {
         usage.help = fmt::format("did you mean `lsc {}`?", *nearest);
     }
@@ -330,37 +318,31 @@ std::optional<UsageError> unknown_command(std::span<const std::string> arguments
 } // namespace
 
 CommandLine parse_command_line(std::span<const std::string> arguments) {
-    AllCommands all;
     CLI::App app("Compiles and derives L-systems: grammars of plants, curves and other growing "
                  "things.",
                  "lsc");
     app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
     app.require_subcommand(1);
     app.footer("`lsc COMMAND --help` says more of each.");
-    // The options of a command are made only where it is the one that is run.
+    // Only the command that runs gets its options.
     const std::string first = arguments.empty() ? std::string() : arguments.front();
-    const auto add = [&](const char* name, const char* text, auto& command,
-                         auto&& add_options) -> CLI::App& {
+    CommandLine parsed = UsageError{"no command is given", kListHint};
+    const auto add = [&]<typename Command>(const char* name, const char* text,
+                                           void (*add_options)(CLI::App&, Command&)) {
         CLI::App& added = *app.add_subcommand(name, text);
         if (first == name) {
-            add_options(added, command);
+            add_options(added, parsed.emplace<Command>());
         }
-        return added;
     };
-    CLI::App& check =
-        add("check", "Check grammars, and mend what is certain", all.check, add_check);
-    CLI::App& compile =
-        add("compile", "Compile a grammar to a .lsb file", all.compile, add_compile);
-    CLI::App& dump = add("dump", "Derive a word and print it", all.dump, add_dump);
-    CLI::App& exported =
-        add("export", "Write one plant as a 3D file or a drawing", all.exported, add_export);
-    CLI::App& forest = add("forest", "Grow a forest of distinct plants from a few, and write it",
-                           all.forest, add_forest);
-    CLI::App& imported = add("import", "Make a .lsys file of a grammar of another dialect",
-                             all.imported, add_import);
-    CLI::App& stats = add("stats", "Predict the size of every generation", all.stats, add_stats);
-    CLI::App& format = add("fmt", "Lay out grammars in the common style", all.format, add_format);
-    add("explain", "Explain a diagnostic, with examples", all.explain, add_explain);
+    add("check", "Check grammars, and mend what is certain", add_check);
+    add("compile", "Compile a grammar to a .lsb file", add_compile);
+    add("dump", "Derive a word and print it", add_dump);
+    add("export", "Write one plant as a 3D file or a drawing", add_export);
+    add("forest", "Grow a forest of distinct plants from a few, and write it", add_forest);
+    add("import", "Make a .lsys file of a grammar of another dialect", add_import);
+    add("stats", "Predict the size of every generation", add_stats);
+    add("fmt", "Lay out grammars in the common style", add_format);
+    add("explain", "Explain a diagnostic, with examples", add_explain);
 
     if (std::optional<UsageError> usage = unknown_command(arguments, app)) {
         return *usage;
@@ -377,31 +359,7 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
         return describe(error, command == nullptr ? app : *command,
                         command == nullptr ? "lsc" : "lsc " + command->get_name());
     }
-    if (check.parsed()) {
-        return std::move(all.check);
-    }
-    if (compile.parsed()) {
-        return std::move(all.compile);
-    }
-    if (dump.parsed()) {
-        return std::move(all.dump);
-    }
-    if (exported.parsed()) {
-        return std::move(all.exported);
-    }
-    if (forest.parsed()) {
-        return std::move(all.forest);
-    }
-    if (imported.parsed()) {
-        return std::move(all.imported);
-    }
-    if (stats.parsed()) {
-        return std::move(all.stats);
-    }
-    if (format.parsed()) {
-        return std::move(all.format);
-    }
-    return std::move(all.explain);
+    return parsed;
 }
 
 } // namespace lsys::lsc

@@ -221,8 +221,7 @@ ExitStatus run_stats(const StatsCommand& command, const Console& console) {
                                  ? make_json(growth, known)
                                  : make_table(growth, kind);
     if (const Result<void> written = write_file("-", text, console); !written) {
-        console.error(written.error().message);
-        return ExitStatus::Failure;
+        return report_error(written.error(), console);
     }
     if (shown < wanted) {
         console.info(fmt::format("only the first {} of {} generations are shown", shown, wanted));

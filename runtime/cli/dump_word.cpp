@@ -255,7 +255,7 @@ ExitStatus dump_stored(const DumpCommand& command,
     if (done && state_writer) {
         done = save_state(plan, derivation, bytecode, *state_writer);
     }
-    return done ? ExitStatus::Ok : report_error(done.error(), console);
+    return report_result(done, console);
 }
 
 // -----------------------------------------------------------------------------------------
@@ -324,10 +324,7 @@ ExitStatus dump_streamed(const DumpCommand& command,
             return status;
         }
     }
-    if (const Result<void> done = writer.commit(); !done) {
-        return report_error(done.error(), console);
-    }
-    return ExitStatus::Ok;
+    return report_result(writer.commit(), console);
 }
 
 // -----------------------------------------------------------------------------------------
@@ -356,8 +353,7 @@ std::optional<ExitStatus> print_predicted_counts(const DumpCommand& command,
     for (std::size_t i = command.all ? 0 : counts->size() - 1; i < counts->size(); ++i) {
         text += fmt::format("{}\n", (*counts)[i]);
     }
-    const Result<void> written = write_file(command.output, text, console);
-    return written ? ExitStatus::Ok : report_error(written.error(), console);
+    return report_result(write_file(command.output, text, console), console);
 }
 
 } // namespace

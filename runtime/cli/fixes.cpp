@@ -16,22 +16,22 @@ constexpr int kMaxAttempts = 20;
 /// Attempts the repair until every fix that it applied may stay.
 template <typename Finish>
 Result<void> repair(const RepairSubject& subject, const Finish& finish) {
-    std::set<StatementKey> kept;
+    std::set<StatementKey> excluded;
     for (int number = 0;; ++number) {
-        RepairAttempt attempt(subject, kept, number == kMaxAttempts);
+        RepairAttempt attempt(subject, excluded, number == kMaxAttempts);
         Result<void> done = attempt.run();
         if (!done) {
             return done;
         }
-        std::set<StatementKey> back = attempt.wrong();
-        if (back.empty()) {
-            back = attempt.ambiguous();
+        std::set<StatementKey> doubtful = attempt.wrong();
+        if (doubtful.empty()) {
+            doubtful = attempt.ambiguous();
         }
-        if (back.empty() || subject.project.is_cancelled()) {
+        if (doubtful.empty() || subject.project.is_cancelled()) {
             finish(attempt);
             return {};
         }
-        kept.merge(back);
+        excluded.merge(doubtful);
     }
 }
 

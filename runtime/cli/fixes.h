@@ -11,7 +11,7 @@
 //    case, one by one: the error of another character does not make them doubtful.
 // 5. A bracket or comma is repaired where no other repair is as good: each of them gives a
 //    statement that does not parse or reads the same, or a grammar with more warnings
-//    (other_repairs.h).
+//    (alternative_repairs.h).
 //
 // What is not applied is offered: shown as help, and not machine applicable in JSON.
 #pragma once
@@ -36,8 +36,8 @@ struct FixedGrammar {
     std::vector<std::string> lines;
     std::uint64_t fix_count = 0;
     /// Files outside the scope that have certain fixes left.
-    std::set<std::string> left;
-    /// What the mended text compiles to, with the diagnostics that are left; their fixes are
+    std::set<std::string> out_of_scope;
+    /// What the repaired text compiles to, with the diagnostics that are left; their fixes are
     /// offers.
     CompiledText compiled;
 };

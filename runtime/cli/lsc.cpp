@@ -18,12 +18,7 @@ public:
 
     ExitStatus operator()(const PrintText& text) const {
         const Console console(io_, {});
-        const Result<void> written = console.write(text.text);
-        if (!written) {
-            console.error(written.error().message);
-            return ExitStatus::Failure;
-        }
-        return console.finish(ExitStatus::Ok);
+        return console.finish(report_result(console.write(text.text), console));
     }
     ExitStatus operator()(const UsageError& usage) const {
         const Console console(io_, {});

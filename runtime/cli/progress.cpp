@@ -11,10 +11,10 @@ namespace lsys::lsc {
 
 namespace {
 
-constexpr auto kPatience = std::chrono::seconds(1);
-constexpr auto kInterval = std::chrono::milliseconds(100);
+constexpr auto kShowDelay = std::chrono::seconds(1);
+constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
 constexpr std::uint64_t kWidth = 24;
-constexpr const char* kBackToStart = "\r\x1b[K";
+constexpr const char* kClearLine = "\r\x1b[K";
 
 /// "830", "12 k", "210 M", "3 G": for a rate, of which nobody reads more digits.
 std::string short_text(double count) {
@@ -60,7 +60,8 @@ void Progress::update(std::uint32_t generation, std::uint64_t modules, Clock::ti
     before_ += generation != generation_ ? modules_ : 0;
     generation_ = generation;
     modules_ = modules;
-    if (terminal_ == nullptr || now - begin_ < kPatience || (drawn_ && now - last_ < kInterval)) {
+    if (terminal_ == nullptr || now - begin_ < kShowDelay ||
+        (drawn_ && now - last_ < kRedrawInterval)) {
         return;
     }
     last_ = now;
@@ -69,7 +70,7 @@ void Progress::update(std::uint32_t generation, std::uint64_t modules, Clock::ti
     const auto filled = static_cast<std::size_t>(std::min(kWidth * generation / of, kWidth));
     const double seconds = std::chrono::duration<double>(now - begin_).count();
     const double rate = static_cast<double>(before_ + modules) / seconds;
-    *terminal_ << kBackToStart
+    *terminal_ << kClearLine
                << fmt::format("[{}{}] generation {} of {}, {} modules, {}/s{}",
                               std::string(filled, '='),
                               std::string(static_cast<std::size_t>(kWidth) - filled, ' '),
@@ -80,7 +81,7 @@ void Progress::update(std::uint32_t generation, std::uint64_t modules, Clock::ti
 
 void Progress::clear() {
     if (drawn_) {
-        *terminal_ << kBackToStart << std::flush;
+        *terminal_ << kClearLine << std::flush;
         drawn_ = false;
     }
 }

@@ -1,6 +1,6 @@
 #include "runtime/cli/repair_attempt.h"
 
-#include "runtime/cli/other_repairs.h"
+#include "runtime/cli/alternative_repairs.h"
 
 #include <fmt/format.h>
 
@@ -37,8 +37,9 @@ Result<void> compile_changed(const RepairSubject& subject,
         const auto known = changed.find(wanted);
         return known != changed.end() ? Result<std::string>(known->second) : from_disk(wanted);
     };
-    const auto mended = changed.find(shown_path(subject.path));
-    const std::string& bytes = mended != changed.end() ? mended->second : subject.text.bytes;
+    const auto fixed_text = changed.find(shown_path(subject.path));
+    const std::string& bytes =
+        fixed_text != changed.end() ? fixed_text->second : subject.text.bytes;
     Result<CompiledText> made =
         compile_text(subject.path, {bytes, subject.text.dialect}, subject.options,
                      subject.project.limits.max_modules, load);
@@ -58,14 +59,14 @@ Result<void> RepairAttempt::run() {
         if (Result<void> done = compile_changed(subject_, fixed_.changed, compiled); !done) {
             return done;
         }
-        fixed_.left.clear();
+        fixed_.out_of_scope.clear();
         read_files();
         read_syntax_errors();
         if (round == 0) {
             read_first_errors();
         }
         compiled.diagnostics.sort_by_place();
-        if (round == kMaxRounds || keeps_all_ || subject_.project.is_cancelled()) {
+        if (round == kMaxRounds || excludes_all_ || subject_.project.is_cancelled()) {
             return {};
         }
         const ChosenFixes chosen = choose_fixes(compiled.diagnostics, *compiled.grammar.sources,
@@ -129,7 +130,7 @@ bool RepairAttempt::may_apply(const Diagnostic& diagnostic, const Fix& fix) {
     for (const Edit& edit : fix.edits) {
         const std::string& path = sources.file(edit.span.file).path();
         if (!subject_.scope.contains(path)) {
-            fixed_.left.insert(path);
+            fixed_.out_of_scope.insert(path);
             return false;
         }
     }
@@ -138,7 +139,7 @@ bool RepairAttempt::may_apply(const Diagnostic& diagnostic, const Fix& fix) {
     }
     const std::vector<StatementKey> keys = statements_of(fix);
     return std::none_of(keys.begin(), keys.end(),
-                        [&](const StatementKey& key) { return kept_.count(key) != 0; });
+                        [&](const StatementKey& key) { return excluded_.count(key) != 0; });
 }
 
 void RepairAttempt::apply(const ChosenFixes& chosen) {
@@ -197,7 +198,7 @@ std::set<StatementKey> RepairAttempt::wrong() const {
         const auto applied = applied_.find(key);
         return applied != applied_.end() &&
                std::any_of(applied->second.begin(), applied->second.end(),
-                           [](const AppliedFix& fix) { return may_have_rivals(fix.code); });
+                           [](const AppliedFix& fix) { return may_have_alternatives(fix.code); });
     };
     const auto is_repaired = [&](const StatementKey& key) {
         const auto applied = applied_.find(key);
@@ -235,7 +236,7 @@ void RepairAttempt::offer_doubtful(Diagnostics& diagnostics, const SourceMap& so
         if (stands_alone(diagnostic.code)) {
             return false;
         }
-        if (keeps_all_ || (diagnostic.severity != Severity::Error && are_errors_left)) {
+        if (excludes_all_ || (diagnostic.severity != Severity::Error && are_errors_left)) {
             return true;
         }
         return std::any_of(diagnostic.fixes.begin(), diagnostic.fixes.end(), [&](const Fix& fix) {
@@ -248,7 +249,7 @@ void RepairAttempt::offer_doubtful(Diagnostics& diagnostics, const SourceMap& so
                 const std::vector<std::size_t> touched =
                     file->second.original_statements_at({edit.span.begin, edit.span.end});
                 return std::any_of(touched.begin(), touched.end(), [&](std::size_t number) {
-                    return kept_.count({path, number}) != 0;
+                    return excluded_.count({path, number}) != 0;
                 });
             });
         });

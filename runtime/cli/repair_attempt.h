@@ -50,14 +50,16 @@ struct RepairSubject {
 /// The repair of a grammar without the fixes of some statements.
 class RepairAttempt {
 public:
-    RepairAttempt(const RepairSubject& subject, const std::set<StatementKey>& kept, bool keeps_all)
-        : subject_(subject), kept_(kept), keeps_all_(keeps_all) {}
+    RepairAttempt(const RepairSubject& subject,
+                  const std::set<StatementKey>& excluded,
+                  bool excludes_all)
+        : subject_(subject), excluded_(excluded), excludes_all_(excludes_all) {}
 
     /// Applies fixes until none is left.
     [[nodiscard]] Result<void> run();
     /// Repaired statements that are still wrong.
     [[nodiscard]] std::set<StatementKey> wrong() const;
-    /// Repaired statements that may have been meant otherwise (repair_rivals.cpp).
+    /// Repaired statements that may have been meant otherwise (repair_alternatives.cpp).
     [[nodiscard]] std::set<StatementKey> ambiguous() const;
     /// Offers the fixes of `diagnostics`, those of the text before all fixes, that were not
     /// applied.
@@ -74,13 +76,13 @@ private:
     [[nodiscard]] bool may_apply(const Diagnostic& diagnostic, const Fix& fix);
     [[nodiscard]] std::vector<StatementKey> statements_at(SourceSpan span) const;
     [[nodiscard]] std::vector<StatementKey> statements_of(const Fix& fix) const;
-    [[nodiscard]] bool has_rival(const StatementKey& key, const AppliedFix& fix) const;
+    [[nodiscard]] bool has_alternative(const StatementKey& key, const AppliedFix& fix) const;
     [[nodiscard]] std::optional<TextPlace> present_place(const StatementKey& key) const;
     [[nodiscard]] const SourceFile* find_source(const std::string& path) const;
 
     const RepairSubject& subject_;
-    const std::set<StatementKey>& kept_;
-    bool keeps_all_;
+    const std::set<StatementKey>& excluded_;
+    bool excludes_all_;
     FixedGrammar fixed_;
     std::map<std::string, EditedFile> files_;
     std::set<StatementKey> with_syntax_errors_; // of the last round

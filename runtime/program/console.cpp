@@ -48,7 +48,7 @@ Result<void> output_result(std::ostream& out) {
     std::string message = "cannot write standard output";
     if (reason != 0) {
         message += ": ";
-        message += reason_text(reason);
+        message += errno_text(reason);
     }
     return Error{message};
 }
@@ -158,6 +158,10 @@ ExitStatus report_error(const Error& error, const Console& console) {
         return ExitStatus::Limit;
     }
     return ExitStatus::Failure;
+}
+
+ExitStatus report_result(const Result<void>& result, const Console& console) {
+    return result ? ExitStatus::Ok : report_error(result.error(), console);
 }
 
 ExitStatus Console::show(Diagnostic diagnostic, ExitStatus status) const {

@@ -57,8 +57,8 @@ public:
     }
     /// Prints one diagnostic without a place; returns `status`.
     [[nodiscard]] ExitStatus show(Diagnostic diagnostic, ExitStatus status) const;
-    /// Sorts, applies --deny and -q, prints; AuthorErrors if there are errors, Limit if one of them
-    /// is a limit.
+    /// Sorts the diagnostics, applies --deny and -q, and prints them. Returns AuthorErrors if there
+    /// are errors, Limit if one of them is a limit.
     [[nodiscard]] ExitStatus show(Diagnostics& diagnostics, const SourceMap& sources) const;
     [[nodiscard]] RenderOptions render_options() const;
 
@@ -83,7 +83,9 @@ private:
 [[nodiscard]] std::string
 messages_text(const Messages& messages, const MessageOptions& options, const char* program);
 
-////// Prints an error of the environment; returns Failure, or Limit where memory is missing.
+/// Prints an error of the environment; returns Failure, or Limit where memory is missing.
 [[nodiscard]] ExitStatus report_error(const Error& error, const Console& console);
+/// Prints the error of an action, if it has one; returns its exit status.
+[[nodiscard]] ExitStatus report_result(const Result<void>& result, const Console& console);
 
 } // namespace lsys

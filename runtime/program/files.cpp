@@ -75,7 +75,7 @@ Result<std::string> read_descriptor(int descriptor,
             return Error{"interrupted"};
         }
         if (count < 0 && reason != EINTR) {
-            return Error{reason_text(reason)};
+            return Error{errno_text(reason)};
         }
         if (const Result<void> checked = check_size(bytes.size(), limit); !checked) {
             return checked.error();
@@ -109,7 +109,7 @@ std::string random_letters() {
 
 } // namespace
 
-std::string reason_text(int reason) {
+std::string errno_text(int reason) {
     if (reason == EBADF) { // a standard stream that the process was started without
         return "it is closed";
     }
@@ -120,19 +120,19 @@ std::string reason_text(int reason) {
     return text;
 }
 
-std::string numbered(const std::string& path, std::uint32_t number) {
+std::string numbered_path(const std::string& path, std::uint32_t number) {
     std::filesystem::path name(path);
     const std::string extension = name.extension().string();
     return name.replace_extension(fmt::format(".{:04}{}", number, extension)).string();
 }
 
-void note_frames(const std::string& path,
-                 std::uint32_t done,
-                 std::uint32_t count,
-                 const Console& console) {
+void report_complete_frames(const std::string& path,
+                            std::uint32_t done,
+                            std::uint32_t count,
+                            const Console& console) {
     if (done != 0) {
         console.info(fmt::format("{} of {} frames are complete, the last of them `{}`", done, count,
-                                 numbered(path, done)));
+                                 numbered_path(path, done)));
     }
 }
 
@@ -152,7 +152,7 @@ Result<std::string> read_standard_input(const ReadLimit& limit, const Console& c
         }
     }
     if (in.bad()) {
-        return Error{reason_text(errno)};
+        return Error{errno_text(errno)};
     }
     return bytes;
 }
@@ -166,7 +166,7 @@ Result<std::string> read_bytes(const std::string& path,
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | mode));
     struct stat facts {};
     if (file.get() < 0 || ::fstat(file.get(), &facts) != 0) {
-        return Error{reason_text(errno)};
+        return Error{errno_text(errno)};
     }
     if (const std::string_view reason = reason_against(facts, file.get(), kind); !reason.empty()) {
         return Error{std::string(reason)};
@@ -191,14 +191,14 @@ read_file(const std::string& path, const ReadLimit& limit, const Console& consol
 }
 
 Error Output::failure(int reason) const {
-    return Error{fmt::format("cannot write `{}`: {}", path_, reason_text(reason))};
+    return Error{fmt::format("cannot write `{}`: {}", path_, errno_text(reason))};
 }
 
 Output::Output(Output&& other) noexcept
     : console_(other.console_), path_(std::move(other.path_)), target_(std::move(other.target_)),
       temporary_(std::exchange(other.temporary_, std::string())),
       slot_(std::exchange(other.slot_, nullptr)), descriptor_(std::exchange(other.descriptor_, -1)),
-      is_finished_(other.is_finished_), must_be_new_(other.must_be_new_), shown_(other.shown_) {}
+      is_finished_(other.is_finished_), must_be_new_(other.must_be_new_), state_(other.state_) {}
 
 Output::~Output() {
     if (descriptor_ >= 0) {
@@ -206,14 +206,14 @@ Output::~Output() {
     }
     if (!temporary_.empty()) {
         ::unlink(temporary_.c_str());
-        drop_temporary();
+        clear_temporary();
     }
 }
 
-void Output::drop_temporary() {
+void Output::clear_temporary() {
     temporary_.clear();
     if (slot_ != nullptr) {
-        forget_temporary(std::exchange(slot_, nullptr));
+        unregister_temporary(std::exchange(slot_, nullptr));
     }
 }
 
@@ -227,7 +227,7 @@ Result<void> Output::make_temporary(bool exists, unsigned mode) {
         descriptor_ =
             ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, first_mode);
         if (descriptor_ >= 0) {
-            slot_ = remember_temporary(name);
+            slot_ = register_temporary(name);
             temporary_ = std::move(name);
         } else if (errno != EEXIST) {
             return failure(errno);
@@ -334,35 +334,35 @@ Result<void> Output::commit() {
     if (failed != 0) {
         return failure(errno);
     }
-    drop_temporary();
+    clear_temporary();
     return {};
 }
 
-/// Gives the file its name; the temporary name gets the file that was there, so that hide() can
-/// bring it back.
-Result<void> Output::show() {
+/// Gives the file its name; the temporary name gets the file that was there, so that unpublish()
+/// can bring it back.
+Result<void> Output::publish() {
     struct stat facts {};
     const bool replaces = ::lstat(target_.c_str(), &facts) == 0;
     if (temporary_.empty() || must_be_new_ || !replaces || !S_ISREG(facts.st_mode)) {
         const bool has_name = !temporary_.empty();
         Result<void> done = commit();
-        shown_ = done && has_name ? Shown::New : Shown::No;
+        state_ = done && has_name ? State::New : State::Unpublished;
         return done;
     }
     if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) ==
         0) {
-        shown_ = Shown::Exchanged;
+        state_ = State::Exchanged;
         return {};
     }
     Result<void> done = commit();
-    shown_ = done ? Shown::Replaced : Shown::No;
+    state_ = done ? State::Replaced : State::Unpublished;
     return done;
 }
 
-void Output::hide() {
-    if (shown_ == Shown::New) {
+void Output::unpublish() {
+    if (state_ == State::New) {
         ::unlink(target_.c_str());
-    } else if (shown_ == Shown::Exchanged) {
+    } else if (state_ == State::Exchanged) {
         ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE);
     }
 }
@@ -375,11 +375,11 @@ Result<void> commit_all(std::vector<Output>& outputs) {
         }
     }
     for (std::size_t i = 0; i < outputs.size(); ++i) {
-        if (Result<void> shown = outputs[i].show(); !shown) {
+        if (Result<void> published = outputs[i].publish(); !published) {
             while (i > 0) {
-                outputs[--i].hide();
+                outputs[--i].unpublish();
             }
-            return shown;
+            return published;
         }
     }
     outputs.clear(); // and with them the files that were replaced

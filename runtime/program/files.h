@@ -35,15 +35,15 @@ enum class FileKind : std::uint8_t {
                                                       const Console& console);
 
 /// What `errno` means, lower case.
-[[nodiscard]] std::string reason_text(int reason);
+[[nodiscard]] std::string errno_text(int reason);
 
 /// The name of a file of a series: tree.glb and 12 give tree.0012.glb.
-[[nodiscard]] std::string numbered(const std::string& path, std::uint32_t number);
+[[nodiscard]] std::string numbered_path(const std::string& path, std::uint32_t number);
 /// Says which files of a series that ended early are there: the first `done` of `count`.
-void note_frames(const std::string& path,
-                 std::uint32_t done,
-                 std::uint32_t count,
-                 const Console& console);
+void report_complete_frames(const std::string& path,
+                            std::uint32_t done,
+                            std::uint32_t count,
+                            const Console& console);
 
 /// A file while it is written. A regular file appears under its name, or replaces the one of that
 /// name, only at commit(); until then, and if it is never called, nothing has changed. Move only.
@@ -68,14 +68,14 @@ public:
 
 private:
     friend Result<void> commit_all(std::vector<Output>& outputs);
-    enum class Shown : std::uint8_t { No, New, Exchanged, Replaced };
+    enum class State : std::uint8_t { Unpublished, New, Exchanged, Replaced };
 
     Output(const Console& console, std::string path) : console_(&console), path_(std::move(path)) {}
     [[nodiscard]] Error failure(int reason) const;
     [[nodiscard]] Result<void> make_temporary(bool exists, unsigned mode);
-    void drop_temporary();
-    [[nodiscard]] Result<void> show();
-    void hide();
+    void clear_temporary();
+    [[nodiscard]] Result<void> publish();
+    void unpublish();
 
     const Console* console_;
     std::string path_;              // as the user wrote it
@@ -85,7 +85,7 @@ private:
     int descriptor_ = -1;           // none: standard output, or finished
     bool is_finished_ = false;
     bool must_be_new_ = false;
-    Shown shown_ = Shown::No; // by commit_all()
+    State state_ = State::Unpublished; // by commit_all()
 };
 
 /// Commits outputs that belong together: all of them appear or none. A file that was replaced comes

@@ -23,7 +23,7 @@ constexpr int kSignalStatus = 128;
 static_assert(kSignalStatus + SIGINT == static_cast<int>(ExitStatus::Interrupted));
 
 // Seconds to end in after SIGTERM or SIGHUP; a run that waits for a pipe does not see them.
-constexpr unsigned kPatience = 2;
+constexpr unsigned kShutdownSeconds = 2;
 
 std::atomic<bool> interrupted{false};
 std::atomic<int> first_signal{0}; // that asked the process to end
@@ -39,7 +39,7 @@ extern "C" void on_end_signal(int signal) {
         // Sent twice by timeout(1) and by shells that lose their terminal, so a second one says
         // nothing new.
         if (!has_alarm.exchange(true)) {
-            ::alarm(kPatience);
+            ::alarm(kShutdownSeconds);
         }
     } else if (again) { // the second Ctrl-C does not wait
         remove_temporaries();

@@ -21,7 +21,7 @@ static_assert(std::atomic<TemporaryName*>::is_always_lock_free);
 
 } // namespace
 
-TemporaryName* remember_temporary(const std::string& path) {
+TemporaryName* register_temporary(const std::string& path) {
     auto text = std::make_unique<char[]>(path.size() + 1); // ends in 0
     std::copy(path.begin(), path.end(), text.get());
     for (TemporaryName* name = first_name; name != nullptr; name = name->next) {
@@ -39,7 +39,7 @@ TemporaryName* remember_temporary(const std::string& path) {
     return name;
 }
 
-void forget_temporary(TemporaryName* name) {
+void unregister_temporary(TemporaryName* name) {
     const std::unique_ptr<char[]> text(name->path.exchange(nullptr));
 }
 

@@ -9,9 +9,9 @@ namespace lsys {
 /// A place for one name. Never freed: a signal handler may be reading it.
 struct TemporaryName;
 
-/// Remembers `path` until forget_temporary(). Thread-safe.
-[[nodiscard]] TemporaryName* remember_temporary(const std::string& path);
-void forget_temporary(TemporaryName* name);
+/// Remembers `path` until unregister_temporary(). Thread-safe.
+[[nodiscard]] TemporaryName* register_temporary(const std::string& path);
+void unregister_temporary(TemporaryName* name);
 
 /// Removes all remembered files. Async-signal-safe: allocates nothing and takes no lock.
 void remove_temporaries() noexcept;

@@ -121,7 +121,7 @@ ExitStatus take_series(const ViewOptions& options,
             return report_error(Error{"there is no memory for the picture"}, console);
         }
         const std::string path =
-            options.frames == 0 ? options.screenshot : numbered(options.screenshot, i + 1);
+            options.frames == 0 ? options.screenshot : numbered_path(options.screenshot, i + 1);
         if (const Result<void> written = write_file(path, bytes, console); !written) {
             return report_error(written.error(), console);
         }

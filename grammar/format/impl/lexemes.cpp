@@ -1,5 +1,7 @@
 #include "grammar/format/impl/lexemes.h"
 
+#include "grammar/base/characters.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
@@ -8,12 +10,6 @@ namespace lsys {
 
 namespace {
 
-bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
 bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
 }
@@ -74,7 +70,7 @@ void LexemeReader::line_comment() {
 
 std::size_t LexemeReader::word_length(std::size_t from) const {
     std::size_t end = from;
-    while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]))) {
+    while (end < text_.size() && is_word_character(text_[end])) {
         ++end;
     }
     return end - from;

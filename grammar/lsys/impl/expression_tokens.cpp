@@ -2,6 +2,7 @@
 
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
+#include "grammar/base/characters.h"
 #include "grammar/lsys/impl/bracket_search.h"
 #include "grammar/lsys/impl/lookahead.h"
 #include "grammar/lsys/impl/statement_tokens.h"
@@ -12,24 +13,6 @@
 namespace lsys::lsys_grammar {
 
 namespace {
-
-Diagnostic& report(ParseSession& session, DiagnosticCode code, std::string message) {
-    const ScanState& scan = session.scan;
-    return session.context.diagnostics.add(code, session.scanned.span(scan.begin, scan.end),
-                                           std::move(message));
-}
-
-void add_fix(Diagnostic& diagnostic, std::string title, SourceSpan span, std::string replacement) {
-    diagnostic.fixes.push_back({std::move(title), {{span, std::move(replacement)}}, true});
-}
-
-bool is_word_character(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');
-}
-
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
 
 /// `1_000`: digits in groups, as other languages allow them.
 bool has_digit_groups(std::string_view text) {
@@ -73,22 +56,21 @@ void report_malformed_number(ParseSession& session, std::string_view text, Sourc
     if (!session.wants(DiagnosticCode::MalformedNumber)) {
         return;
     }
-    Diagnostic& diagnostic = session.context.diagnostics.add(
-        DiagnosticCode::MalformedNumber, span, "`" + shown(text) + "` is not a number");
+    Diagnostic& diagnostic = session.report(DiagnosticCode::MalformedNumber, span,
+                                            "`" + shown(text) + "` is not a number");
     const std::size_t length = literal_length(text);
     const std::string_view rest = text.substr(length);
     if (rest == "f" || rest == "F") {
-        add_fix(diagnostic, "numbers have no suffix; remove it",
-                {span.file, span.end - 1, span.end}, "");
         // `2f` may be a product, `2.0f` is a number of C.
-        diagnostic.fixes.back().machine_applicable =
-            text.substr(0, length).find('.') != std::string_view::npos;
+        add_fix(diagnostic, "numbers have no suffix; remove it",
+                {span.file, span.end - 1, span.end}, "",
+                text.substr(0, length).find('.') != std::string_view::npos);
     } else if (has_digit_groups(text)) {
         std::string digits(text);
         std::erase(digits, '_');
         if (literal_length(digits) == digits.size()) {
-            add_fix(diagnostic, "digits stand without `_`", span, digits);
-            diagnostic.fixes.back().machine_applicable = has_groups_of_three(text);
+            add_fix(diagnostic, "digits stand without `_`", span, digits,
+                    has_groups_of_three(text));
         }
     } else if (text.starts_with("0x") || text.starts_with("0X")) {
         diagnostic.help.emplace_back("there are no hexadecimal numbers");
@@ -127,9 +109,9 @@ std::optional<TextRange> conditional_word(std::string_view text, std::uint32_t e
 
 void report_conditional(ParseSession& session, TextRange word) {
     if (session.wants(DiagnosticCode::SyntaxError)) {
-        Diagnostic& diagnostic = session.context.diagnostics.add(
-            DiagnosticCode::SyntaxError, session.scanned.span(word.begin, word.end),
-            "there is no conditional expression");
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::SyntaxError, session.scanned.span(word.begin, word.end),
+                           "there is no conditional expression");
         diagnostic.help.emplace_back("a comparison is 1 or 0 and can be a factor: "
                                      "`(x > 2)*a + (x <= 2)*b`");
     }
@@ -173,32 +155,29 @@ Token between_values(ParseSession& session) {
     }
     if (in_list && !adjacent) {
         if (session.wants(DiagnosticCode::MissingComma)) {
-            Diagnostic& diagnostic = session.context.diagnostics.add(
-                DiagnosticCode::MissingComma, place, "two values without a `,` between them");
-            add_fix(diagnostic, "add `,`", place, ",");
-            diagnostic.fixes.back().machine_applicable =
-                lacks_comma(text, scan.last_end, scan.begin, scan.end);
+            Diagnostic& diagnostic = session.report(DiagnosticCode::MissingComma, place,
+                                                    "two values without a `,` between them");
+            add_fix(diagnostic, "add `,`", place, ",",
+                    lacks_comma(text, scan.last_end, scan.begin, scan.end));
         }
         return Token(Parser::token::TOK_COMMA, place).as_supplied();
     }
     const bool joins_conditions = scan.part == Part::Condition && scan.open.empty() && !adjacent;
     if (session.wants(DiagnosticCode::MissingOperator)) {
-        Diagnostic& diagnostic = session.context.diagnostics.add(
-            DiagnosticCode::MissingOperator, place, "two values without an operator between them");
+        Diagnostic& diagnostic = session.report(DiagnosticCode::MissingOperator, place,
+                                                "two values without an operator between them");
         if (adjacent) {
             // `2x` and `2(x + 1)` are products; elsewhere any operator may be missing.
             const bool is_product = !had_name && is_number_end(text[scan.last_end - 1]) &&
                                     !is_digit(text[scan.begin]) && text[scan.begin] != '{';
-            add_fix(diagnostic, "a product is written with `*`", place, "*");
-            diagnostic.fixes.back().machine_applicable = is_product;
+            add_fix(diagnostic, "a product is written with `*`", place, "*", is_product);
         } else {
             std::uint32_t end = scan.end;
             while (end < text.size() && is_word_character(text[end])) {
                 ++end;
             }
             const std::string_view word = text.substr(scan.begin, end - scan.begin);
-            diagnostic.labels.push_back(
-                {session.scanned.span(scan.begin, scan.end), "this begins another value"});
+            diagnostic.labels.push_back({session.match(), "this begins another value"});
             diagnostic.help.emplace_back(word == "and"  ? "`and` is written `&&`"
                                          : word == "or" ? "`or` is written `||`"
                                          : joins_conditions
@@ -234,14 +213,14 @@ void report_closing(ParseSession& session, char character, bool is_doubled, bool
         return;
     }
     Diagnostic& diagnostic =
-        report(session, code, is_brace ? "`}` closes no `{`" : "`)` closes no `(`");
+        session.report(code, is_brace ? "`}` closes no `{`" : "`)` closes no `(`");
     if (for_parenthesis) {
         const std::uint32_t open = session.scan.open.back().begin;
         diagnostic.labels.push_back(
             {session.scanned.span(open, open + 1), "this `(` is still open"});
-        add_fix(diagnostic, "write `)`", diagnostic.span, ")");
+        add_fix(diagnostic, "write `)`", diagnostic.span, ")", true);
     } else if (is_doubled) {
-        add_fix(diagnostic, "remove it", diagnostic.span, "");
+        add_fix(diagnostic, "remove it", diagnostic.span, "", true);
     } else {
         diagnostic.help.emplace_back(is_brace ? "write the `{` that it closes, or remove it"
                                               : "write the `(` that it closes, or remove it");
@@ -279,13 +258,12 @@ std::optional<Token> closing(ParseSession& session, char character) {
     const SourceSpan place = session.supplied();
     if (session.wants(DiagnosticCode::UnclosedParenthesis)) {
         const std::string closer = is_brace ? ")" : "}";
-        Diagnostic& diagnostic = session.context.diagnostics.add(
+        Diagnostic& diagnostic = session.report(
             DiagnosticCode::UnclosedParenthesis, session.scanned.span(inner.begin, inner.begin + 1),
             std::string("`") + (is_brace ? '(' : '{') + "` is not closed before the `" + character +
                 "`");
-        diagnostic.labels.push_back(
-            {session.scanned.span(scan.begin, scan.end), "this closes a bracket around it"});
-        add_fix(diagnostic, "add `" + closer + "`", place, closer);
+        diagnostic.labels.push_back({session.match(), "this closes a bracket around it"});
+        add_fix(diagnostic, "add `" + closer + "`", place, closer, true);
     }
     if (scan.pop() == OpenBracket::Kind::Brace) {
         return Token(Parser::token::TOK_RBRACE, place).as_supplied();
@@ -293,22 +271,31 @@ std::optional<Token> closing(ParseSession& session, char character) {
     return Token(Parser::token::TOK_RPAREN, place).as_supplied();
 }
 
-bool lengthen_chain(ParseSession& session) {
+namespace {
+
+Token too_deep(ParseSession& session) {
+    if (session.wants_reports()) {
+        report_too_deep(session.context.diagnostics, session.match(),
+                        session.scan.chain != 0 ? "operators" : "parentheses");
+    }
+    return lose_statement(session);
+}
+
+} // namespace
+
+Token opening(ParseSession& session, OpenBracket::Kind kind, Token::Kind token) {
+    const SourceSpan span = session.token();
+    session.scan.push(kind);
+    return session.scan.depth > kMaxNesting ? too_deep(session) : Token(token, span);
+}
+
+Token nesting_operator(ParseSession& session, Token::Kind token) {
     ScanState& scan = session.scan;
+    const SourceSpan span = session.token();
     scan.value_before = false;
     scan.name_before = false;
     ++scan.chain;
-    return ++scan.depth <= kMaxNesting;
-}
-
-Token too_deep(ParseSession& session) {
-    const ScanState& scan = session.scan;
-    if (session.wants_reports()) {
-        const bool is_operator = scan.chain != 0;
-        report_too_deep(session.context.diagnostics, session.scanned.span(scan.begin, scan.end),
-                        is_operator ? "operators" : "parentheses");
-    }
-    return lose_statement(session);
+    return ++scan.depth > kMaxNesting ? too_deep(session) : Token(token, span);
 }
 
 void report_split_operator(ParseSession& session, std::string_view text) {
@@ -316,46 +303,47 @@ void report_split_operator(ParseSession& session, std::string_view text) {
         return;
     }
     const std::string joined{text.front(), text.back()};
-    Diagnostic& diagnostic = report(session, DiagnosticCode::SplitOperator,
-                                    "a blank splits the operator `" + joined + "`");
-    add_fix(diagnostic, "remove the blank", diagnostic.span, joined);
+    Diagnostic& diagnostic = session.report(DiagnosticCode::SplitOperator,
+                                            "a blank splits the operator `" + joined + "`");
+    add_fix(diagnostic, "remove the blank", diagnostic.span, joined, true);
 }
 
 void report_wrong_operator(ParseSession& session, std::string_view right) {
     if (!session.wants(DiagnosticCode::SyntaxError)) {
         return;
     }
-    const ScanState& scan = session.scan;
-    const std::string_view text = session.scanned.text.substr(scan.begin, scan.end - scan.begin);
-    Diagnostic& diagnostic = report(session, DiagnosticCode::SyntaxError,
-                                    "there is no operator `" + std::string(text) + "`");
-    add_fix(diagnostic, "write `" + std::string(right) + "`", diagnostic.span, std::string(right));
+    const std::string_view text = session.match_text();
+    Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError,
+                                            "there is no operator `" + std::string(text) + "`");
+    add_fix(diagnostic, "write `" + std::string(right) + "`", diagnostic.span, std::string(right),
+            true);
 }
 
 void report_remainder_operator(ParseSession& session) {
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =
-            report(session, DiagnosticCode::SyntaxError, "there is no operator `%`");
+            session.report(DiagnosticCode::SyntaxError, "there is no operator `%`");
         diagnostic.help.emplace_back("the remainder of a division is `mod(a, b)`");
     }
 }
 
 void report_assignment(ParseSession& session) {
     if (session.wants(DiagnosticCode::AssignmentInExpression)) {
-        Diagnostic& diagnostic = report(session, DiagnosticCode::AssignmentInExpression,
-                                        "`=` compares nothing: it only stands in `#n = ...;`");
-        add_fix(diagnostic, "compare with `==`", diagnostic.span, "==");
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::AssignmentInExpression,
+                           "`=` compares nothing: it only stands in `#n = ...;`");
+        add_fix(diagnostic, "compare with `==`", diagnostic.span, "==", true);
     }
 }
 
 void report_stray_hash(ParseSession& session) {
     if (session.wants(DiagnosticCode::UnknownCharacter)) {
-        Diagnostic& diagnostic = report(session, DiagnosticCode::UnknownCharacter,
-                                        "`#` has no meaning in an expression");
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::UnknownCharacter, "`#` has no meaning in an expression");
         diagnostic.help.emplace_back(
             "the age of the word, which Carey's instancing rules write `#`, is `step()`");
         if (!session.scan.value_before) {
-            diagnostic.fixes.push_back({"write `step()`", {{diagnostic.span, "step()"}}, false});
+            add_fix(diagnostic, "write `step()`", diagnostic.span, "step()", false);
         }
     }
 }

@@ -26,10 +26,10 @@ Token supply_before_value(ParseSession& session);
 /// A `)` or `}`. Nothing if it closes nothing; an empty one if another bracket must be closed
 /// before.
 std::optional<Token> closing(ParseSession& session, char character);
-/// A unary operator or `^`: false if they nest too deep.
-[[nodiscard]] bool lengthen_chain(ParseSession& session);
-/// Reports it and drops the statement.
-Token too_deep(ParseSession& session);
+/// The opening bracket at hand; nested too deep it is reported and the statement dropped.
+Token opening(ParseSession& session, OpenBracket::Kind kind, Token::Kind token);
+/// The unary operator or `^` at hand; nested too deep it is reported and the statement dropped.
+Token nesting_operator(ParseSession& session, Token::Kind token);
 
 void report_split_operator(ParseSession& session, std::string_view text);
 void report_wrong_operator(ParseSession& session, std::string_view right);

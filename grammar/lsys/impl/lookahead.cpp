@@ -1,5 +1,6 @@
 #include "grammar/lsys/impl/lookahead.h"
 
+#include "grammar/base/characters.h"
 #include "grammar/base/diagnostic.h"
 
 #include <algorithm>
@@ -41,10 +42,6 @@ bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-
 /// The end of the comment that begins at `at`; the end of the text if it is not closed.
 std::size_t comment_end(std::string_view text, std::size_t at) {
     const std::size_t close = text.find("*/", at + 2);
@@ -69,8 +66,7 @@ std::size_t next_significant(std::string_view text, std::size_t at) {
 std::string_view leading_word(std::string_view text) {
     std::size_t end = 0;
     if (!text.empty() && is_letter(text[0])) {
-        while (end < text.size() &&
-               (is_letter(text[end]) || (text[end] >= '0' && text[end] <= '9'))) {
+        while (end < text.size() && is_word_character(text[end])) {
             ++end;
         }
     }

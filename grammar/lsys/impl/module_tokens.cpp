@@ -16,16 +16,6 @@ namespace {
 
 constexpr std::size_t kLongestQuotedName = 16;
 
-Diagnostic& report(ParseSession& session, DiagnosticCode code, std::string message) {
-    const ScanState& scan = session.scan;
-    return session.context.diagnostics.add(code, session.scanned.span(scan.begin, scan.end),
-                                           std::move(message));
-}
-
-void add_fix(Diagnostic& diagnostic, std::string title, SourceSpan span, std::string replacement) {
-    diagnostic.fixes.push_back({std::move(title), {{span, std::move(replacement)}}, true});
-}
-
 /// Symbols of other programs, and what this language writes for them.
 struct ForeignSymbol {
     char symbol;
@@ -67,8 +57,8 @@ void report_missing_open(ParseSession& session,
         return;
     }
     const SourceSpan place = session.scanned.span(at, at + 1);
-    Diagnostic& diagnostic = session.context.diagnostics.add(DiagnosticCode::ExtraParenthesis,
-                                                             place, "`)` closes no `(`");
+    Diagnostic& diagnostic =
+        session.report(DiagnosticCode::ExtraParenthesis, place, "`)` closes no `(`");
     if (!branch) {
         diagnostic.help.emplace_back("write the `(` that it closes, or remove it");
         return;
@@ -82,9 +72,9 @@ void report_missing_open(ParseSession& session,
     const bool has_value = (inside >= 'a' && inside <= 'z') || (inside >= '0' && inside <= '9') ||
                            inside == '{' || inside == '.';
     if (may_be_call && has_value) {
-        diagnostic.fixes.push_back({"open the arguments with `(`", {{open, "("}}, false});
+        add_fix(diagnostic, "open the arguments with `(`", open, "(", false);
     }
-    diagnostic.fixes.push_back({"close the branch with `]`", {{place, "]"}}, false});
+    add_fix(diagnostic, "close the branch with `]`", place, "]", false);
 }
 
 /// For what cannot stand among modules: whether it is an argument whose `(` is missing. Reports
@@ -108,8 +98,8 @@ Stray stray_number(ParseSession& session, std::string_view text) {
     const char before = scan.last_end > 0 ? all[scan.last_end - 1] : '\0';
     if (before == '{') {
         if (session.wants(DiagnosticCode::BadRange)) {
-            Diagnostic& diagnostic = report(session, DiagnosticCode::BadRange,
-                                            "a random range stands only inside parentheses");
+            Diagnostic& diagnostic = session.report(
+                DiagnosticCode::BadRange, "a random range stands only inside parentheses");
             diagnostic.help.emplace_back(
                 "outside of them `{` and `}` are modules that make a polygon");
         }
@@ -120,13 +110,13 @@ Stray stray_number(ParseSession& session, std::string_view text) {
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =
-            report(session, DiagnosticCode::SyntaxError, "a number cannot stand among modules");
+            session.report(DiagnosticCode::SyntaxError, "a number cannot stand among modules");
         const bool after_turn =
             scan.last_end == scan.begin &&
             std::string_view("+-/\\&^!\"'").find(before) != std::string_view::npos;
         if (after_turn) {
             add_fix(diagnostic, "put the argument in parentheses", diagnostic.span,
-                    "(" + std::string(text) + ")");
+                    "(" + std::string(text) + ")", true);
         } else {
             diagnostic.help.emplace_back("an argument stands in parentheses: `F(2)`, `+(30)`");
         }
@@ -153,9 +143,9 @@ Stray stray_in_modules(ParseSession& session, std::string_view text) {
             return Stray::Lost;
         }
         if (session.wants(DiagnosticCode::SyntaxError)) {
-            Diagnostic& diagnostic = report(session, DiagnosticCode::SyntaxError,
-                                            "modules stand side by side, without commas");
-            add_fix(diagnostic, "remove it", diagnostic.span, "");
+            Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError,
+                                                    "modules stand side by side, without commas");
+            add_fix(diagnostic, "remove it", diagnostic.span, "", true);
         }
         return Stray::Skip;
     }
@@ -163,8 +153,9 @@ Stray stray_in_modules(ParseSession& session, std::string_view text) {
     return Stray::Module;
 }
 
-NameId read_as_module(ParseSession& session, std::string_view text) {
-    return session.builder.intern(text);
+Token read_as_module(ParseSession& session, std::string_view name) {
+    const SourceSpan span = session.token();
+    return Token(Parser::token::TOK_QUOTED, session.builder.intern(name), span);
 }
 
 void report_foreign_symbol(ParseSession& session, char symbol) {
@@ -172,16 +163,15 @@ void report_foreign_symbol(ParseSession& session, char symbol) {
         return;
     }
     Diagnostic& diagnostic =
-        report(session, DiagnosticCode::UnknownCharacter,
-               std::string("`") + symbol + "` is not a module of this language");
+        session.report(DiagnosticCode::UnknownCharacter,
+                       std::string("`") + symbol + "` is not a module of this language");
     for (const ForeignSymbol& foreign : kForeignSymbols) {
         if (foreign.symbol == symbol) {
             diagnostic.help.emplace_back(foreign.meaning);
         }
     }
-    diagnostic.fixes.push_back({"as a module without meaning of its own, write it in back quotes",
-                                {{diagnostic.span, std::string("`") + symbol + "`"}},
-                                false});
+    add_fix(diagnostic, "as a module without meaning of its own, write it in back quotes",
+            diagnostic.span, std::string("`") + symbol + "`", false);
 }
 
 Stray extra_parenthesis(ParseSession& session) {
@@ -199,9 +189,10 @@ Stray extra_parenthesis(ParseSession& session) {
     }
     if (session.wants(DiagnosticCode::ExtraParenthesis)) {
         const bool is_one = scan.end - scan.begin == 1;
-        Diagnostic& diagnostic = report(session, DiagnosticCode::ExtraParenthesis,
-                                        is_one ? "`)` closes no `(`" : "these `)` close no `(`");
-        add_fix(diagnostic, is_one ? "remove it" : "remove them", diagnostic.span, "");
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::ExtraParenthesis,
+                           is_one ? "`)` closes no `(`" : "these `)` close no `(`");
+        add_fix(diagnostic, is_one ? "remove it" : "remove them", diagnostic.span, "", true);
     }
     return Stray::Skip;
 }
@@ -213,12 +204,11 @@ bool is_colour_symbol(ParseSession& session) {
         return false;
     }
     if (session.wants(DiagnosticCode::StraySemicolon)) {
-        Diagnostic& diagnostic = report(session, DiagnosticCode::StraySemicolon,
-                                        "`;` ends the statement, but parameters follow");
+        Diagnostic& diagnostic = session.report(DiagnosticCode::StraySemicolon,
+                                                "`;` ends the statement, but parameters follow");
         diagnostic.help.emplace_back("in cpfg `;` sets the colour, which is `'(index)` here; in "
                                      "Houdini it multiplies the angle");
-        add_fix(diagnostic, "as a module, write it in back quotes", diagnostic.span, "`;`");
-        diagnostic.fixes.back().machine_applicable = false;
+        add_fix(diagnostic, "as a module, write it in back quotes", diagnostic.span, "`;`", false);
     }
     return true;
 }
@@ -229,9 +219,9 @@ void check_quoted_text(ParseSession& session, std::string_view text) {
         if ((point.value < 0x20 || (point.value >= 0x7F && point.value <= 0xA0)) &&
             session.wants(DiagnosticCode::BadQuotedName)) {
             const auto begin = session.scan.begin + static_cast<std::uint32_t>(at);
-            session.context.diagnostics.add(DiagnosticCode::BadQuotedName,
-                                            session.scanned.span(begin, begin + point.length),
-                                            "a control character is no module");
+            session.report(DiagnosticCode::BadQuotedName,
+                           session.scanned.span(begin, begin + point.length),
+                           "a control character is no module");
             return;
         }
         at += point.length;
@@ -251,7 +241,7 @@ NameId quoted_name(ParseSession& session, std::string_view text, SourceSpan span
     }
     if ((count == 0 || count > kLongestQuotedName || !printable) &&
         session.wants(DiagnosticCode::BadQuotedName)) {
-        Diagnostic& diagnostic = session.context.diagnostics.add(
+        Diagnostic& diagnostic = session.report(
             DiagnosticCode::BadQuotedName, span,
             count == 0   ? "there is no name between the back quotes"
             : !printable ? "a name in back quotes has no blanks and no control characters"
@@ -264,8 +254,8 @@ NameId quoted_name(ParseSession& session, std::string_view text, SourceSpan span
 
 void report_unclosed_back_quote(ParseSession& session) {
     if (session.wants(DiagnosticCode::UnclosedQuote)) {
-        Diagnostic& diagnostic = report(session, DiagnosticCode::UnclosedQuote,
-                                        "this back quote is not closed on its line");
+        Diagnostic& diagnostic = session.report(DiagnosticCode::UnclosedQuote,
+                                                "this back quote is not closed on its line");
         diagnostic.help.emplace_back("a symbol of another program stands between two of them: "
                                      "`` `;` ``");
     }
@@ -274,14 +264,13 @@ void report_unclosed_back_quote(ParseSession& session) {
 Token unclosed_quote(ParseSession& session) {
     if (session.wants(DiagnosticCode::UnclosedQuote)) {
         Diagnostic& diagnostic =
-            report(session, DiagnosticCode::UnclosedQuote, "this name is not closed on its line");
+            session.report(DiagnosticCode::UnclosedQuote, "this name is not closed on its line");
         const std::string_view text = session.scanned.text;
         const std::size_t line_end = std::min(text.find('\n', session.scan.end), text.size());
         const std::size_t semicolon = text.rfind(';', line_end);
         if (semicolon != std::string_view::npos && semicolon > session.scan.end) {
             const SourceSpan place = session.scanned.after(static_cast<std::uint32_t>(semicolon));
-            add_fix(diagnostic, "add `\"`", place, "\"");
-            diagnostic.fixes.back().machine_applicable = false;
+            add_fix(diagnostic, "add `\"`", place, "\"", false);
         }
     }
     return lose_statement(session);
@@ -307,18 +296,18 @@ void control_characters(ParseSession& session) {
         !session.context.diagnostics.admits(DiagnosticCode::UnknownCharacter)) {
         return;
     }
-    const std::string_view text = session.scanned.text.substr(scan.begin, scan.end - scan.begin);
-    report(session, DiagnosticCode::UnknownCharacter,
-           "a control character, `" + shown(text) + "`, has no meaning in a grammar");
+    const std::string_view text = session.match_text();
+    session.report(DiagnosticCode::UnknownCharacter,
+                   "a control character, `" + shown(text) + "`, has no meaning in a grammar");
 }
 
 void report_unclosed_comment(ParseSession& session) {
     ScanState& scan = session.scan;
     if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::UnclosedComment)) {
-        Diagnostic& diagnostic = session.context.diagnostics.add(
-            DiagnosticCode::UnclosedComment,
-            session.scanned.span(scan.comment_begin, scan.comment_begin + 2),
-            "this comment is never closed");
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::UnclosedComment,
+                           session.scanned.span(scan.comment_begin, scan.comment_begin + 2),
+                           "this comment is never closed");
         diagnostic.help.emplace_back("a comment ends with `*/`; everything after this one is lost");
     }
     session.failed = true;

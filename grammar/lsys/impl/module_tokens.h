@@ -21,8 +21,8 @@ enum class Stray : std::uint8_t {
 /// Reports a number or one of `@ * ~ = ? ,` in a module list.
 Stray stray_in_modules(ParseSession& session, std::string_view text);
 
-/// The text as the name of a module.
-NameId read_as_module(ParseSession& session, std::string_view text);
+/// The match at hand as the module `name`, as if that stood in back quotes.
+Token read_as_module(ParseSession& session, std::string_view name);
 void report_foreign_symbol(ParseSession& session, char symbol);
 /// Reports one or more `)` that close nothing.
 Stray extra_parenthesis(ParseSession& session);

@@ -11,7 +11,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace lsys {
@@ -43,11 +45,16 @@ public:
     bool failed = false;         // a syntax error was reported: no more reports in this statement
     bool token_supplied = false; // nobody wrote the token
 
+    /// The match at hand.
+    [[nodiscard]] SourceSpan match() const { return scanned.span(scan.begin, scan.end); }
+    [[nodiscard]] std::string_view match_text() const {
+        return scanned.text.substr(scan.begin, scan.end - scan.begin);
+    }
     /// The match at hand becomes a token.
     SourceSpan token() {
         scan.last_end = scan.end;
         scan.part_empty = false;
-        return scanned.span(scan.begin, scan.end);
+        return match();
     }
     /// A token that the author did not write, after the last one.
     [[nodiscard]] SourceSpan supplied() const { return scanned.after(scan.last_end); }
@@ -57,6 +64,14 @@ public:
     /// The same for one of `code`; counts it if it is one too many to be stored.
     [[nodiscard]] bool wants(DiagnosticCode code) {
         return wants_reports() && context.diagnostics.admits(code);
+    }
+
+    /// Reports the match at hand.
+    Diagnostic& report(DiagnosticCode code, std::string message) {
+        return report(code, match(), std::move(message));
+    }
+    Diagnostic& report(DiagnosticCode code, SourceSpan span, std::string message) {
+        return context.diagnostics.add(code, span, std::move(message));
     }
 
     // --- for the parser

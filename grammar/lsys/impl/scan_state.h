@@ -3,8 +3,8 @@
 // follows the parts by its own tokens; the parser never switches it. It also keeps three promises
 // that make the parser's recovery safe: parentheses inside a statement are balanced, a condition is
 // followed by `:`, and a statement ends with `;`. Where the author forgot one, the scanner reports
-// it and supplies it ("drains"). Nothing here depends on the parser, or on whether anything is
-// reported: scans of one text make the same tokens, with a parser or without.
+// it and supplies it (token insertion). Nothing here depends on the parser, or on whether anything
+// is reported: scans of one text make the same tokens, with a parser or without.
 #pragma once
 
 #include "grammar/ast/ast_builder.h"
@@ -47,9 +47,9 @@ enum class Part : std::uint8_t {
     Successor,
 };
 
-/// What the scanner supplies before it goes on.
-enum class Drain : std::uint8_t {
-    Nothing,
+/// Why the scanner inserts tokens before it goes on.
+enum class Insertion : std::uint8_t {
+    None,
     Colon,         // a `:` was read inside parentheses
     Semicolon,     // a `;` was read
     NextStatement, // a `#name` was read, a `;` is missing
@@ -93,9 +93,9 @@ struct ScanState {
     std::uint32_t chain = 0;
     std::uint32_t depth = 0; // open brackets and chains of all levels
 
-    Drain draining = Drain::Nothing;
-    SourceSpan drained;                 // the `:` or `;` itself
-    std::uint32_t control_end = 0;      // end of the last control character
+    Insertion inserting = Insertion::None;
+    SourceSpan pending_span;       // of the written `:` or `;` that follows the inserted tokens
+    std::uint32_t control_end = 0; // end of the last control character
     std::uint32_t bracket_searches = 0; // of the text, see bracket_search.h
 
     void enter(Part next) {

@@ -1,5 +1,6 @@
 #include "grammar/lsys/impl/statement_ends.h"
 
+#include "grammar/base/characters.h"
 #include "grammar/lsys/impl/lookahead.h"
 
 #include <algorithm>
@@ -20,14 +21,6 @@ bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
 std::size_t line_end(std::string_view text, std::size_t at) {
     std::size_t end = std::min(text.find('\n', at), text.size());
     return end > at && text[end - 1] == '\r' ? end - 1 : end;
@@ -39,7 +32,7 @@ bool occurs_elsewhere(std::string_view text,
                       std::size_t begin,
                       std::size_t end) {
     const auto continues_word = [&](std::size_t at) {
-        return at < text.size() && (is_letter(text[at]) || is_digit(text[at]));
+        return at < text.size() && is_word_character(text[at]);
     };
     for (std::size_t at = text.find(word); at != std::string_view::npos;
          at = text.find(word, at + word.size())) {
@@ -198,24 +191,24 @@ void report_missing_semicolon(ParseSession& session) {
         const std::size_t last = text.find_last_not_of(" \t\r\n", comment->begin - 1);
         place = session.scanned.after(static_cast<std::uint32_t>(last) + 1);
     }
-    Diagnostic& diagnostic = session.context.diagnostics.add(
-        DiagnosticCode::MissingSemicolon, place, "`;` is missing at the end of a statement");
-    if (scan.draining != Drain::EndOfFile) {
+    Diagnostic& diagnostic = session.report(DiagnosticCode::MissingSemicolon, place,
+                                            "`;` is missing at the end of a statement");
+    if (scan.inserting != Insertion::EndOfFile) {
         diagnostic.labels.push_back(
             {session.scanned.span(scan.next_statement, scan.next_statement + 1),
              "the next statement begins here"});
     }
     if (!comment) {
-        diagnostic.fixes.push_back({"add `;`", {{place, ";"}}, true});
+        add_fix(diagnostic, "add `;`", place, ";", true);
         return;
     }
     diagnostic.labels.push_back(
         {session.scanned.span(comment->begin, comment->begin + 2),
          comment->certain ? "a comment begins here" : "a comment may begin here"});
-    diagnostic.fixes.push_back({"add `;` before the comment", {{place, ";"}}, comment->certain});
+    add_fix(diagnostic, "add `;` before the comment", place, ";", comment->certain);
     if (!comment->certain) {
-        diagnostic.fixes.push_back(
-            {"if no comment is meant, add `;` at the end", {{session.supplied(), ";"}}, false});
+        add_fix(diagnostic, "if no comment is meant, add `;` at the end", session.supplied(), ";",
+                false);
     }
 }
 
@@ -243,10 +236,8 @@ bool is_quotient(std::string_view text, std::uint32_t at) {
 
 void report_quotient(ParseSession& session) {
     if (session.wants(DiagnosticCode::SyntaxError)) {
-        const ScanState& scan = session.scan;
-        Diagnostic& diagnostic = session.context.diagnostics.add(
-            DiagnosticCode::SyntaxError, session.scanned.span(scan.begin, scan.end),
-            "there is no operator `//`");
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::SyntaxError, "there is no operator `//`");
         diagnostic.help.emplace_back("a quotient is `a / b`, its whole part is `floor(a / b)`");
         diagnostic.help.emplace_back("a comment inside a statement is `/* ... */`");
     }
@@ -258,9 +249,9 @@ void report_comment_in_statement(ParseSession& session) {
     }
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
-    const SourceSpan slashes = session.scanned.span(scan.begin, scan.end);
-    Diagnostic& diagnostic = session.context.diagnostics.add(
-        DiagnosticCode::SyntaxError, slashes, "a comment with `//` stands between statements only");
+    const SourceSpan slashes = session.match();
+    Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError, slashes,
+                                            "a comment with `//` stands between statements only");
     const std::size_t end = line_end(text, scan.begin);
     if (text.substr(scan.begin, end - scan.begin).find("*/") != std::string_view::npos) {
         diagnostic.help.emplace_back("write `/* ... */` here, or put the comment after the `;`");

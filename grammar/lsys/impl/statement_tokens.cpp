@@ -5,6 +5,7 @@
 #include "grammar/lsys/impl/lookahead.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
@@ -16,40 +17,19 @@ constexpr const char* kFourParts =
     "a production has four parts: `#name : predecessor : condition : successor;`, with `*` for no "
     "condition";
 
-void add_fix(Diagnostic& diagnostic, std::string title, SourceSpan span, std::string replacement) {
-    diagnostic.fixes.push_back({std::move(title), {{span, std::move(replacement)}}, true});
-}
+/// Tokens by Keyword.
+constexpr std::array<Token::Kind, 13> kKeywordTokens{
+    Parser::token::TOK_LABEL,    Parser::token::TOK_N,         Parser::token::TOK_DEFINE,
+    Parser::token::TOK_PARAM,    Parser::token::TOK_MODULE,    Parser::token::TOK_OBJECT,
+    Parser::token::TOK_INCLUDE,  Parser::token::TOK_SET,       Parser::token::TOK_IGNORE,
+    Parser::token::TOK_CONSIDER, Parser::token::TOK_DECOMPOSE, Parser::token::TOK_INTERPRET,
+    Parser::token::TOK_W};
 
 Token keyword_token(ParseSession& session, std::string_view word, SourceSpan span) {
-    switch (session.scan.keyword) {
-    case Keyword::Label:
-        return Token(Parser::token::TOK_LABEL, session.builder.intern(word), span);
-    case Keyword::Generations:
-        return Token(Parser::token::TOK_N, span);
-    case Keyword::Define:
-        return Token(Parser::token::TOK_DEFINE, span);
-    case Keyword::Param:
-        return Token(Parser::token::TOK_PARAM, span);
-    case Keyword::Module:
-        return Token(Parser::token::TOK_MODULE, span);
-    case Keyword::Object:
-        return Token(Parser::token::TOK_OBJECT, span);
-    case Keyword::Include:
-        return Token(Parser::token::TOK_INCLUDE, span);
-    case Keyword::Set:
-        return Token(Parser::token::TOK_SET, span);
-    case Keyword::Ignore:
-        return Token(Parser::token::TOK_IGNORE, span);
-    case Keyword::Consider:
-        return Token(Parser::token::TOK_CONSIDER, span);
-    case Keyword::Decompose:
-        return Token(Parser::token::TOK_DECOMPOSE, span);
-    case Keyword::Interpret:
-        return Token(Parser::token::TOK_INTERPRET, span);
-    case Keyword::Axiom:
-        return Token(Parser::token::TOK_W, span);
-    }
-    return Token(Parser::token::TOK_YYerror, span);
+    const Keyword keyword = session.scan.keyword;
+    return keyword == Keyword::Label
+               ? Token(Parser::token::TOK_LABEL, session.builder.intern(word), span)
+               : Token(kKeywordTokens[static_cast<std::size_t>(keyword)], span);
 }
 
 /// The part after `#word`, where `next` is the next character.
@@ -105,12 +85,12 @@ Token unknown_statement(ParseSession& session, std::string_view word, char next)
     }
     const std::optional<Keyword> meant = suggest_keyword(word);
     if (session.wants(DiagnosticCode::UnknownStatement)) {
-        const SourceSpan span = session.scanned.span(scan.begin, scan.end);
-        Diagnostic& diagnostic = session.context.diagnostics.add(
-            DiagnosticCode::UnknownStatement, span, "there is no statement `#" + shown(word) + "`");
+        const SourceSpan span = session.match();
+        Diagnostic& diagnostic = session.report(DiagnosticCode::UnknownStatement, span,
+                                                "there is no statement `#" + shown(word) + "`");
         if (meant) {
             const std::string name = "#" + std::string(spelling(*meant));
-            add_fix(diagnostic, "did you mean `" + name + "`?", span, name);
+            add_fix(diagnostic, "did you mean `" + name + "`?", span, name, true);
         } else {
             diagnostic.help.emplace_back("statements are `#n`, `#define`, `#param`, `#module`, "
                                          "`#object`, `#include`, `#set`, `#ignore :`, "
@@ -139,11 +119,10 @@ Token start(ParseSession& session, std::string_view word) {
     }
     if (scan.keyword == Keyword::Label && is_axiom_by_another_name(session, word)) {
         if (session.wants(DiagnosticCode::UnknownStatement)) {
-            const SourceSpan span = session.scanned.span(scan.begin, scan.end);
-            Diagnostic& diagnostic =
-                session.context.diagnostics.add(DiagnosticCode::UnknownStatement, span,
-                                                "there is no statement `#" + shown(word) + "`");
-            add_fix(diagnostic, "the axiom is `#w`", span, "#w");
+            const SourceSpan span = session.match();
+            Diagnostic& diagnostic = session.report(DiagnosticCode::UnknownStatement, span,
+                                                    "there is no statement `#" + shown(word) + "`");
+            add_fix(diagnostic, "the axiom is `#w`", span, "#w", true);
         }
         scan.keyword = Keyword::Axiom;
     }
@@ -167,9 +146,9 @@ bool is_hash_comment(ParseSession& session, std::string_view text) {
     }
     if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::UnknownStatement)) {
         const SourceSpan hash = session.scanned.span(scan.begin, scan.begin + 1);
-        Diagnostic& diagnostic = session.context.diagnostics.add(
-            DiagnosticCode::UnknownStatement, hash, "`#` begins a statement, not a comment");
-        diagnostic.fixes.push_back({"a comment begins with `//`", {{hash, "//"}}, false});
+        Diagnostic& diagnostic = session.report(DiagnosticCode::UnknownStatement, hash,
+                                                "`#` begins a statement, not a comment");
+        add_fix(diagnostic, "a comment begins with `//`", hash, "//", false);
     }
     return true;
 }
@@ -180,13 +159,12 @@ Token start_statement(ParseSession& session, std::string_view text) {
     if (name > 1) {
         const ScanState& scan = session.scan;
         if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::SplitOperator)) {
-            Diagnostic& diagnostic = session.context.diagnostics.add(
-                DiagnosticCode::SplitOperator, session.scanned.span(scan.begin, scan.end),
-                "a blank stands between `#` and its word");
+            Diagnostic& diagnostic = session.report(DiagnosticCode::SplitOperator,
+                                                    "a blank stands between `#` and its word");
             add_fix(
                 diagnostic, "remove the blank",
                 session.scanned.span(scan.begin + 1, scan.begin + static_cast<std::uint32_t>(name)),
-                "");
+                "", true);
         }
     }
     return start(session, text.substr(name));
@@ -213,12 +191,12 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
         scan.first_diagnostic = session.context.diagnostics.all().size();
     }
     if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::MissingHash)) {
-        const SourceSpan span = session.scanned.span(scan.begin, scan.end);
-        Diagnostic& diagnostic = session.context.diagnostics.add(DiagnosticCode::MissingHash, span,
-                                                                 "a statement begins with `#`");
+        const SourceSpan span = session.match();
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::MissingHash, span, "a statement begins with `#`");
         if (is_statement) {
             add_fix(diagnostic, "write `#" + shown(word) + "`", {span.file, span.begin, span.begin},
-                    "#");
+                    "#", true);
         } else if (after_modules) {
             diagnostic.labels.push_back({session.scanned.span(scan.last_end - 1, scan.last_end),
                                          "this `;` ends the statement"});
@@ -266,11 +244,11 @@ Token opening_sign(ParseSession& session) {
     }
     if (opens_with_colon(scan)) {
         if (session.wants(DiagnosticCode::MissingColon)) {
-            const SourceSpan span = session.scanned.span(scan.begin, scan.end);
-            Diagnostic& diagnostic = session.context.diagnostics.add(
-                DiagnosticCode::MissingColon, span,
-                std::string("a `:` stands here, not a `") + sign + "`");
-            add_fix(diagnostic, "write `:`", span, ":");
+            const SourceSpan span = session.match();
+            Diagnostic& diagnostic =
+                session.report(DiagnosticCode::MissingColon, span,
+                               std::string("a `:` stands here, not a `") + sign + "`");
+            add_fix(diagnostic, "write `:`", span, ":", true);
         }
         const SourceSpan span = session.token();
         after_opening_colon(session);
@@ -291,9 +269,9 @@ std::optional<Token> missing_opening(ParseSession& session) {
     if (session.wants(code)) {
         const std::string_view written =
             session.scanned.text.substr(scan.statement_begin, scan.last_end - scan.statement_begin);
-        Diagnostic& diagnostic = session.context.diagnostics.add(
-            code, place, "`" + sign + "` is missing after `" + shown(written) + "`");
-        add_fix(diagnostic, "add `" + sign + "`", place, " " + sign);
+        Diagnostic& diagnostic =
+            session.report(code, place, "`" + sign + "` is missing after `" + shown(written) + "`");
+        add_fix(diagnostic, "add `" + sign + "`", place, " " + sign, true);
     }
     scan.end = scan.begin; // what follows is still to be read
     if (wants_equals) {
@@ -312,12 +290,12 @@ bool is_needless_sign(ParseSession& session) {
         return false;
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
-        const SourceSpan span = session.scanned.span(scan.begin, scan.end);
+        const SourceSpan span = session.match();
         const std::string sign(session.scanned.text.substr(scan.begin, 1));
-        Diagnostic& diagnostic = session.context.diagnostics.add(
-            DiagnosticCode::SyntaxError, span,
-            "`#" + std::string(spelling(scan.keyword)) + "` takes no `" + sign + "` here");
-        add_fix(diagnostic, "remove it", span, "");
+        Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError, span,
+                                                "`#" + std::string(spelling(scan.keyword)) +
+                                                    "` takes no `" + sign + "` here");
+        add_fix(diagnostic, "remove it", span, "", true);
     }
     return true;
 }
@@ -332,10 +310,10 @@ bool is_doubled_colon(ParseSession& session) {
         return false;
     }
     if (session.wants(DiagnosticCode::ExtraColon)) {
-        const SourceSpan span = session.scanned.span(scan.begin, scan.end);
+        const SourceSpan span = session.match();
         Diagnostic& diagnostic =
-            session.context.diagnostics.add(DiagnosticCode::ExtraColon, span, "a `:` stands twice");
-        add_fix(diagnostic, "remove it", span, "");
+            session.report(DiagnosticCode::ExtraColon, span, "a `:` stands twice");
+        add_fix(diagnostic, "remove it", span, "", true);
     }
     return true;
 }
@@ -349,10 +327,10 @@ Token colon_after_modules(ParseSession& session) {
     }
     if (session.wants(DiagnosticCode::ExtraColon)) {
         const std::string word(spelling(scan.keyword));
-        Diagnostic& diagnostic = session.context.diagnostics.add(
-            DiagnosticCode::ExtraColon, session.scanned.span(scan.begin, scan.end),
-            scan.part == Part::Successor ? "a production has no fifth part"
-                                         : "`#" + word + "` has no further part");
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::ExtraColon, scan.part == Part::Successor
+                                                           ? "a production has no fifth part"
+                                                           : "`#" + word + "` has no further part");
         if (scan.part == Part::Successor) {
             diagnostic.help.emplace_back(kFourParts);
         } else if (scan.part == Part::Axiom) {
@@ -365,7 +343,7 @@ Token colon_after_modules(ParseSession& session) {
 Token colon_in_expression(ParseSession& session) {
     ScanState& scan = session.scan;
     if (!scan.open.empty() && (scan.part == Part::Head || scan.part == Part::Condition)) {
-        return start_drain(session, Drain::Colon, session.scanned.span(scan.begin, scan.end));
+        return begin_insertion(session, Insertion::Colon, session.match());
     }
     const SourceSpan span = session.token();
     if (scan.part == Part::Condition) {
@@ -377,15 +355,14 @@ Token colon_in_expression(ParseSession& session) {
 std::optional<Token> semicolon(ParseSession& session) {
     ScanState& scan = session.scan;
     if (scan.statement_open) {
-        return start_drain(session, Drain::Semicolon, session.scanned.span(scan.begin, scan.end));
+        return begin_insertion(session, Insertion::Semicolon, session.match());
     }
     if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::StraySemicolon)) {
-        const SourceSpan span = session.scanned.span(scan.begin, scan.end);
-        Diagnostic& diagnostic = session.context.diagnostics.add(
-            DiagnosticCode::StraySemicolon, span, "this `;` ends no statement");
-        add_fix(diagnostic, "remove it", span, "");
+        const SourceSpan span = session.match();
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::StraySemicolon, span, "this `;` ends no statement");
         // It may be that of a statement which another `;` has ended too early.
-        diagnostic.fixes.back().machine_applicable = session.wants_reports();
+        add_fix(diagnostic, "remove it", span, "", session.wants_reports());
     }
     return std::nullopt;
 }
@@ -401,7 +378,7 @@ void report_unclosed(ParseSession& session) {
     const auto character = [](const OpenBracket& bracket) {
         return bracket.kind == OpenBracket::Kind::Brace ? '{' : '(';
     };
-    Diagnostic& diagnostic = session.context.diagnostics.add(
+    Diagnostic& diagnostic = session.report(
         DiagnosticCode::UnclosedParenthesis, session.scanned.span(inner.begin, inner.begin + 1),
         std::string("`") + character(inner) + "` is never closed");
     if (scan.open.size() > 1) {
@@ -414,7 +391,7 @@ void report_unclosed(ParseSession& session) {
         closing += scan.open[i - 1].kind == OpenBracket::Kind::Brace ? '}' : ')';
     }
     if (closing.size() == scan.open.size()) {
-        add_fix(diagnostic, "add `" + closing + "`", session.supplied(), closing);
+        add_fix(diagnostic, "add `" + closing + "`", session.supplied(), closing, true);
     }
 }
 
@@ -469,30 +446,29 @@ void report_missing_parts(ParseSession& session) {
     diagnostic.help.emplace_back(kFourParts);
     const std::uint32_t at = session.scanned.source_begin(first);
     add_fix(diagnostic, "if this is the successor, add the condition `*`",
-            {session.scanned.file, at, at}, "* : ");
-    diagnostic.fixes.back().machine_applicable = has_plain_head(session);
+            {session.scanned.file, at, at}, "* : ", has_plain_head(session));
 }
 
 } // namespace
 
-Token start_drain(ParseSession& session, Drain kind, SourceSpan own) {
+Token begin_insertion(ParseSession& session, Insertion kind, SourceSpan written) {
     ScanState& scan = session.scan;
-    scan.draining = kind;
-    scan.drained = own;
+    scan.inserting = kind;
+    scan.pending_span = written;
     if (!scan.skipping && !scan.open.empty()) {
         report_unclosed(session);
     }
-    if (kind != Drain::Colon && (scan.part == Part::Head || scan.part == Part::Condition)) {
+    if (kind != Insertion::Colon && (scan.part == Part::Head || scan.part == Part::Condition)) {
         if (!scan.skipping) {
             report_missing_parts(session);
         }
         session.failed = true;
-        session.builder.spoil();
+        session.builder.discard_statement();
     }
-    return drain(session);
+    return insert_token(session);
 }
 
-Token drain(ParseSession& session) {
+Token insert_token(ParseSession& session) {
     ScanState& scan = session.scan;
     if (!scan.open.empty()) {
         const SourceSpan place = session.supplied();
@@ -506,9 +482,9 @@ Token drain(ParseSession& session) {
             return Token(Parser::token::TOK_RPAREN, place).as_supplied();
         }
     }
-    if (scan.draining == Drain::Colon) {
-        const SourceSpan colon = scan.drained;
-        scan.draining = Drain::Nothing;
+    if (scan.inserting == Insertion::Colon) {
+        const SourceSpan colon = scan.pending_span;
+        scan.inserting = Insertion::None;
         scan.last_end = scan.end;
         scan.enter(scan.part == Part::Head ? Part::Condition : Part::Successor);
         return Token(Parser::token::TOK_COLON, colon);
@@ -526,13 +502,13 @@ Token drain(ParseSession& session) {
         scan.statement_open = false;
         scan.skipping = false;
         scan.ended_part = std::exchange(scan.part, Part::Between);
-        if (scan.draining == Drain::Semicolon) {
-            scan.draining = Drain::Nothing;
+        if (scan.inserting == Insertion::Semicolon) {
+            scan.inserting = Insertion::None;
             scan.last_end = scan.end;
-            return Token(Parser::token::TOK_SEMICOLON, scan.drained);
+            return Token(Parser::token::TOK_SEMICOLON, scan.pending_span);
         }
-        if (scan.draining == Drain::NextStatement) {
-            scan.draining = Drain::Nothing;
+        if (scan.inserting == Insertion::NextStatement) {
+            scan.inserting = Insertion::None;
         }
         scan.semicolon_supplied = true;
         return Token(Parser::token::TOK_SEMICOLON, place).as_supplied();
@@ -545,7 +521,7 @@ Token lose_statement(ParseSession& session) {
     const SourceSpan span = session.token();
     scan.skipping = true;
     session.failed = true;
-    session.builder.spoil();
+    session.builder.discard_statement();
     return Token(Parser::token::TOK_YYerror, span);
 }
 
@@ -556,17 +532,16 @@ bool lacks_colon(ParseSession& session, std::string_view inserted) {
         return false;
     }
     if (session.wants(DiagnosticCode::MissingColon)) {
-        const SourceSpan place = session.scanned.span(scan.begin, scan.end);
-        Diagnostic& diagnostic = session.context.diagnostics.add(
-            DiagnosticCode::MissingColon, place,
-            inserted.empty() ? "the production lacks a `:` before this, or earlier"
-                             : "the production lacks a `:` before this");
+        const SourceSpan place = session.match();
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::MissingColon, place,
+                           inserted.empty() ? "the production lacks a `:` before this, or earlier"
+                                            : "the production lacks a `:` before this");
         if (!inserted.empty()) {
-            add_fix(diagnostic, "add `:`", {place.file, place.begin, place.begin},
-                    std::string(inserted));
             // A condition before the `~` may be read as a part of the head.
-            diagnostic.fixes.back().machine_applicable =
-                session.scanned.text[scan.begin] == '*' || has_plain_head(session);
+            add_fix(diagnostic, "add `:`", {place.file, place.begin, place.begin},
+                    std::string(inserted),
+                    session.scanned.text[scan.begin] == '*' || has_plain_head(session));
         }
         diagnostic.help.emplace_back(kFourParts);
     }

@@ -34,10 +34,11 @@ Token colon_in_expression(ParseSession& session);
 /// Nothing for a `;` between statements.
 std::optional<Token> semicolon(ParseSession& session);
 
-/// Supplies what the statement lacks before `kind` takes effect. drain() goes on with it, token by
-/// token.
-Token start_drain(ParseSession& session, Drain kind, SourceSpan own);
-Token drain(ParseSession& session);
+/// Begins to supply the tokens that the statement lacks before `kind` takes effect; returns the
+/// first. `written`: the `:` or `;` at hand, if there is one.
+Token begin_insertion(ParseSession& session, Insertion kind, SourceSpan written);
+/// The next token of an insertion that has begun, at last the written one.
+Token insert_token(ParseSession& session);
 
 /// Drops the rest of the statement.
 Token lose_statement(ParseSession& session);

@@ -89,13 +89,10 @@ std::string joined(const std::vector<std::string>& words) {
 
 std::string found_in_words(const Unexpected& error, const ScanState& scan) {
     if (error.text.empty()) {
-        return scan.draining == Drain::EndOfFile ? "the end of the file" : "the next statement";
+        return scan.inserting == Insertion::EndOfFile ? "the end of the file"
+                                                      : "the next statement";
     }
     return "`" + shown(error.text) + "`";
-}
-
-Diagnostic& report(ParseSession& session, DiagnosticCode code, SourceSpan span, std::string text) {
-    return session.context.diagnostics.add(code, span, std::move(text));
 }
 
 void report_expected(ParseSession& session, const Unexpected& error) {
@@ -106,9 +103,9 @@ void report_expected(ParseSession& session, const Unexpected& error) {
     const std::vector<std::string> words = expected_in_words(error, scan);
     const std::string found = found_in_words(error, scan);
     Diagnostic& diagnostic =
-        report(session, DiagnosticCode::SyntaxError, error.place,
-               words.empty() ? found + " cannot stand here"
-                             : "expected " + joined(words) + ", found " + found);
+        session.report(DiagnosticCode::SyntaxError, error.place,
+                       words.empty() ? found + " cannot stand here"
+                                     : "expected " + joined(words) + ", found " + found);
     if (scan.keyword == Keyword::Param && error.expects(Kind::S_LBRACE) &&
         !error.expects(Kind::S_NUMBER)) {
         diagnostic.help.emplace_back("a parameter has bounds: `#param NAME value {min, max};`");
@@ -136,8 +133,8 @@ bool report_modules_in_parentheses(ParseSession& session, const Unexpected& erro
     if (session.wants(DiagnosticCode::UnclosedParenthesis)) {
         const std::uint32_t open = scan.open.front().begin;
         Diagnostic& diagnostic =
-            report(session, DiagnosticCode::UnclosedParenthesis,
-                   session.scanned.span(open, open + 1), "`(` is never closed");
+            session.report(DiagnosticCode::UnclosedParenthesis,
+                           session.scanned.span(open, open + 1), "`(` is never closed");
         diagnostic.labels.push_back(
             {error.place, "`" + std::string(error.text) + "` is no part of an argument"});
     }
@@ -155,11 +152,9 @@ bool report_empty_condition(ParseSession& session, const Unexpected& error) {
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =
-            report(session, DiagnosticCode::SyntaxError, error.place, "the condition is missing");
-        diagnostic.fixes.push_back(
-            {"`*` is the condition that always holds",
-             {{{error.place.file, error.place.begin, error.place.begin}, "* "}},
-             true});
+            session.report(DiagnosticCode::SyntaxError, error.place, "the condition is missing");
+        add_fix(diagnostic, "`*` is the condition that always holds",
+                {error.place.file, error.place.begin, error.place.begin}, "* ", true);
     }
     return true;
 }
@@ -169,15 +164,15 @@ bool report_unary_plus(ParseSession& session, const Unexpected& error) {
         return false;
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
-        Diagnostic& diagnostic = report(session, DiagnosticCode::SyntaxError, error.place,
-                                        "expected a value, found `+`");
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::SyntaxError, error.place, "expected a value, found `+`");
         // Before a blank it is more likely an operator whose first operand is missing.
         const std::string_view text = session.scanned.text;
         const bool is_sign =
             session.scan.end < text.size() &&
             std::string_view(" \t\r\n/").find(text[session.scan.end]) == std::string_view::npos;
-        diagnostic.fixes.push_back(
-            {"a positive number has no sign; remove the `+`", {{error.place, ""}}, is_sign});
+        add_fix(diagnostic, "a positive number has no sign; remove the `+`", error.place, "",
+                is_sign);
     }
     return true;
 }
@@ -192,8 +187,8 @@ bool report_parts_of_a_head(ParseSession& session, const Unexpected& error) {
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =
-            report(session, DiagnosticCode::SyntaxError, error.place,
-                   "a second `" + std::string(error.text) + "` cannot stand here");
+            session.report(DiagnosticCode::SyntaxError, error.place,
+                           "a second `" + std::string(error.text) + "` cannot stand here");
         diagnostic.help.emplace_back("contexts are written `left < predecessor > right`");
     }
     return true;
@@ -210,9 +205,7 @@ void report_unexpected_token(ParseSession& session,
     // What was supplied has been reported already, but for a `;`, of which nobody knows yet.
     if (session.wants_reports() && (!is_supplied || token == Kind::S_SEMICOLON)) {
         const Part part = scan.statement_open ? scan.part : scan.ended_part;
-        const std::string_view text =
-            is_supplied ? std::string_view{}
-                        : session.scanned.text.substr(scan.begin, scan.end - scan.begin);
+        const std::string_view text = is_supplied ? std::string_view{} : session.match_text();
         const Unexpected error{token, place, expected, part, text};
         const bool in_production = part == Part::Head || part == Part::Condition;
         const bool reported =

@@ -12,7 +12,7 @@
 namespace lsys {
 
 /// What a file is scanned as. `own` and `map` are what `scanned` refers to.
-struct PlainText {
+struct NormalizedText {
     std::unique_ptr<std::string> own;
     std::unique_ptr<TextMap> map;
     ScannedText scanned;
@@ -22,19 +22,20 @@ struct PlainText {
 
 /// Reports to the context's diagnostics. The result holds views of the file's text. No scan of it
 /// meets a character beyond ASCII but in comments, file names and back quotes.
-[[nodiscard]] PlainText make_plain(FileId file, const ParseContext& context);
+[[nodiscard]] NormalizedText normalize_source(FileId file, const ParseContext& context);
 
 /// Of a translation, which is plain already.
-[[nodiscard]] PlainText make_plain(const Translation& translation, const ParseContext& context);
+[[nodiscard]] NormalizedText normalize_source(const Translation& translation,
+                                              const ParseContext& context);
 
 namespace lsys_grammar {
 
 /// The scanner has met a character beyond ASCII. Before the parse it is noted, and what is meant is
 /// written over the end of it; returns where the scan goes on.
-int read_as_plain(ParseSession& session, char* character, int length);
-/// Notes the look-alikes of the name in back quotes at hand, which the scan then passes over. In a
+int normalize_character(ParseSession& session, char* character, int length);
+/// Notes the confusables of the name in back quotes at hand, which the scan then passes over. In a
 /// translation they are errors: its text would be read as another one.
-void read_in_quotes(ParseSession& session, std::string_view text);
+void normalize_quoted(ParseSession& session, std::string_view text);
 
 } // namespace lsys_grammar
 } // namespace lsys

@@ -1,6 +1,6 @@
 // The part of RepairAttempt that compares a repair with others.
 #include "compiler/program/program_dump.h"
-#include "runtime/cli/other_repairs.h"
+#include "runtime/cli/alternative_repairs.h"
 #include "runtime/cli/repair_attempt.h"
 
 #include <algorithm>
@@ -31,15 +31,15 @@ std::set<StatementKey> RepairAttempt::ambiguous() const {
     std::set<StatementKey> keys;
     std::size_t compared = 0;
     for (const auto& [key, fixes] : applied_) {
-        const auto rival = std::find_if(fixes.begin(), fixes.end(), [](const AppliedFix& fix) {
-            return may_have_rivals(fix.code);
+        const auto candidate = std::find_if(fixes.begin(), fixes.end(), [](const AppliedFix& fix) {
+            return may_have_alternatives(fix.code);
         });
-        if (rival == fixes.end() || subject_.project.is_cancelled()) {
+        if (candidate == fixes.end() || subject_.project.is_cancelled()) {
             continue;
         }
         // Of several repairs of one statement each would have to be compared with all of the
         // others.
-        if (fixes.size() > 1 || ++compared > kMaxCompared || has_rival(key, *rival)) {
+        if (fixes.size() > 1 || ++compared > kMaxCompared || has_alternative(key, *candidate)) {
             keys.insert(key);
         }
     }
@@ -47,7 +47,7 @@ std::set<StatementKey> RepairAttempt::ambiguous() const {
 }
 
 /// Whether another repair of the statement is as good as the fix that was applied.
-bool RepairAttempt::has_rival(const StatementKey& key, const AppliedFix& fix) const {
+bool RepairAttempt::has_alternative(const StatementKey& key, const AppliedFix& fix) const {
     const EditedFile& file = files_.at(key.first);
     const TextPlace before = file.statements()[key.second];
     const std::optional<TextPlace> now = present_place(key);
@@ -65,7 +65,7 @@ bool RepairAttempt::has_rival(const StatementKey& key, const AppliedFix& fix) co
     repair.repaired = text.substr(now->begin, now->end - now->begin);
     repair.place = fix.place - before.begin;
     repair.file_text = text;
-    const std::vector<std::string> others = other_repairs(repair);
+    const std::vector<std::string> others = alternative_repairs(repair);
     const CompiledText& fixed = fixed_.compiled;
     if (others.empty() || !fixed.grammar.program) {
         return !others.empty();
@@ -74,21 +74,22 @@ bool RepairAttempt::has_rival(const StatementKey& key, const AppliedFix& fix) co
     const std::set<ModuleName> modules = modules_of(fixed.grammar);
     return std::any_of(others.begin(), others.end(), [&](const std::string& other) {
         std::map<std::string, std::string> changed = fixed_.changed;
-        std::string& mended = changed[key.first];
-        mended = std::string(source->has_byte_order_mark() ? kByteOrderMark : "");
-        mended += text.substr(0, now->begin);
-        mended += other;
-        mended += text.substr(now->end);
-        CompiledText rival_text;
-        if (!compile_changed(subject_, changed, rival_text) || !rival_text.grammar.program ||
-            rival_text.diagnostics.has_errors() ||
-            rival_text.diagnostics.count(Severity::Warning) >
+        std::string& fixed_text = changed[key.first];
+        fixed_text = std::string(source->has_byte_order_mark() ? kByteOrderMark : "");
+        fixed_text += text.substr(0, now->begin);
+        fixed_text += other;
+        fixed_text += text.substr(now->end);
+        CompiledText alternative_text;
+        if (!compile_changed(subject_, changed, alternative_text) ||
+            !alternative_text.grammar.program || alternative_text.diagnostics.has_errors() ||
+            alternative_text.diagnostics.count(Severity::Warning) >
                 fixed.diagnostics.count(Severity::Warning) ||
-            dump_program(*rival_text.grammar.program, rival_text.grammar.names) == program) {
+            dump_program(*alternative_text.grammar.program, alternative_text.grammar.names) ==
+                program) {
             return false;
         }
         // Without the comma a module has a number of parameters that it has nowhere else.
-        const std::set<ModuleName> others_modules = modules_of(rival_text.grammar);
+        const std::set<ModuleName> others_modules = modules_of(alternative_text.grammar);
         return fix.code != DiagnosticCode::MissingComma ||
                others_modules.size() <= modules.size() ||
                !std::includes(others_modules.begin(), others_modules.end(), modules.begin(),

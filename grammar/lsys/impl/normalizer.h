@@ -15,38 +15,38 @@ namespace lsys {
 /// A character beyond ASCII that stands where only ASCII has a meaning.
 struct StrayCharacter {
     std::uint32_t begin = 0; // of the source
-    bool in_quotes = false;  // back quotes: only look-alikes are replaced
+    bool in_quotes = false;  // back quotes: only confusables are replaced
 
     friend auto operator<=>(const StrayCharacter&, const StrayCharacter&) = default;
 };
 
-/// The text that stands for `point`: a look-alike's plain text, a part of a name for a letter, else
+/// The text that stands for `point`: a confusable's plain text, a part of a name for a letter, else
 /// a blank. Begins with the only character that the scanner reads of it at once.
-[[nodiscard]] std::string plain_text_of(char32_t point);
+[[nodiscard]] std::string normalized_form(char32_t point);
 
-class PlainReader {
+class Normalizer {
 public:
     /// Without diagnostics nothing is reported.
-    PlainReader(FileId file, std::string_view text, TextMap& map, Diagnostics* diagnostics)
+    Normalizer(FileId file, std::string_view text, TextMap& map, Diagnostics* diagnostics)
         : file_(file), text_(text), map_(map), diagnostics_(diagnostics) {}
 
     /// Replaces valid characters, in the order of the file and none twice, and ends the map.
     void replace_all(std::span<const StrayCharacter> strays);
 
 private:
-    /// Look-alikes that stand side by side are one mistake.
+    /// Confusables that stand side by side are one mistake.
     struct Group {
         std::uint32_t begin = 0;
         std::uint32_t end = 0;
-        std::string plain;
+        std::string ascii;
         std::string code_points;
         std::string_view name;
         std::uint32_t count = 0;
     };
 
-    void replace_look_alike(std::uint32_t begin,
+    void replace_confusable(std::uint32_t begin,
                             const CodePoint& point,
-                            std::string_view plain,
+                            std::string_view ascii,
                             std::string_view name);
     void report_unknown(std::uint32_t begin, const CodePoint& point);
     void report_group();

@@ -1,4 +1,4 @@
-#include "grammar/lsys/impl/look_alikes.h"
+#include "grammar/lsys/impl/confusables.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@ namespace lsys {
 namespace {
 
 // Sorted by character.
-constexpr LookAlike kTable[] = {
+constexpr Confusable kTable[] = {
     {0x00A0, " ", "no-break space"},
     {0x00A6, "|", "broken bar"},
     {0x00AB, "\"", "angle quotation mark"},
@@ -177,8 +177,8 @@ constexpr std::array<char, kLastFullWidth - kFirstFullWidth + 1> kPlain = [] {
     }
     return plain;
 }();
-constexpr std::array<LookAlike, kPlain.size()> kFullWidth = [] {
-    std::array<LookAlike, kPlain.size()> table{};
+constexpr std::array<Confusable, kPlain.size()> kFullWidth = [] {
+    std::array<Confusable, kPlain.size()> table{};
     for (std::size_t i = 0; i < table.size(); ++i) {
         table[i] = {
             static_cast<char32_t>(kFirstFullWidth + i), {&kPlain[i], 1}, "full-width character"};
@@ -188,17 +188,17 @@ constexpr std::array<LookAlike, kPlain.size()> kFullWidth = [] {
 
 } // namespace
 
-const LookAlike* find_look_alike(char32_t character) {
+const Confusable* find_confusable(char32_t character) {
     if (character >= kFirstFullWidth && character <= kLastFullWidth) {
         return &kFullWidth[character - kFirstFullWidth];
     }
     const auto* const found = std::lower_bound(
         std::begin(kTable), std::end(kTable), character,
-        [](const LookAlike& row, char32_t wanted) { return row.character < wanted; });
+        [](const Confusable& row, char32_t wanted) { return row.character < wanted; });
     return found != std::end(kTable) && found->character == character ? found : nullptr;
 }
 
-bool is_foreign_letter(char32_t character) {
+bool is_letter_beyond_ascii(char32_t character) {
     const bool is_symbol = character < 0xC0 || character == 0xD7 || character == 0xF7 ||
                            (character >= 0x2000 && character < 0x2C00) ||
                            (character >= 0x3000 && character < 0x3040) ||

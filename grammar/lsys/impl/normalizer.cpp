@@ -1,6 +1,7 @@
-#include "grammar/lsys/impl/plain_reader.h"
+#include "grammar/lsys/impl/normalizer.h"
 
-#include "grammar/lsys/impl/look_alikes.h"
+#include "grammar/base/characters.h"
+#include "grammar/lsys/impl/confusables.h"
 
 #include <algorithm>
 #include <utility>
@@ -14,47 +15,43 @@ bool is_continuation(char c) {
     return (static_cast<unsigned char>(c) & 0xC0u) == 0x80;
 }
 
-bool is_word_byte(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');
-}
-
 } // namespace
 
-std::string plain_text_of(char32_t point) {
-    if (const LookAlike* const look_alike = find_look_alike(point); look_alike != nullptr) {
-        return std::string(look_alike->plain);
+std::string normalized_form(char32_t point) {
+    if (const Confusable* const confusable = find_confusable(point); confusable != nullptr) {
+        return std::string(confusable->ascii);
     }
-    return is_foreign_letter(point) ? "_" + code_point_name(point).substr(2) : " ";
+    return is_letter_beyond_ascii(point) ? "_" + code_point_name(point).substr(2) : " ";
 }
 
-void PlainReader::replace_all(std::span<const StrayCharacter> strays) {
+void Normalizer::replace_all(std::span<const StrayCharacter> strays) {
     // The text of a letter is less than twice as long, and offsets have 32 bits.
     const bool may_grow = text_.size() <= kMaxSourceBytes / 2;
     for (const StrayCharacter& stray : strays) {
         const CodePoint point = decode_utf8(text_.substr(stray.begin));
-        const LookAlike* const look_alike = find_look_alike(point.value);
-        if (look_alike != nullptr) {
-            replace_look_alike(stray.begin, point, look_alike->plain, look_alike->name);
+        const Confusable* const confusable = find_confusable(point.value);
+        if (confusable != nullptr) {
+            replace_confusable(stray.begin, point, confusable->ascii, confusable->name);
         } else if (!stray.in_quotes) {
             report_unknown(stray.begin, point);
-            const std::string plain = plain_text_of(point.value);
+            const std::string ascii = normalized_form(point.value);
             map_.replace(stray.begin, stray.begin + point.length,
-                         may_grow ? plain : plain.substr(0, 1));
+                         may_grow ? ascii : ascii.substr(0, 1));
         }
     }
     report_group();
     map_.finish();
 }
 
-void PlainReader::replace_look_alike(std::uint32_t begin,
-                                     const CodePoint& point,
-                                     std::string_view plain,
-                                     std::string_view name) {
-    map_.replace(begin, begin + point.length, plain);
+void Normalizer::replace_confusable(std::uint32_t begin,
+                                    const CodePoint& point,
+                                    std::string_view ascii,
+                                    std::string_view name) {
+    map_.replace(begin, begin + point.length, ascii);
     if (diagnostics_ == nullptr) {
         return;
     }
-    if (group_.count == 0 || group_.end != begin || group_.plain.empty() != plain.empty()) {
+    if (group_.count == 0 || group_.end != begin || group_.ascii.empty() != ascii.empty()) {
         report_group();
         group_ = {begin, begin, {}, {}, name, 0};
     }
@@ -65,32 +62,32 @@ void PlainReader::replace_look_alike(std::uint32_t begin,
     } else if (group_.count == kMostNamed) {
         group_.code_points += " ...";
     }
-    group_.plain += plain;
+    group_.ascii += ascii;
     group_.end = begin + point.length;
     group_.name = group_.name == name ? name : std::string_view{};
     ++group_.count;
-    if (group_.plain.size() >= kLongestGroup) {
+    if (group_.ascii.size() >= kLongestGroup) {
         report_group();
     }
 }
 
-void PlainReader::report_group() {
+void Normalizer::report_group() {
     if (group_.count != 0 && diagnostics_->admits(DiagnosticCode::LookAlike)) {
-        const bool is_blank = group_.plain.find_first_not_of(' ') == std::string::npos;
+        const bool is_blank = group_.ascii.find_first_not_of(' ') == std::string::npos;
         const std::string what =
             group_.code_points + (group_.name.empty() ? "" : " (" + std::string(group_.name) + ")");
         const SourceSpan span{file_, group_.begin, group_.end};
         const std::string message =
-            group_.plain.empty()  ? "an invisible character, " + what + ", has no meaning here"
+            group_.ascii.empty()  ? "an invisible character, " + what + ", has no meaning here"
             : is_blank            ? "this is no plain blank but " + what
-            : group_.plain == ":" ? "this is " + what + "; parts are separated by `:`"
-                                  : "this looks like `" + group_.plain + "` but is " + what;
+            : group_.ascii == ":" ? "this is " + what + "; parts are separated by `:`"
+                                  : "this looks like `" + group_.ascii + "` but is " + what;
         Diagnostic& diagnostic = diagnostics_->add(DiagnosticCode::LookAlike, span, message);
-        diagnostic.fixes.push_back({group_.plain.empty() ? "remove it"
-                                    : is_blank           ? "write a blank"
-                                                         : "write `" + group_.plain + "`",
-                                    {{span, group_.plain}},
-                                    true});
+        add_fix(diagnostic,
+                group_.ascii.empty() ? "remove it"
+                : is_blank           ? "write a blank"
+                                     : "write `" + group_.ascii + "`",
+                span, group_.ascii, true);
         if (!std::exchange(explained_, true)) {
             diagnostic.notes.emplace_back(
                 "text copied from a PDF or a word processor holds such characters; `lsc check "
@@ -100,22 +97,22 @@ void PlainReader::report_group() {
     group_ = {};
 }
 
-bool PlainReader::is_word_at(std::uint32_t at) const {
-    if (is_word_byte(text_[at])) {
+bool Normalizer::is_word_at(std::uint32_t at) const {
+    if (is_word_character(text_[at])) {
         return true;
     }
     while (at > 0 && is_continuation(text_[at])) {
         --at;
     }
     const CodePoint point = decode_utf8(text_.substr(at));
-    return point.value >= 0x80 && is_foreign_letter(point.value);
+    return point.value >= 0x80 && is_letter_beyond_ascii(point.value);
 }
 
-void PlainReader::report_unknown(std::uint32_t begin, const CodePoint& point) {
+void Normalizer::report_unknown(std::uint32_t begin, const CodePoint& point) {
     if (diagnostics_ == nullptr) {
         return;
     }
-    const bool is_letter = is_foreign_letter(point.value);
+    const bool is_letter = is_letter_beyond_ascii(point.value);
     std::uint32_t first = begin;
     std::uint32_t end = begin + point.length;
     if (is_letter) {

@@ -1,4 +1,4 @@
-#include "runtime/cli/other_repairs.h"
+#include "runtime/cli/alternative_repairs.h"
 
 #include "grammar/ast/ast_dump.h"
 #include "grammar/lsys/parse.h"
@@ -16,7 +16,7 @@ namespace {
 /// A statement as it is understood.
 struct Reading {
     std::string tree; // without its parentheses
-    std::size_t needless_groups = 0;
+    std::size_t redundant_groups = 0;
 };
 
 /// `#set names` of a file, as a statement; empty without one.
@@ -35,7 +35,7 @@ std::string names_setting(std::string_view text) {
 }
 
 /// Parentheses around one value alone, which nobody writes.
-std::size_t count_needless_groups(const Ast& ast) {
+std::size_t count_redundant_groups(const Ast& ast) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < ast.expressions.size(); ++i) {
         const Expression& group = ast.expressions[i];
@@ -63,7 +63,7 @@ std::optional<Reading> read(const std::string& setting, std::string_view stateme
     if (diagnostics.has_errors()) {
         return std::nullopt;
     }
-    return Reading{dump_ast(ast, names, sources), count_needless_groups(ast)};
+    return Reading{dump_ast(ast, names, sources), count_redundant_groups(ast)};
 }
 
 bool is_word(char c) {
@@ -145,13 +145,13 @@ std::vector<std::string> bracket_repairs(std::string_view broken) {
 
 } // namespace
 
-bool may_have_rivals(DiagnosticCode code) {
+bool may_have_alternatives(DiagnosticCode code) {
     return code == DiagnosticCode::UnclosedParenthesis ||
            code == DiagnosticCode::ExtraParenthesis || code == DiagnosticCode::BadRange ||
            code == DiagnosticCode::MissingComma;
 }
 
-std::vector<std::string> other_repairs(const StatementRepair& repair) {
+std::vector<std::string> alternative_repairs(const StatementRepair& repair) {
     if (repair.broken.size() > kMaxComparedStatement) {
         return {};
     }
@@ -177,7 +177,7 @@ std::vector<std::string> other_repairs(const StatementRepair& repair) {
         std::optional<Reading> reading = read(setting, text);
         if (reading && proposed &&
             (reading->tree == proposed->tree ||
-             reading->needless_groups > proposed->needless_groups)) {
+             reading->redundant_groups > proposed->redundant_groups)) {
             continue;
         }
         if (reading && trees.insert(std::move(reading->tree)).second) {

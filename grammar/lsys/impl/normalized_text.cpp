@@ -1,8 +1,8 @@
-#include "grammar/lsys/impl/plain_text.h"
+#include "grammar/lsys/impl/normalized_text.h"
 
 #include "grammar/base/utf8.h"
-#include "grammar/lsys/impl/look_alikes.h"
-#include "grammar/lsys/impl/plain_reader.h"
+#include "grammar/lsys/impl/confusables.h"
+#include "grammar/lsys/impl/normalizer.h"
 #include "grammar/lsys/impl/scanning.h"
 
 #include <algorithm>
@@ -96,28 +96,30 @@ std::vector<StrayCharacter> all_beyond_ascii(std::string_view text) {
     return strays;
 }
 
-/// Makes the text and the map of `plain` from its valid text, in which `strays` are replaced.
+/// Makes the text and the map of `normalized` from its valid text, in which `strays` are replaced.
 void replace_strays(std::string_view valid,
                     const std::vector<StrayCharacter>& strays,
                     Diagnostics* diagnostics,
-                    PlainText& plain) {
-    plain.map = std::make_unique<TextMap>(valid);
-    PlainReader(plain.scanned.file, valid, *plain.map, diagnostics).replace_all(strays);
-    plain.scanned.text = plain.map->text();
-    plain.scanned.map = plain.map.get();
+                    NormalizedText& normalized) {
+    normalized.map = std::make_unique<TextMap>(valid);
+    Normalizer(normalized.scanned.file, valid, *normalized.map, diagnostics).replace_all(strays);
+    normalized.scanned.text = normalized.map->text();
+    normalized.scanned.map = normalized.map.get();
 }
 
 /// Replaces what the scanner cannot read, until a scan of the very text that the parse will scan
 /// meets nothing beyond ASCII. A replacement may change how what follows is scanned, so one scan is
 /// not enough. The parser's scan of that text takes the same steps, since nothing but the text
 /// decides them, and so meets nothing either.
-void make_plain(const ParseContext& context, Diagnostics& diagnostics, PlainText& plain) {
+void normalize_source(const ParseContext& context,
+                      Diagnostics& diagnostics,
+                      NormalizedText& normalized) {
     constexpr int kMostScans = 8; // more are needed by no text but one made for it
-    const std::string_view valid = plain.scanned.text;
+    const std::string_view valid = normalized.scanned.text;
     std::vector<StrayCharacter> strays;
     for (int scan = 1;; ++scan) {
         const std::size_t known = strays.size();
-        find_strays(plain.scanned, context, strays);
+        find_strays(normalized.scanned, context, strays);
         if (strays.size() == known) {
             break;
         }
@@ -135,10 +137,10 @@ void make_plain(const ParseContext& context, Diagnostics& diagnostics, PlainText
                                      return a.begin == b.begin;
                                  }),
                      strays.end());
-        replace_strays(valid, strays, nullptr, plain);
+        replace_strays(valid, strays, nullptr, normalized);
     }
     if (!strays.empty()) {
-        replace_strays(valid, strays, &diagnostics, plain);
+        replace_strays(valid, strays, &diagnostics, normalized);
     }
 }
 
@@ -180,29 +182,29 @@ ModuleNames names_of(const ScannedText& scanned, const ParseContext& context) {
 
 } // namespace
 
-PlainText make_plain(FileId file, const ParseContext& context) {
-    PlainText plain;
+NormalizedText normalize_source(FileId file, const ParseContext& context) {
+    NormalizedText normalized;
     const std::string_view source = context.sources.file(file).text();
-    plain.scanned = {file, source, nullptr, nullptr};
+    normalized.scanned = {file, source, nullptr, nullptr};
     if (!is_ascii(source)) {
-        plain.own = std::make_unique<std::string>();
-        const Validity validity = check_utf8(file, source, context.diagnostics, *plain.own);
+        normalized.own = std::make_unique<std::string>();
+        const Validity validity = check_utf8(file, source, context.diagnostics, *normalized.own);
         if (validity.has_invalid) {
-            plain.scanned.text = *plain.own;
+            normalized.scanned.text = *normalized.own;
         }
         if (validity.has_beyond_ascii) {
-            make_plain(context, context.diagnostics, plain);
+            normalize_source(context, context.diagnostics, normalized);
         }
     }
-    plain.names = names_of(plain.scanned, context);
-    return plain;
+    normalized.names = names_of(normalized.scanned, context);
+    return normalized;
 }
 
-PlainText make_plain(const Translation& translation, const ParseContext& context) {
-    PlainText plain;
-    plain.scanned = {translation.file(), translation.text(), nullptr, &translation};
-    plain.names = names_of(plain.scanned, context);
-    return plain;
+NormalizedText normalize_source(const Translation& translation, const ParseContext& context) {
+    NormalizedText normalized;
+    normalized.scanned = {translation.file(), translation.text(), nullptr, &translation};
+    normalized.names = names_of(normalized.scanned, context);
+    return normalized;
 }
 
 namespace lsys_grammar {
@@ -220,7 +222,7 @@ void close_quotes(ParseSession& session, std::uint32_t after, char* buffer) {
     for (std::uint32_t at = after;
          at < text.size() && text[at] != '\n' && text[at] != '"' && text[at] != '\0';) {
         const CodePoint point = decode_utf8(text.substr(at));
-        if (point.value >= 0x80 && plain_text_of(point.value) == "\"") {
+        if (point.value >= 0x80 && normalized_form(point.value) == "\"") {
             note_stray(session, at, false);
             buffer[at - after + point.length - 1] = '"';
             return;
@@ -231,44 +233,41 @@ void close_quotes(ParseSession& session, std::uint32_t after, char* buffer) {
 
 /// A translation is plain text but in back quotes.
 void report_stray_character(ParseSession& session) {
-    const ScanState& scan = session.scan;
     if (session.wants(DiagnosticCode::UnknownCharacter)) {
-        const std::string_view text =
-            session.scanned.text.substr(scan.begin, scan.end - scan.begin);
-        session.context.diagnostics.add(DiagnosticCode::UnknownCharacter,
-                                        session.scanned.span(scan.begin, scan.end),
-                                        "`" + std::string(text) + "` has no meaning in a grammar");
+        const std::string_view text = session.match_text();
+        session.report(DiagnosticCode::UnknownCharacter,
+                       "`" + std::string(text) + "` has no meaning in a grammar");
     }
 }
 
 /// A module of another dialect that the text of .lsys cannot name, since it is read as another one.
-void report_foreign_look_alike(ParseSession& session,
+void report_foreign_confusable(ParseSession& session,
                                SourceSpan place,
                                char32_t character,
-                               const LookAlike& look_alike) {
+                               const Confusable& confusable) {
     if (!session.wants(DiagnosticCode::ForeignFeature)) {
         return;
     }
     const std::string what =
         code_point_name(character) +
-        (look_alike.name.empty() ? std::string() : " (" + std::string(look_alike.name) + ")");
-    const std::string plain(look_alike.plain);
-    Diagnostic& diagnostic = session.context.diagnostics.add(
+        (confusable.name.empty() ? std::string() : " (" + std::string(confusable.name) + ")");
+    const std::string ascii(confusable.ascii);
+    Diagnostic& diagnostic = session.report(
         DiagnosticCode::ForeignFeature, place,
-        plain.empty() ? "an invisible character, " + what + ", cannot be a module"
-        : plain == " "
+        ascii.empty() ? "an invisible character, " + what + ", cannot be a module"
+        : ascii == " "
             ? "a blank that is no plain one but " + what + " cannot be a module"
-            : "this looks like `" + plain + "` but is " + what + ", which cannot be a module");
-    diagnostic.fixes.push_back({plain.empty()  ? std::string("remove it")
-                                : plain == " " ? std::string("write a plain blank")
-                                               : "write `" + plain + "`",
-                                {{place, plain}},
-                                false});
+            : "this looks like `" + ascii + "` but is " + what + ", which cannot be a module");
+    add_fix(diagnostic,
+            ascii.empty()  ? std::string("remove it")
+            : ascii == " " ? std::string("write a plain blank")
+                           : "write `" + ascii + "`",
+            place, ascii, false);
 }
 
 } // namespace
 
-int read_as_plain(ParseSession& session, char* character, int length) {
+int normalize_character(ParseSession& session, char* character, int length) {
     if (session.strays == nullptr) {
         report_stray_character(session);
         return length;
@@ -276,31 +275,31 @@ int read_as_plain(ParseSession& session, char* character, int length) {
     const std::uint32_t begin = session.scan.begin;
     const std::string_view text = session.scanned.text;
     note_stray(session, begin, false);
-    const std::string plain = plain_text_of(decode_utf8(text.substr(begin)).value)
+    const std::string ascii = normalized_form(decode_utf8(text.substr(begin)).value)
                                   .substr(0, static_cast<std::size_t>(length));
     const Part part = session.scan.part;
-    if (plain == "\"" && (part == Part::ObjectName || part == Part::ObjectValue)) {
+    if (ascii == "\"" && (part == Part::ObjectName || part == Part::ObjectValue)) {
         close_quotes(session, begin + static_cast<std::uint32_t>(length), character + length);
     }
-    const auto size = static_cast<int>(plain.size());
-    std::memcpy(character + length - size, plain.data(), plain.size());
+    const auto size = static_cast<int>(ascii.size());
+    std::memcpy(character + length - size, ascii.data(), ascii.size());
     return length - size;
 }
 
-void read_in_quotes(ParseSession& session, std::string_view text) {
+void normalize_quoted(ParseSession& session, std::string_view text) {
     const bool is_translation = session.scanned.translation != nullptr;
     if (session.strays == nullptr && !is_translation) {
         return;
     }
     for (std::size_t at = 0; at < text.size();) {
         const CodePoint point = decode_utf8(text.substr(at));
-        const LookAlike* const look_alike = find_look_alike(point.value);
+        const Confusable* const confusable = find_confusable(point.value);
         const auto begin = session.scan.begin + static_cast<std::uint32_t>(at);
-        if (look_alike != nullptr && !is_translation) {
+        if (confusable != nullptr && !is_translation) {
             note_stray(session, begin, true);
-        } else if (look_alike != nullptr && point.value > 0xA0) { // blanks are no names anyway
-            report_foreign_look_alike(session, session.scanned.span(begin, begin + point.length),
-                                      point.value, *look_alike);
+        } else if (confusable != nullptr && point.value > 0xA0) { // blanks are no names anyway
+            report_foreign_confusable(session, session.scanned.span(begin, begin + point.length),
+                                      point.value, *confusable);
         }
         at += point.length;
     }

@@ -21,12 +21,12 @@ struct StatementRepair {
 };
 
 /// Whether the repair of a mistake may have rivals: it is about a bracket or comma.
-[[nodiscard]] bool may_have_rivals(DiagnosticCode code);
+[[nodiscard]] bool may_have_alternatives(DiagnosticCode code);
 
 /// The statement as other repairs by one character would make it: those that parse and read
 /// differently from `repaired` and from each other. A statement of more than
 /// kMaxComparedStatement bytes is not looked at.
 inline constexpr std::size_t kMaxComparedStatement = 2000;
-[[nodiscard]] std::vector<std::string> other_repairs(const StatementRepair& repair);
+[[nodiscard]] std::vector<std::string> alternative_repairs(const StatementRepair& repair);
 
 } // namespace lsys::lsc

@@ -1,4 +1,4 @@
-#include "runtime/cli/other_repairs.h"
+#include "runtime/cli/alternative_repairs.h"
 
 #include <catch2/catch.hpp>
 
@@ -19,7 +19,8 @@ std::vector<std::string> others(DiagnosticCode code,
     const auto place =
         std::mismatch(broken.begin(), broken.end(), repaired.begin(), repaired.end()).first -
         broken.begin();
-    return other_repairs({code, broken, repaired, static_cast<std::uint32_t>(place), file_text});
+    return alternative_repairs(
+        {code, broken, repaired, static_cast<std::uint32_t>(place), file_text});
 }
 
 bool has(const std::vector<std::string>& texts, std::string_view text) {
@@ -28,7 +29,7 @@ bool has(const std::vector<std::string>& texts, std::string_view text) {
 
 } // namespace
 
-TEST_CASE("a bracket that reads the same elsewhere has no rival") {
+TEST_CASE("a bracket that reads the same elsewhere has no alternative") {
     using Code = DiagnosticCode;
     CHECK(others(Code::ExtraParenthesis, "#w : F(2));", "#w : F(2);").empty());
     CHECK(others(Code::ExtraParenthesis, "#w : F(2*(k + 1)));", "#w : F(2*(k + 1));").empty());
@@ -36,7 +37,7 @@ TEST_CASE("a bracket that reads the same elsewhere has no rival") {
     CHECK(others(Code::UnclosedParenthesis, "#w : F((k + 1)*2;", "#w : F((k + 1)*2);").empty());
 }
 
-TEST_CASE("every other place of a bracket that reads otherwise is a rival") {
+TEST_CASE("every other place of a bracket that reads otherwise is an alternative") {
     using Code = DiagnosticCode;
     CHECK(has(others(Code::ExtraParenthesis, "#w : F(k/2*(k + 1)));", "#w : F(k/2*(k + 1));"),
               "#w : F(k/(2*(k + 1)));"));

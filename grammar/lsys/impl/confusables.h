@@ -1,4 +1,5 @@
-// Characters that PDF files and word processors put where a plain one is meant.
+// Confusables (Unicode TS 39): characters of PDF files and word processors that stand where an
+// ASCII character is meant.
 #pragma once
 
 #include <string>
@@ -6,17 +7,17 @@
 
 namespace lsys {
 
-struct LookAlike {
+struct Confusable {
     char32_t character = 0;
-    std::string_view plain; // what is meant; empty: nothing
+    std::string_view ascii; // the replacement; may be empty
     std::string_view name;  // "minus sign"; empty for letters of other alphabets
 };
 
 /// Nullptr if `character` is none. Full-width forms are in the table as if written out.
-[[nodiscard]] const LookAlike* find_look_alike(char32_t character);
+[[nodiscard]] const Confusable* find_confusable(char32_t character);
 
 /// Whether `character` is likely to be a letter, so that a word goes on with it.
-[[nodiscard]] bool is_foreign_letter(char32_t character);
+[[nodiscard]] bool is_letter_beyond_ascii(char32_t character);
 
 /// "U+2212".
 [[nodiscard]] std::string code_point_name(char32_t character);

@@ -1,0 +1,20 @@
+// Classes of ASCII characters, whatever the locale.
+#pragma once
+
+namespace lsys {
+
+[[nodiscard]] constexpr bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+/// A letter or `_`: the first character of an identifier.
+[[nodiscard]] constexpr bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+/// A further character of an identifier.
+[[nodiscard]] constexpr bool is_word_character(char c) {
+    return is_letter(c) || is_digit(c);
+}
+
+} // namespace lsys
