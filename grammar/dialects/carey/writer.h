@@ -2,7 +2,7 @@
 #pragma once
 
 #include "grammar/ast/translation.h"
-#include "grammar/dialects/carey/session.h"
+#include "grammar/dialects/carey/reader.h"
 #include "grammar/dialects/impl/letter_modules.h"
 
 #include <cstdint>
@@ -19,8 +19,7 @@ enum class CareyText : std::uint8_t { Axiom, Left, Right };
 
 class CareyWriter {
 public:
-    /// The rules of `session` are complete.
-    CareyWriter(const CareySession& session, Translation& translation);
+    CareyWriter(const CareyFile& file, const ParseContext& context, Translation& translation);
 
     void write(SourceSpan text, CareyText kind);
 
@@ -29,7 +28,7 @@ private:
     void write_arguments(const LetterModule& module, CareyText kind, const std::string& before);
     void check_matches(const LetterModule& module, const std::string& before);
 
-    const CareySession& session_;
+    const ParseContext& context_;
     Translation& translation_;
     std::vector<std::string> lefts_; // without blanks, each once
 };

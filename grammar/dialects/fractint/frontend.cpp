@@ -1,7 +1,7 @@
 #include "grammar/dialects/fractint/frontend.h"
 
 #include "grammar/ast/reports.h"
-#include "grammar/dialects/fractint/session.h"
+#include "grammar/dialects/fractint/reader.h"
 #include "grammar/dialects/fractint/writer.h"
 
 #include <algorithm>
@@ -13,16 +13,6 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\x1A";
 
-char lowered(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-std::string lowered(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(), [](char c) { return lowered(c); });
-    return out;
-}
-
 /// An entry as it is chosen: with the place of its name, without the kind that some files write.
 struct NamedEntry {
     std::string name;
@@ -30,10 +20,11 @@ struct NamedEntry {
 };
 
 /// Comments and formulas left out.
-std::vector<NamedEntry> systems_of(const FractintSession& session) {
+std::vector<NamedEntry> systems_of(const std::vector<FractintEntry>& entries,
+                                   const SourceMap& sources) {
     std::vector<NamedEntry> systems;
-    for (const FractintEntry& entry : session.entries) {
-        std::string_view name = session.context.sources.text(entry.name);
+    for (const FractintEntry& entry : entries) {
+        std::string_view name = sources.text(entry.name);
         const std::string low = lowered(name);
         constexpr std::array<std::string_view, 3> kOthers{"frm:", "ifs:", "par:"};
         if (low.empty() || low == "comment" ||
@@ -149,27 +140,24 @@ std::vector<std::string> systems_in_fractint(std::string_view text) {
     };
     const FileId root = sources.add("", std::string(text));
     const ParseContext context{sources, names, diagnostics, nothing};
-    FractintSession session(root, context);
-    session.parse(sources.file(root).text());
+    const std::vector<FractintEntry> entries = read_fractint_entries(root, context);
     std::vector<std::string> found;
-    for (NamedEntry& system : systems_of(session)) {
+    for (NamedEntry& system : systems_of(entries, sources)) {
         found.push_back(std::move(system.name));
     }
     return found;
 }
 
 Translation translate_fractint(FileId root, const ParseContext& context) {
-    FractintSession collection(root, context);
-    collection.parse(context.sources.file(root).text());
+    const std::vector<FractintEntry> entries = read_fractint_entries(root, context);
     Translation translation(root);
-    const std::vector<NamedEntry> systems = systems_of(collection);
+    const std::vector<NamedEntry> systems = systems_of(entries, context.sources);
     const NamedEntry* const chosen = choose(systems, root, context);
     if (chosen == nullptr) {
         return translation;
     }
-    FractintSession session(*chosen->entry, context);
-    session.parse(context.sources.text(chosen->entry->body));
-    FractintWriter(session, chosen->entry->name, context, translation).write();
+    const std::vector<FractintLine> lines = read_fractint_lines(*chosen->entry, context);
+    FractintWriter(lines, chosen->entry->name, context, translation).write();
     return translation;
 }
 

@@ -72,7 +72,7 @@ void FractintWriter::write() {
     const FractintLine* angle = nullptr;
     const FractintLine* axiom = nullptr;
     std::vector<Rule> rules;
-    for (const FractintLine& line : session_.lines) {
+    for (const FractintLine& line : lines_) {
         if (line.kind == FractintLineKind::Rule) {
             add_rule(line, rules);
             continue;

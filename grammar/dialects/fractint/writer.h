@@ -2,7 +2,7 @@
 #pragma once
 
 #include "grammar/ast/translation.h"
-#include "grammar/dialects/fractint/session.h"
+#include "grammar/dialects/fractint/reader.h"
 
 #include <optional>
 #include <string>
@@ -13,11 +13,11 @@ namespace lsys {
 
 class FractintWriter {
 public:
-    FractintWriter(const FractintSession& session,
+    FractintWriter(const std::vector<FractintLine>& lines,
                    SourceSpan name,
                    const ParseContext& context,
                    Translation& translation)
-        : session_(session), name_(name), context_(context), translation_(translation) {}
+        : lines_(lines), name_(name), context_(context), translation_(translation) {}
 
     void write();
 
@@ -41,7 +41,7 @@ private:
     void quirk(SourceSpan place, const std::string& message);
     void mistake(SourceSpan place, const std::string& message);
 
-    const FractintSession& session_;
+    const std::vector<FractintLine>& lines_;
     SourceSpan name_;
     const ParseContext& context_;
     Translation& translation_;

@@ -2,8 +2,8 @@
 // where the program does not do what is meant.
 #pragma once
 
+#include "grammar/ast/parse_context.h"
 #include "grammar/ast/translation.h"
-#include "grammar/dialects/l3d/session.h"
 
 #include <cstdint>
 #include <string>
@@ -13,8 +13,8 @@ namespace lsys {
 
 class L3dWriter {
 public:
-    L3dWriter(const L3dSession& session, Translation& translation)
-        : context_(session.context), translation_(translation) {}
+    L3dWriter(const ParseContext& context, Translation& translation)
+        : context_(context), translation_(translation) {}
 
     /// A line as it counts: without a line end and, unless as the program has it, without a comment
     /// behind it.

@@ -1,0 +1,35 @@
+// Entries of a Fractint collection, `name { ... }`, and lines of an entry.
+#pragma once
+
+#include "grammar/ast/parse_context.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+struct FractintEntry {
+    SourceSpan name; // empty: it has none
+    SourceSpan body; // between the braces
+};
+
+enum class FractintLineKind : std::uint8_t { Axiom, Angle, Rule };
+
+/// A line of an entry.
+struct FractintLine {
+    FractintLineKind kind{};
+    SourceSpan key;
+    std::vector<SourceSpan> texts; // words and `=`, in order
+};
+
+[[nodiscard]] std::vector<FractintEntry> read_fractint_entries(FileId root,
+                                                               const ParseContext& context);
+[[nodiscard]] std::vector<FractintLine> read_fractint_lines(const FractintEntry& entry,
+                                                            const ParseContext& context);
+
+/// Letters of ASCII in lower case.
+[[nodiscard]] std::string lowered(std::string_view text);
+
+} // namespace lsys

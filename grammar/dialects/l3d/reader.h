@@ -1,0 +1,26 @@
+// Lines of a file of L3D: three numbers, lines `key=value`, others that are axioms, and `@`.
+#pragma once
+
+#include "grammar/ast/parse_context.h"
+
+#include <vector>
+
+namespace lsys {
+
+/// A line `key=value`, both as they stand.
+struct L3dRule {
+    SourceSpan key;   // without the `=`
+    SourceSpan value; // to the end of the line
+};
+
+struct L3dFile {
+    std::vector<SourceSpan> numbers; // three, else an error has been reported
+    std::vector<SourceSpan> axioms;  // the last one counts
+    std::vector<L3dRule> rules;
+    bool has_mark = false; // a `@`, which ends the file
+};
+
+/// Nothing is read behind a mistake.
+[[nodiscard]] L3dFile read_l3d(FileId root, const ParseContext& context);
+
+} // namespace lsys
