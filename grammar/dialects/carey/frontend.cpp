@@ -1,9 +1,11 @@
-#include "grammar/dialects/carey/frontend.h"
-
+// .rules: the rule lists of Carey's forest generator. Settings of its form as a header, then a line
+// `LHS=RHS:ratio` for each rule. Rewriting is cyclic, a left side may be several symbols, ratios
+// are normalised.
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 #include "grammar/dialects/carey/reader.h"
 #include "grammar/dialects/carey/writer.h"
+#include "grammar/dialects/impl/frontends.h"
 
 #include <algorithm>
 #include <map>
@@ -94,16 +96,16 @@ std::string_view recognise_carey(std::string_view text) {
                                            : std::string_view();
 }
 
-Translation translate_carey(FileId root, const ParseContext& context) {
-    const CareyFile file = read_carey(root, context);
+void translate_carey(const DialectRow& row, const ParseContext& context, Translation& translation) {
+    const CareyFile file = read_carey(translation.file(), context);
     std::map<std::string, std::size_t> alternatives;
     bool any_choice = false;
     for (const CareyRule& rule : file.rules) {
         any_choice =
             ++alternatives[without_blanks(context.sources.text(rule.left))] > 1 || any_choice;
     }
-    Translation translation(root);
-    translation.put("#set turtle carey;\n#set names letters;\n#set rewriting cyclic;\n");
+    translation.put("#set turtle " + std::string(row.turtle) +
+                    ";\n#set names letters;\n#set rewriting cyclic;\n");
     if (any_choice) {
         translation.put("#set weights any;\n");
     }
@@ -116,7 +118,6 @@ Translation translate_carey(FileId root, const ParseContext& context) {
         const bool chosen = alternatives[without_blanks(context.sources.text(rule.left))] > 1;
         write_rule(rule, i + 1, chosen, context, writer, translation);
     }
-    return translation;
 }
 
 } // namespace lsys

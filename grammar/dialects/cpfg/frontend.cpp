@@ -1,9 +1,12 @@
-#include "grammar/dialects/cpfg/frontend.h"
-
+// cpfg: the L-system files of L-studio and vlab. A label `Lsystem: 1`, header items, the axiom,
+// productions `left < predecessor > right : {statements} condition {statements} --> successor :
+// weight`, then decomposition and homomorphism. Lines go on where the next begins with a tab. Its
+// turtle is the profile `abop`.
 #include "cpfg/parser.h"
 #include "grammar/dialects/cpfg/preprocessor.h"
 #include "grammar/dialects/cpfg/session.h"
 #include "grammar/dialects/cpfg/writer.h"
+#include "grammar/dialects/impl/frontends.h"
 
 #include <algorithm>
 #include <string>
@@ -85,28 +88,27 @@ std::string_view recognise_cpfg(std::string_view text) {
     return {};
 }
 
-Translation translate_cpfg(FileId root, const ParseContext& context) {
+void translate_cpfg(const DialectRow& row, const ParseContext& context, Translation& translation) {
+    const FileId root = translation.file();
     const Translation text = preprocess_cpfg(root, context);
     static_cast<void>(text.report_overflow(context.diagnostics));
     CpfgSession session(text, context);
-    Translation translation(root);
     if (!context.diagnostics.has_errors()) {
         const CpfgScanning scanning(session, text.text());
         cpfg_grammar::Parser parser(session, scanning.scanner());
         static_cast<void>(parser.parse()); // what is wrong has been reported
     }
     if (context.diagnostics.has_errors()) {
-        return translation;
+        return;
     }
     const auto size = static_cast<std::uint32_t>(context.sources.file(root).text().size());
     if (session.systems == 0 || !session.axiom_span) {
         context.diagnostics.add(DiagnosticCode::ForeignSyntax, {root, size, size},
                                 session.systems == 0 ? "the file has no line `Lsystem: 1`"
                                                      : "the file has no line `Axiom: ...`");
-        return translation;
+        return;
     }
-    CpfgWriter(session, translation).run();
-    return translation;
+    CpfgWriter(session, translation).run(row.turtle);
 }
 
 } // namespace lsys

@@ -175,8 +175,8 @@ void CpfgWriter::view() {
     });
 }
 
-void CpfgWriter::settings() {
-    out_.put("#set turtle abop;\n#set names letters;\n", header_);
+void CpfgWriter::settings(std::string_view turtle) {
+    out_.put("#set turtle " + std::string(turtle) + ";\n#set names letters;\n", header_);
     const auto several = [](const CpfgProduction& each) {
         return each.stage == Stage::Rewrite && each.predecessor.size() > 1;
     };

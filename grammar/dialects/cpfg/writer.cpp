@@ -21,13 +21,13 @@ CpfgWriter::CpfgWriter(CpfgSession& session, Translation& out)
     : session_(session), context_(session.context), out_(out), header_{out.file(), 0, 1},
       expressions_(session, view_.curves) {}
 
-void CpfgWriter::run() {
+void CpfgWriter::run(std::string_view turtle) {
     find_names();
     view();
     expressions_.read_header();
     find_bindings();
     expressions_.begin({}, Stage::Rewrite);
-    settings();
+    settings(turtle);
     out_.put("\n#w : ", *session_.axiom_span);
     modules(session_.axiom);
     out_.put(";\n\n", header_);

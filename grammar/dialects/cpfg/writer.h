@@ -21,7 +21,8 @@ class CpfgWriter {
 public:
     CpfgWriter(CpfgSession& session, Translation& out);
 
-    void run();
+    /// `turtle`: the profile.
+    void run(std::string_view turtle);
 
 private:
     enum class Binding : std::uint8_t {
@@ -44,7 +45,7 @@ private:
     [[nodiscard]] static std::string key_of(const CpfgProduction& each);
 
     // --- the header
-    void settings();
+    void settings(std::string_view turtle);
     void setting(const char* begin, int expression, const char* fallback);
     void depth(const char* begin, int expression, Stage stage);
     void view();

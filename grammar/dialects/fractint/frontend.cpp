@@ -1,8 +1,9 @@
-#include "grammar/dialects/fractint/frontend.h"
-
+// .l collections of Fractint: many systems in a file, each `name { ... }` with an angle, an axiom
+// and rules of one symbol, in any case of letters. Its turtle is the profile `fractint`.
 #include "grammar/ast/reports.h"
 #include "grammar/dialects/fractint/reader.h"
 #include "grammar/dialects/fractint/writer.h"
+#include "grammar/dialects/impl/frontends.h"
 
 #include <algorithm>
 #include <array>
@@ -148,17 +149,18 @@ std::vector<std::string> systems_in_fractint(std::string_view text) {
     return found;
 }
 
-Translation translate_fractint(FileId root, const ParseContext& context) {
+void translate_fractint(const DialectRow& row,
+                        const ParseContext& context,
+                        Translation& translation) {
+    const FileId root = translation.file();
     const std::vector<FractintEntry> entries = read_fractint_entries(root, context);
-    Translation translation(root);
     const std::vector<NamedEntry> systems = systems_of(entries, context.sources);
     const NamedEntry* const chosen = choose(systems, root, context);
     if (chosen == nullptr) {
-        return translation;
+        return;
     }
     const std::vector<FractintLine> lines = read_fractint_lines(*chosen->entry, context);
-    FractintWriter(lines, chosen->entry->name, context, translation).write();
-    return translation;
+    FractintWriter(lines, chosen->entry->name, context, translation).write(row.turtle);
 }
 
 } // namespace lsys

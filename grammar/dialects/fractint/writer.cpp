@@ -68,7 +68,7 @@ void FractintWriter::mistake(SourceSpan place, const std::string& message) {
     context_.diagnostics.add(DiagnosticCode::ForeignSyntax, place, message);
 }
 
-void FractintWriter::write() {
+void FractintWriter::write(std::string_view turtle) {
     const FractintLine* angle = nullptr;
     const FractintLine* axiom = nullptr;
     std::vector<Rule> rules;
@@ -97,7 +97,7 @@ void FractintWriter::write() {
     for (const Renamed& renamed : kRenamed) {
         translation_.replace_name(renamed.name, renamed.symbol);
     }
-    translation_.put("#set turtle fractint;\n#set names letters;\n");
+    translation_.put("#set turtle " + std::string(turtle) + ";\n#set names letters;\n");
     write_angle(*angle);
     translation_.put("\n#w : ", axiom->key);
     write_text(*axiom);

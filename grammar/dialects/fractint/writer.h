@@ -19,7 +19,8 @@ public:
                    Translation& translation)
         : lines_(lines), name_(name), context_(context), translation_(translation) {}
 
-    void write();
+    /// `turtle`: the profile.
+    void write(std::string_view turtle);
 
 private:
     /// All lines that replace one symbol.

@@ -1,7 +1,8 @@
-#include "grammar/dialects/houdini/frontend.h"
-
+// The rule texts of Houdini's L-system node: settings, the premise, then a rule
+// `left<symbol>right:condition=replacement:probability` a line. Its turtle is the profile `sidefx`.
 #include "grammar/dialects/houdini/session.h"
 #include "grammar/dialects/houdini/writer.h"
+#include "grammar/dialects/impl/frontends.h"
 #include "houdini/parser.h"
 
 #include <algorithm>
@@ -120,18 +121,19 @@ std::string_view recognise_houdini(std::string_view text) {
     return has_premise && rules != 0 ? "a premise before rules `A=...`" : std::string_view();
 }
 
-Translation translate_houdini(FileId root, const ParseContext& context) {
+void translate_houdini(const DialectRow& row,
+                       const ParseContext& context,
+                       Translation& translation) {
+    const FileId root = translation.file();
     HoudiniSession session(root, context);
     {
         const HoudiniScanning scanning(session, context.sources.file(root).text());
         houdini_grammar::Parser parser(session, scanning.scanner());
         static_cast<void>(parser.parse()); // what is wrong has been reported
     }
-    Translation translation(root);
     if (!context.diagnostics.has_errors()) {
-        HoudiniWriter(session, translation).write();
+        HoudiniWriter(session, translation).write(row.turtle);
     }
-    return translation;
 }
 
 } // namespace lsys

@@ -71,8 +71,8 @@ std::string HoudiniWriter::number(std::string_view name, const char* usual) cons
     return digits.starts_with('+') ? digits.substr(1) : digits;
 }
 
-void HoudiniWriter::write_settings() {
-    translation_.put("#set turtle sidefx;\n#set names letters;\n");
+void HoudiniWriter::write_settings(std::string_view turtle) {
+    translation_.put("#set turtle " + std::string(turtle) + ";\n#set names letters;\n");
     for (const std::string_view key : {"angle", "angle_scale", "step", "step_scale", "width",
                                        "width_scale", "sides", "seed", "n"}) {
         const auto found = settings_.find(key);
@@ -132,13 +132,13 @@ void HoudiniWriter::write_values() {
     }
 }
 
-void HoudiniWriter::write() {
+void HoudiniWriter::write(std::string_view turtle) {
     if (session_.premise == -1) {
         mistake({translation_.file(), 0, 0},
                 "the premise is missing: a line of symbols before the rules");
         return;
     }
-    write_settings();
+    write_settings(turtle);
     write_values();
     translation_.put("\n#w : ", session_.premise_span);
     write_word(session_.premise, {HoudiniPlace::Premise, nullptr, nullptr});

@@ -19,7 +19,8 @@ class HoudiniWriter {
 public:
     HoudiniWriter(const HoudiniSession& session, Translation& translation);
 
-    void write();
+    /// `turtle`: the profile.
+    void write(std::string_view turtle);
 
 private:
     /// A form of a rule: how many parameters each symbol of the turtle in its head has.
@@ -34,7 +35,7 @@ private:
     [[nodiscard]] std::string number(std::string_view name, const char* usual) const;
 
     void read_settings();
-    void write_settings();
+    void write_settings(std::string_view turtle);
     void write_values();
     [[nodiscard]] bool asks_for(std::string_view value) const;
 

@@ -1,7 +1,10 @@
-#include "grammar/dialects/l3d/frontend.h"
-
+// .l, .l3d and .l++: the texts of L3D and its L+System. Three numbers (generations, angle,
+// thickness in percent), an axiom, lines `key=value`, and a line `@`. Rewriting replaces text, key
+// after key; of several values of one key each generation takes one. Words are texts too, so
+// modules are characters here, and the turtle reads parameters.
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
+#include "grammar/dialects/impl/frontends.h"
 #include "grammar/dialects/l3d/reader.h"
 #include "grammar/dialects/l3d/writer.h"
 
@@ -112,61 +115,6 @@ void write_rules(const std::vector<L3dRule>& rules,
     }
 }
 
-Translation translate_text(FileId root, const ParseContext& context, std::string turtle) {
-    L3dFile file = read_l3d(root, context);
-    Translation translation(root);
-    if (context.diagnostics.has_errors()) {
-        return translation;
-    }
-    L3dWriter writer(context, translation);
-    std::optional<SourceSpan> axiom = take_axiom(file, context);
-    std::vector<L3dRule> rules;
-    for (const L3dRule& line : file.rules) {
-        const L3dRule rule{writer.key(line.key), writer.line(line.value)};
-        if (rule.key.begin == rule.key.end) {
-            context.diagnostics.add(DiagnosticCode::ForeignSyntax, rule.key,
-                                    "the left side of the rule is missing");
-        } else {
-            rules.push_back(rule);
-        }
-    }
-    // The program keeps its rules by their left sides, in the order of bytes.
-    const auto text_of_key = [&](const L3dRule& rule) { return context.sources.text(rule.key); };
-    std::stable_sort(rules.begin(), rules.end(), [&](const L3dRule& a, const L3dRule& b) {
-        return text_of_key(a) < text_of_key(b);
-    });
-    std::map<std::string_view, std::size_t> alternatives;
-    bool any_choice = false;
-    for (const L3dRule& rule : rules) {
-        any_choice = ++alternatives[text_of_key(rule)] > 1 || any_choice;
-    }
-    turtle += context.bug_compatible ? "_program" : "";
-    translation.put("#set turtle " + turtle +
-                    ";\n#set names characters;\n#set rewriting sequential;\n");
-    if (any_choice) {
-        translation.put("#set choice generation;\n#set weights any;\n");
-        translation.put(context.bug_compatible ? "#set random glibc;\n" : "");
-    }
-    write_header(file, context, translation);
-    if (!file.has_mark) {
-        report_missing_mark(root, context);
-    }
-    if (axiom) {
-        axiom = writer.line(*axiom);
-    }
-    if (!axiom || axiom->begin == axiom->end) {
-        const SourceSpan after = file.numbers[2];
-        context.diagnostics.add(DiagnosticCode::ForeignSyntax, {after.file, after.end, after.end},
-                                "an axiom is missing: a line without `=`");
-        return translation;
-    }
-    translation.put("\n#w : ", *axiom);
-    writer.write(*axiom);
-    translation.put(";\n\n");
-    write_rules(rules, alternatives, context, writer, translation);
-    return translation;
-}
-
 bool is_blank(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
@@ -196,12 +144,58 @@ std::string_view recognise_l3d(std::string_view text) {
     return {};
 }
 
-Translation translate_l3d(FileId root, const ParseContext& context) {
-    return translate_text(root, context, "l3d");
-}
-
-Translation translate_lplus(FileId root, const ParseContext& context) {
-    return translate_text(root, context, "lplus");
+void translate_l3d(const DialectRow& row, const ParseContext& context, Translation& translation) {
+    const FileId root = translation.file();
+    L3dFile file = read_l3d(root, context);
+    if (context.diagnostics.has_errors()) {
+        return;
+    }
+    L3dWriter writer(context, translation);
+    std::optional<SourceSpan> axiom = take_axiom(file, context);
+    std::vector<L3dRule> rules;
+    for (const L3dRule& line : file.rules) {
+        const L3dRule rule{writer.key(line.key), writer.line(line.value)};
+        if (rule.key.begin == rule.key.end) {
+            context.diagnostics.add(DiagnosticCode::ForeignSyntax, rule.key,
+                                    "the left side of the rule is missing");
+        } else {
+            rules.push_back(rule);
+        }
+    }
+    // The program keeps its rules by their left sides, in the order of bytes.
+    const auto text_of_key = [&](const L3dRule& rule) { return context.sources.text(rule.key); };
+    std::stable_sort(rules.begin(), rules.end(), [&](const L3dRule& a, const L3dRule& b) {
+        return text_of_key(a) < text_of_key(b);
+    });
+    std::map<std::string_view, std::size_t> alternatives;
+    bool any_choice = false;
+    for (const L3dRule& rule : rules) {
+        any_choice = ++alternatives[text_of_key(rule)] > 1 || any_choice;
+    }
+    translation.put("#set turtle " + std::string(row.turtle) +
+                    (context.bug_compatible ? "_program" : "") +
+                    ";\n#set names characters;\n#set rewriting sequential;\n");
+    if (any_choice) {
+        translation.put("#set choice generation;\n#set weights any;\n");
+        translation.put(context.bug_compatible ? "#set random glibc;\n" : "");
+    }
+    write_header(file, context, translation);
+    if (!file.has_mark) {
+        report_missing_mark(root, context);
+    }
+    if (axiom) {
+        axiom = writer.line(*axiom);
+    }
+    if (!axiom || axiom->begin == axiom->end) {
+        const SourceSpan after = file.numbers[2];
+        context.diagnostics.add(DiagnosticCode::ForeignSyntax, {after.file, after.end, after.end},
+                                "an axiom is missing: a line without `=`");
+        return;
+    }
+    translation.put("\n#w : ", *axiom);
+    writer.write(*axiom);
+    translation.put(";\n\n");
+    write_rules(rules, alternatives, context, writer, translation);
 }
 
 } // namespace lsys

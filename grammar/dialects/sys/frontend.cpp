@@ -1,7 +1,9 @@
-#include "grammar/dialects/sys/frontend.h"
-
+// .sys: the grammars of the forest of 2005. A header `LSYSTEM`, the number of rules, the axiom,
+// then a line `A R p` for each rule: symbol, replacement, probability. Its turtle is the profile
+// `sys`.
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
+#include "grammar/dialects/impl/frontends.h"
 #include "grammar/dialects/impl/letter_modules.h"
 #include "grammar/dialects/impl/line_reader.h"
 
@@ -183,14 +185,13 @@ std::string_view recognise_sys(std::string_view text) {
                                                             : std::string_view();
 }
 
-Translation translate_sys(FileId root, const ParseContext& context) {
-    const SysFile file = read_file(root, context);
-    Translation translation(root);
+void translate_sys(const DialectRow& row, const ParseContext& context, Translation& translation) {
+    const SysFile file = read_file(translation.file(), context);
     check_count(file, context);
     if (!file.axiom) {
-        return translation;
+        return;
     }
-    translation.put("#set turtle sys;\n#set names letters;\n\n#w : ");
+    translation.put("#set turtle " + std::string(row.turtle) + ";\n#set names letters;\n\n#w : ");
     write_modules(*file.axiom, context, translation);
     translation.put(";\n\n");
     std::map<std::string_view, std::size_t> alternatives;
@@ -205,7 +206,6 @@ Translation translate_sys(FileId root, const ParseContext& context) {
                              read_literal(probability).value == 1.0F;
         write_rule(rule, i + 1, certain, context, translation);
     }
-    return translation;
 }
 
 } // namespace lsys
