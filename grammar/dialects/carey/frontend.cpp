@@ -1,11 +1,11 @@
 // .rules: the rule lists of Carey's forest generator. Settings of its form as a header, then a line
 // `LHS=RHS:ratio` for each rule. Rewriting is cyclic, a left side may be several symbols, ratios
 // are normalised.
-#include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 #include "grammar/dialects/carey/reader.h"
 #include "grammar/dialects/carey/writer.h"
 #include "grammar/dialects/impl/frontends.h"
+#include "grammar/dialects/impl/text.h"
 
 #include <algorithm>
 #include <map>
@@ -15,18 +15,13 @@ namespace lsys {
 
 namespace {
 
-bool is_number(std::string_view text) {
-    text.remove_prefix(!text.empty() && text[0] == '-' ? 1 : 0);
-    return !text.empty() && literal_length(text) == text.size();
-}
-
 void write_settings(const CareyFile& file, const ParseContext& context, Translation& translation) {
     for (const CareySetting& setting : file.settings) {
         if (setting.key->name == "axiom") {
             continue;
         }
         const std::string_view value = context.sources.text(setting.value);
-        if (!is_number(value)) {
+        if (!is_number(value, "-")) {
             context.diagnostics.add(DiagnosticCode::ForeignSyntax, setting.value,
                                     "`" + shown(value) + "` is no number");
             continue;
@@ -69,7 +64,7 @@ void write_rule(const CareyRule& rule,
     translation.put(" : ", rule.left);
     if (rule.ratio) {
         const std::string_view ratio = context.sources.text(*rule.ratio);
-        if (!is_number(ratio)) {
+        if (!is_number(ratio, "-")) {
             context.diagnostics.add(DiagnosticCode::ForeignSyntax, *rule.ratio,
                                     "`" + shown(ratio) + "` is no ratio");
         }

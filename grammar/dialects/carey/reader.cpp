@@ -2,8 +2,8 @@
 
 #include "grammar/ast/reports.h"
 #include "grammar/dialects/impl/line_reader.h"
+#include "grammar/dialects/impl/text.h"
 
-#include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
@@ -22,18 +22,17 @@ constexpr std::array kKeys{
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// Bytes up to the first of `stops`, without blanks before it.
-std::size_t length_up_to(std::string_view ahead, std::string_view stops) {
-    const std::string_view text = ahead.substr(0, ahead.find_first_of(stops));
-    return text.find_last_not_of(" \t") + 1;
-}
-
 std::size_t value_length(std::string_view ahead) {
-    return length_up_to(ahead, std::string_view("\r\n\0", 3));
+    return trimmed(ahead.substr(0, length_up_to(ahead, std::string_view("\r\n\0", 3)))).size();
 }
 
 std::size_t text_length(std::string_view ahead) {
-    return length_up_to(ahead, std::string_view("=:\r\n\0", 5));
+    return trimmed(ahead.substr(0, length_up_to(ahead, std::string_view("=:\r\n\0", 5)))).size();
+}
+
+bool is_text(const LinePiece& piece) {
+    return piece.kind == LinePieceKind::Text && piece.text != "=" && piece.text != ":" &&
+           piece.text[0] != '\0';
 }
 
 /// A colon of a line that has no `=` before it; `has_equals`: it has one behind.
@@ -62,32 +61,23 @@ public:
         : context_(context), reader_(whole_file(root, context), {" \t\r"}, context) {}
 
     CareyFile read() {
-        while (true) {
+        for (LinePiece piece; piece.kind != LinePieceKind::TextEnd;) {
             skip_byte_order_mark();
             if (const CareyKey* const key = find_carey_key(reader_.ahead())) {
                 read_setting(*key);
-                continue;
-            }
-            const LinePiece piece = next();
-            if (piece.kind == LinePieceKind::TextEnd) {
-                return std::move(file_);
-            }
-            if (is_text(piece)) {
+            } else if (piece = next(); is_text(piece)) {
                 read_rule(piece);
-            } else if (piece.kind != LinePieceKind::LineEnd) {
-                reader_.reject(piece, {"the end of the file", "the end of the line",
-                                       "the name of a setting", "symbols"});
+            } else {
+                reader_.expect(piece.kind != LinePieceKind::Text, piece,
+                               {"the end of the file", "the end of the line",
+                                "the name of a setting", "symbols"});
             }
         }
+        return std::move(file_);
     }
 
 private:
     LinePiece next() { return reader_.next(text_length); }
-
-    static bool is_text(const LinePiece& piece) {
-        return piece.kind == LinePieceKind::Text && piece.text != "=" && piece.text != ":" &&
-               piece.text[0] != '\0';
-    }
 
     /// One that stands alone; else it belongs to a text.
     void skip_byte_order_mark() {
@@ -97,20 +87,12 @@ private:
         }
     }
 
-    /// Returns whether the line ends; else `piece` is rejected.
-    bool ends(const LinePiece& piece) {
-        if (piece.kind != LinePieceKind::LineEnd) {
-            reader_.reject(piece, {"the end of the line"});
-        }
-        return piece.kind == LinePieceKind::LineEnd;
-    }
-
     void read_setting(const CareyKey& key) {
         const LinePiece name = reader_.take(reader_.ahead().find(':') + 1);
         const LinePiece value = reader_.next(value_length);
-        if (value.kind != LinePieceKind::Text || value.text[0] == '\0') {
-            reader_.reject(value, {"the value of the setting"});
-        } else if (ends(reader_.next(value_length))) {
+        const bool fits = value.kind == LinePieceKind::Text && value.text[0] != '\0';
+        if (reader_.expect(fits, value, {"the value of the setting"}) &&
+            reader_.expect_line_end(value_length)) {
             file_.settings.push_back({&key, name.span, value.span});
         }
     }
@@ -121,8 +103,7 @@ private:
             read_no_equals(left, sign);
             return;
         }
-        if (sign.text != "=") {
-            reader_.reject(sign, {"`=`", "`:`"});
+        if (!reader_.expect(sign.text == "=", sign, {"`=`", "`:`"})) {
             return;
         }
         CareyRule rule{left.span, {sign.span.file, sign.span.end, sign.span.end}, {}};
@@ -132,22 +113,20 @@ private:
             rule.right = piece.span;
             piece = next();
         }
+        bool fits = true;
         if (piece.text == ":") {
             const LinePiece ratio = next();
-            if (!is_text(ratio)) {
-                reader_.reject(ratio, {"symbols"});
-                return;
-            }
             rule.ratio = ratio.span;
-            if (!ends(next())) {
-                return;
-            }
-        } else if (piece.kind != LinePieceKind::LineEnd) {
-            erases ? reader_.reject(piece, {"the end of the line", "symbols", "`:`"})
-                   : reader_.reject(piece, {"the end of the line", "`:`"});
-            return;
+            fits = reader_.expect(is_text(ratio), ratio, {"symbols"}) &&
+                   reader_.expect_line_end(text_length);
+        } else {
+            fits = piece.kind == LinePieceKind::LineEnd;
+            erases ? reader_.expect(fits, piece, {"the end of the line", "symbols", "`:`"})
+                   : reader_.expect(fits, piece, {"the end of the line", "`:`"});
         }
-        file_.rules.push_back(rule);
+        if (fits) {
+            file_.rules.push_back(rule);
+        }
     }
 
     void read_no_equals(const LinePiece& name, const LinePiece& colon) {
@@ -156,10 +135,9 @@ private:
         for (; piece.kind == LinePieceKind::Text && piece.text[0] != '\0'; piece = next()) {
             has_equals = has_equals || piece.text == "=";
         }
-        if (piece.kind == LinePieceKind::LineEnd) {
+        if (reader_.expect(piece.kind == LinePieceKind::LineEnd, piece,
+                           {"the end of the line", "symbols", "`=`", "`:`"})) {
             report_no_equals(name, colon, has_equals, context_.diagnostics);
-        } else {
-            reader_.reject(piece, {"the end of the line", "symbols", "`=`", "`:`"});
         }
     }
 

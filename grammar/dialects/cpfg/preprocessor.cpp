@@ -2,6 +2,7 @@
 
 #include "grammar/ast/include_chain.h"
 #include "grammar/ast/reports.h"
+#include "grammar/dialects/impl/text.h"
 
 #include <algorithm>
 #include <map>
@@ -36,16 +37,6 @@ std::size_t name_length(std::string_view text) {
         }
     }
     return length;
-}
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && is_blank(text.front())) {
-        text.remove_prefix(1);
-    }
-    while (!text.empty() && is_blank(text.back())) {
-        text.remove_suffix(1);
-    }
-    return text;
 }
 
 struct Macro {

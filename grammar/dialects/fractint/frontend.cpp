@@ -4,6 +4,7 @@
 #include "grammar/dialects/fractint/reader.h"
 #include "grammar/dialects/fractint/writer.h"
 #include "grammar/dialects/impl/frontends.h"
+#include "grammar/dialects/impl/text.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,7 @@
 #include "grammar/dialects/fractint/reader.h"
 
 #include "grammar/dialects/impl/line_reader.h"
-
-#include <algorithm>
+#include "grammar/dialects/impl/text.h"
 
 namespace lsys {
 
@@ -10,10 +9,6 @@ namespace {
 
 /// `;` begins a comment everywhere.
 constexpr LineFormat kFormat{" \t\r\x1A", ';', true};
-
-std::size_t length_up_to(std::string_view ahead, std::string_view stops) {
-    return std::min(ahead.find_first_of(stops), ahead.size());
-}
 
 /// Bytes of a piece between entries: a word, a brace, or a remark that a parenthesis begins.
 std::size_t word_length(std::string_view ahead) {
@@ -31,14 +26,6 @@ std::size_t text_length(std::string_view ahead) {
 
 } // namespace
 
-std::string lowered(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    return out;
-}
-
 std::vector<FractintEntry> read_fractint_entries(FileId root, const ParseContext& context) {
     LineReader reader(whole_file(root, context), kFormat, context);
     std::vector<FractintEntry> entries;
@@ -54,8 +41,7 @@ std::vector<FractintEntry> read_fractint_entries(FileId root, const ParseContext
             do {
                 close = reader.next(body_length);
             } while (close.text != "}" && close.span.begin != close.span.end);
-            if (close.text != "}") {
-                reader.reject(close, {"`}`"});
+            if (!reader.expect(close.text == "}", close, {"`}`"})) {
                 return entries;
             }
             entries.push_back({name, {root, piece.span.end, close.span.begin}});
@@ -77,9 +63,10 @@ std::vector<FractintLine> read_fractint_lines(const FractintEntry& entry,
         if (piece.kind == LinePieceKind::LineEnd) {
             continue;
         }
-        if (piece.text == "=" || piece.text[0] == '\0') {
-            reader.reject(piece, {"the end of the file", "the end of the line", "`Axiom`",
-                                  "`Angle`", "a symbol"});
+        const bool is_key = piece.text != "=" && piece.text[0] != '\0';
+        if (!reader.expect(
+                is_key, piece,
+                {"the end of the file", "the end of the line", "`Axiom`", "`Angle`", "a symbol"})) {
             continue;
         }
         const std::string key = lowered(piece.text);

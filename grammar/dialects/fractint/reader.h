@@ -4,8 +4,6 @@
 #include "grammar/ast/parse_context.h"
 
 #include <cstdint>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace lsys {
@@ -28,8 +26,5 @@ struct FractintLine {
                                                                const ParseContext& context);
 [[nodiscard]] std::vector<FractintLine> read_fractint_lines(const FractintEntry& entry,
                                                             const ParseContext& context);
-
-/// Letters of ASCII in lower case.
-[[nodiscard]] std::string lowered(std::string_view text);
 
 } // namespace lsys

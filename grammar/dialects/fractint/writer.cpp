@@ -4,6 +4,7 @@
 #include "grammar/ast/reports.h"
 #include "grammar/base/utf8.h"
 #include "grammar/dialects/impl/letter_modules.h"
+#include "grammar/dialects/impl/text.h"
 
 #include <array>
 #include <charconv>
@@ -24,16 +25,6 @@ constexpr std::string_view kReserved = "+-/\\@|!C<>[]";
 
 char folded(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
-
-bool is_one_of(char c, std::string_view set) {
-    return set.find(c) != std::string_view::npos;
-}
-
-std::string text_of(float value) {
-    std::array<char, 32> digits{};
-    const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-    return {digits.data(), end};
 }
 
 /// Symbols whose meaning in .lsys is not Fractint's, and modules without one.

@@ -3,6 +3,7 @@
 #include "grammar/dialects/houdini/session.h"
 #include "grammar/dialects/houdini/writer.h"
 #include "grammar/dialects/impl/frontends.h"
+#include "grammar/dialects/impl/text.h"
 #include "houdini/parser.h"
 
 #include <algorithm>
@@ -10,13 +11,6 @@
 namespace lsys {
 
 namespace {
-
-constexpr std::string_view kBlanks = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
-    return text.substr(0, text.find_last_not_of(kBlanks) + 1);
-}
 
 /// What a line looks like.
 enum class Look : std::uint8_t { Nothing, Setting, SaidPremise, Premise, Rule, Other };

@@ -1,31 +1,13 @@
 #include "grammar/dialects/houdini/writer.h"
 
-#include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 #include "grammar/base/utf8.h"
 #include "grammar/dialects/impl/letter_modules.h"
+#include "grammar/dialects/impl/text.h"
 
 #include <algorithm>
 
 namespace lsys {
-
-namespace {
-
-constexpr std::string_view kBlanks = " \t\r";
-
-std::string_view without_sign(std::string_view number) {
-    number.remove_prefix(!number.empty() && (number[0] == '-' || number[0] == '+') ? 1 : 0);
-    return number;
-}
-
-SourceSpan trimmed(SourceSpan span, std::string_view text) {
-    const std::size_t last = text.find_last_not_of(kBlanks);
-    span.end =
-        span.begin + static_cast<std::uint32_t>(last == std::string_view::npos ? 0 : last + 1);
-    return span;
-}
-
-} // namespace
 
 HoudiniWriter::HoudiniWriter(const HoudiniSession& session, Translation& translation)
     : session_(session), translation_(translation), symbols_(session),
@@ -50,13 +32,12 @@ void HoudiniWriter::lacks(SourceSpan place, const std::string& message) const {
 void HoudiniWriter::read_settings() {
     for (const HoudiniSetting& setting : session_.settings) {
         const HoudiniSettingRow* const row = find_houdini_setting(houdini_key(text(setting.key)));
-        const SourceSpan value = trimmed(setting.value, text(setting.value));
+        SourceSpan value = setting.value;
+        value.end = value.begin + static_cast<std::uint32_t>(trimmed(text(value)).size());
         if (row == nullptr) { // which the scanner lets through for none
             continue;
         }
-        const std::string_view digits = without_sign(text(value));
-        if (row->kind != HoudiniSettingKind::Ignore &&
-            (digits.empty() || literal_length(digits) != digits.size())) {
+        if (row->kind != HoudiniSettingKind::Ignore && !is_number(text(value), "+-")) {
             mistake(value, "`" + shown(text(value)) + "` is no number");
         } else if (!settings_.emplace(row->name, value).second) {
             mistake(setting.key, "this setting stands twice");

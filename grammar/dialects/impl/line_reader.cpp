@@ -53,7 +53,12 @@ LinePiece LineReader::take(std::size_t length) {
     return piece(LinePieceKind::Text, length);
 }
 
-void LineReader::reject(const LinePiece& found, std::initializer_list<std::string_view> wanted) {
+bool LineReader::expect(bool fits,
+                        const LinePiece& found,
+                        std::initializer_list<std::string_view> wanted) {
+    if (fits) {
+        return true;
+    }
     SyntaxMessage message(context_, found.span);
     for (const std::string_view piece : wanted) {
         message.expected(piece);
@@ -64,6 +69,12 @@ void LineReader::reject(const LinePiece& found, std::initializer_list<std::strin
         at_ = std::min(text_.find('\n', at_), text_.size());
         static_cast<void>(next(nullptr));
     }
+    return false;
+}
+
+bool LineReader::expect_line_end(PieceLength length) {
+    const LinePiece end = next(length);
+    return expect(end.kind == LinePieceKind::LineEnd, end, {"the end of the line"});
 }
 
 SourceSpan whole_file(FileId file, const ParseContext& context) {

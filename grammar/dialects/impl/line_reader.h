@@ -47,8 +47,11 @@ public:
     [[nodiscard]] std::string_view rest() const { return text_.substr(at_); }
     /// The next `length` bytes from here on, which may be none.
     LinePiece take(std::size_t length);
-    /// Reports that one of `wanted` was expected at `found`, and skips the line of `found`.
-    void reject(const LinePiece& found, std::initializer_list<std::string_view> wanted);
+    /// Returns `fits`. If not, reports that one of `wanted` was expected at `found`, and skips the
+    /// line of `found`.
+    bool expect(bool fits, const LinePiece& found, std::initializer_list<std::string_view> wanted);
+    /// Expects the end of the line next.
+    bool expect_line_end(PieceLength length);
 
 private:
     LinePiece piece(LinePieceKind kind, std::size_t length);

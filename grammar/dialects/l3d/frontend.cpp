@@ -5,12 +5,11 @@
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 #include "grammar/dialects/impl/frontends.h"
+#include "grammar/dialects/impl/text.h"
 #include "grammar/dialects/l3d/reader.h"
 #include "grammar/dialects/l3d/writer.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <string>
@@ -29,12 +28,6 @@ float value_of(SourceSpan span, const ParseContext& context) {
     const Literal literal = read_literal(text);
     report_literal_range(context.diagnostics, literal, text, span);
     return negative ? -literal.value : literal.value;
-}
-
-std::string text_of(float value) {
-    constexpr std::size_t kLongest = 32;
-    std::array<char, kLongest> buffer{};
-    return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + kLongest, value).ptr};
 }
 
 void write_header(const L3dFile& file, const ParseContext& context, Translation& translation) {
@@ -115,17 +108,13 @@ void write_rules(const std::vector<L3dRule>& rules,
     }
 }
 
-bool is_blank(char c) {
-    return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
 } // namespace
 
 std::string_view recognise_l3d(std::string_view text) {
     int numbers = 0;
     std::size_t at = 0;
     while (at < text.size()) {
-        if (is_blank(text[at])) {
+        if (is_one_of(text[at], kL3dBlanks)) {
             ++at;
         } else if (text[at] == '#') {
             at = std::min(text.find('\n', at), text.size());
@@ -135,7 +124,8 @@ std::string_view recognise_l3d(std::string_view text) {
             at += text[at] == '-' || text[at] == '+' ? 1U : 0U;
             const std::size_t length = literal_length(text.substr(at));
             at += length;
-            if (length == 0 || (at < text.size() && !is_blank(text[at]) && text[at] != '#')) {
+            if (length == 0 ||
+                (at < text.size() && !is_one_of(text[at], kL3dBlanks) && text[at] != '#')) {
                 return {};
             }
             ++numbers;

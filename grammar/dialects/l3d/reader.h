@@ -3,9 +3,12 @@
 
 #include "grammar/ast/parse_context.h"
 
+#include <string_view>
 #include <vector>
 
 namespace lsys {
+
+inline constexpr std::string_view kL3dBlanks = " \t\n\v\f\r";
 
 /// A line `key=value`, both as they stand.
 struct L3dRule {

@@ -60,31 +60,24 @@ SysFile read_file(FileId root, const ParseContext& context) {
     const auto next = [&] { return reader.next(word_length); };
     SysFile file;
     LinePiece piece = next();
-    const bool begins_with_blank_line = piece.kind == LinePieceKind::LineEnd;
-    piece = begins_with_blank_line ? next() : piece;
-    if (piece.text != kHeader) {
-        begins_with_blank_line ? reader.reject(piece, {"`LSYSTEM`"})
-                               : reader.reject(piece, {"the end of the line", "`LSYSTEM`"});
+    const bool is_first = piece.kind != LinePieceKind::LineEnd;
+    piece = is_first ? piece : next();
+    const bool has_header = piece.text == kHeader;
+    if (is_first ? !reader.expect(has_header, piece, {"the end of the line", "`LSYSTEM`"})
+                 : !reader.expect(has_header, piece, {"`LSYSTEM`"})) {
         return file;
     }
-    const auto ends_line = [&] {
-        const LinePiece end = next();
-        if (end.kind != LinePieceKind::LineEnd) {
-            reader.reject(end, {"the end of the line"});
-        }
-        return end.kind == LinePieceKind::LineEnd;
-    };
     for (std::optional<SourceSpan>* const word : {&file.count, &file.axiom}) {
-        if (!ends_line()) {
+        if (!reader.expect_line_end(word_length)) {
             return file;
         }
-        if (piece = next(); !is_word(piece)) {
-            reader.reject(piece, {"a word"});
+        piece = next();
+        if (!reader.expect(is_word(piece), piece, {"a word"})) {
             return file;
         }
         *word = piece.span;
     }
-    if (!ends_line()) {
+    if (!reader.expect_line_end(word_length)) {
         return file;
     }
     while ((piece = next()).kind != LinePieceKind::TextEnd) {
@@ -93,14 +86,13 @@ SysFile read_file(FileId root, const ParseContext& context) {
         for (; count < words.size() && is_word(piece); piece = next()) {
             words[count++] = piece.span;
         }
-        const bool is_end = piece.kind == LinePieceKind::LineEnd;
-        if (count == 0 && !is_end) {
-            reader.reject(piece, {"the end of the file", "the end of the line", "a word"});
-        } else if (count != 0 && count < words.size()) {
-            reader.reject(piece, {"a word"});
-        } else if (!is_end) {
-            reader.reject(piece, {"the end of the line"});
-        } else if (count != 0) {
+        const bool ends = piece.kind == LinePieceKind::LineEnd;
+        const bool fits =
+            count == 0             ? reader.expect(ends, piece,
+                                                   {"the end of the file", "the end of the line", "a word"})
+            : count < words.size() ? reader.expect(false, piece, {"a word"})
+                                   : reader.expect(ends, piece, {"the end of the line"});
+        if (fits && count != 0) {
             file.rules.push_back({words[0], words[1], words[2]});
         }
     }

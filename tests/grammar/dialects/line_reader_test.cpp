@@ -85,16 +85,16 @@ TEST_CASE("without ends of lines a text is pieces") {
 TEST_CASE("a piece that does not fit is reported, and its line skipped") {
     Read read("a = b\nc", {" "});
     CHECK(read.reader.next(word_length).text == "a");
-    read.reader.reject(read.reader.next(word_length), {"a word", "the end of the line"});
+    read.reader.expect(false, read.reader.next(word_length), {"a word", "the end of the line"});
     REQUIRE(read.diagnostics.all().size() == 1);
     CHECK(read.diagnostics.all()[0].message == "expected a word or the end of the line, saw `=`");
     CHECK(read.diagnostics.all()[0].span == SourceSpan{read.file, 2, 3});
     CHECK(read.reader.next(word_length).text == "c");
-    read.reader.reject(read.reader.next(word_length), {"a word"});
+    read.reader.expect(false, read.reader.next(word_length), {"a word"});
     CHECK(read.diagnostics.all()[1].message == "expected a word, saw the end of the line");
     const LinePiece end = read.reader.next(word_length);
     CHECK(end.kind == LinePieceKind::TextEnd);
-    read.reader.reject(end, {"a word"});
+    read.reader.expect(false, end, {"a word"});
     CHECK(read.diagnostics.all()[2].message == "expected a word, saw the end of the file");
 }
 
