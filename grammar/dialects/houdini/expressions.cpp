@@ -48,7 +48,7 @@ void HoudiniExpressions::write(int node, const HoudiniScope& scope) {
         if (item.node == -1) {
             translation_.put(item.text, item.span);
         } else {
-            write_node(session_.nodes[static_cast<std::size_t>(item.node)], scope);
+            write_node(session_.node(item.node), scope);
         }
     }
 }
@@ -67,11 +67,11 @@ void HoudiniExpressions::write_node(const HoudiniNode& node, const HoudiniScope&
     case HoudiniNodeKind::Group:
         translation_.put("(", {node.span.file, node.span.begin, node.span.begin + 1});
         items_.push_back({-1, ")", {node.span.file, node.span.end - 1, node.span.end}});
-        items_.push_back({node.first, {}, {}});
+        items_.push_back({node.parts[0], {}, {}});
         return;
     case HoudiniNodeKind::Unary:
         translation_.copy(node.span, session_.context.sources);
-        items_.push_back({node.first, {}, {}});
+        items_.push_back({node.parts[0], {}, {}});
         return;
     case HoudiniNodeKind::Binary:
         write_binary(node);
@@ -90,13 +90,13 @@ void HoudiniExpressions::write_binary(const HoudiniNode& node) {
     if (text == "%") {
         translation_.put("mod(", node.span);
         items_.push_back({-1, ")", node.span});
-        items_.push_back({node.second, {}, {}});
+        items_.push_back({node.parts[1], {}, {}});
         items_.push_back({-1, ", ", node.span});
     } else {
-        items_.push_back({node.second, {}, {}});
+        items_.push_back({node.parts[1], {}, {}});
         items_.push_back({-1, operator_of(text), node.span});
     }
-    items_.push_back({node.first, {}, {}});
+    items_.push_back({node.parts[0], {}, {}});
 }
 
 void HoudiniExpressions::write_name(const HoudiniNode& node, const HoudiniScope& scope) {
@@ -155,18 +155,13 @@ void HoudiniExpressions::write_call(const HoudiniNode& node, const HoudiniScope&
     }
     translation_.put(found->in_lsys, node.span);
     translation_.put("(", node.span);
-    const std::size_t at = items_.size();
     items_.push_back({-1, ")", node.span});
-    for (int argument = session_.arguments[static_cast<std::size_t>(node.first)].first;
-         argument != -1;) {
-        const int next = session_.nodes[static_cast<std::size_t>(argument)].next;
-        items_.push_back({argument, {}, {}});
-        if (next != -1) {
+    for (std::size_t i = node.parts.size(); i-- > 0;) {
+        items_.push_back({node.parts[i], {}, {}});
+        if (i != 0) {
             items_.push_back({-1, ", ", node.span});
         }
-        argument = next;
     }
-    std::reverse(items_.begin() + static_cast<std::ptrdiff_t>(at) + 1, items_.end());
 }
 
 /// Whether an expression has a random number; `is_positive`: and cannot be below 0.
@@ -175,7 +170,7 @@ bool HoudiniExpressions::draws(int root, bool& is_positive) const {
     is_positive = true;
     std::vector<int> open{root};
     while (!open.empty()) {
-        const HoudiniNode& node = session_.nodes[static_cast<std::size_t>(open.back())];
+        const HoudiniNode& node = session_.node(open.back());
         open.pop_back();
         const std::string_view text = session_.context.sources.text(node.span);
         const bool random = node.kind == HoudiniNodeKind::Call && text == "rand";
@@ -184,18 +179,8 @@ bool HoudiniExpressions::draws(int root, bool& is_positive) const {
             (node.kind == HoudiniNodeKind::Binary && (text == "+" || text == "*" || text == "/"));
         found = found || random;
         is_positive = is_positive && (random || keeps_sign);
-        if (node.kind == HoudiniNodeKind::Call) {
-            for (int each = session_.arguments[static_cast<std::size_t>(node.first)].first;
-                 each != -1 && !random;
-                 each = session_.nodes[static_cast<std::size_t>(each)].next) {
-                open.push_back(each);
-            }
-        } else {
-            for (const int part : {node.first, node.second}) {
-                if (part != -1) {
-                    open.push_back(part);
-                }
-            }
+        if (!random) {
+            open.insert(open.end(), node.parts.begin(), node.parts.end());
         }
     }
     return found;
@@ -203,20 +188,19 @@ bool HoudiniExpressions::draws(int root, bool& is_positive) const {
 
 /// `int(x)`: x without what stands behind its point.
 void HoudiniExpressions::write_whole(const HoudiniNode& node) {
-    const HoudiniArguments& given = session_.arguments[static_cast<std::size_t>(node.first)];
     bool is_positive = false;
-    if (given.count != 1) {
+    if (node.parts.size() != 1) {
         session_.context.diagnostics.add(DiagnosticCode::ForeignSyntax, node.span,
                                          "`int` takes one number");
-    } else if (!draws(given.first, is_positive)) {
+    } else if (!draws(node.parts[0], is_positive)) {
         items_.push_back({-1, ")))", node.span});
-        items_.push_back({given.first, {}, {}});
+        items_.push_back({node.parts[0], {}, {}});
         items_.push_back({-1, ") * floor(abs(", node.span});
-        items_.push_back({given.first, {}, {}});
+        items_.push_back({node.parts[0], {}, {}});
         items_.push_back({-1, "(sign(", node.span});
     } else if (is_positive) {
         items_.push_back({-1, ")", node.span});
-        items_.push_back({given.first, {}, {}});
+        items_.push_back({node.parts[0], {}, {}});
         items_.push_back({-1, "floor(", node.span});
     } else {
         missing(node.span, "`int` of a random number that may be below 0");

@@ -21,8 +21,7 @@ HoudiniSymbols::HoudiniSymbols(const HoudiniSession& session) : session_(session
         see(rule.predecessor, false);
         see(rule.right, false);
         see(rule.successor, true);
-        const HoudiniList& head = session.lists[static_cast<std::size_t>(rule.predecessor)];
-        HoudiniSymbol& symbol = symbol_of(session.modules[head.begin]);
+        HoudiniSymbol& symbol = symbol_of(rule.predecessor.front());
         symbol.is_rewritten = true;
         symbol.ages = symbol.ages || asks_for_age(rule);
     }
@@ -43,28 +42,16 @@ const HoudiniSymbol& HoudiniSymbols::of(const HoudiniModule& module) const {
 }
 
 std::uint32_t HoudiniSymbols::count(const HoudiniModule& module) const {
-    if (module.arguments == -1) {
-        return 0;
-    }
-    std::uint32_t given = 0;
-    std::uint32_t index = 0;
-    for (int node = session_.arguments[static_cast<std::size_t>(module.arguments)].first;
-         node != -1; node = session_.nodes[static_cast<std::size_t>(node)].next) {
-        ++index;
-        if (session_.nodes[static_cast<std::size_t>(node)].kind != HoudiniNodeKind::Missing) {
-            given = index;
-        }
+    auto given = static_cast<std::uint32_t>(module.arguments.size());
+    while (given != 0 &&
+           session_.node(module.arguments[given - 1]).kind == HoudiniNodeKind::Missing) {
+        --given;
     }
     return given;
 }
 
-void HoudiniSymbols::see(int list, bool is_word) {
-    if (list == -1) {
-        return;
-    }
-    const HoudiniList& modules = session_.lists[static_cast<std::size_t>(list)];
-    for (std::uint32_t i = modules.begin; i < modules.end; ++i) {
-        const HoudiniModule& module = session_.modules[i];
+void HoudiniSymbols::see(const std::vector<HoudiniModule>& modules, bool is_word) {
+    for (const HoudiniModule& module : modules) {
         HoudiniSymbol& symbol = symbol_of(module);
         const std::uint32_t parameters = count(module);
         symbol.most = std::max(symbol.most, parameters);

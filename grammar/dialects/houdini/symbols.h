@@ -32,7 +32,7 @@ public:
 
 private:
     HoudiniSymbol& symbol_of(const HoudiniModule& module);
-    void see(int list, bool is_word);
+    void see(const std::vector<HoudiniModule>& modules, bool is_word);
     [[nodiscard]] bool asks_for_age(const HoudiniRule& rule) const;
 
     const HoudiniSession& session_;

@@ -114,7 +114,7 @@ void HoudiniWriter::write_values() {
 }
 
 void HoudiniWriter::write(std::string_view turtle) {
-    if (session_.premise == -1) {
+    if (session_.premise.empty()) {
         mistake({translation_.file(), 0, 0},
                 "the premise is missing: a line of symbols before the rules");
         return;
@@ -152,10 +152,9 @@ void HoudiniWriter::write_symbol(const HoudiniModule& it) {
     }
 }
 
-void HoudiniWriter::write_word(int list, const HoudiniScope& scope) {
-    const HoudiniList& modules = session_.lists[static_cast<std::size_t>(list)];
-    for (std::uint32_t i = modules.begin; i < modules.end; ++i) {
-        write_module(module(i), scope);
+void HoudiniWriter::write_word(const std::vector<HoudiniModule>& word, const HoudiniScope& scope) {
+    for (const HoudiniModule& module : word) {
+        write_module(module, scope);
     }
 }
 
@@ -187,8 +186,7 @@ void HoudiniWriter::write_module(const HoudiniModule& it, const HoudiniScope& sc
 /// Symbols of the turtle that .lsys writes in another way. False: it does not.
 bool HoudiniWriter::write_special(const HoudiniModule& it, char symbol, const HoudiniScope& scope) {
     const std::uint32_t count = symbols_.count(it);
-    const int first =
-        count != 0 ? session_.arguments[static_cast<std::size_t>(it.arguments)].first : -1;
+    const int first = count != 0 ? it.arguments.front() : -1;
     switch (symbol) {
     case '~': // drawn when the module is written
         translation_.put("`~`(", it.symbol);
@@ -228,8 +226,7 @@ bool HoudiniWriter::write_special(const HoudiniModule& it, char symbol, const Ho
             return false;
         }
         say_lost('a', it.symbol);
-        const bool named =
-            session_.nodes[static_cast<std::size_t>(first)].kind == HoudiniNodeKind::Text;
+        const bool named = session_.node(first).kind == HoudiniNodeKind::Text;
         translation_.copy(it.symbol, session_.context.sources);
         write_arguments(it, named ? 1 : 0, scope);
         return true;
@@ -291,19 +288,13 @@ void HoudiniWriter::write_arguments(const HoudiniModule& it,
     }
     const SourceSpan place = given != 0 ? it.parentheses : it.symbol;
     translation_.put("(", place);
-    int node = given != 0 ? session_.arguments[static_cast<std::size_t>(it.arguments)].first : -1;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const bool is_there = i < given && session_.nodes[static_cast<std::size_t>(node)].kind !=
-                                               HoudiniNodeKind::Missing;
-        if (i >= skip) {
-            translation_.put(i > skip ? ", " : "", place);
-            if (is_there) {
-                expressions_.write(node, scope);
-            } else {
-                write_left_out(it, i, place);
-            }
+    for (std::uint32_t i = skip; i < count; ++i) {
+        translation_.put(i > skip ? ", " : "", place);
+        if (i < given && session_.node(it.arguments[i]).kind != HoudiniNodeKind::Missing) {
+            expressions_.write(it.arguments[i], scope);
+        } else {
+            write_left_out(it, i, place);
         }
-        node = i < given ? session_.nodes[static_cast<std::size_t>(node)].next : -1;
     }
     if (known.ages) {
         translation_.put(count > skip ? ", 0" : "0", place);

@@ -26,9 +26,6 @@ private:
     /// A form of a rule: how many parameters each symbol of the turtle in its head has.
     using Form = std::vector<std::uint32_t>;
 
-    [[nodiscard]] const HoudiniModule& module(std::uint32_t index) const {
-        return session_.modules[index];
-    }
     [[nodiscard]] std::string_view text(SourceSpan span) const {
         return session_.context.sources.text(span);
     }
@@ -41,7 +38,8 @@ private:
 
     void write_rule(const HoudiniRule& rule, std::size_t index);
     void write_form(const HoudiniRule& rule, const Form& form, const std::string& name);
-    void write_pattern(int list, const Form& form, std::size_t& slot);
+    void
+    write_pattern(const std::vector<HoudiniModule>& modules, const Form& form, std::size_t& slot);
     void write_formals(const HoudiniModule& head, std::uint32_t count, bool ages);
     void write_ageing(const HoudiniRule& rule, std::size_t index);
     [[nodiscard]] std::vector<Form> forms_of(const HoudiniRule& rule) const;
@@ -50,7 +48,7 @@ private:
     [[nodiscard]] std::string chance_of(int condition) const;
     bool check_head(const HoudiniRule& rule);
 
-    void write_word(int list, const HoudiniScope& scope);
+    void write_word(const std::vector<HoudiniModule>& word, const HoudiniScope& scope);
     void write_module(const HoudiniModule& it, const HoudiniScope& scope);
     bool write_special(const HoudiniModule& it, char symbol, const HoudiniScope& scope);
     void write_arguments(const HoudiniModule& it, std::uint32_t skip, const HoudiniScope& scope);
