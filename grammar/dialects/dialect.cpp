@@ -63,11 +63,11 @@ std::optional<Dialect> find_dialect(std::string_view name) {
 }
 
 DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
-    // Nothing but .lsys has this name, and a file of it may hold anything in a comment.
+    // Only .lsys has this extension, and its comments may hold anything.
     if (has_extension(path, row_of(Dialect::Lsys).extensions)) {
         return {Dialect::Lsys, "its name"};
     }
-    // Of dialects that are the same by content, the extension tells.
+    // The extension decides between dialects whose content is the same.
     DetectedDialect found;
     for (const DialectRow& row : kRows) {
         if (row.recognise == nullptr || (found.dialect && !has_extension(path, row.extensions))) {

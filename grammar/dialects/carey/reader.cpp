@@ -35,7 +35,7 @@ bool is_text(const LinePiece& piece) {
            piece.text[0] != '\0';
 }
 
-/// A colon of a line that has no `=` before it; `has_equals`: it has one behind.
+/// Reports a colon without a `=` before it; `has_equals`: there is one behind it.
 void report_no_equals(const LinePiece& name,
                       const LinePiece& colon,
                       bool has_equals,
@@ -79,7 +79,7 @@ public:
 private:
     LinePiece next() { return reader_.next(text_length); }
 
-    /// One that stands alone; else it belongs to a text.
+    /// Skips a mark that stands alone; else it belongs to a text.
     void skip_byte_order_mark() {
         while (reader_.ahead().starts_with(kByteOrderMark) &&
                text_length(reader_.ahead()) == kByteOrderMark.size()) {

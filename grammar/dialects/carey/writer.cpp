@@ -9,7 +9,7 @@ namespace lsys {
 
 namespace {
 
-/// What the forest generator keeps for its instancing.
+/// Symbols that the forest generator reserves for its instancing.
 constexpr std::string_view kReserved = "@$<>";
 constexpr std::string_view kBlanks = " \t\r\n";
 
@@ -26,10 +26,10 @@ CareyWriter::CareyWriter(const CareyFile& file,
                          Translation& translation)
     : context_(context), translation_(translation) {
     for (const CareyRule& rule : file.rules) {
-        lefts_.push_back(without_blanks(context.sources.text(rule.left)));
+        left_sides_.push_back(without_blanks(context.sources.text(rule.left)));
     }
-    std::sort(lefts_.begin(), lefts_.end());
-    lefts_.erase(std::unique(lefts_.begin(), lefts_.end()), lefts_.end());
+    std::sort(left_sides_.begin(), left_sides_.end());
+    left_sides_.erase(std::unique(left_sides_.begin(), left_sides_.end()), left_sides_.end());
 }
 
 bool CareyWriter::check_symbol(const LetterModule& module) {
@@ -58,7 +58,7 @@ bool CareyWriter::check_symbol(const LetterModule& module) {
 /// which then stands behind the replacement, and within parentheses.
 void CareyWriter::check_matches(const LetterModule& module, const std::string& before) {
     const std::string_view arguments = context_.sources.text(module.arguments);
-    for (const std::string& left : lefts_) {
+    for (const std::string& left : left_sides_) {
         const std::size_t common = std::min(left.size(), before.size());
         const bool at_symbol =
             !left.empty() && std::string_view(left).substr(left.size() - common) ==
@@ -100,7 +100,7 @@ void CareyWriter::write_arguments(const LetterModule& module,
 void CareyWriter::write(SourceSpan text, CareyText kind) {
     std::string before; // the last symbols, as far back as a left side may reach
     std::size_t longest = 1;
-    for (const std::string& left : lefts_) {
+    for (const std::string& left : left_sides_) {
         longest = std::max(longest, left.size());
     }
     read_letter_modules(text, context_, [&](const LetterModule& module) {

@@ -1,4 +1,4 @@
-// Writes the texts of a .rules file as .lsys modules, and says what is wrong in them.
+// Writes the texts of a .rules file as .lsys modules, and reports their mistakes.
 #pragma once
 
 #include "grammar/ast/translation.h"
@@ -14,7 +14,7 @@ namespace lsys {
 
 enum class CareyText : std::uint8_t { Axiom, Left, Right };
 
-/// A left side as it is matched.
+/// The form of a left side that is matched.
 [[nodiscard]] std::string without_blanks(std::string_view text);
 
 class CareyWriter {
@@ -30,7 +30,7 @@ private:
 
     const ParseContext& context_;
     Translation& translation_;
-    std::vector<std::string> lefts_; // without blanks, each once
+    std::vector<std::string> left_sides_; // without blanks, each once
 };
 
 } // namespace lsys

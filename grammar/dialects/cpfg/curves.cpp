@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kSamples = 100; // as many as cpfg takes where a view file does not say
 constexpr double kTolerance = 1e-3;   // of the height
-constexpr std::size_t kMostPoints = 1000;
-constexpr std::size_t kMostCurves = 256;
+constexpr std::size_t kMaxPoints = 1000;
+constexpr std::size_t kMaxCurves = 256;
 
 constexpr std::string_view kBlanks = " \t\r\n";
 
@@ -45,7 +45,7 @@ bool read_number(std::string_view& text, double& value) {
 /// Curves of a .func or .fset file: `name:` begins one, `points:` counts lines that follow.
 void read_curves(std::string_view text, std::vector<CpfgCurve>& curves) {
     CpfgCurve curve;
-    while (!text.empty() && curves.size() < kMostCurves) {
+    while (!text.empty() && curves.size() < kMaxCurves) {
         const std::string_view line = next_line(text);
         if (const auto name = value_of(line, "name:")) {
             curve.name = *name;
@@ -54,7 +54,7 @@ void read_curves(std::string_view text, std::vector<CpfgCurve>& curves) {
         auto count_text = value_of(line, "points:");
         double count = 0.0;
         if (!count_text || !read_number(*count_text, count) || count < 2.0 ||
-            count > static_cast<double>(kMostPoints)) {
+            count > static_cast<double>(kMaxPoints)) {
             continue;
         }
         while (static_cast<double>(curve.points.size()) < count && !text.empty()) {

@@ -18,7 +18,7 @@ namespace lsys {
 namespace {
 
 /// The stages behind the parser go through nodes by recursion.
-constexpr int kDeepest = 1000;
+constexpr int kMaxDepth = 1000;
 
 } // namespace
 
@@ -27,9 +27,10 @@ int CpfgSession::add(CpfgExpression expression) {
         expression.depth =
             std::max(expression.depth, expressions[static_cast<std::size_t>(part)].depth + 1);
     }
-    if (expression.depth > kDeepest) {
-        if (expression.depth == kDeepest + 1) { // what it is part of is no other mistake
-            unable(expression.span, "an expression of more than 1000 operations in one another");
+    if (expression.depth > kMaxDepth) {
+        if (expression.depth == kMaxDepth + 1) { // once, not for every parent
+            report_unsupported(expression.span,
+                               "an expression of more than 1000 operations in one another");
         }
         expression.parts.clear();
         expression.kind = CpfgKind::Number;
@@ -46,9 +47,9 @@ int CpfgSession::add(CpfgStatement statement) {
             statement.depth = std::max(statement.depth, depth);
         }
     }
-    if (statement.depth > kDeepest) {
-        if (statement.depth == kDeepest + 1) {
-            unable(statement.span, "more than 1000 blocks in one another");
+    if (statement.depth > kMaxDepth) {
+        if (statement.depth == kMaxDepth + 1) {
+            report_unsupported(statement.span, "more than 1000 blocks in one another");
         }
         statement.block.clear();
         statement.otherwise.clear();
@@ -65,7 +66,7 @@ void CpfgSession::production(CpfgProduction made) {
 void CpfgSession::begin_system(SourceSpan label_span) {
     ++systems;
     if (systems == 2) {
-        unable(label_span, "a second L-system of the file, which the first would call");
+        report_unsupported(label_span, "a second L-system of the file, which the first would call");
     }
     stage = Stage::Rewrite;
 }

@@ -1,4 +1,4 @@
-// Writes what was parsed of a cpfg file as .lsys text.
+// Writes a parsed cpfg file as .lsys text.
 //
 // An expression of .lsys draws a random number where it stands, so one that is used twice, or that
 // decides something, is a parameter of a module that is written first and decomposed at once:
@@ -82,7 +82,7 @@ private:
     CpfgSession& session_;
     const ParseContext& context_;
     Translation& out_;
-    SourceSpan header_; // what no place of its own says
+    SourceSpan header_; // for text without a place of its own
     CpfgView view_;
     CpfgExpressions expressions_;
     std::vector<Binds> bindings_;                            // of each production

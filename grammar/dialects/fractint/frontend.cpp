@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\x1A";
 
-/// An entry as it is chosen: with the place of its name, without the kind that some files write.
+/// An entry with its name, without the kind `lsys:` in front of it.
 struct NamedEntry {
     std::string name;
     const FractintEntry* entry = nullptr;
 };
 
-/// Comments and formulas left out.
+/// All entries but comments and formulas.
 std::vector<NamedEntry> systems_of(const std::vector<FractintEntry>& entries,
                                    const SourceMap& sources) {
     std::vector<NamedEntry> systems;
@@ -43,17 +43,16 @@ std::vector<NamedEntry> systems_of(const std::vector<FractintEntry>& entries,
 
 /// `Koch1, Koch2, ...`
 std::string listed(const std::vector<NamedEntry>& systems) {
-    constexpr std::size_t kMost = 200;
+    constexpr std::size_t kMax = 200;
     std::string text;
-    for (std::size_t i = 0; i < systems.size() && i < kMost; ++i) {
+    for (std::size_t i = 0; i < systems.size() && i < kMax; ++i) {
         text += (i == 0 ? "" : ", ") + shown(systems[i].name);
     }
-    return systems.size() > kMost
-               ? text + " and " + std::to_string(systems.size() - kMost) + " more"
-               : text;
+    return systems.size() > kMax ? text + " and " + std::to_string(systems.size() - kMax) + " more"
+                                 : text;
 }
 
-/// The system that is wanted, or null after a report.
+/// The system that the context names, or the only one; null after a report.
 const NamedEntry*
 choose(const std::vector<NamedEntry>& systems, FileId root, const ParseContext& context) {
     const SourceSpan start{root, 0, 0};

@@ -9,7 +9,7 @@
 namespace lsys {
 
 struct FractintEntry {
-    SourceSpan name; // empty: it has none
+    SourceSpan name; // empty: unnamed
     SourceSpan body; // between the braces
 };
 

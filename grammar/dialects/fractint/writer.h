@@ -1,4 +1,4 @@
-// Writes an entry of a Fractint collection as .lsys text, and says what is wrong in it.
+// Writes an entry of a Fractint collection as .lsys text, and reports its mistakes.
 #pragma once
 
 #include "grammar/ast/translation.h"
@@ -39,8 +39,8 @@ private:
     void add_rule(const FractintLine& line, std::vector<Rule>& rules);
     bool check_key(const FractintLine& line);
     void check_texts(const FractintLine& line);
-    void quirk(SourceSpan place, const std::string& message);
-    void mistake(SourceSpan place, const std::string& message);
+    void warn_quirk(SourceSpan place, const std::string& message);
+    void report_syntax(SourceSpan place, const std::string& message);
 
     const std::vector<FractintLine>& lines_;
     SourceSpan name_;

@@ -24,7 +24,7 @@ constexpr std::array<Function, 21> kFunctions{{
     {"mod", "mod"},
 }};
 
-/// Variables that the turtle knows and rules do not.
+/// Variables of the turtle, unknown to rules.
 constexpr std::string_view kOfTurtle = "xyzALTUVW";
 
 std::string_view operator_of(std::string_view text) {
@@ -36,7 +36,7 @@ std::string_view operator_of(std::string_view text) {
 
 } // namespace
 
-void HoudiniExpressions::missing(SourceSpan place, const std::string& message) const {
+void HoudiniExpressions::report_unsupported(SourceSpan place, const std::string& message) const {
     session_.context.diagnostics.add(DiagnosticCode::ForeignFeature, place, message);
 }
 
@@ -77,7 +77,7 @@ void HoudiniExpressions::write_node(const HoudiniNode& node, const HoudiniScope&
         write_binary(node);
         return;
     case HoudiniNodeKind::Text:
-        missing(node.span, "a text is no value here");
+        report_unsupported(node.span, "a text is no value here");
         return;
     case HoudiniNodeKind::Missing:
         translation_.put("0", node.span);
@@ -120,10 +120,12 @@ void HoudiniExpressions::write_name(const HoudiniNode& node, const HoudiniScope&
     } else if (name == "g") {
         translation_.put(in_premise ? "0" : "g", node.span);
     } else if (name == "i") {
-        missing(node.span, "where a module stands in the word, `i`, is not known to rules of lsc, "
+        report_unsupported(node.span,
+                           "where a module stands in the word, `i`, is not known to rules of lsc, "
                            "except as the seed of `rand`");
     } else if (name.size() == 1 && kOfTurtle.find(name[0]) != std::string_view::npos) {
-        missing(node.span, "`" + std::string(name) +
+        report_unsupported(node.span,
+                           "`" + std::string(name) +
                                "` is of the turtle, which draws when all rules have been applied");
     } else {
         session_.context.diagnostics.add(
@@ -147,7 +149,8 @@ void HoudiniExpressions::write_call(const HoudiniNode& node, const HoudiniScope&
                      [&](const Function& function) { return function.name == name; });
     if (found == kFunctions.end()) {
         const bool of_scene = name == "in" || name == "pic";
-        missing(node.span, of_scene ? "`" + std::string(name) +
+        report_unsupported(node.span,
+                           of_scene ? "`" + std::string(name) +
                                           "` asks an input of Houdini's node, which lsc does not "
                                           "have"
                                     : "lsc has no function `" + shown(name) + "`");
@@ -164,7 +167,8 @@ void HoudiniExpressions::write_call(const HoudiniNode& node, const HoudiniScope&
     }
 }
 
-/// Whether an expression has a random number; `is_positive`: and cannot be below 0.
+/// Returns true when an expression has a random number; sets `is_positive` when it is never below
+/// 0.
 bool HoudiniExpressions::draws(int root, bool& is_positive) const {
     bool found = false;
     is_positive = true;
@@ -186,7 +190,7 @@ bool HoudiniExpressions::draws(int root, bool& is_positive) const {
     return found;
 }
 
-/// `int(x)`: x without what stands behind its point.
+/// `int(x)`: x without its fraction.
 void HoudiniExpressions::write_whole(const HoudiniNode& node) {
     bool is_positive = false;
     if (node.parts.size() != 1) {
@@ -203,7 +207,7 @@ void HoudiniExpressions::write_whole(const HoudiniNode& node) {
         items_.push_back({node.parts[0], {}, {}});
         items_.push_back({-1, "floor(", node.span});
     } else {
-        missing(node.span, "`int` of a random number that may be below 0");
+        report_unsupported(node.span, "`int` of a random number that may be below 0");
     }
 }
 
@@ -217,13 +221,13 @@ void HoudiniExpressions::write_random(const HoudiniNode& node, const HoudiniScop
                                 "rule with `rand(i)<0.3` and a second without condition are read");
         return;
     }
-    say_random(node.span);
+    warn_random(node.span);
     translation_.put("{0, 1}", node.span);
 }
 
-void HoudiniExpressions::say_random(SourceSpan place) {
-    if (!said_random_) {
-        said_random_ = true;
+void HoudiniExpressions::warn_random(SourceSpan place) {
+    if (!has_warned_random_) {
+        has_warned_random_ = true;
         session_.context.diagnostics.add(
             DiagnosticCode::ForeignLoss, place,
             "`rand` draws a number of its own each time; Houdini gives one number for one seed");

@@ -1,4 +1,4 @@
-// How HoudiniWriter writes rules.
+// Rules: the part of HoudiniWriter that writes them.
 #include "grammar/ast/number.h"
 #include "grammar/dialects/houdini/writer.h"
 
@@ -11,7 +11,7 @@ namespace {
 /// Numbers of parameters with which a symbol of the turtle stands in words, else as in the head.
 std::vector<std::uint32_t> counts_of(const HoudiniSymbol& symbol, std::uint32_t in_head) {
     std::vector<std::uint32_t> counts;
-    for (std::uint32_t k = 0; k <= HoudiniSymbols::kMostParameters; ++k) {
+    for (std::uint32_t k = 0; k <= HoudiniSymbols::kMaxParameters; ++k) {
         if ((symbol.counts >> k & 1U) != 0) {
             counts.push_back(k);
         }
@@ -33,7 +33,7 @@ std::string HoudiniWriter::group_of(const HoudiniRule& rule) const {
     return group;
 }
 
-/// The probability that `rand(seed) < number` holds, and its like; empty: it is no such condition.
+/// Probability of the condition `rand(seed) < number`, or `>`; empty: another condition.
 std::string HoudiniWriter::chance_of(int condition) const {
     const auto node_at = [&](int index) -> const HoudiniNode& {
         const HoudiniNode* node = &session_.node(index);
@@ -85,28 +85,29 @@ void HoudiniWriter::find_chances() {
 
 bool HoudiniWriter::check_head(const HoudiniRule& rule) {
     if (rule.predecessor.size() > 1) {
-        mistake(rule.predecessor[1].symbol, "a rule replaces one symbol");
+        report_syntax(rule.predecessor[1].symbol, "a rule replaces one symbol");
         return false;
     }
-    bool fine = true;
+    bool is_valid = true;
     for (const std::vector<HoudiniModule>* const modules : rule.head()) {
         for (const HoudiniModule& module : *modules) {
             for (const int argument : module.arguments) {
                 const HoudiniNode& formal = session_.node(argument);
                 if (formal.kind != HoudiniNodeKind::Name &&
                     formal.kind != HoudiniNodeKind::Missing) {
-                    mistake(formal.span, "here a parameter is named");
-                    fine = false;
+                    report_syntax(formal.span, "here a parameter is named");
+                    is_valid = false;
                 }
             }
         }
     }
     const HoudiniSymbol& symbol = symbols_.of(rule.predecessor.front());
-    if (symbol.ages && symbol.is_command) {
-        lacks(rule.span, "the age `g` of a symbol that the turtle obeys is not known to lsc");
-        fine = false;
+    if (symbol.has_age && symbol.is_command) {
+        report_unsupported(rule.span,
+                           "the age `g` of a symbol that the turtle obeys is not known to lsc");
+        is_valid = false;
     }
-    return fine;
+    return is_valid;
 }
 
 /// All combinations of what the symbols of the turtle in the head may have.
@@ -125,10 +126,11 @@ std::vector<HoudiniWriter::Form> HoudiniWriter::forms_of(const HoudiniRule& rule
                     longer.back().push_back(count);
                 }
             }
-            constexpr std::size_t kMost = 64;
-            if (longer.size() > kMost) {
-                lacks(rule.span, "symbols of the turtle stand here with too many different numbers "
-                                 "of parameters");
+            constexpr std::size_t kMax = 64;
+            if (longer.size() > kMax) {
+                report_unsupported(
+                    rule.span, "symbols of the turtle stand here with too many different numbers "
+                               "of parameters");
                 return {};
             }
             forms = std::move(longer);
@@ -147,7 +149,7 @@ void HoudiniWriter::write_rule(const HoudiniRule& rule, std::size_t index) {
 }
 
 /// `(x, y)` of a module of a head, in which names that are missing are made up.
-void HoudiniWriter::write_formals(const HoudiniModule& head, std::uint32_t count, bool ages) {
+void HoudiniWriter::write_formals(const HoudiniModule& head, std::uint32_t count, bool has_age) {
     const SourceSpan place = head.arguments.empty() ? head.symbol : head.parentheses;
     for (std::uint32_t i = 0; i < count; ++i) {
         translation_.put(i == 0 ? "(" : ", ", place);
@@ -162,10 +164,10 @@ void HoudiniWriter::write_formals(const HoudiniModule& head, std::uint32_t count
     for (std::size_t i = count; i < head.arguments.size(); ++i) {
         zeros_.push_back(text(session_.node(head.arguments[i]).span));
     }
-    if (ages) {
+    if (has_age) {
         translation_.put(count == 0 ? "(g" : ", g", place);
     }
-    if (count != 0 || ages) {
+    if (count != 0 || has_age) {
         translation_.put(")", place);
     }
 }
@@ -176,7 +178,7 @@ void HoudiniWriter::write_pattern(const std::vector<HoudiniModule>& modules,
     for (const HoudiniModule& module : modules) {
         const HoudiniSymbol& symbol = symbols_.of(module);
         write_symbol(module);
-        const std::uint32_t all = symbol.most + (symbol.ages ? 1U : 0U);
+        const std::uint32_t all = symbol.max_count + (symbol.has_age ? 1U : 0U);
         write_formals(module, symbol.is_command ? form[slot++] : all, false);
     }
 }
@@ -193,7 +195,7 @@ void HoudiniWriter::write_form(const HoudiniRule& rule, const Form& form, const 
     const HoudiniModule& head = rule.predecessor.front();
     const HoudiniSymbol& symbol = symbols_.of(head);
     write_symbol(head);
-    write_formals(head, symbol.is_command ? form[slot++] : symbol.most, symbol.ages);
+    write_formals(head, symbol.is_command ? form[slot++] : symbol.max_count, symbol.has_age);
     if (!rule.right.empty()) {
         translation_.put(" > ", rule.span);
         write_pattern(rule.right, form, slot);
@@ -201,7 +203,7 @@ void HoudiniWriter::write_form(const HoudiniRule& rule, const Form& form, const 
     translation_.put(" : ", rule.span);
     const bool weighted = has_probability_[group_of(rule)];
     if (const auto chance = chances_.find(&rule); chance != chances_.end()) {
-        expressions_.say_random(rule.span);
+        expressions_.warn_random(rule.span);
         translation_.put("* ~ " + chance->second, rule.span);
     } else if (rule.condition != -1) {
         expressions_.write(rule.condition, {HoudiniPlace::Condition, &rule, &zeros_});
@@ -221,16 +223,16 @@ void HoudiniWriter::write_form(const HoudiniRule& rule, const Form& form, const 
     translation_.put(";\n", {rule.span.file, rule.span.end, rule.span.end});
 }
 
-/// What is not rewritten grows older, where rules ask for the age.
+/// Writes the rule by which a symbol that no other rule matches grows older.
 void HoudiniWriter::write_ageing(const HoudiniRule& rule, std::size_t index) {
     const HoudiniModule& head = rule.predecessor.front();
     const HoudiniSymbol& symbol = symbols_.of(head);
-    if (!symbol.ages || symbol.is_command || aged_[text(head.symbol)]) {
+    if (!symbol.has_age || symbol.is_command || aged_[text(head.symbol)]) {
         return;
     }
     aged_[text(head.symbol)] = true;
     std::string formals;
-    for (std::uint32_t i = 1; i <= symbol.most; ++i) {
+    for (std::uint32_t i = 1; i <= symbol.max_count; ++i) {
         formals += "_" + std::to_string(i) + ", ";
     }
     translation_.put("#age" + std::to_string(index) + " : ", rule.span);

@@ -12,7 +12,7 @@ namespace lsys {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
-constexpr std::uint32_t kDeepest = 10'000;
+constexpr std::uint32_t kMaxDepth = 10'000;
 
 } // namespace
 
@@ -29,7 +29,7 @@ SourceSpan HoudiniSession::take(std::uint32_t length) {
     return last_;
 }
 
-void HoudiniSession::untake(std::uint32_t length) {
+void HoudiniSession::give_back(std::uint32_t length) {
     at_ -= length;
     last_.end = std::min(at_, size_);
 }
@@ -66,7 +66,7 @@ void HoudiniSession::end_line() {
 
 int HoudiniSession::add_node(HoudiniNodeKind kind, SourceSpan span, std::vector<int> parts) {
     nodes.push_back({kind, span, std::move(parts)});
-    if (depth_ == kDeepest && kind == HoudiniNodeKind::Group) {
+    if (depth_ == kMaxDepth && kind == HoudiniNodeKind::Group) {
         context.diagnostics.add(DiagnosticCode::NestingTooDeep, span,
                                 "parentheses are nested more than 10,000 deep");
     }

@@ -78,7 +78,7 @@ public:
     // For the scanner.
     SourceSpan take(std::uint32_t length);
     /// Gives the end of what was taken last back.
-    void untake(std::uint32_t length);
+    void give_back(std::uint32_t length);
     [[nodiscard]] SourceSpan last() const { return last_; }
     /// The token of a line's first word, which blanks may follow; 0: it is no key.
     int key_token(std::string_view text);

@@ -15,15 +15,15 @@ bool names_parameter(const HoudiniRule& rule, std::string_view name) {
 }
 
 HoudiniSymbols::HoudiniSymbols(const HoudiniSession& session) : session_(session) {
-    see(session.premise, true);
+    count_symbols(session.premise, true);
     for (const HoudiniRule& rule : session.rules) {
-        see(rule.left, false);
-        see(rule.predecessor, false);
-        see(rule.right, false);
-        see(rule.successor, true);
+        count_symbols(rule.left, false);
+        count_symbols(rule.predecessor, false);
+        count_symbols(rule.right, false);
+        count_symbols(rule.successor, true);
         HoudiniSymbol& symbol = symbol_of(rule.predecessor.front());
         symbol.is_rewritten = true;
-        symbol.ages = symbol.ages || asks_for_age(rule);
+        symbol.has_age = symbol.has_age || reads_age(rule);
     }
 }
 
@@ -50,18 +50,18 @@ std::uint32_t HoudiniSymbols::count(const HoudiniModule& module) const {
     return given;
 }
 
-void HoudiniSymbols::see(const std::vector<HoudiniModule>& modules, bool is_word) {
+void HoudiniSymbols::count_symbols(const std::vector<HoudiniModule>& modules, bool is_word) {
     for (const HoudiniModule& module : modules) {
         HoudiniSymbol& symbol = symbol_of(module);
         const std::uint32_t parameters = count(module);
-        symbol.most = std::max(symbol.most, parameters);
+        symbol.max_count = std::max(symbol.max_count, parameters);
         if (is_word) {
-            symbol.counts |= std::uint64_t{1} << std::min(parameters, kMostParameters);
+            symbol.counts |= std::uint64_t{1} << std::min(parameters, kMaxParameters);
         }
     }
 }
 
-bool HoudiniSymbols::asks_for_age(const HoudiniRule& rule) const {
+bool HoudiniSymbols::reads_age(const HoudiniRule& rule) const {
     for (std::uint32_t i = rule.first_node; i < rule.end_node; ++i) {
         const HoudiniNode& node = session_.nodes[i];
         if (node.kind == HoudiniNodeKind::Name && session_.context.sources.text(node.span) == "g") {

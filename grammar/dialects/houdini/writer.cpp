@@ -21,11 +21,11 @@ HoudiniWriter::HoudiniWriter(const HoudiniSession& session, Translation& transla
     find_chances();
 }
 
-void HoudiniWriter::mistake(SourceSpan place, const std::string& message) const {
+void HoudiniWriter::report_syntax(SourceSpan place, const std::string& message) const {
     session_.context.diagnostics.add(DiagnosticCode::ForeignSyntax, place, message);
 }
 
-void HoudiniWriter::lacks(SourceSpan place, const std::string& message) const {
+void HoudiniWriter::report_unsupported(SourceSpan place, const std::string& message) const {
     session_.context.diagnostics.add(DiagnosticCode::ForeignFeature, place, message);
 }
 
@@ -34,18 +34,18 @@ void HoudiniWriter::read_settings() {
         const HoudiniSettingRow* const row = find_houdini_setting(houdini_key(text(setting.key)));
         SourceSpan value = setting.value;
         value.end = value.begin + static_cast<std::uint32_t>(trimmed(text(value)).size());
-        if (row == nullptr) { // which the scanner lets through for none
+        if (row == nullptr) { // never, by the scanner
             continue;
         }
         if (row->kind != HoudiniSettingKind::Ignore && !is_number(text(value), "+-")) {
-            mistake(value, "`" + shown(text(value)) + "` is no number");
+            report_syntax(value, "`" + shown(text(value)) + "` is no number");
         } else if (!settings_.emplace(row->name, value).second) {
-            mistake(setting.key, "this setting stands twice");
+            report_syntax(setting.key, "this setting stands twice");
         }
     }
 }
 
-/// A setting as it is written, or what lsc takes without it.
+/// A setting as it is written, or the default of lsc.
 std::string HoudiniWriter::number(std::string_view name, const char* usual) const {
     const auto found = settings_.find(name);
     std::string digits = found != settings_.end() ? std::string(text(found->second)) : usual;
@@ -78,7 +78,7 @@ void HoudiniWriter::write_settings(std::string_view turtle) {
     }
 }
 
-bool HoudiniWriter::asks_for(std::string_view value) const {
+bool HoudiniWriter::reads_variable(std::string_view value) const {
     std::size_t rule = 0;
     for (std::uint32_t i = 0; i < session_.nodes.size(); ++i) {
         while (rule < session_.rules.size() && session_.rules[rule].end_node <= i) {
@@ -97,7 +97,7 @@ bool HoudiniWriter::asks_for(std::string_view value) const {
 /// The values b, c and d, which -D can replace.
 void HoudiniWriter::write_values() {
     for (const std::string_view value : {"b", "c", "d"}) {
-        if (!asks_for(value)) {
+        if (!reads_variable(value)) {
             continue;
         }
         const auto found = settings_.find(value);
@@ -115,8 +115,8 @@ void HoudiniWriter::write_values() {
 
 void HoudiniWriter::write(std::string_view turtle) {
     if (session_.premise.empty()) {
-        mistake({translation_.file(), 0, 0},
-                "the premise is missing: a line of symbols before the rules");
+        report_syntax({translation_.file(), 0, 0},
+                      "the premise is missing: a line of symbols before the rules");
         return;
     }
     write_settings(turtle);
@@ -137,14 +137,15 @@ void HoudiniWriter::write(std::string_view turtle) {
 void HoudiniWriter::write_symbol(const HoudiniModule& it) {
     const std::string_view symbol = text(it.symbol);
     if (symbol[0] == '`') {
-        lacks(it.symbol, "what stands in back quotes is of Houdini's expressions, which lsc does "
-                         "not have");
+        report_unsupported(it.symbol,
+                           "what stands in back quotes is of Houdini's expressions, which lsc does "
+                           "not have");
         return;
     }
     const CodePoint point = decode_utf8(symbol);
     const std::string spelled = spelled_letter(point.value);
     if (!point.valid || point.value < 0x20 || point.value == 0x7F) {
-        mistake(it.symbol, "this is no character of a module");
+        report_syntax(it.symbol, "this is no character of a module");
     } else if (spelled == symbol) {
         translation_.copy(it.symbol, session_.context.sources);
     } else {
@@ -158,12 +159,12 @@ void HoudiniWriter::write_word(const std::vector<HoudiniModule>& word, const Hou
     }
 }
 
-/// Says once what a symbol does in Houdini and not here.
-void HoudiniWriter::say_lost(char symbol, SourceSpan place) {
-    if (lost_.find(symbol) != std::string::npos) {
+/// Warns once per symbol of an effect that lsc does not have.
+void HoudiniWriter::warn_lost(char symbol, SourceSpan place) {
+    if (warned_.find(symbol) != std::string::npos) {
         return;
     }
-    lost_ += symbol;
+    warned_ += symbol;
     const std::string what = symbol == 'g'   ? "groups of primitives"
                              : symbol == 'a' ? "attributes of points"
                              : symbol == 'J' ? "values that are stamped on a leaf"
@@ -183,7 +184,7 @@ void HoudiniWriter::write_module(const HoudiniModule& it, const HoudiniScope& sc
     write_arguments(it, 0, scope);
 }
 
-/// Symbols of the turtle that .lsys writes in another way. False: it does not.
+/// Writes symbols of the turtle that .lsys spells in another way; returns false for others.
 bool HoudiniWriter::write_special(const HoudiniModule& it, char symbol, const HoudiniScope& scope) {
     const std::uint32_t count = symbols_.count(it);
     const int first = count != 0 ? it.arguments.front() : -1;
@@ -215,7 +216,7 @@ bool HoudiniWriter::write_special(const HoudiniModule& it, char symbol, const Ho
             return false;
         }
         if (count != 3) {
-            mistake(it.parentheses, "`$` takes a point: three numbers");
+            report_syntax(it.parentheses, "`$` takes a point: three numbers");
         }
         translation_.put("`aim`", it.symbol);
         translation_.replace_name("aim", "$");
@@ -225,7 +226,7 @@ bool HoudiniWriter::write_special(const HoudiniModule& it, char symbol, const Ho
         if (count == 0) {
             return false;
         }
-        say_lost('a', it.symbol);
+        warn_lost('a', it.symbol);
         const bool named = session_.node(first).kind == HoudiniNodeKind::Text;
         translation_.copy(it.symbol, session_.context.sources);
         write_arguments(it, named ? 1 : 0, scope);
@@ -233,18 +234,18 @@ bool HoudiniWriter::write_special(const HoudiniModule& it, char symbol, const Ho
     }
     case 'g':
         if (count != 0) {
-            say_lost('g', it.symbol);
+            warn_lost('g', it.symbol);
         }
         return false;
     case '\'':
     case '#':
-        say_lost('\'', it.symbol);
+        warn_lost('\'', it.symbol);
         return false;
     case 'J':
     case 'K':
     case 'M':
         if (count > 2) {
-            say_lost('J', it.symbol);
+            warn_lost('J', it.symbol);
         }
         return false;
     default:
@@ -252,7 +253,7 @@ bool HoudiniWriter::write_special(const HoudiniModule& it, char symbol, const Ho
     }
 }
 
-/// What Houdini takes for a parameter that is left out before others.
+/// Writes the value that Houdini takes for a parameter left out before others.
 void HoudiniWriter::write_left_out(const HoudiniModule& it, std::uint32_t index, SourceSpan place) {
     const char symbol = text(it.symbol)[0];
     if (!symbols_.of(it).is_command) {
@@ -260,11 +261,13 @@ void HoudiniWriter::write_left_out(const HoudiniModule& it, std::uint32_t index,
     } else if (symbol == 'J' || symbol == 'K' || symbol == 'M') {
         translation_.put(index == 0 ? number("step_scale", "0.9") : "0", place);
     } else if (std::string_view("FHGfh").find(symbol) == std::string_view::npos) {
-        mistake(place, "a parameter is missing");
+        report_syntax(place, "a parameter is missing");
     } else if (index == 0 && (symbols_.occurs("\"") || symbols_.occurs("_"))) {
-        lacks(place, "the length that the turtle then has cannot be written as a parameter");
+        report_unsupported(place,
+                           "the length that the turtle then has cannot be written as a parameter");
     } else if (index == 1 && (symbols_.occurs("!") || symbols_.occurs("?"))) {
-        lacks(place, "the width that the turtle then has cannot be written as a parameter");
+        report_unsupported(place,
+                           "the width that the turtle then has cannot be written as a parameter");
     } else if (index < 2) {
         translation_.put(index == 0 ? number("step", "1") : number("width", "0.1"), place);
     } else {
@@ -278,12 +281,12 @@ void HoudiniWriter::write_arguments(const HoudiniModule& it,
                                     const HoudiniScope& scope) {
     const HoudiniSymbol& known = symbols_.of(it);
     const std::uint32_t given = symbols_.count(it);
-    const std::uint32_t count = known.is_command ? given : known.most;
-    if (count > HoudiniSymbols::kMostParameters) {
-        mistake(it.parentheses, "a module with so many parameters is not read");
+    const std::uint32_t count = known.is_command ? given : known.max_count;
+    if (count > HoudiniSymbols::kMaxParameters) {
+        report_syntax(it.parentheses, "a module with so many parameters is not read");
         return;
     }
-    if (count <= skip && !known.ages) {
+    if (count <= skip && !known.has_age) {
         return;
     }
     const SourceSpan place = given != 0 ? it.parentheses : it.symbol;
@@ -296,7 +299,7 @@ void HoudiniWriter::write_arguments(const HoudiniModule& it,
             write_left_out(it, i, place);
         }
     }
-    if (known.ages) {
+    if (known.has_age) {
         translation_.put(count > skip ? ", 0" : "0", place);
     }
     translation_.put(")", place);

@@ -1,4 +1,4 @@
-// Writes a Houdini rule text as .lsys text, and says what lsc cannot do of it.
+// Writes a Houdini rule text as .lsys text, and reports the parts that lsc does not support.
 #pragma once
 
 #include "grammar/ast/translation.h"
@@ -34,13 +34,13 @@ private:
     void read_settings();
     void write_settings(std::string_view turtle);
     void write_values();
-    [[nodiscard]] bool asks_for(std::string_view value) const;
+    [[nodiscard]] bool reads_variable(std::string_view value) const;
 
     void write_rule(const HoudiniRule& rule, std::size_t index);
     void write_form(const HoudiniRule& rule, const Form& form, const std::string& name);
     void
     write_pattern(const std::vector<HoudiniModule>& modules, const Form& form, std::size_t& slot);
-    void write_formals(const HoudiniModule& head, std::uint32_t count, bool ages);
+    void write_formals(const HoudiniModule& head, std::uint32_t count, bool has_age);
     void write_ageing(const HoudiniRule& rule, std::size_t index);
     [[nodiscard]] std::vector<Form> forms_of(const HoudiniRule& rule) const;
     [[nodiscard]] std::string group_of(const HoudiniRule& rule) const;
@@ -54,10 +54,10 @@ private:
     void write_arguments(const HoudiniModule& it, std::uint32_t skip, const HoudiniScope& scope);
     void write_left_out(const HoudiniModule& it, std::uint32_t index, SourceSpan place);
     void write_symbol(const HoudiniModule& it);
-    void say_lost(char symbol, SourceSpan place);
+    void warn_lost(char symbol, SourceSpan place);
 
-    void mistake(SourceSpan place, const std::string& message) const;
-    void lacks(SourceSpan place, const std::string& message) const;
+    void report_syntax(SourceSpan place, const std::string& message) const;
+    void report_unsupported(SourceSpan place, const std::string& message) const;
 
     const HoudiniSession& session_;
     Translation& translation_;
@@ -68,7 +68,7 @@ private:
     std::map<const HoudiniRule*, std::string> chances_; // in place of a condition with `rand`
     std::map<std::string_view, bool> aged_;
     std::vector<std::string_view> zeros_;
-    std::string lost_; // symbols that have been told
+    std::string warned_; // symbols that have been reported
     std::uint32_t fresh_ = 0;
 };
 

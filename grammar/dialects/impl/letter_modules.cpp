@@ -40,7 +40,7 @@ bool read_letter_modules(SourceSpan text,
                          const ParseContext& context,
                          const std::function<void(const LetterModule&)>& visit) {
     const std::string_view whole = context.sources.text(text);
-    bool fine = true;
+    bool is_valid = true;
     for (std::size_t at = 0; at < whole.size();) {
         if (is_one_of(whole[at], kBlanks)) {
             ++at;
@@ -57,7 +57,7 @@ bool read_letter_modules(SourceSpan text,
             context.diagnostics.add(DiagnosticCode::ForeignSyntax, module.span,
                                     point.value == '`' ? "a back quote is no symbol of a module"
                                                        : "this is no character of a module");
-            fine = false;
+            is_valid = false;
             continue;
         }
         if (at < whole.size() && whole[at] == '(') {
@@ -73,7 +73,7 @@ bool read_letter_modules(SourceSpan text,
         }
         visit(module);
     }
-    return fine;
+    return is_valid;
 }
 
 void write_letter(const LetterModule& module,

@@ -18,7 +18,7 @@ namespace lsys {
 
 namespace {
 
-constexpr float kMostGenerations = 1e9F;
+constexpr float kMaxGenerations = 1e9F;
 
 /// A number of the header.
 float value_of(SourceSpan span, const ParseContext& context) {
@@ -32,7 +32,7 @@ float value_of(SourceSpan span, const ParseContext& context) {
 
 void write_header(const L3dFile& file, const ParseContext& context, Translation& translation) {
     const float generations = value_of(file.numbers[0], context);
-    if (!(generations >= 0.0F && generations < kMostGenerations)) {
+    if (!(generations >= 0.0F && generations < kMaxGenerations)) {
         context.diagnostics.add(DiagnosticCode::ForeignSyntax, file.numbers[0],
                                 "`" + shown(context.sources.text(file.numbers[0])) +
                                     "` is no number of generations");
@@ -75,7 +75,7 @@ std::optional<SourceSpan> take_axiom(L3dFile& file, const ParseContext& context)
     return whole;
 }
 
-/// The end of the file, where a `@` is missed.
+/// Reports a missing `@` at the end of the file.
 void report_missing_mark(FileId root, const ParseContext& context) {
     const std::string_view text = context.sources.file(root).text();
     const bool ends_line = text.ends_with('\n');
@@ -152,7 +152,7 @@ void translate_l3d(const DialectRow& row, const ParseContext& context, Translati
             rules.push_back(rule);
         }
     }
-    // The program keeps its rules by their left sides, in the order of bytes.
+    // L3D sorts its rules by the bytes of their left sides.
     const auto text_of_key = [&](const L3dRule& rule) { return context.sources.text(rule.key); };
     std::stable_sort(rules.begin(), rules.end(), [&](const L3dRule& a, const L3dRule& b) {
         return text_of_key(a) < text_of_key(b);

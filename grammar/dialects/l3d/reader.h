@@ -1,4 +1,4 @@
-// Lines of a file of L3D: three numbers, lines `key=value`, others that are axioms, and `@`.
+// Lines of a file of L3D: three numbers, rules `key=value`, axioms, and `@`.
 #pragma once
 
 #include "grammar/ast/parse_context.h"
@@ -10,7 +10,7 @@ namespace lsys {
 
 inline constexpr std::string_view kL3dBlanks = " \t\n\v\f\r";
 
-/// A line `key=value`, both as they stand.
+/// A line `key=value`.
 struct L3dRule {
     SourceSpan key;   // without the `=`
     SourceSpan value; // to the end of the line
@@ -23,7 +23,7 @@ struct L3dFile {
     bool has_mark = false; // a `@`, which ends the file
 };
 
-/// Nothing is read behind a mistake.
+/// Stops at the first mistake.
 [[nodiscard]] L3dFile read_l3d(FileId root, const ParseContext& context);
 
 } // namespace lsys

@@ -15,7 +15,7 @@ namespace {
 
 /// Commands whose parameter is an angle or a percentage with a default in the header.
 constexpr std::string_view kByHeader = "+-&^\\/<>";
-/// The others that have a parameter.
+/// Other commands with a parameter.
 constexpr std::string_view kOthers = "FfGg=%*";
 
 bool is_blank(char c) {
@@ -80,7 +80,7 @@ void L3dWriter::write_key(SourceSpan text) {
     translation_.put("`", text);
 }
 
-/// Returns where the next one begins.
+/// Returns the start of the next character.
 std::uint32_t L3dWriter::put_character(std::uint32_t at, std::uint32_t end) {
     const char c = source_[at];
     const CodePoint point = decode_utf8(source_.substr(at, end - at));
@@ -105,7 +105,7 @@ void L3dWriter::put_characters(std::uint32_t at, std::uint32_t end) {
     }
 }
 
-/// What is wrong with the parameter of a command.
+/// Warns of a parameter that L3D reads in another way.
 void L3dWriter::check_parameter(char command, Parameter parameter) {
     const std::string_view inner =
         source_.substr(parameter.open + 1, parameter.end - parameter.open - 2);
@@ -123,11 +123,11 @@ void L3dWriter::check_parameter(char command, Parameter parameter) {
 }
 
 void L3dWriter::check_command(char command, std::uint32_t at) {
-    if (command == '|' && !said_half_turn_ && !context_.bug_compatible) {
-        said_half_turn_ = true;
+    if (command == '|' && !has_warned_half_turn_ && !context_.bug_compatible) {
+        has_warned_half_turn_ = true;
         warn(at, at + 1, "L3D turns by pi degrees here; half a turn is meant");
-    } else if (command >= '0' && command <= '9' && !said_digit_) {
-        said_digit_ = true;
+    } else if (command >= '0' && command <= '9' && !has_warned_digit_) {
+        has_warned_digit_ = true;
         warn(at, at + 1, "L3D has no counts: a digit outside of parentheses does nothing");
     }
 }

@@ -54,7 +54,7 @@ bool is_word(const LinePiece& piece) {
     return piece.kind == LinePieceKind::Text && piece.text != kHeader && piece.text != "(";
 }
 
-/// The lines of a file. Nothing is read behind a mistake before the rules.
+/// Reads the lines of a file; stops at a mistake before the rules.
 SysFile read_file(FileId root, const ParseContext& context) {
     LineReader reader(whole_file(root, context), {" \t\r"}, context);
     const auto next = [&] { return reader.next(word_length); };
@@ -87,11 +87,15 @@ SysFile read_file(FileId root, const ParseContext& context) {
             words[count++] = piece.span;
         }
         const bool ends = piece.kind == LinePieceKind::LineEnd;
-        const bool fits =
-            count == 0             ? reader.expect(ends, piece,
-                                                   {"the end of the file", "the end of the line", "a word"})
-            : count < words.size() ? reader.expect(false, piece, {"a word"})
-                                   : reader.expect(ends, piece, {"the end of the line"});
+        bool fits = false;
+        if (count == 0) {
+            fits = reader.expect(ends, piece,
+                                 {"the end of the file", "the end of the line", "a word"});
+        } else if (count < words.size()) {
+            fits = reader.expect(false, piece, {"a word"});
+        } else {
+            fits = reader.expect(ends, piece, {"the end of the line"});
+        }
         if (fits && count != 0) {
             file.rules.push_back({words[0], words[1], words[2]});
         }
@@ -109,7 +113,7 @@ void write_modules(SourceSpan text, const ParseContext& context, Translation& tr
     });
 }
 
-/// The number of rules of the file, beside those that are there.
+/// Compares the stated number of rules with those of the file.
 void check_count(const SysFile& file, const ParseContext& context) {
     if (!file.count) {
         return;
