@@ -1,12 +1,7 @@
 #include "grammar/dialects/dialect.h"
 
 #include "grammar/base/contract.h"
-#include "grammar/dialects/carey/frontend.h"
-#include "grammar/dialects/cpfg/frontend.h"
-#include "grammar/dialects/fractint/frontend.h"
-#include "grammar/dialects/houdini/frontend.h"
-#include "grammar/dialects/l3d/frontend.h"
-#include "grammar/dialects/sys/frontend.h"
+#include "grammar/dialects/impl/frontends.h"
 
 #include <algorithm>
 #include <array>
@@ -15,43 +10,23 @@ namespace lsys {
 
 namespace {
 
-using Translate = Translation (*)(FileId root, const ParseContext& context);
-/// What in a text tells the dialect; empty: nothing does.
-using Recognise = std::string_view (*)(std::string_view text);
-using SystemsIn = std::vector<std::string> (*)(std::string_view text);
-
-/// Everything that is known of a dialect.
-struct Entry {
-    DialectRow row;
-    Recognise recognise = nullptr;
-    Translate translate = nullptr;
-    SystemsIn systems = nullptr; // where a file may hold several
+constexpr std::array kRows{
+    DialectRow{Dialect::Lsys, "lsys", "lsys", ".lsys", "lsys", "docs/language.md", nullptr, nullptr,
+               one_system, false},
+#define LSYS_DIALECT(enumerator, name, folder, title, extensions, turtle, systems)                 \
+    DialectRow{Dialect::enumerator,                                                                \
+               #name,                                                                              \
+               title,                                                                              \
+               extensions,                                                                         \
+               turtle,                                                                             \
+               "docs/dialects/" #folder ".md",                                                     \
+               recognise_##folder,                                                                 \
+               translate_##folder,                                                                 \
+               systems,                                                                            \
+               (systems) != one_system},
+#include "grammar/dialects/dialects.def"
+#undef LSYS_DIALECT
 };
-
-/// In order of Dialect. Content is asked in this order too.
-constexpr std::array<Entry, 8> kEntries{{
-    {{Dialect::Lsys, "lsys", "lsys", ".lsys"}, nullptr, nullptr},
-    {{Dialect::Sys, "sys", "the .sys forest", ".sys"}, recognise_sys, translate_sys},
-    {{Dialect::Houdini, "houdini", "Houdini's rules", ".hlsys"},
-     recognise_houdini,
-     translate_houdini},
-    {{Dialect::Carey, "carey", "Carey's rule list", ".rules"}, recognise_carey, translate_carey},
-    {{Dialect::Cpfg, "cpfg", "a cpfg L-system", ""}, recognise_cpfg, translate_cpfg},
-    {{Dialect::Fractint, "fractint", "a Fractint collection", ""},
-     recognise_fractint,
-     translate_fractint,
-     systems_in_fractint},
-    {{Dialect::L3d, "l3d", "L3D", ".l3d .l"}, recognise_l3d, translate_l3d},
-    {{Dialect::Lplus, "lplus", "L+System", ".l++"}, recognise_l3d, translate_lplus},
-}};
-
-constexpr auto kRows = [] {
-    std::array<DialectRow, kEntries.size()> rows{};
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        rows[i] = kEntries[i].row;
-    }
-    return rows;
-}();
 
 bool has_extension(std::string_view path, std::string_view extensions) {
     while (!extensions.empty()) {
@@ -65,6 +40,10 @@ bool has_extension(std::string_view path, std::string_view extensions) {
 }
 
 } // namespace
+
+std::vector<std::string> one_system(std::string_view /*text*/) {
+    return {};
+}
 
 std::span<const DialectRow> dialects() {
     return kRows;
@@ -84,19 +63,18 @@ std::optional<Dialect> find_dialect(std::string_view name) {
 }
 
 DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
-    // Nothing but .lsys has this name, and a file of it may hold anything in a comment.
+    // Only .lsys has this extension, and its comments may hold anything.
     if (has_extension(path, row_of(Dialect::Lsys).extensions)) {
         return {Dialect::Lsys, "its name"};
     }
-    // Of dialects that are the same by content, the extension tells.
+    // The extension decides between dialects whose content is the same.
     DetectedDialect found;
-    for (const Entry& entry : kEntries) {
-        if (entry.recognise == nullptr ||
-            (found.dialect && !has_extension(path, entry.row.extensions))) {
+    for (const DialectRow& row : kRows) {
+        if (row.recognise == nullptr || (found.dialect && !has_extension(path, row.extensions))) {
             continue;
         }
-        if (const std::string_view by = entry.recognise(text); !by.empty()) {
-            found = {entry.row.dialect, by};
+        if (const std::string_view by = row.recognise(text); !by.empty()) {
+            found = {row.dialect, by};
         }
     }
     if (found.dialect) {
@@ -111,18 +89,18 @@ DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
 }
 
 bool has_systems(Dialect dialect) {
-    return kEntries[static_cast<std::size_t>(dialect)].systems != nullptr;
+    return row_of(dialect).has_systems;
 }
 
 std::vector<std::string> systems_in(Dialect dialect, std::string_view text) {
-    const Entry& entry = kEntries[static_cast<std::size_t>(dialect)];
-    return entry.systems != nullptr ? entry.systems(text) : std::vector<std::string>();
+    return row_of(dialect).systems(text);
 }
 
 Translation translate(FileId root, Dialect dialect, const ParseContext& context) {
-    const Entry& entry = kEntries[static_cast<std::size_t>(dialect)];
-    LSYS_CHECK(entry.translate != nullptr);
-    Translation translation = entry.translate(root, context);
+    const DialectRow& row = row_of(dialect);
+    LSYS_CHECK(row.translate != nullptr);
+    Translation translation(root);
+    row.translate(row, context, translation);
     static_cast<void>(translation.report_overflow(context.diagnostics));
     return translation;
 }

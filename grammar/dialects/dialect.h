@@ -1,5 +1,5 @@
-// Dialects: the other formats in which grammars are written, how a file's own is told, and their
-// front ends, which make .lsys text of it (grammar/ast/translation.h).
+// Dialects: the formats in which grammars are written, how the dialect of a file is recognised, and
+// the front ends of foreign ones, which translate a file to .lsys text (grammar/ast/translation.h).
 #pragma once
 
 #include "grammar/ast/translation.h"
@@ -16,45 +16,53 @@ namespace lsys {
 
 enum class Dialect : std::uint8_t {
     Lsys,
-    Sys,      // the forest of 2005
-    Houdini,  // rule texts of its L-system node; asked before Carey's, whose settings it shares
-    Carey,    // the forest generator of 2019
-    Cpfg,     // L-systems of L-studio and vlab
-    Fractint, // its .l collections
-    L3d,
-    Lplus, // L+System, an extension of L3D
+#define LSYS_DIALECT(enumerator, ...) enumerator,
+#include "grammar/dialects/dialects.def"
+#undef LSYS_DIALECT
 };
 
+/// Everything that the program knows about a dialect; made from dialects.def.
 struct DialectRow {
     Dialect dialect{};
-    std::string_view name;       // as an option has it
+    std::string_view name;       // of the option --dialect
     std::string_view title;      // in messages
     std::string_view extensions; // with dots, separated by blanks
+    std::string_view turtle;     // default profile: the `#set turtle` of a translation
+    std::string_view page;       // of the manual, from the root of the sources
+
+    /// The evidence in a text that it is of this dialect; empty: none. Null for .lsys.
+    std::string_view (*recognise)(std::string_view text) = nullptr;
+    /// Writes the .lsys text of the file `out.file()`. Reports mistakes where they stand; after
+    /// errors the text is incomplete. Null for .lsys.
+    void (*translate)(const DialectRow& row,
+                      const ParseContext& context,
+                      Translation& out) = nullptr;
+    /// Names of the systems of a file, in order; none where a file is one system.
+    std::vector<std::string> (*systems)(std::string_view text) = nullptr;
+    bool has_systems = false; // whether a file may hold several, each with a name
 };
-/// All of them, .lsys first.
+/// All dialects, .lsys first.
 [[nodiscard]] std::span<const DialectRow> dialects();
 [[nodiscard]] const DialectRow& row_of(Dialect dialect);
 /// By DialectRow::name.
 [[nodiscard]] std::optional<Dialect> find_dialect(std::string_view name);
 
 struct DetectedDialect {
-    std::optional<Dialect> dialect; // none: nothing tells
-    std::string_view by;            // what told it: "its first line is `LSYSTEM`"
+    std::optional<Dialect> dialect; // none: neither the text nor the path tells
+    std::string_view by;            // evidence: "its first line is `LSYSTEM`"
 };
-/// By what the text holds, else by the extension of `path`.
+/// By the content of `text`, else by the extension of `path`.
 [[nodiscard]] DetectedDialect detect_dialect(std::string_view path, std::string_view text);
 
-/// The names of the systems of a file, in order; none where a file of the dialect is one system.
+/// DialectRow::systems and DialectRow::has_systems of a dialect.
 [[nodiscard]] std::vector<std::string> systems_in(Dialect dialect, std::string_view text);
-/// Whether a file of the dialect may hold several systems, each with a name.
 [[nodiscard]] bool has_systems(Dialect dialect);
 
-/// Makes .lsys text of the file `root`. Mistakes are reported where they stand; after errors the
-/// text is what could be read, and not to be used. Precondition: not Dialect::Lsys.
+/// Translates the file `root` to .lsys text. Reports mistakes where they stand; after errors the
+/// text is incomplete and not to be used. Precondition: not Dialect::Lsys.
 [[nodiscard]] Translation translate(FileId root, Dialect dialect, const ParseContext& context);
 
-/// parse_lsys() of a file of any dialect. `text`, if there is one, gets the .lsys text of a file of
-/// another.
+/// parse_lsys() of a file of any dialect. `text`, if given, gets the .lsys text of a foreign file.
 [[nodiscard]] Ast parse_dialect(FileId root,
                                 Dialect dialect,
                                 const ParseContext& context,

@@ -1,12 +1,13 @@
-#include "grammar/dialects/carey/frontend.h"
-
-#include "carey/parser.h"
-#include "grammar/ast/number.h"
+// .rules: the rule lists of Carey's forest generator. Settings of its form as a header, then a line
+// `LHS=RHS:ratio` for each rule. Rewriting is cyclic, a left side may be several symbols, ratios
+// are normalised.
 #include "grammar/ast/reports.h"
-#include "grammar/dialects/carey/session.h"
+#include "grammar/dialects/carey/reader.h"
 #include "grammar/dialects/carey/writer.h"
+#include "grammar/dialects/impl/frontends.h"
+#include "grammar/dialects/impl/text.h"
 
-#include <array>
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -14,70 +15,41 @@ namespace lsys {
 
 namespace {
 
-/// A setting of the form, and of .lsys; empty: the axiom and the number of generations, which are
-/// statements.
-struct Key {
-    std::string_view name;
-    std::string_view lsys;
-};
-constexpr std::array kKeys{
-    Key{"axiom", ""},          Key{"generations", ""},
-    Key{"angle", "angle"},     Key{"angle_scale", "angle_scale"},
-    Key{"step", "step"},       Key{"step_scale", "step_scale"},
-    Key{"thickness", "width"}, Key{"thickness_scale", "width_scale"},
-    Key{"seed", "seed"},
-};
-
-/// The name before the colon, without blanks.
-std::string_view name_of(const CareySetting& setting, const SourceMap& sources) {
-    const std::string_view key = sources.text(setting.key);
-    return key.substr(0, key.find_first_of(" \t:"));
-}
-
-bool is_number(std::string_view text) {
-    text.remove_prefix(!text.empty() && text[0] == '-' ? 1 : 0);
-    return !text.empty() && literal_length(text) == text.size();
-}
-
-void write_settings(const CareySession& session, Translation& translation) {
-    const ParseContext& context = session.context;
-    for (const CareySetting& setting : session.settings) {
-        const std::string_view name = name_of(setting, context.sources);
-        const std::string_view value = context.sources.text(setting.value);
-        if (name == "axiom") {
+void write_settings(const CareyFile& file, const ParseContext& context, Translation& translation) {
+    for (const CareySetting& setting : file.settings) {
+        if (setting.key->name == "axiom") {
             continue;
         }
-        if (!is_number(value)) {
+        const std::string_view value = context.sources.text(setting.value);
+        if (!is_number(value, "-")) {
             context.diagnostics.add(DiagnosticCode::ForeignSyntax, setting.value,
                                     "`" + shown(value) + "` is no number");
             continue;
         }
-        std::string begin = "#n = ";
-        for (const Key& key : kKeys) {
-            if (key.name == name && !key.lsys.empty()) {
-                begin = "#set " + std::string(key.lsys) + " ";
-            }
-        }
-        translation.put(begin, setting.key);
+        const std::string name(setting.key->lsys);
+        translation.put(name.empty() ? "#n = " : "#set " + name + " ", setting.place);
         translation.copy(setting.value, context.sources);
         translation.put(";\n");
     }
 }
 
-void write_axiom(const CareySession& session, CareyWriter& writer, Translation& translation) {
+void write_axiom(const CareyFile& file,
+                 const ParseContext& context,
+                 CareyWriter& writer,
+                 Translation& translation) {
     bool any = false;
-    for (const CareySetting& setting : session.settings) {
-        if (name_of(setting, session.context.sources) == "axiom") {
+    for (const CareySetting& setting : file.settings) {
+        if (setting.key->name == "axiom") {
             any = true;
-            translation.put("\n#w : ", setting.key);
+            translation.put("\n#w : ", setting.place);
             writer.write(setting.value, CareyText::Axiom);
             translation.put(";\n");
         }
     }
-    if (!any && !session.context.diagnostics.has_errors()) {
+    if (!any && !context.diagnostics.has_errors()) {
         const SourceSpan end{translation.file(), 0, 0};
-        session.context.diagnostics.add(DiagnosticCode::ForeignSyntax, end,
-                                        "the file has no line `axiom: ...`");
+        context.diagnostics.add(DiagnosticCode::ForeignSyntax, end,
+                                "the file has no line `axiom: ...`");
     }
 }
 
@@ -92,7 +64,7 @@ void write_rule(const CareyRule& rule,
     translation.put(" : ", rule.left);
     if (rule.ratio) {
         const std::string_view ratio = context.sources.text(*rule.ratio);
-        if (!is_number(ratio)) {
+        if (!is_number(ratio, "-")) {
             context.diagnostics.add(DiagnosticCode::ForeignSyntax, *rule.ratio,
                                     "`" + shown(ratio) + "` is no ratio");
         }
@@ -112,76 +84,35 @@ void write_rule(const CareyRule& rule,
 
 } // namespace
 
-int CareySession::at_end() {
-    const bool first = !ended_;
-    ended_ = true;
-    return first ? carey_grammar::Parser::token::TOK_NEWLINE
-                 : carey_grammar::Parser::token::TOK_END;
-}
-
-void CareySession::no_equals(SourceSpan name, SourceSpan colon, bool is_rule) const {
-    if (is_rule) {
-        context.diagnostics.add(DiagnosticCode::ForeignSyntax, colon,
-                                "the ratio of a rule stands behind its right side");
-        return;
-    }
-    const std::string_view text = context.sources.text(name);
-    Diagnostic& error =
-        context.diagnostics.add(DiagnosticCode::ForeignSyntax, name,
-                                "`" + shown(text) + "` is no setting, and a rule has a `=`");
-    std::string names;
-    for (const Key& key : kKeys) {
-        names += (names.empty() ? "`" : ", `") + std::string(key.name) + "`";
-    }
-    error.help.push_back("the settings are " + names);
-}
-
 std::string_view recognise_carey(std::string_view text) {
     text.remove_prefix(text.starts_with("\xEF\xBB\xBF") ? 3 : 0);
-    const std::size_t begin = text.find_first_not_of(" \t\r\n");
-    if (begin == std::string_view::npos) {
-        return {};
-    }
-    text.remove_prefix(begin);
-    for (const Key& key : kKeys) {
-        if (text.starts_with(key.name)) {
-            const std::size_t colon = text.find_first_not_of(" \t", key.name.size());
-            if (colon != std::string_view::npos && text[colon] == ':') {
-                return "its first line, a setting as `axiom:`,";
-            }
-        }
-    }
-    return {};
+    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+    return find_carey_key(text) != nullptr ? "its first line, a setting as `axiom:`,"
+                                           : std::string_view();
 }
 
-Translation translate_carey(FileId root, const ParseContext& context) {
-    CareySession session(root, context);
-    {
-        const CareyScanning scanning(session, context.sources.file(root).text());
-        carey_grammar::Parser parser(session, scanning.scanner());
-        static_cast<void>(parser.parse()); // what is wrong has been reported
-    }
+void translate_carey(const DialectRow& row, const ParseContext& context, Translation& translation) {
+    const CareyFile file = read_carey(translation.file(), context);
     std::map<std::string, std::size_t> alternatives;
     bool any_choice = false;
-    for (const CareyRule& rule : session.rules) {
+    for (const CareyRule& rule : file.rules) {
         any_choice =
             ++alternatives[without_blanks(context.sources.text(rule.left))] > 1 || any_choice;
     }
-    Translation translation(root);
-    translation.put("#set turtle carey;\n#set names letters;\n#set rewriting cyclic;\n");
+    translation.put("#set turtle " + std::string(row.turtle) +
+                    ";\n#set names letters;\n#set rewriting cyclic;\n");
     if (any_choice) {
         translation.put("#set weights any;\n");
     }
-    CareyWriter writer(session, translation);
-    write_settings(session, translation);
-    write_axiom(session, writer, translation);
+    CareyWriter writer(file, context, translation);
+    write_settings(file, context, translation);
+    write_axiom(file, context, writer, translation);
     translation.put("\n");
-    for (std::size_t i = 0; i < session.rules.size(); ++i) {
-        const CareyRule& rule = session.rules[i];
+    for (std::size_t i = 0; i < file.rules.size(); ++i) {
+        const CareyRule& rule = file.rules[i];
         const bool chosen = alternatives[without_blanks(context.sources.text(rule.left))] > 1;
         write_rule(rule, i + 1, chosen, context, writer, translation);
     }
-    return translation;
 }
 
 } // namespace lsys

@@ -9,7 +9,7 @@ namespace lsys {
 
 namespace {
 
-/// What the forest generator keeps for its instancing.
+/// Symbols that the forest generator reserves for its instancing.
 constexpr std::string_view kReserved = "@$<>";
 constexpr std::string_view kBlanks = " \t\r\n";
 
@@ -21,17 +21,19 @@ std::string without_blanks(std::string_view text) {
     return bare;
 }
 
-CareyWriter::CareyWriter(const CareySession& session, Translation& translation)
-    : session_(session), translation_(translation) {
-    for (const CareyRule& rule : session.rules) {
-        lefts_.push_back(without_blanks(session.context.sources.text(rule.left)));
+CareyWriter::CareyWriter(const CareyFile& file,
+                         const ParseContext& context,
+                         Translation& translation)
+    : context_(context), translation_(translation) {
+    for (const CareyRule& rule : file.rules) {
+        left_sides_.push_back(without_blanks(context.sources.text(rule.left)));
     }
-    std::sort(lefts_.begin(), lefts_.end());
-    lefts_.erase(std::unique(lefts_.begin(), lefts_.end()), lefts_.end());
+    std::sort(left_sides_.begin(), left_sides_.end());
+    left_sides_.erase(std::unique(left_sides_.begin(), left_sides_.end()), left_sides_.end());
 }
 
 bool CareyWriter::check_symbol(const LetterModule& module) {
-    Diagnostics& diagnostics = session_.context.diagnostics;
+    Diagnostics& diagnostics = context_.diagnostics;
     const bool ascii = module.character < 0x80;
     const char c = ascii ? static_cast<char>(module.character) : '?';
     if (ascii && kReserved.find(c) != std::string_view::npos) {
@@ -55,15 +57,14 @@ bool CareyWriter::check_symbol(const LetterModule& module) {
 /// The forest generator replaces text: a left side also matches the symbol before a parenthesis,
 /// which then stands behind the replacement, and within parentheses.
 void CareyWriter::check_matches(const LetterModule& module, const std::string& before) {
-    const ParseContext& context = session_.context;
-    const std::string_view arguments = context.sources.text(module.arguments);
-    for (const std::string& left : lefts_) {
+    const std::string_view arguments = context_.sources.text(module.arguments);
+    for (const std::string& left : left_sides_) {
         const std::size_t common = std::min(left.size(), before.size());
         const bool at_symbol =
             !left.empty() && std::string_view(left).substr(left.size() - common) ==
                                  std::string_view(before).substr(before.size() - common);
         if (at_symbol || arguments.find(left) != std::string_view::npos) {
-            Diagnostic& error = context.diagnostics.add(
+            Diagnostic& error = context_.diagnostics.add(
                 DiagnosticCode::ForeignFeature, join(module.span, module.arguments),
                 "the left side `" + shown(left) + "` matches a part of this module only");
             error.help.emplace_back(
@@ -76,11 +77,10 @@ void CareyWriter::check_matches(const LetterModule& module, const std::string& b
 void CareyWriter::write_arguments(const LetterModule& module,
                                   CareyText kind,
                                   const std::string& before) {
-    const ParseContext& context = session_.context;
-    const std::string_view text = context.sources.text(module.arguments);
+    const std::string_view text = context_.sources.text(module.arguments);
     if (kind == CareyText::Left) {
-        context.diagnostics.add(DiagnosticCode::ForeignFeature, module.arguments,
-                                "a left side with parentheses is not supported");
+        context_.diagnostics.add(DiagnosticCode::ForeignFeature, module.arguments,
+                                 "a left side with parentheses is not supported");
         return;
     }
     check_matches(module, before);
@@ -90,21 +90,20 @@ void CareyWriter::write_arguments(const LetterModule& module,
     }
     if (const std::size_t comma = text.find(','); comma != std::string_view::npos) {
         const auto at = static_cast<std::uint32_t>(module.arguments.begin + comma);
-        context.diagnostics.add(DiagnosticCode::ForeignQuirk, {module.arguments.file, at, at + 1},
-                                "the forest generator ends a rule at a comma; here it separates "
-                                "parameters");
+        context_.diagnostics.add(DiagnosticCode::ForeignQuirk, {module.arguments.file, at, at + 1},
+                                 "the forest generator ends a rule at a comma; here it separates "
+                                 "parameters");
     }
-    static_cast<void>(write_plain_arguments(module.arguments, context, translation_));
+    static_cast<void>(write_plain_arguments(module.arguments, context_, translation_));
 }
 
 void CareyWriter::write(SourceSpan text, CareyText kind) {
-    const ParseContext& context = session_.context;
     std::string before; // the last symbols, as far back as a left side may reach
     std::size_t longest = 1;
-    for (const std::string& left : lefts_) {
+    for (const std::string& left : left_sides_) {
         longest = std::max(longest, left.size());
     }
-    read_letter_modules(text, context, [&](const LetterModule& module) {
+    read_letter_modules(text, context_, [&](const LetterModule& module) {
         if (!check_symbol(module)) {
             return;
         }
@@ -114,13 +113,13 @@ void CareyWriter::write(SourceSpan text, CareyText kind) {
             before.erase(0, before.size() - longest);
         }
         if (module.character == U'#' && kind == CareyText::Right && !has_arguments) {
-            context.diagnostics.add(DiagnosticCode::ForeignQuirk, module.span,
-                                    "outside of parentheses the forest generator writes the age "
-                                    "as digits; here it is the parameter of a module");
+            context_.diagnostics.add(DiagnosticCode::ForeignQuirk, module.span,
+                                     "outside of parentheses the forest generator writes the age "
+                                     "as digits; here it is the parameter of a module");
             translation_.put("`#`(step() + 1)", module.span);
             return;
         }
-        write_letter(module, context, translation_);
+        write_letter(module, context_, translation_);
         if (has_arguments) {
             write_arguments(module, kind, before);
             before.clear();

@@ -1,8 +1,8 @@
-// Writes the texts of a .rules file as .lsys modules, and says what is wrong in them.
+// Writes the texts of a .rules file as .lsys modules, and reports their mistakes.
 #pragma once
 
 #include "grammar/ast/translation.h"
-#include "grammar/dialects/carey/session.h"
+#include "grammar/dialects/carey/reader.h"
 #include "grammar/dialects/impl/letter_modules.h"
 
 #include <cstdint>
@@ -14,13 +14,12 @@ namespace lsys {
 
 enum class CareyText : std::uint8_t { Axiom, Left, Right };
 
-/// A left side as it is matched.
+/// The form of a left side that is matched.
 [[nodiscard]] std::string without_blanks(std::string_view text);
 
 class CareyWriter {
 public:
-    /// The rules of `session` are complete.
-    CareyWriter(const CareySession& session, Translation& translation);
+    CareyWriter(const CareyFile& file, const ParseContext& context, Translation& translation);
 
     void write(SourceSpan text, CareyText kind);
 
@@ -29,9 +28,9 @@ private:
     void write_arguments(const LetterModule& module, CareyText kind, const std::string& before);
     void check_matches(const LetterModule& module, const std::string& before);
 
-    const CareySession& session_;
+    const ParseContext& context_;
     Translation& translation_;
-    std::vector<std::string> lefts_; // without blanks, each once
+    std::vector<std::string> left_sides_; // without blanks, each once
 };
 
 } // namespace lsys

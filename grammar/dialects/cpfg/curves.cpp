@@ -1,6 +1,7 @@
 #include "grammar/dialects/cpfg/curves.h"
 
 #include "grammar/ast/number.h"
+#include "grammar/dialects/impl/text.h"
 
 #include <algorithm>
 #include <array>
@@ -14,35 +15,28 @@ namespace {
 
 constexpr std::size_t kSamples = 100; // as many as cpfg takes where a view file does not say
 constexpr double kTolerance = 1e-3;   // of the height
-constexpr std::size_t kMostPoints = 1000;
-constexpr std::size_t kMostCurves = 256;
+constexpr std::size_t kMaxPoints = 1000;
+constexpr std::size_t kMaxCurves = 256;
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kBlanks = " \t\r\n";
-    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
-    while (!text.empty() && kBlanks.find(text.back()) != kBlanks.npos) {
-        text.remove_suffix(1);
-    }
-    return text;
-}
+constexpr std::string_view kBlanks = " \t\r\n";
 
 /// The next line of `text`, which loses it.
 std::string_view next_line(std::string_view& text) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
-    return trimmed(line);
+    return trimmed(line, kBlanks);
 }
 
 std::optional<std::string_view> value_of(std::string_view line, std::string_view key) {
     if (!line.starts_with(key)) {
         return std::nullopt;
     }
-    return trimmed(line.substr(key.size()));
+    return trimmed(line.substr(key.size()), kBlanks);
 }
 
 bool read_number(std::string_view& text, double& value) {
-    text = trimmed(text);
+    text = trimmed(text, kBlanks);
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));
     return error == std::errc() && std::isfinite(value);
@@ -51,7 +45,7 @@ bool read_number(std::string_view& text, double& value) {
 /// Curves of a .func or .fset file: `name:` begins one, `points:` counts lines that follow.
 void read_curves(std::string_view text, std::vector<CpfgCurve>& curves) {
     CpfgCurve curve;
-    while (!text.empty() && curves.size() < kMostCurves) {
+    while (!text.empty() && curves.size() < kMaxCurves) {
         const std::string_view line = next_line(text);
         if (const auto name = value_of(line, "name:")) {
             curve.name = *name;
@@ -60,7 +54,7 @@ void read_curves(std::string_view text, std::vector<CpfgCurve>& curves) {
         auto count_text = value_of(line, "points:");
         double count = 0.0;
         if (!count_text || !read_number(*count_text, count) || count < 2.0 ||
-            count > static_cast<double>(kMostPoints)) {
+            count > static_cast<double>(kMaxPoints)) {
             continue;
         }
         while (static_cast<double>(curve.points.size()) < count && !text.empty()) {

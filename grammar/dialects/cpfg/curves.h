@@ -22,13 +22,13 @@ struct CpfgCurve {
     std::vector<CurvePoint> points; // of its polygon of control, x ascends
 };
 
-/// What a view file says that a word depends on.
+/// Contents of a view file that words depend on.
 struct CpfgView {
     std::string angle; // an expression of .lsys; empty: none is given
     std::vector<CpfgCurve> curves;
 };
 
-/// The text of a file that lies beside the L-system, by its name; nothing if it cannot be read.
+/// The text of a file beside the L-system, by its name; nullopt if it cannot be read.
 using FileBeside = std::function<std::optional<std::string>(std::string_view name)>;
 
 [[nodiscard]] CpfgView read_view(std::string_view text, const FileBeside& beside);

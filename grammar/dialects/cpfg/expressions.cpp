@@ -42,10 +42,10 @@ std::string in_cpfg_parentheses(const std::string& text) {
     return plain ? text : "(" + text + ")";
 }
 
-void CpfgExpressions::leave_out(SourceSpan span,
-                                const std::string& what,
-                                const std::string& message) {
-    if (!probes_ && left_out_.insert(what).second) {
+void CpfgExpressions::warn_left_out(SourceSpan span,
+                                    const std::string& what,
+                                    const std::string& message) {
+    if (!probes_ && warned_.insert(what).second) {
         session_.context.diagnostics.add(DiagnosticCode::ForeignIgnored, span, message);
     }
 }
@@ -54,31 +54,31 @@ CpfgTerm CpfgExpressions::choose(const CpfgTerm& test,
                                  const CpfgTerm& yes,
                                  const CpfgTerm& no,
                                  SourceSpan span) {
-    if (test.drawn) {
+    if (test.is_random) {
         return chosen_by_chance(span, "a choice by a random number");
     }
     const std::string condition = in_cpfg_parentheses(test.text);
     CpfgTerm made{"(" + condition + " != 0) * " + in_cpfg_parentheses(yes.text) + " + (" +
                       condition + " == 0) * " + in_cpfg_parentheses(no.text),
-                  yes.drawn || no.drawn, 0};
-    return made.text.size() > kLongestCpfgTerm ? unable(span, "a choice that is too long") : made;
+                  yes.is_random || no.is_random, 0};
+    return made.text.size() > kMaxCpfgTerm ? unsupported(span, "a choice that is too long") : made;
 }
 
 CpfgTerm CpfgExpressions::element(const CpfgExpression& each) {
     const auto found = arrays_.find(each.text);
     if (found == arrays_.end()) {
-        return unable(each.span, "`" + shown(each.text) + "` is no array");
+        return unsupported(each.span, "`" + shown(each.text) + "` is no array");
     }
     const Array& array = found->second;
     if (array.sizes.size() != each.parts.size()) {
-        return unable(each.span, "`" + shown(each.text) + "` has " +
-                                     std::to_string(array.sizes.size()) + " dimensions");
+        return unsupported(each.span, "`" + shown(each.text) + "` has " +
+                                          std::to_string(array.sizes.size()) + " dimensions");
     }
     std::string index = "0";
-    bool drawn = false;
+    bool is_random = false;
     for (std::size_t i = 0; i < each.parts.size(); ++i) {
         const CpfgTerm part = term(each.parts[i]);
-        drawn = drawn || part.drawn;
+        is_random = is_random || part.is_random;
         const std::string floor = is_cpfg_number(part.text)
                                       ? part.text
                                       : "min(max(floor(" + part.text + "), 0), " +
@@ -87,7 +87,7 @@ CpfgTerm CpfgExpressions::element(const CpfgExpression& each) {
                        : in_cpfg_parentheses(index) + " * " + std::to_string(array.sizes[i]) +
                              " + " + floor;
     }
-    if (drawn) {
+    if (is_random) {
         return chosen_by_chance(each.span, "a random number as the index of an array");
     }
     if (is_cpfg_number(index)) {
@@ -108,12 +108,12 @@ CpfgTerm CpfgExpressions::element(const CpfgExpression& each) {
 CpfgTerm CpfgExpressions::name(const CpfgExpression& each) {
     if (const auto found = variables_.find(each.text); found != variables_.end()) {
         CpfgTerm& value = found->second;
-        if (value.drawn && ++value.uses > 1) {
+        if (value.is_random && ++value.uses > 1) {
             return chosen_by_chance(each.span,
                                     "`" + shown(each.text) +
                                         "` is a random number that is used more than once");
         }
-        return {in_cpfg_parentheses(value.text), value.drawn, 0};
+        return {in_cpfg_parentheses(value.text), value.is_random, 0};
     }
     if (formals_.count(each.text) != 0) {
         return {each.text, false, 0};
@@ -130,16 +130,17 @@ CpfgTerm CpfgExpressions::name(const CpfgExpression& each) {
         }
     }
     if (changed_.count(each.text) != 0) {
-        return in_step_ ? CpfgTerm{"0", false, 0}
-                        : unable(each.span,
+        return in_step_
+                   ? CpfgTerm{"0", false, 0}
+                   : unsupported(each.span,
                                  "`" + shown(each.text) +
                                      "` is changed in every step, by more than the same number");
     }
     if (const auto found = globals_.find(each.text); found != globals_.end()) {
         return {in_cpfg_parentheses(found->second.text), false, 0};
     }
-    leave_out(each.span, "name " + each.text,
-              "`" + shown(each.text) + "` has no value before this; it is 0");
+    warn_left_out(each.span, "name " + each.text,
+                  "`" + shown(each.text) + "` has no value before this; it is 0");
     return {"0", false, 0};
 }
 
@@ -153,7 +154,7 @@ CpfgTerm CpfgExpressions::draw() {
 CpfgTerm CpfgExpressions::chosen_by_chance(SourceSpan span, const std::string& message) {
     needs_.bound_draws = true;
     if (draws_ == CpfgDraws::Inline) {
-        static_cast<void>(unable(span, message));
+        static_cast<void>(unsupported(span, message));
     }
     return {"0", true, 0};
 }
@@ -173,24 +174,24 @@ CpfgTerm CpfgExpressions::curve(const CpfgExpression& each) {
         std::size_t from_one = 0;
         std::from_chars(number.text.data(), number.text.data() + number.text.size(), from_one);
         if (!is_cpfg_number(number.text) || from_one == 0) {
-            return unable(each.span, "a function that is chosen while the word is derived");
+            return unsupported(each.span, "a function that is chosen while the word is derived");
         }
         index = std::min(from_one - 1, curves_.size());
         shown_name = number.text;
     }
     CpfgTerm x = term(each.parts[1]);
     if (index < curves_.size() && !curves_[index].points.empty()) {
-        if (x.drawn) { // it stands in each chord
+        if (x.is_random) { // it stands in each chord
             return chosen_by_chance(each.span, "a function of a random number");
         }
         return {curve_at(curves_[index], x.text), false, 0};
     }
     if (stage_ == Stage::Interpret && !in_header_) {
-        leave_out(each.span, "func " + shown_name,
-                  "no view file beside this one has function `" + shown_name + "`: it is 1");
+        warn_left_out(each.span, "func " + shown_name,
+                      "no view file beside this one has function `" + shown_name + "`: it is 1");
         return {"1", false, 0};
     }
-    return unable(each.span, "no view file beside this one has function `" + shown_name + "`");
+    return unsupported(each.span, "no view file beside this one has function `" + shown_name + "`");
 }
 
 CpfgTerm CpfgExpressions::call(const CpfgExpression& each) {
@@ -198,29 +199,30 @@ CpfgTerm CpfgExpressions::call(const CpfgExpression& each) {
         return curve(each);
     }
     std::vector<CpfgTerm> arguments;
-    bool drawn = false;
+    bool is_random = false;
     for (const int part : each.parts) {
         if (node(part).kind == CpfgKind::String) {
-            return unable(each.span, "`" + shown(each.text) + "`");
+            return unsupported(each.span, "`" + shown(each.text) + "`");
         }
         arguments.push_back(term(part));
-        drawn = drawn || arguments.back().drawn;
+        is_random = is_random || arguments.back().is_random;
     }
     const auto wants = [&](std::size_t count) { return arguments.size() == count; };
     for (const Function& function : kFunctions) {
         if (function.name == each.text && wants(1)) {
-            return {std::string(function.lsys) + "(" + arguments[0].text + ")", drawn, 0};
+            return {std::string(function.lsys) + "(" + arguments[0].text + ")", is_random, 0};
         }
     }
     if (each.text == "atan2" && wants(2)) { // x first
-        return {"atan2(" + arguments[1].text + ", " + arguments[0].text + ")", drawn, 0};
+        return {"atan2(" + arguments[1].text + ", " + arguments[0].text + ")", is_random, 0};
     }
     if (each.text == "trunc" && wants(1)) {
-        return {"floor(" + in_cpfg_parentheses(arguments[0].text) + " + 0.5)", drawn, 0};
+        return {"floor(" + in_cpfg_parentheses(arguments[0].text) + " + 0.5)", is_random, 0};
     }
     if (each.text == "ran" && wants(1)) {
         const CpfgTerm u = draw();
-        return {u.text + " * " + in_cpfg_parentheses(arguments[0].text), drawn || u.drawn, 0};
+        return {u.text + " * " + in_cpfg_parentheses(arguments[0].text), is_random || u.is_random,
+                0};
     }
     if (each.text == "nran" && wants(2)) { // by Box and Muller
         const CpfgTerm u = draw();
@@ -228,20 +230,20 @@ CpfgTerm CpfgExpressions::call(const CpfgExpression& each) {
         return {in_cpfg_parentheses(arguments[0].text) + " + " +
                     in_cpfg_parentheses(arguments[1].text) + " * sqrt(-2 * log(1 - " + u.text +
                     ")) * cos(360 * " + v.text + ")",
-                drawn || u.drawn, 0};
+                is_random || u.is_random, 0};
     }
     if (each.text == "GetDerivationLength") {
         return {"steps()", false, 0};
     }
-    return unable(each.span, "the function `" + shown(each.text) + "`");
+    return unsupported(each.span, "the function `" + shown(each.text) + "`");
 }
 
 CpfgTerm CpfgExpressions::binary(const CpfgExpression& each) {
     const CpfgTerm a = term(each.parts[0]);
     const CpfgTerm b = term(each.parts[1]);
-    const bool drawn = a.drawn || b.drawn;
+    const bool is_random = a.is_random || b.is_random;
     if (each.text == "%") { // of whole numbers
-        if (drawn) {
+        if (is_random) {
             return chosen_by_chance(each.span, "the remainder of a random number");
         }
         const auto whole = [](const std::string& text) {
@@ -251,7 +253,7 @@ CpfgTerm CpfgExpressions::binary(const CpfgExpression& each) {
     }
     const std::string operation = each.text == "<>" ? "!=" : each.text;
     return {in_cpfg_parentheses(a.text) + " " + operation + " " + in_cpfg_parentheses(b.text),
-            drawn, 0};
+            is_random, 0};
 }
 
 CpfgTerm CpfgExpressions::term(int index) {
@@ -266,11 +268,11 @@ CpfgTerm CpfgExpressions::term(int index) {
         break;
     case CpfgKind::String:
     case CpfgKind::Address:
-        made = unable(each.span, "a value that is no number");
+        made = unsupported(each.span, "a value that is no number");
         break;
     case CpfgKind::Unary: {
         const CpfgTerm inner = term(each.parts[0]);
-        made = {each.text + in_cpfg_parentheses(inner.text), inner.drawn, 0};
+        made = {each.text + in_cpfg_parentheses(inner.text), inner.is_random, 0};
         break;
     }
     case CpfgKind::Binary:
@@ -290,8 +292,9 @@ CpfgTerm CpfgExpressions::term(int index) {
         made = element(each);
         break;
     }
-    if (made.text.size() > kLongestCpfgTerm) {
-        return unable(each.span, "an expression that is too long once its variables are replaced");
+    if (made.text.size() > kMaxCpfgTerm) {
+        return unsupported(each.span,
+                           "an expression that is too long once its variables are replaced");
     }
     return made;
 }

@@ -1,5 +1,5 @@
 // Expressions and statements of cpfg as expressions of .lsys: variables that statements assign are
-// replaced by what they stand for. Variables that belong to the whole system are too, where each
+// replaced by their values. Variables that belong to the whole system are too, where each
 // step adds the same to them or makes them anew.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace lsys {
 /// An expression of .lsys.
 struct CpfgTerm {
     std::string text;
-    bool drawn = false; // has a random range
+    bool is_random = false; // has a random range
     int uses = 0;
 };
 
@@ -28,14 +28,14 @@ struct CpfgConstant {
     SourceSpan span;
 };
 
-/// Where random numbers of a production are drawn.
+/// Place where random numbers of a production are drawn.
 enum class CpfgDraws : std::uint8_t {
     Inline,    // where they stand
     Bound,     // before: the module has them as parameters
-    Elsewhere, // by another statement; nothing that is asked here depends on them
+    Elsewhere, // by another statement; terms made here do not depend on them
 };
 
-/// What a production needs beyond one expression for each of its values.
+/// Needs of a production beyond one expression per value.
 struct CpfgNeeds {
     bool bound_draws = false; // a random number is used twice, or something is chosen by it
     int draws = 0;            // random numbers, where they are bound
@@ -46,7 +46,7 @@ public:
     CpfgExpressions(CpfgSession& session, const std::vector<CpfgCurve>& curves)
         : session_(session), curves_(curves) {}
 
-    /// Reads what `define:`, `Start:` and the other blocks of the header say.
+    /// Runs `define:`, `Start:` and the other blocks of the header.
     void read_header();
     /// Begins a production: its formals, and no variable. `stage` is that of the statement of .lsys
     /// that is written.
@@ -60,16 +60,16 @@ public:
     /// Constants that are drawn when the derivation begins, with their values.
     [[nodiscard]] const std::vector<CpfgConstant>& constants() const { return constants_; }
 
-    /// A copy of this reports nothing and finds out what a production needs.
+    /// A copy that reports nothing, to find the needs of a production.
     [[nodiscard]] CpfgExpressions probe() const;
     [[nodiscard]] const CpfgNeeds& needs() const { return needs_; }
     /// The parameter that random number `index` is where they are bound.
     [[nodiscard]] std::string draw_name(int index) const;
-    /// Something is decided by a random number; an error where they are not bound.
+    /// A decision by a random number; an error where random numbers are not bound.
     [[nodiscard]] CpfgTerm chosen_by_chance(SourceSpan span, const std::string& message);
 
-    /// Reports once for each `what` that lsc leaves it out.
-    void leave_out(SourceSpan span, const std::string& what, const std::string& message);
+    /// Warns once per `what` that lsc leaves it out.
+    void warn_left_out(SourceSpan span, const std::string& what, const std::string& message);
 
 private:
     using Variables = std::map<std::string, CpfgTerm>;
@@ -93,14 +93,14 @@ private:
     void find_changed(const std::vector<int>& statements);
     void read_each_step();
     [[nodiscard]] int assignments(const std::vector<int>& statements, const std::string& to) const;
-    /// Whether the expression has one of the names, or a random number.
+    /// Returns true when the expression has one of the names, or a random number.
     [[nodiscard]] bool uses(int expression, const std::set<std::string>& names) const;
     [[nodiscard]] bool depends(const std::vector<int>& statements,
                                const std::string& to,
                                const std::set<std::string>& names) const;
     [[nodiscard]] int step_of(const std::string& variable) const;
-    [[nodiscard]] std::optional<bool> gives(const std::vector<int>& statements,
-                                            const std::string& variable) const;
+    [[nodiscard]] std::optional<bool> is_assigned_first(const std::vector<int>& statements,
+                                                        const std::string& variable) const;
     void enter_step();
     [[nodiscard]] const CpfgExpression& node(int index) const {
         return session_.expressions[static_cast<std::size_t>(index)];
@@ -108,9 +108,9 @@ private:
     [[nodiscard]] const CpfgStatement& statement(int index) const {
         return session_.statements[static_cast<std::size_t>(index)];
     }
-    [[nodiscard]] CpfgTerm unable(SourceSpan span, const std::string& message) const {
+    [[nodiscard]] CpfgTerm unsupported(SourceSpan span, const std::string& message) const {
         if (!probes_) {
-            session_.unable(span, message);
+            session_.report_unsupported(span, message);
         }
         return {"0", false, 0};
     }
@@ -119,14 +119,14 @@ private:
     const std::vector<CpfgCurve>& curves_;
     Variables variables_;
     Variables globals_;
-    std::map<Stage, Variables> states_; // globals that steps change, as productions see them
-    std::map<std::string, int> count_;  // what each step adds to a global: an expression
-    std::set<std::string> anew_;        // globals that each step makes anew
+    std::map<Stage, Variables> states_;     // globals that steps change, as productions see them
+    std::map<std::string, int> increments_; // what each step adds to a global: an expression
+    std::set<std::string> reset_;           // globals that each step makes anew
     std::vector<CpfgConstant> constants_;
     std::map<std::string, Array> arrays_;
     std::set<std::string> formals_;
     std::set<std::string> changed_; // globals that blocks of a step assign
-    std::set<std::string> left_out_;
+    std::set<std::string> warned_;
     CpfgNeeds needs_;
     Stage stage_ = Stage::Rewrite;
     bool in_header_ = false;
@@ -135,11 +135,11 @@ private:
     bool probes_ = false;
 };
 
-/// Whether the text is a number, and is 0.
+/// The text is a number; a number that is 0.
 [[nodiscard]] bool is_cpfg_number(std::string_view text);
 [[nodiscard]] bool is_cpfg_zero(std::string_view text);
 [[nodiscard]] std::string in_cpfg_parentheses(const std::string& text);
-/// Longer expressions come of variables that are put into one another again and again.
-inline constexpr std::size_t kLongestCpfgTerm = 20'000;
+/// Bytes of an expression. Variables that are put into one another make longer ones.
+inline constexpr std::size_t kMaxCpfgTerm = 20'000;
 
 } // namespace lsys

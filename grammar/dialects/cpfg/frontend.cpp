@@ -1,9 +1,12 @@
-#include "grammar/dialects/cpfg/frontend.h"
-
+// cpfg: the L-system files of L-studio and vlab. A label `Lsystem: 1`, header items, the axiom,
+// productions `left < predecessor > right : {statements} condition {statements} --> successor :
+// weight`, then decomposition and homomorphism. Lines go on where the next begins with a tab. Its
+// turtle is the profile `abop`.
 #include "cpfg/parser.h"
 #include "grammar/dialects/cpfg/preprocessor.h"
 #include "grammar/dialects/cpfg/session.h"
 #include "grammar/dialects/cpfg/writer.h"
+#include "grammar/dialects/impl/frontends.h"
 
 #include <algorithm>
 #include <string>
@@ -15,7 +18,7 @@ namespace lsys {
 namespace {
 
 /// The stages behind the parser go through nodes by recursion.
-constexpr int kDeepest = 1000;
+constexpr int kMaxDepth = 1000;
 
 } // namespace
 
@@ -24,9 +27,10 @@ int CpfgSession::add(CpfgExpression expression) {
         expression.depth =
             std::max(expression.depth, expressions[static_cast<std::size_t>(part)].depth + 1);
     }
-    if (expression.depth > kDeepest) {
-        if (expression.depth == kDeepest + 1) { // what it is part of is no other mistake
-            unable(expression.span, "an expression of more than 1000 operations in one another");
+    if (expression.depth > kMaxDepth) {
+        if (expression.depth == kMaxDepth + 1) { // once, not for every parent
+            report_unsupported(expression.span,
+                               "an expression of more than 1000 operations in one another");
         }
         expression.parts.clear();
         expression.kind = CpfgKind::Number;
@@ -43,9 +47,9 @@ int CpfgSession::add(CpfgStatement statement) {
             statement.depth = std::max(statement.depth, depth);
         }
     }
-    if (statement.depth > kDeepest) {
-        if (statement.depth == kDeepest + 1) {
-            unable(statement.span, "more than 1000 blocks in one another");
+    if (statement.depth > kMaxDepth) {
+        if (statement.depth == kMaxDepth + 1) {
+            report_unsupported(statement.span, "more than 1000 blocks in one another");
         }
         statement.block.clear();
         statement.otherwise.clear();
@@ -62,7 +66,7 @@ void CpfgSession::production(CpfgProduction made) {
 void CpfgSession::begin_system(SourceSpan label_span) {
     ++systems;
     if (systems == 2) {
-        unable(label_span, "a second L-system of the file, which the first would call");
+        report_unsupported(label_span, "a second L-system of the file, which the first would call");
     }
     stage = Stage::Rewrite;
 }
@@ -85,28 +89,27 @@ std::string_view recognise_cpfg(std::string_view text) {
     return {};
 }
 
-Translation translate_cpfg(FileId root, const ParseContext& context) {
+void translate_cpfg(const DialectRow& row, const ParseContext& context, Translation& translation) {
+    const FileId root = translation.file();
     const Translation text = preprocess_cpfg(root, context);
     static_cast<void>(text.report_overflow(context.diagnostics));
     CpfgSession session(text, context);
-    Translation translation(root);
     if (!context.diagnostics.has_errors()) {
         const CpfgScanning scanning(session, text.text());
         cpfg_grammar::Parser parser(session, scanning.scanner());
         static_cast<void>(parser.parse()); // what is wrong has been reported
     }
     if (context.diagnostics.has_errors()) {
-        return translation;
+        return;
     }
     const auto size = static_cast<std::uint32_t>(context.sources.file(root).text().size());
     if (session.systems == 0 || !session.axiom_span) {
         context.diagnostics.add(DiagnosticCode::ForeignSyntax, {root, size, size},
                                 session.systems == 0 ? "the file has no line `Lsystem: 1`"
                                                      : "the file has no line `Axiom: ...`");
-        return translation;
+        return;
     }
-    CpfgWriter(session, translation).run();
-    return translation;
+    CpfgWriter(session, translation).run(row.turtle);
 }
 
 } // namespace lsys

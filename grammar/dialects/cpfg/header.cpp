@@ -74,18 +74,20 @@ std::string CpfgWriter::key_of(const CpfgProduction& each) {
 void CpfgWriter::check_module(CpfgModule& module) {
     const std::string& name = module.name;
     if (name == "?") {
-        session_.unable(module.span, "`?` asks an environment process, or the turtle, for values");
+        session_.report_unsupported(module.span,
+                                    "`?` asks an environment process, or the turtle, for values");
     } else if (name == "$") {
-        session_.unable(module.span, "`$` ends a sub-L-system");
+        session_.report_unsupported(module.span, "`$` ends a sub-L-system");
     } else if (name == "%" && module.has_arguments) {
-        session_.unable(module.span, "`%` with a parameter keeps what it cuts off for an "
-                                     "environment process");
+        session_.report_unsupported(module.span,
+                                    "`%` with a parameter keeps what it cuts off for an "
+                                    "environment process");
     } else if (name.size() >= 2 && name[0] == '@' && name != "@v") {
-        expressions_.leave_out(module.span, name, "`" + shown(name) + "` is not drawn");
+        expressions_.warn_left_out(module.span, name, "`" + shown(name) + "` is not drawn");
     } else if ((name == "{" || name == "}") && module.has_arguments) {
-        expressions_.leave_out(module.span, "{(", "parameters of `" + name + "` are left out");
+        expressions_.warn_left_out(module.span, "{(", "parameters of `" + name + "` are left out");
     }
-    // what a label says
+    // text of a label
     std::erase_if(module.arguments, [&](int argument) {
         return name.starts_with("@") && expression(argument).kind == CpfgKind::String;
     });
@@ -95,12 +97,12 @@ void CpfgWriter::check_module(CpfgModule& module) {
 /// The symbol after a `~`.
 void CpfgWriter::surface(const CpfgModule& module) {
     surfaces_.insert(module.name);
-    expressions_.leave_out(module.span, "surface " + module.name,
-                           "the surface `" + shown(module.name) +
-                               "` is drawn as a leaf: its file is not read");
+    expressions_.warn_left_out(module.span, "surface " + module.name,
+                               "the surface `" + shown(module.name) +
+                                   "` is drawn as a leaf: its file is not read");
 }
 
-/// The module of .lsys that a symbol is.
+/// The .lsys module of a symbol.
 std::string CpfgWriter::spelled(const std::string& name, bool has_arguments) const {
     if (name == ";" && used_.count("'") == 0) {
         return "'";
@@ -128,8 +130,8 @@ void CpfgWriter::setting(const char* begin, int expression, const char* fallback
     }
     const SourceSpan span = this->expression(expression).span;
     const CpfgTerm value = expressions_.term(expression);
-    if (value.drawn) {
-        session_.unable(span, "a random number in the header");
+    if (value.is_random) {
+        session_.report_unsupported(span, "a random number in the header");
     }
     const bool number = literal_length(value.text) == value.text.size();
     out_.put(begin, span);
@@ -175,8 +177,8 @@ void CpfgWriter::view() {
     });
 }
 
-void CpfgWriter::settings() {
-    out_.put("#set turtle abop;\n#set names letters;\n", header_);
+void CpfgWriter::settings(std::string_view turtle) {
+    out_.put("#set turtle " + std::string(turtle) + ";\n#set names letters;\n", header_);
     const auto several = [](const CpfgProduction& each) {
         return each.stage == Stage::Rewrite && each.predecessor.size() > 1;
     };
@@ -265,9 +267,10 @@ void CpfgWriter::names(const char* begin, const std::vector<CpfgModule>& list) {
     }
     for (const CpfgModule& module : list) {
         if (!session_.considers && (module.name == "[" || module.name == "]")) {
-            expressions_.leave_out(module.span, "ignored bracket",
-                                   "brackets always count in contexts: that they are ignored is "
-                                   "left out");
+            expressions_.warn_left_out(
+                module.span, "ignored bracket",
+                "brackets always count in contexts: that they are ignored is "
+                "left out");
         }
     }
     std::set<std::string> spelled_names;
@@ -284,7 +287,7 @@ void CpfgWriter::names(const char* begin, const std::vector<CpfgModule>& list) {
         out_.put(name, header_);
     }
     if (spelled_names.empty()) {
-        out_.put("`none`", header_); // nothing of the word counts
+        out_.put("`none`", header_); // no module counts
     }
     out_.put(";\n", header_);
 }

@@ -2,6 +2,7 @@
 
 #include "grammar/ast/include_chain.h"
 #include "grammar/ast/reports.h"
+#include "grammar/dialects/impl/text.h"
 
 #include <algorithm>
 #include <map>
@@ -13,9 +14,9 @@ namespace lsys {
 
 namespace {
 
-/// Text that macros may write; more is a macro that writes itself again and again.
-constexpr std::size_t kMostExpanded = std::size_t{1} << 24;
-constexpr int kDeepestMacro = 64;
+/// Bytes that macros may write; only a macro that writes itself needs more.
+constexpr std::size_t kMaxExpanded = std::size_t{1} << 24;
+constexpr int kMaxMacroDepth = 64;
 
 bool is_name_start(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -36,16 +37,6 @@ std::size_t name_length(std::string_view text) {
         }
     }
     return length;
-}
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && is_blank(text.front())) {
-        text.remove_prefix(1);
-    }
-    while (!text.empty() && is_blank(text.back())) {
-        text.remove_suffix(1);
-    }
-    return text;
 }
 
 struct Macro {
@@ -173,8 +164,8 @@ private:
 
     void open(bool holds, SourceSpan span) { conditions_.push_back({holds, holds, span.begin}); }
 
-    /// Whether `#if text` holds: a number that is not 0, `defined(NAME)`, or a name that stands for
-    /// such a number; `!` before it.
+    /// Returns true when `#if text` holds: a number that is not 0, `defined(NAME)`, or a name whose
+    /// value is such a number; `!` negates.
     [[nodiscard]] bool holds(std::string_view text) const {
         text = trimmed(text);
         if (text.starts_with("!")) {
@@ -295,7 +286,7 @@ private:
             expand(macro->first, macro->second, arguments, 0, expanded);
             const SourceSpan span{id, begin, static_cast<std::uint32_t>(at + used)};
             expanded_ += expanded.size();
-            if (expanded_ > kMostExpanded) {
+            if (expanded_ > kMaxExpanded) {
                 if (!told_) {
                     error(span, "the macros of this file write more than 16 million characters");
                 }
@@ -342,7 +333,7 @@ private:
                 std::string& out) {
         active_.push_back(own);
         const std::string_view body = macro.body;
-        for (std::size_t at = 0; at < body.size() && out.size() <= kMostExpanded;) {
+        for (std::size_t at = 0; at < body.size() && out.size() <= kMaxExpanded;) {
             std::size_t length = name_length(body.substr(at));
             if (length == 0) {
                 do {
@@ -362,10 +353,10 @@ private:
                 const auto index = static_cast<std::size_t>(parameter - macro.parameters.begin());
                 Macro given;
                 given.body = index < arguments.size() ? arguments[index] : std::string();
-                if (depth < kDeepestMacro) {
+                if (depth < kMaxMacroDepth) {
                     expand({}, given, {}, depth + 1, out);
                 }
-            } else if (inner != macros_.end() && depth < kDeepestMacro &&
+            } else if (inner != macros_.end() && depth < kMaxMacroDepth &&
                        std::find(active_.begin(), active_.end(), word) == active_.end() &&
                        (!inner->second.is_function ||
                         read_arguments(body.substr(at + length), inner_arguments, used))) {

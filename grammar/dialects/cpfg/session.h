@@ -105,7 +105,7 @@ public:
     bool in_arguments = false; // of a module: the last `)` leads back to symbols
     bool label = false;        // the words of the label
 
-    /// Where the next `length` bytes stand.
+    /// The place of the next `length` bytes.
     SourceSpan take(std::uint32_t length) {
         at_ += length;
         return text.origin(at_ - length, at_);
@@ -114,10 +114,10 @@ public:
     void give_back(std::uint32_t length) { at_ -= length; }
 
     // --- for the parser
-    /// What is nested too deep is reported, and left out.
+    /// Nesting beyond the limit is reported and left out.
     int add(CpfgExpression expression);
     int add(CpfgStatement statement);
-    void unable(SourceSpan span, std::string message) const {
+    void report_unsupported(SourceSpan span, std::string message) const {
         context.diagnostics.add(DiagnosticCode::ForeignFeature, span, std::move(message));
     }
     void production(CpfgProduction made);

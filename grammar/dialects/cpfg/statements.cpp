@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// Procedures that do nothing to the word.
+/// Procedures without effect on the word.
 constexpr std::array<std::string_view, 10> kProcedures{
     "printf", "fprintf", "fopen", "fclose", "fflush", "stop", "play", "Display", "srand", "fputs"};
 
@@ -38,31 +38,33 @@ void CpfgExpressions::read_header() {
     globals_ = std::exchange(variables_, {});
     read_each_step();
     for (const int index : session_.end) {
-        leave_out(statement(index).span, "End", "`End:` is left out: it cannot change the word");
+        warn_left_out(statement(index).span, "End",
+                      "`End:` is left out: it cannot change the word");
     }
     in_header_ = false;
 }
 
-/// Of what the blocks of a step assign: what is added to in each step, and what is made anew.
+/// Sorts the variables that blocks of a step assign: incremented by each step, assigned anew by
+/// each step, or unknown.
 void CpfgExpressions::read_each_step() {
     find_changed(session_.start_each);
     find_changed(session_.end_each);
     for (const std::string& variable : changed_) {
         const int added = step_of(variable);
         if (added >= 0) {
-            count_[variable] = added;
-        } else if (gives(session_.start_each, variable).value_or(false)) {
-            anew_.insert(variable);
+            increments_[variable] = added;
+        } else if (is_assigned_first(session_.start_each, variable).value_or(false)) {
+            reset_.insert(variable);
         }
     }
-    std::set<std::string> unknown; // nor is what depends on one of these known
+    std::set<std::string> unknown; // with the variables that depend on an unknown one
     for (std::size_t before = changed_.size() + 1; before != unknown.size();) {
         before = unknown.size();
         for (const std::string& variable : changed_) {
-            const bool known = count_.count(variable) != 0 || anew_.count(variable) != 0;
+            const bool known = increments_.count(variable) != 0 || reset_.count(variable) != 0;
             if (!known || depends(session_.start_each, variable, unknown) ||
                 depends(session_.end_each, variable, unknown)) {
-                anew_.erase(variable);
+                reset_.erase(variable);
                 unknown.insert(variable);
             }
         }
@@ -97,7 +99,7 @@ bool CpfgExpressions::uses(int expression, const std::set<std::string>& names) c
                        [&](int part) { return uses(part, names); });
 }
 
-/// Whether a statement gives `to` a value with a random number or one of the names in it.
+/// Returns true when a value assigned to `to` has a random number or one of the names in it.
 bool CpfgExpressions::depends(const std::vector<int>& statements,
                               const std::string& to,
                               const std::set<std::string>& names) const {
@@ -109,8 +111,8 @@ bool CpfgExpressions::depends(const std::vector<int>& statements,
     });
 }
 
-/// What each step adds to the variable, as an expression; -1: it is changed otherwise. The only
-/// statement that assigns it is `v = v + e;`, not within an `if`, and no step changes `e`.
+/// Increment of the variable per step, an expression; -1: none. The only statement that assigns it
+/// is `v = v + e;`, not within an `if`, and no step changes `e`.
 int CpfgExpressions::step_of(const std::string& variable) const {
     if (assignments(session_.start_each, variable) + assignments(session_.end_each, variable) !=
         1) {
@@ -132,10 +134,9 @@ int CpfgExpressions::step_of(const std::string& variable) const {
     return -1;
 }
 
-/// Whether statements give the variable a value before anything asks for it; nothing: they do not
-/// name it.
-std::optional<bool> CpfgExpressions::gives(const std::vector<int>& statements,
-                                           const std::string& variable) const {
+/// Returns true when statements assign the variable before they read it; nullopt: neither.
+std::optional<bool> CpfgExpressions::is_assigned_first(const std::vector<int>& statements,
+                                                       const std::string& variable) const {
     for (const int index : statements) {
         const CpfgStatement& each = statement(index);
         if (uses(each.value, {variable})) {
@@ -144,8 +145,8 @@ std::optional<bool> CpfgExpressions::gives(const std::vector<int>& statements,
         if (each.kind == CpfgStatementKind::Assign && node(each.target).text == variable) {
             return true;
         }
-        const std::optional<bool> yes = gives(each.block, variable);
-        const std::optional<bool> no = gives(each.otherwise, variable);
+        const std::optional<bool> yes = is_assigned_first(each.block, variable);
+        const std::optional<bool> no = is_assigned_first(each.otherwise, variable);
         if (yes || no) {
             return yes.value_or(false) && no.value_or(false);
         }
@@ -153,7 +154,7 @@ std::optional<bool> CpfgExpressions::gives(const std::vector<int>& statements,
     return std::nullopt;
 }
 
-/// The variables of the whole system as a production of the stage sees them.
+/// Finds the values of global variables in productions of the stage.
 void CpfgExpressions::enter_step() {
     const auto [known, is_new] = states_.try_emplace(stage_);
     if (!is_new) {
@@ -163,7 +164,7 @@ void CpfgExpressions::enter_step() {
     in_header_ = true;
     in_step_ = true;
     variables_.clear();
-    for (const auto& [variable, added] : count_) {
+    for (const auto& [variable, added] : increments_) {
         const auto start = globals_.find(variable);
         const std::string from = start == globals_.end() ? "0" : start->second.text;
         variables_[variable] = {in_cpfg_parentheses(from) + " + " +
@@ -177,7 +178,7 @@ void CpfgExpressions::enter_step() {
     in_header_ = false;
     in_step_ = false;
     for (auto& [variable, value] : variables_) {
-        if (count_.count(variable) != 0 || anew_.count(variable) != 0) {
+        if (increments_.count(variable) != 0 || reset_.count(variable) != 0) {
             const auto start = globals_.find(variable);
             const CpfgTerm first =
                 start == globals_.end() ? CpfgTerm{"0", false, 0} : start->second;
@@ -232,24 +233,25 @@ void CpfgExpressions::run(const CpfgStatement& each) {
     case CpfgStatementKind::Assign: {
         const CpfgExpression& target = node(each.target);
         if (target.kind == CpfgKind::Index) {
-            static_cast<void>(unable(
+            static_cast<void>(unsupported(
                 each.span, "an element of an array that is changed while the word is derived"));
             return;
         }
         const bool global = globals_.count(target.text) != 0 || changed_.count(target.text) != 0;
         if (!in_header_ && global && formals_.count(target.text) == 0) {
             static_cast<void>(
-                unable(each.span, "`" + shown(target.text) +
-                                      "` belongs to the whole system and is changed by a "
-                                      "production"));
+                unsupported(each.span, "`" + shown(target.text) +
+                                           "` belongs to the whole system and is changed by a "
+                                           "production"));
             return;
         }
         CpfgTerm value = term(each.value);
-        if (value.text.size() > kLongestCpfgTerm) {
-            value = unable(each.span, "the value of `" + shown(target.text) +
-                                          "` is too long for one expression");
+        if (value.text.size() > kMaxCpfgTerm) {
+            value = unsupported(each.span, "the value of `" + shown(target.text) +
+                                               "` is too long for one expression");
         }
-        if (value.drawn && in_header_ && !in_step_) { // drawn once, before the derivation begins
+        if (value.is_random && in_header_ &&
+            !in_step_) { // drawn once, before the derivation begins
             constants_.push_back(
                 {"start_" + std::to_string(constants_.size() + 1), value.text, each.span});
             value = {constants_.back().name, false, 0};
@@ -265,7 +267,7 @@ void CpfgExpressions::run(const CpfgStatement& each) {
         branch(each);
         break;
     case CpfgStatementKind::Loop:
-        static_cast<void>(unable(each.span, "a loop"));
+        static_cast<void>(unsupported(each.span, "a loop"));
         break;
     case CpfgStatementKind::Array:
         define_array(each);
@@ -276,16 +278,16 @@ void CpfgExpressions::run(const CpfgStatement& each) {
 void CpfgExpressions::call_statement(const CpfgStatement& each) {
     const CpfgExpression& called = node(each.value);
     if (called.kind != CpfgKind::Call) {
-        return; // a value that nobody uses
+        return; // an unused value
     }
     const bool known =
         std::find(kProcedures.begin(), kProcedures.end(), called.text) != kProcedures.end();
     if (called.text == "srand") {
-        leave_out(called.span, "srand",
-                  "`srand` is left out: random numbers are those of lsc, by its own seed");
+        warn_left_out(called.span, "srand",
+                      "`srand` is left out: random numbers are those of lsc, by its own seed");
     } else if (known) {
-        leave_out(called.span, called.text,
-                  "`" + shown(called.text) + "` is left out: it cannot change the word");
+        warn_left_out(called.span, called.text,
+                      "`" + shown(called.text) + "` is left out: it cannot change the word");
     } else {
         static_cast<void>(term(each.value));
     }
@@ -297,7 +299,7 @@ void CpfgExpressions::branch(const CpfgStatement& each) {
         run(is_cpfg_zero(test.text) ? each.otherwise : each.block);
         return;
     }
-    const bool chance = test.drawn;
+    const bool chance = test.is_random;
     if (chance) {
         static_cast<void>(chosen_by_chance(node(each.value).span, "a random number in an `if`"));
     }
@@ -329,7 +331,7 @@ void CpfgExpressions::branch(const CpfgStatement& each) {
 }
 
 void CpfgExpressions::define_array(const CpfgStatement& each) {
-    constexpr int kMostElements = 256;
+    constexpr int kMaxElements = 256;
     const CpfgExpression& target = node(each.target);
     Array array;
     int count = 1;
@@ -337,9 +339,9 @@ void CpfgExpressions::define_array(const CpfgStatement& each) {
         const CpfgTerm size = term(part);
         int value = 0;
         std::from_chars(size.text.data(), size.text.data() + size.text.size(), value);
-        if (!is_cpfg_number(size.text) || value <= 0 || value > kMostElements / count) {
+        if (!is_cpfg_number(size.text) || value <= 0 || value > kMaxElements / count) {
             static_cast<void>(
-                unable(target.span, "an array whose size is no number from 1 to 256"));
+                unsupported(target.span, "an array whose size is no number from 1 to 256"));
             return;
         }
         array.sizes.push_back(value);
@@ -347,8 +349,8 @@ void CpfgExpressions::define_array(const CpfgStatement& each) {
     }
     for (const int value : each.block) {
         const CpfgTerm made = term(value);
-        if (made.drawn) {
-            static_cast<void>(unable(each.span, "random numbers in an array"));
+        if (made.is_random) {
+            static_cast<void>(unsupported(each.span, "random numbers in an array"));
             return;
         }
         array.values.push_back(made.text);

@@ -12,8 +12,8 @@ namespace lsys {
 
 namespace {
 
-/// The random numbers of one choice: each production of the module has them all as parameters.
-constexpr int kMostDraws = 1000;
+/// Random numbers of one choice; each production of the module has them all as parameters.
+constexpr int kMaxDraws = 1000;
 
 } // namespace
 
@@ -21,13 +21,13 @@ CpfgWriter::CpfgWriter(CpfgSession& session, Translation& out)
     : session_(session), context_(session.context), out_(out), header_{out.file(), 0, 1},
       expressions_(session, view_.curves) {}
 
-void CpfgWriter::run() {
+void CpfgWriter::run(std::string_view turtle) {
     find_names();
     view();
     expressions_.read_header();
     find_bindings();
     expressions_.begin({}, Stage::Rewrite);
-    settings();
+    settings(turtle);
     out_.put("\n#w : ", *session_.axiom_span);
     modules(session_.axiom);
     out_.put(";\n\n", header_);
@@ -44,7 +44,7 @@ bool CpfgWriter::is_always(const CpfgProduction& each) const {
     return test.kind == CpfgKind::Number && !is_cpfg_zero(test.text);
 }
 
-/// Whether chance decides between this one and others.
+/// Returns true when the production is chosen among others by chance.
 bool CpfgWriter::chosen(const CpfgProduction& each) const {
     return session_.seed >= 0 && each.stage == Stage::Rewrite && !each.predecessor.empty() &&
            alternatives_.at(key_of(each)) > 1;
@@ -64,7 +64,7 @@ void CpfgWriter::find_bindings() {
         CpfgExpressions probe = expressions_.probe();
         probe.begin({names.begin(), names.end()}, each.stage);
         probe.run(each.before);
-        const bool drawn_test = each.condition >= 0 && probe.term(each.condition).drawn;
+        const bool drawn_test = each.condition >= 0 && probe.term(each.condition).is_random;
         bool weighted = false;
         if (chosen(each) && each.weight >= 0) {
             const std::string text = probe.term(each.weight).text;
@@ -91,9 +91,9 @@ void CpfgWriter::find_bindings() {
         const CpfgProduction& each = session_.productions[i];
         if (bindings_[i].binding != Binding::None && bound_.insert(each.stage).second &&
             each.stage != Stage::Rewrite) {
-            expressions_.leave_out(each.span, "passes",
-                                   "random numbers that are used more than once take a pass of "
-                                   "their own: `maximum depth` counts twice");
+            expressions_.warn_left_out(each.span, "passes",
+                                       "random numbers that are used more than once take a pass of "
+                                       "their own: `maximum depth` counts twice");
         }
     }
 }
@@ -103,15 +103,17 @@ void CpfgWriter::bind_group(const std::vector<std::size_t>& members) {
     for (const std::size_t i : members) {
         const CpfgProduction& each = session_.productions[i];
         if (!each.left.empty() || !each.right.empty() || each.predecessor.size() != 1) {
-            session_.unable(each.span, "a choice by a random number, or by weights that depend on "
-                                       "parameters, among productions with contexts or of several "
-                                       "modules");
+            session_.report_unsupported(each.span,
+                                        "a choice by a random number, or by weights that depend on "
+                                        "parameters, among productions with contexts or of several "
+                                        "modules");
             return;
         }
         draws += bindings_[i].draws;
-        if (draws > kMostDraws) {
-            session_.unable(each.span, "more than 1000 random numbers, here and before, that the "
-                                       "choice among the productions of one module needs");
+        if (draws > kMaxDraws) {
+            session_.report_unsupported(each.span,
+                                        "more than 1000 random numbers, here and before, that the "
+                                        "choice among the productions of one module needs");
             return;
         }
     }
@@ -184,24 +186,25 @@ void CpfgWriter::pattern(const std::vector<CpfgModule>& list) {
     }
 }
 
-/// Whether the production can be written at all.
+/// Reports productions that .lsys does not have; returns false for those.
 bool CpfgWriter::check(const CpfgProduction& each) {
     if (each.predecessor.empty()) {
-        session_.unable(each.span, "a production without a module");
+        session_.report_unsupported(each.span, "a production without a module");
         return false;
     }
     if (each.predecessor.size() != 1 && each.stage != Stage::Rewrite) {
-        session_.unable(each.span, "a decomposition or a homomorphism of several modules as one");
+        session_.report_unsupported(each.span,
+                                    "a decomposition or a homomorphism of several modules as one");
         return false;
     }
     const bool contexts = !each.left.empty() || !each.right.empty();
     if (contexts && each.stage == Stage::Decompose) {
-        session_.unable(each.span, "contexts in a decomposition");
+        session_.report_unsupported(each.span, "contexts in a decomposition");
         return false;
     }
     if (contexts && each.stage == Stage::Interpret) {
-        expressions_.leave_out(each.span, "context",
-                               "contexts in a homomorphism are left out, as cpfg does");
+        expressions_.warn_left_out(each.span, "context",
+                                   "contexts in a homomorphism are left out, as cpfg does");
     }
     return true;
 }
@@ -231,7 +234,7 @@ std::string label_of(Stage stage, std::size_t index) {
                                        : "#interpret i" + number;
 }
 
-/// Of what a module that holds random numbers becomes.
+/// Label of the production that replaces a module of random numbers.
 std::string bound_label(Stage stage, const std::string& name) {
     return (stage == Stage::Interpret ? "#interpret " : "#decompose ") + name;
 }
@@ -384,7 +387,7 @@ void CpfgWriter::group(std::size_t index) {
         modules(each.successor);
         out_.put(";\n", each.arrow);
     }
-    if (!always) { // nothing matches: the module stays
+    if (!always) { // without a match the module stays
         out_.put(bound_label(first.stage, "k" + std::to_string(index + 1)) + " : " +
                      drawing_module(index),
                  first.span);
@@ -412,7 +415,7 @@ void CpfgWriter::condition(const CpfgProduction& each) {
 
 void CpfgWriter::weight(const CpfgProduction& each) {
     if (each.weight >= 0 && session_.seed < 0) {
-        expressions_.leave_out(
+        expressions_.warn_left_out(
             expression(each.weight).span, "weight",
             "without `seed:` the first production that matches is taken: this is left out");
     }
@@ -420,9 +423,9 @@ void CpfgWriter::weight(const CpfgProduction& each) {
         return;
     }
     if (!each.left.empty() || !each.right.empty()) {
-        expressions_.leave_out(each.span, "choice " + key_of(each),
-                               "the choice is among productions with the same contexts; cpfg "
-                               "chooses among all that match");
+        expressions_.warn_left_out(each.span, "choice " + key_of(each),
+                                   "the choice is among productions with the same contexts; cpfg "
+                                   "chooses among all that match");
     }
     if (each.weight < 0) {
         out_.put(" ~ 1", each.span);
@@ -433,8 +436,8 @@ void CpfgWriter::weight(const CpfgProduction& each) {
     out_.put("(" + expressions_.term(each.weight).text + ")", span);
 }
 
-/// The condition that this one is chosen: the last random number, as a part of the weights of all
-/// that match, falls into its own.
+/// Writes the condition of the choice: the last random number, times the sum of the weights of all
+/// matching productions, falls into the weight of this one.
 void CpfgWriter::weighted(const CpfgProduction& each, std::size_t index) {
     const std::vector<std::string> own = formals_of(each);
     std::string until;
@@ -457,10 +460,11 @@ void CpfgWriter::weighted(const CpfgProduction& each, std::size_t index) {
             other.weight < 0 ? "1" : in_cpfg_parentheses(expressions_.term(other.weight).text);
         part += condition.empty() ? "" : " * (" + condition + " != 0)";
         all += (all.empty() ? "" : " + ") + part;
-        if (all.size() > kLongestCpfgTerm) { // it stands in the conditions of all of them
-            session_.unable(session_.productions[groups_.at(index).front()].span,
-                            "so many productions for one module that the sum of their weights is "
-                            "too long for one expression");
+        if (all.size() > kMaxCpfgTerm) { // it stands in the conditions of all of them
+            session_.report_unsupported(
+                session_.productions[groups_.at(index).front()].span,
+                "so many productions for one module that the sum of their weights is "
+                "too long for one expression");
             return;
         }
         if (until.empty() || !last) {

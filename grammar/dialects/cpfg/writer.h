@@ -1,4 +1,4 @@
-// Writes what was parsed of a cpfg file as .lsys text.
+// Writes a parsed cpfg file as .lsys text.
 //
 // An expression of .lsys draws a random number where it stands, so one that is used twice, or that
 // decides something, is a parameter of a module that is written first and decomposed at once:
@@ -21,7 +21,8 @@ class CpfgWriter {
 public:
     CpfgWriter(CpfgSession& session, Translation& out);
 
-    void run();
+    /// `turtle`: the profile.
+    void run(std::string_view turtle);
 
 private:
     enum class Binding : std::uint8_t {
@@ -44,7 +45,7 @@ private:
     [[nodiscard]] static std::string key_of(const CpfgProduction& each);
 
     // --- the header
-    void settings();
+    void settings(std::string_view turtle);
     void setting(const char* begin, int expression, const char* fallback);
     void depth(const char* begin, int expression, Stage stage);
     void view();
@@ -81,7 +82,7 @@ private:
     CpfgSession& session_;
     const ParseContext& context_;
     Translation& out_;
-    SourceSpan header_; // what no place of its own says
+    SourceSpan header_; // for text without a place of its own
     CpfgView view_;
     CpfgExpressions expressions_;
     std::vector<Binds> bindings_;                            // of each production

@@ -1,8 +1,10 @@
-#include "grammar/dialects/fractint/frontend.h"
-
+// .l collections of Fractint: many systems in a file, each `name { ... }` with an angle, an axiom
+// and rules of one symbol, in any case of letters. Its turtle is the profile `fractint`.
 #include "grammar/ast/reports.h"
-#include "grammar/dialects/fractint/session.h"
+#include "grammar/dialects/fractint/reader.h"
 #include "grammar/dialects/fractint/writer.h"
+#include "grammar/dialects/impl/frontends.h"
+#include "grammar/dialects/impl/text.h"
 
 #include <algorithm>
 #include <array>
@@ -13,27 +15,18 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\x1A";
 
-char lowered(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-std::string lowered(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(), [](char c) { return lowered(c); });
-    return out;
-}
-
-/// An entry as it is chosen: with the place of its name, without the kind that some files write.
+/// An entry with its name, without the kind `lsys:` in front of it.
 struct NamedEntry {
     std::string name;
     const FractintEntry* entry = nullptr;
 };
 
-/// Comments and formulas left out.
-std::vector<NamedEntry> systems_of(const FractintSession& session) {
+/// All entries but comments and formulas.
+std::vector<NamedEntry> systems_of(const std::vector<FractintEntry>& entries,
+                                   const SourceMap& sources) {
     std::vector<NamedEntry> systems;
-    for (const FractintEntry& entry : session.entries) {
-        std::string_view name = session.context.sources.text(entry.name);
+    for (const FractintEntry& entry : entries) {
+        std::string_view name = sources.text(entry.name);
         const std::string low = lowered(name);
         constexpr std::array<std::string_view, 3> kOthers{"frm:", "ifs:", "par:"};
         if (low.empty() || low == "comment" ||
@@ -50,17 +43,16 @@ std::vector<NamedEntry> systems_of(const FractintSession& session) {
 
 /// `Koch1, Koch2, ...`
 std::string listed(const std::vector<NamedEntry>& systems) {
-    constexpr std::size_t kMost = 200;
+    constexpr std::size_t kMax = 200;
     std::string text;
-    for (std::size_t i = 0; i < systems.size() && i < kMost; ++i) {
+    for (std::size_t i = 0; i < systems.size() && i < kMax; ++i) {
         text += (i == 0 ? "" : ", ") + shown(systems[i].name);
     }
-    return systems.size() > kMost
-               ? text + " and " + std::to_string(systems.size() - kMost) + " more"
-               : text;
+    return systems.size() > kMax ? text + " and " + std::to_string(systems.size() - kMax) + " more"
+                                 : text;
 }
 
-/// The system that is wanted, or null after a report.
+/// The system that the context names, or the only one; null after a report.
 const NamedEntry*
 choose(const std::vector<NamedEntry>& systems, FileId root, const ParseContext& context) {
     const SourceSpan start{root, 0, 0};
@@ -149,28 +141,26 @@ std::vector<std::string> systems_in_fractint(std::string_view text) {
     };
     const FileId root = sources.add("", std::string(text));
     const ParseContext context{sources, names, diagnostics, nothing};
-    FractintSession session(root, context);
-    session.parse(sources.file(root).text());
+    const std::vector<FractintEntry> entries = read_fractint_entries(root, context);
     std::vector<std::string> found;
-    for (NamedEntry& system : systems_of(session)) {
+    for (NamedEntry& system : systems_of(entries, sources)) {
         found.push_back(std::move(system.name));
     }
     return found;
 }
 
-Translation translate_fractint(FileId root, const ParseContext& context) {
-    FractintSession collection(root, context);
-    collection.parse(context.sources.file(root).text());
-    Translation translation(root);
-    const std::vector<NamedEntry> systems = systems_of(collection);
+void translate_fractint(const DialectRow& row,
+                        const ParseContext& context,
+                        Translation& translation) {
+    const FileId root = translation.file();
+    const std::vector<FractintEntry> entries = read_fractint_entries(root, context);
+    const std::vector<NamedEntry> systems = systems_of(entries, context.sources);
     const NamedEntry* const chosen = choose(systems, root, context);
     if (chosen == nullptr) {
-        return translation;
+        return;
     }
-    FractintSession session(*chosen->entry, context);
-    session.parse(context.sources.text(chosen->entry->body));
-    FractintWriter(session, chosen->entry->name, context, translation).write();
-    return translation;
+    const std::vector<FractintLine> lines = read_fractint_lines(*chosen->entry, context);
+    FractintWriter(lines, chosen->entry->name, context, translation).write(row.turtle);
 }
 
 } // namespace lsys

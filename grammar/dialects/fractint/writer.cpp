@@ -4,6 +4,7 @@
 #include "grammar/ast/reports.h"
 #include "grammar/base/utf8.h"
 #include "grammar/dialects/impl/letter_modules.h"
+#include "grammar/dialects/impl/text.h"
 
 #include <array>
 #include <charconv>
@@ -14,26 +15,16 @@ namespace lsys {
 namespace {
 
 constexpr double kFullTurn = 360.0;
-constexpr std::uint32_t kLeastAngle = 3; // of those that Fractint takes
-constexpr std::uint32_t kMostAngle = 50;
+constexpr std::uint32_t kMinAngle = 3; // parts of a full turn
+constexpr std::uint32_t kMaxAngle = 50;
 
-/// Commands that the number behind them belongs to.
+/// Commands with a number behind them.
 constexpr std::string_view kNumbered = "@\\/C<>";
 /// Symbols that present versions of Fractint let no rule replace.
 constexpr std::string_view kReserved = "+-/\\@|!C<>[]";
 
 char folded(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
-
-bool is_one_of(char c, std::string_view set) {
-    return set.find(c) != std::string_view::npos;
-}
-
-std::string text_of(float value) {
-    std::array<char, 32> digits{};
-    const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-    return {digits.data(), end};
 }
 
 /// Symbols whose meaning in .lsys is not Fractint's, and modules without one.
@@ -60,44 +51,44 @@ std::string spelled(char symbol) {
 
 } // namespace
 
-void FractintWriter::quirk(SourceSpan place, const std::string& message) {
+void FractintWriter::warn_quirk(SourceSpan place, const std::string& message) {
     context_.diagnostics.add(DiagnosticCode::ForeignQuirk, place, message);
 }
 
-void FractintWriter::mistake(SourceSpan place, const std::string& message) {
+void FractintWriter::report_syntax(SourceSpan place, const std::string& message) {
     context_.diagnostics.add(DiagnosticCode::ForeignSyntax, place, message);
 }
 
-void FractintWriter::write() {
+void FractintWriter::write(std::string_view turtle) {
     const FractintLine* angle = nullptr;
     const FractintLine* axiom = nullptr;
     std::vector<Rule> rules;
-    for (const FractintLine& line : session_.lines) {
+    for (const FractintLine& line : lines_) {
         if (line.kind == FractintLineKind::Rule) {
             add_rule(line, rules);
             continue;
         }
         const FractintLine*& known = line.kind == FractintLineKind::Angle ? angle : axiom;
         if (known != nullptr) {
-            quirk(known->key, line.kind == FractintLineKind::Angle
-                                  ? "there is another `Angle` below, which Fractint takes"
-                                  : "there is another `Axiom` below, which Fractint takes");
+            warn_quirk(known->key, line.kind == FractintLineKind::Angle
+                                       ? "there is another `Angle` below, which Fractint takes"
+                                       : "there is another `Axiom` below, which Fractint takes");
         }
         known = &line;
     }
     if (axiom == nullptr || axiom->texts.empty()) {
-        mistake(axiom == nullptr ? name_ : axiom->key, "the system has no axiom");
+        report_syntax(axiom == nullptr ? name_ : axiom->key, "the system has no axiom");
         return;
     }
     if (angle == nullptr || angle->texts.empty()) {
-        mistake(angle == nullptr ? name_ : angle->key,
-                "the system has no angle: `Angle 8` is an eighth of a full turn");
+        report_syntax(angle == nullptr ? name_ : angle->key,
+                      "the system has no angle: `Angle 8` is an eighth of a full turn");
         return;
     }
     for (const Renamed& renamed : kRenamed) {
         translation_.replace_name(renamed.name, renamed.symbol);
     }
-    translation_.put("#set turtle fractint;\n#set names letters;\n");
+    translation_.put("#set turtle " + std::string(turtle) + ";\n#set names letters;\n");
     write_angle(*angle);
     translation_.put("\n#w : ", axiom->key);
     write_text(*axiom);
@@ -116,16 +107,16 @@ void FractintWriter::write_angle(const FractintLine& line) {
     std::uint32_t parts = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), parts);
     if (line.texts.size() <= first || error != std::errc() || parts == 0) {
-        mistake(place, "expected the number of parts of a full turn, as in `Angle 8`");
+        report_syntax(place, "expected the number of parts of a full turn, as in `Angle 8`");
         return;
     }
     if (end != text.data() + text.size() || line.texts.size() > first + 1) {
-        quirk(place, "Fractint takes " + std::to_string(parts) +
-                         " for the angle and what stands behind it for a mistake");
+        warn_quirk(place, "Fractint takes " + std::to_string(parts) +
+                              " for the angle and what stands behind it for a mistake");
     }
-    if (parts < kLeastAngle || parts > kMostAngle) {
-        quirk(place, "Fractint takes angles from " + std::to_string(kLeastAngle) + " to " +
-                         std::to_string(kMostAngle) + " only");
+    if (parts < kMinAngle || parts > kMaxAngle) {
+        warn_quirk(place, "Fractint takes angles from " + std::to_string(kMinAngle) + " to " +
+                              std::to_string(kMaxAngle) + " only");
     }
     const auto degrees = static_cast<float>(kFullTurn / static_cast<double>(parts));
     translation_.put("#set angle ", line.key);
@@ -136,27 +127,28 @@ void FractintWriter::write_angle(const FractintLine& line) {
 bool FractintWriter::check_key(const FractintLine& line) {
     const std::string_view key = context_.sources.text(line.key);
     if (key.size() != 1) {
-        mistake(line.key, "`" + shown(key) +
-                              "` is neither `Angle` nor `Axiom` nor one symbol that a rule "
-                              "replaces");
+        report_syntax(line.key, "`" + shown(key) +
+                                    "` is neither `Angle` nor `Axiom` nor one symbol that a rule "
+                                    "replaces");
         return false;
     }
     const char symbol = folded(key[0]);
     if (static_cast<unsigned char>(symbol) < 0x20 || static_cast<unsigned char>(symbol) >= 0x7F) {
-        mistake(line.key, "this is no symbol");
+        report_syntax(line.key, "this is no symbol");
         return false;
     }
     if (symbol == '[' || symbol == ']') {
-        mistake(line.key, "no rule can replace a bracket");
+        report_syntax(line.key, "no rule can replace a bracket");
         return false;
     }
     if (is_one_of(symbol, kReserved)) {
-        quirk(line.key, "present versions of Fractint let no rule replace `" + shown(key) + "`");
+        warn_quirk(line.key,
+                   "present versions of Fractint let no rule replace `" + shown(key) + "`");
     }
     return true;
 }
 
-/// What Fractint takes for text behind the end of a line.
+/// Reports words that Fractint does not read as a part of the rule.
 void FractintWriter::check_texts(const FractintLine& line) {
     const bool is_rule = line.kind == FractintLineKind::Rule;
     bool begun = false;
@@ -164,12 +156,13 @@ void FractintWriter::check_texts(const FractintLine& line) {
     for (const SourceSpan& text : line.texts) {
         const bool equals = context_.sources.text(text) == "=";
         if (equals && begun && is_rule) {
-            mistake(text, "a line holds one rule; this is a second `=`");
+            report_syntax(text, "a line holds one rule; this is a second `=`");
             return;
         }
         words += equals ? 0U : 1U;
         if (words == 2 && !equals && is_rule) {
-            quirk(text, "Fractint takes a text with blanks for a mistake; here they mean nothing");
+            warn_quirk(text,
+                       "Fractint takes a text with blanks for a mistake; here they mean nothing");
             ++words; // once
         }
         begun = begun || !equals;
@@ -226,8 +219,8 @@ void FractintWriter::write_word(SourceSpan word) {
         if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7F) {
             const CodePoint point = decode_utf8(text.substr(at - 1));
             at += point.length - 1;
-            mistake({symbol.file, symbol.begin, symbol.begin + point.length},
-                    "this is no symbol of a system");
+            report_syntax({symbol.file, symbol.begin, symbol.begin + point.length},
+                          "this is no symbol of a system");
             continue;
         }
         write_symbol(symbol);
@@ -247,7 +240,8 @@ void FractintWriter::write_symbol(SourceSpan symbol) {
     }
 }
 
-/// The number behind a command: how many bytes of `rest` it is. `I` is its inverse, `Q` its root.
+/// Writes the number behind a command; returns its bytes in `rest`. `I` inverts it, `Q` takes its
+/// square root.
 std::uint32_t FractintWriter::write_number(SourceSpan command, std::string_view rest) {
     bool root = false;
     bool inverse = false;
@@ -264,13 +258,13 @@ std::uint32_t FractintWriter::write_number(SourceSpan command, std::string_view 
     const SourceSpan place{command.file, command.end, command.end + at};
     const std::size_t length = literal_length(digits);
     if (length == 0) {
-        quirk(join(command, place),
-              "`" + shown(context_.sources.text(command)) + "` has no number; Fractint takes 0");
+        warn_quirk(join(command, place), "`" + shown(context_.sources.text(command)) +
+                                             "` has no number; Fractint takes 0");
         translation_.put("(0)", join(command, place));
         return at;
     }
     if (length != digits.size()) {
-        quirk(place, "Fractint reads this number up to its second point");
+        warn_quirk(place, "Fractint reads this number up to its second point");
     }
     if (!root && !inverse) {
         translation_.put("(", place);

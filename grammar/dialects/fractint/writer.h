@@ -1,8 +1,8 @@
-// Writes an entry of a Fractint collection as .lsys text, and says what is wrong in it.
+// Writes an entry of a Fractint collection as .lsys text, and reports its mistakes.
 #pragma once
 
 #include "grammar/ast/translation.h"
-#include "grammar/dialects/fractint/session.h"
+#include "grammar/dialects/fractint/reader.h"
 
 #include <optional>
 #include <string>
@@ -13,13 +13,14 @@ namespace lsys {
 
 class FractintWriter {
 public:
-    FractintWriter(const FractintSession& session,
+    FractintWriter(const std::vector<FractintLine>& lines,
                    SourceSpan name,
                    const ParseContext& context,
                    Translation& translation)
-        : session_(session), name_(name), context_(context), translation_(translation) {}
+        : lines_(lines), name_(name), context_(context), translation_(translation) {}
 
-    void write();
+    /// `turtle`: the profile.
+    void write(std::string_view turtle);
 
 private:
     /// All lines that replace one symbol.
@@ -38,10 +39,10 @@ private:
     void add_rule(const FractintLine& line, std::vector<Rule>& rules);
     bool check_key(const FractintLine& line);
     void check_texts(const FractintLine& line);
-    void quirk(SourceSpan place, const std::string& message);
-    void mistake(SourceSpan place, const std::string& message);
+    void warn_quirk(SourceSpan place, const std::string& message);
+    void report_syntax(SourceSpan place, const std::string& message);
 
-    const FractintSession& session_;
+    const std::vector<FractintLine>& lines_;
     SourceSpan name_;
     const ParseContext& context_;
     Translation& translation_;

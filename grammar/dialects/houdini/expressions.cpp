@@ -24,7 +24,7 @@ constexpr std::array<Function, 21> kFunctions{{
     {"mod", "mod"},
 }};
 
-/// Variables that the turtle knows and rules do not.
+/// Variables of the turtle, unknown to rules.
 constexpr std::string_view kOfTurtle = "xyzALTUVW";
 
 std::string_view operator_of(std::string_view text) {
@@ -36,7 +36,7 @@ std::string_view operator_of(std::string_view text) {
 
 } // namespace
 
-void HoudiniExpressions::missing(SourceSpan place, const std::string& message) const {
+void HoudiniExpressions::report_unsupported(SourceSpan place, const std::string& message) const {
     session_.context.diagnostics.add(DiagnosticCode::ForeignFeature, place, message);
 }
 
@@ -48,7 +48,7 @@ void HoudiniExpressions::write(int node, const HoudiniScope& scope) {
         if (item.node == -1) {
             translation_.put(item.text, item.span);
         } else {
-            write_node(session_.nodes[static_cast<std::size_t>(item.node)], scope);
+            write_node(session_.node(item.node), scope);
         }
     }
 }
@@ -67,17 +67,17 @@ void HoudiniExpressions::write_node(const HoudiniNode& node, const HoudiniScope&
     case HoudiniNodeKind::Group:
         translation_.put("(", {node.span.file, node.span.begin, node.span.begin + 1});
         items_.push_back({-1, ")", {node.span.file, node.span.end - 1, node.span.end}});
-        items_.push_back({node.first, {}, {}});
+        items_.push_back({node.parts[0], {}, {}});
         return;
     case HoudiniNodeKind::Unary:
         translation_.copy(node.span, session_.context.sources);
-        items_.push_back({node.first, {}, {}});
+        items_.push_back({node.parts[0], {}, {}});
         return;
     case HoudiniNodeKind::Binary:
         write_binary(node);
         return;
     case HoudiniNodeKind::Text:
-        missing(node.span, "a text is no value here");
+        report_unsupported(node.span, "a text is no value here");
         return;
     case HoudiniNodeKind::Missing:
         translation_.put("0", node.span);
@@ -90,13 +90,13 @@ void HoudiniExpressions::write_binary(const HoudiniNode& node) {
     if (text == "%") {
         translation_.put("mod(", node.span);
         items_.push_back({-1, ")", node.span});
-        items_.push_back({node.second, {}, {}});
+        items_.push_back({node.parts[1], {}, {}});
         items_.push_back({-1, ", ", node.span});
     } else {
-        items_.push_back({node.second, {}, {}});
+        items_.push_back({node.parts[1], {}, {}});
         items_.push_back({-1, operator_of(text), node.span});
     }
-    items_.push_back({node.first, {}, {}});
+    items_.push_back({node.parts[0], {}, {}});
 }
 
 void HoudiniExpressions::write_name(const HoudiniNode& node, const HoudiniScope& scope) {
@@ -120,10 +120,12 @@ void HoudiniExpressions::write_name(const HoudiniNode& node, const HoudiniScope&
     } else if (name == "g") {
         translation_.put(in_premise ? "0" : "g", node.span);
     } else if (name == "i") {
-        missing(node.span, "where a module stands in the word, `i`, is not known to rules of lsc, "
+        report_unsupported(node.span,
+                           "where a module stands in the word, `i`, is not known to rules of lsc, "
                            "except as the seed of `rand`");
     } else if (name.size() == 1 && kOfTurtle.find(name[0]) != std::string_view::npos) {
-        missing(node.span, "`" + std::string(name) +
+        report_unsupported(node.span,
+                           "`" + std::string(name) +
                                "` is of the turtle, which draws when all rules have been applied");
     } else {
         session_.context.diagnostics.add(
@@ -147,7 +149,8 @@ void HoudiniExpressions::write_call(const HoudiniNode& node, const HoudiniScope&
                      [&](const Function& function) { return function.name == name; });
     if (found == kFunctions.end()) {
         const bool of_scene = name == "in" || name == "pic";
-        missing(node.span, of_scene ? "`" + std::string(name) +
+        report_unsupported(node.span,
+                           of_scene ? "`" + std::string(name) +
                                           "` asks an input of Houdini's node, which lsc does not "
                                           "have"
                                     : "lsc has no function `" + shown(name) + "`");
@@ -155,27 +158,23 @@ void HoudiniExpressions::write_call(const HoudiniNode& node, const HoudiniScope&
     }
     translation_.put(found->in_lsys, node.span);
     translation_.put("(", node.span);
-    const std::size_t at = items_.size();
     items_.push_back({-1, ")", node.span});
-    for (int argument = session_.arguments[static_cast<std::size_t>(node.first)].first;
-         argument != -1;) {
-        const int next = session_.nodes[static_cast<std::size_t>(argument)].next;
-        items_.push_back({argument, {}, {}});
-        if (next != -1) {
+    for (std::size_t i = node.parts.size(); i-- > 0;) {
+        items_.push_back({node.parts[i], {}, {}});
+        if (i != 0) {
             items_.push_back({-1, ", ", node.span});
         }
-        argument = next;
     }
-    std::reverse(items_.begin() + static_cast<std::ptrdiff_t>(at) + 1, items_.end());
 }
 
-/// Whether an expression has a random number; `is_positive`: and cannot be below 0.
+/// Returns true when an expression has a random number; sets `is_positive` when it is never below
+/// 0.
 bool HoudiniExpressions::draws(int root, bool& is_positive) const {
     bool found = false;
     is_positive = true;
     std::vector<int> open{root};
     while (!open.empty()) {
-        const HoudiniNode& node = session_.nodes[static_cast<std::size_t>(open.back())];
+        const HoudiniNode& node = session_.node(open.back());
         open.pop_back();
         const std::string_view text = session_.context.sources.text(node.span);
         const bool random = node.kind == HoudiniNodeKind::Call && text == "rand";
@@ -184,42 +183,31 @@ bool HoudiniExpressions::draws(int root, bool& is_positive) const {
             (node.kind == HoudiniNodeKind::Binary && (text == "+" || text == "*" || text == "/"));
         found = found || random;
         is_positive = is_positive && (random || keeps_sign);
-        if (node.kind == HoudiniNodeKind::Call) {
-            for (int each = session_.arguments[static_cast<std::size_t>(node.first)].first;
-                 each != -1 && !random;
-                 each = session_.nodes[static_cast<std::size_t>(each)].next) {
-                open.push_back(each);
-            }
-        } else {
-            for (const int part : {node.first, node.second}) {
-                if (part != -1) {
-                    open.push_back(part);
-                }
-            }
+        if (!random) {
+            open.insert(open.end(), node.parts.begin(), node.parts.end());
         }
     }
     return found;
 }
 
-/// `int(x)`: x without what stands behind its point.
+/// `int(x)`: x without its fraction.
 void HoudiniExpressions::write_whole(const HoudiniNode& node) {
-    const HoudiniArguments& given = session_.arguments[static_cast<std::size_t>(node.first)];
     bool is_positive = false;
-    if (given.count != 1) {
+    if (node.parts.size() != 1) {
         session_.context.diagnostics.add(DiagnosticCode::ForeignSyntax, node.span,
                                          "`int` takes one number");
-    } else if (!draws(given.first, is_positive)) {
+    } else if (!draws(node.parts[0], is_positive)) {
         items_.push_back({-1, ")))", node.span});
-        items_.push_back({given.first, {}, {}});
+        items_.push_back({node.parts[0], {}, {}});
         items_.push_back({-1, ") * floor(abs(", node.span});
-        items_.push_back({given.first, {}, {}});
+        items_.push_back({node.parts[0], {}, {}});
         items_.push_back({-1, "(sign(", node.span});
     } else if (is_positive) {
         items_.push_back({-1, ")", node.span});
-        items_.push_back({given.first, {}, {}});
+        items_.push_back({node.parts[0], {}, {}});
         items_.push_back({-1, "floor(", node.span});
     } else {
-        missing(node.span, "`int` of a random number that may be below 0");
+        report_unsupported(node.span, "`int` of a random number that may be below 0");
     }
 }
 
@@ -233,13 +221,13 @@ void HoudiniExpressions::write_random(const HoudiniNode& node, const HoudiniScop
                                 "rule with `rand(i)<0.3` and a second without condition are read");
         return;
     }
-    say_random(node.span);
+    warn_random(node.span);
     translation_.put("{0, 1}", node.span);
 }
 
-void HoudiniExpressions::say_random(SourceSpan place) {
-    if (!said_random_) {
-        said_random_ = true;
+void HoudiniExpressions::warn_random(SourceSpan place) {
+    if (!has_warned_random_) {
+        has_warned_random_ = true;
         session_.context.diagnostics.add(
             DiagnosticCode::ForeignLoss, place,
             "`rand` draws a number of its own each time; Houdini gives one number for one seed");

@@ -12,7 +12,7 @@
 
 namespace lsys {
 
-/// Where an expression stands.
+/// Place of an expression.
 enum class HoudiniPlace : std::uint8_t { Premise, Successor, Condition, Probability };
 
 struct HoudiniScope {
@@ -26,14 +26,14 @@ public:
     HoudiniExpressions(const HoudiniSession& session, Translation& translation)
         : session_(session), translation_(translation) {}
 
-    /// What `a` is.
+    /// Sets the value of the variable `a`.
     void set_angle(std::string angle) { angle_ = std::move(angle); }
     void write(int node, const HoudiniScope& scope);
-    /// Says once that `rand` does not depend on its seed.
-    void say_random(SourceSpan place);
+    /// Warns once that `rand` does not depend on its seed.
+    void warn_random(SourceSpan place);
 
 private:
-    /// What is still to be written: a node, or a text that stands for a place.
+    /// A part to be written: a node, or a text with its place.
     struct Item {
         int node = -1;
         std::string_view text;
@@ -47,13 +47,13 @@ private:
     void write_whole(const HoudiniNode& node);
     [[nodiscard]] bool draws(int root, bool& is_positive) const;
     void write_binary(const HoudiniNode& node);
-    void missing(SourceSpan place, const std::string& message) const;
+    void report_unsupported(SourceSpan place, const std::string& message) const;
 
     const HoudiniSession& session_;
     std::string angle_;
     Translation& translation_;
     std::vector<Item> items_; // the next one last
-    bool said_random_ = false;
+    bool has_warned_random_ = false;
 };
 
 } // namespace lsys

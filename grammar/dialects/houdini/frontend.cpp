@@ -1,7 +1,9 @@
-#include "grammar/dialects/houdini/frontend.h"
-
+// The rule texts of Houdini's L-system node: settings, the premise, then a rule
+// `left<symbol>right:condition=replacement:probability` a line. Its turtle is the profile `sidefx`.
 #include "grammar/dialects/houdini/session.h"
 #include "grammar/dialects/houdini/writer.h"
+#include "grammar/dialects/impl/frontends.h"
+#include "grammar/dialects/impl/text.h"
 #include "houdini/parser.h"
 
 #include <algorithm>
@@ -10,17 +12,9 @@ namespace lsys {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r";
+enum class LineKind : std::uint8_t { Nothing, Setting, NamedPremise, Premise, Rule, Other };
 
-std::string_view trimmed(std::string_view text) {
-    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
-    return text.substr(0, text.find_last_not_of(kBlanks) + 1);
-}
-
-/// What a line looks like.
-enum class Look : std::uint8_t { Nothing, Setting, SaidPremise, Premise, Rule, Other };
-
-/// Without the `Rule 2:` that may stand before a rule.
+/// The line without a `Rule 2:` in front.
 std::string_view without_label(std::string_view line) {
     constexpr std::string_view kRule = "rule";
     if (houdini_key(line.substr(0, kRule.size())) != kRule) {
@@ -32,7 +26,7 @@ std::string_view without_label(std::string_view line) {
                : line;
 }
 
-bool says_premise(std::string_view line) {
+bool is_premise(std::string_view line) {
     const std::size_t end = line.find_first_of(":=");
     return end != std::string_view::npos && houdini_key(line.substr(0, end)) == "premise";
 }
@@ -47,91 +41,92 @@ bool is_setting(std::string_view line) {
 }
 
 /// A symbol, perhaps with contexts, parameters and a condition, a `=`, and no arrow.
-Look look_of_rule(std::string_view line, std::size_t equals) {
+LineKind kind_of_rule(std::string_view line, std::size_t equals) {
     std::string_view head = trimmed(line.substr(0, equals));
     head = trimmed(head.substr(0, head.find(':')));
     const bool has_context = head.find_first_of("<>") != std::string_view::npos;
     const std::size_t symbol = head.find('(');
     const std::size_t length = trimmed(head.substr(0, symbol)).size();
     const bool fits = length == 1 || (has_context && length != 0);
-    return fits && line.find("->") == std::string_view::npos ? Look::Rule : Look::Other;
+    return fits && line.find("->") == std::string_view::npos ? LineKind::Rule : LineKind::Other;
 }
 
-Look look_of(std::string_view line) {
+LineKind kind_of(std::string_view line) {
     line = trimmed(line);
     if (line.empty() || line.starts_with("# ") || line.starts_with("// ")) {
-        return Look::Nothing;
+        return LineKind::Nothing;
     }
-    if (says_premise(line)) {
-        return Look::SaidPremise;
+    if (is_premise(line)) {
+        return LineKind::NamedPremise;
     }
     if (is_setting(line)) {
-        return Look::Setting;
+        return LineKind::Setting;
     }
     line = without_label(line);
     if (const std::size_t equals = line.find('='); equals != std::string_view::npos) {
-        return look_of_rule(line, equals);
+        return kind_of_rule(line, equals);
     }
     // Words, braces of other formats, numbers only: no premise.
     constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
     const bool fits = line.find_first_of(kLetters) != std::string_view::npos &&
                       line.find(' ') == std::string_view::npos &&
                       line.find_first_of(":@{}`") == std::string_view::npos;
-    return fits ? Look::Premise : Look::Other;
+    return fits ? LineKind::Premise : LineKind::Other;
 }
 
 } // namespace
 
 std::string_view recognise_houdini(std::string_view text) {
     bool has_premise = false;
-    bool is_said = false;
+    bool is_named = false;
     std::uint32_t rules = 0;
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = std::min(text.find('\n', at), text.size());
         const std::string_view line = text.substr(at, end - at);
         at = end + 1;
-        switch (look_of(line)) {
-        case Look::Nothing:
+        switch (kind_of(line)) {
+        case LineKind::Nothing:
             break;
-        case Look::Setting:
+        case LineKind::Setting:
             break;
-        case Look::SaidPremise:
-            has_premise = is_said = true;
+        case LineKind::NamedPremise:
+            has_premise = is_named = true;
             break;
-        case Look::Premise:
+        case LineKind::Premise:
             if (has_premise || rules != 0) {
                 return {};
             }
             has_premise = true;
             break;
-        case Look::Rule:
+        case LineKind::Rule:
             if (!has_premise) {
                 return {};
             }
             ++rules;
             break;
-        case Look::Other:
+        case LineKind::Other:
             return {};
         }
     }
-    if (is_said) {
+    if (is_named) {
         return "its line `premise:`";
     }
     return has_premise && rules != 0 ? "a premise before rules `A=...`" : std::string_view();
 }
 
-Translation translate_houdini(FileId root, const ParseContext& context) {
+void translate_houdini(const DialectRow& row,
+                       const ParseContext& context,
+                       Translation& translation) {
+    const FileId root = translation.file();
     HoudiniSession session(root, context);
     {
         const HoudiniScanning scanning(session, context.sources.file(root).text());
         houdini_grammar::Parser parser(session, scanning.scanner());
         static_cast<void>(parser.parse()); // what is wrong has been reported
     }
-    Translation translation(root);
     if (!context.diagnostics.has_errors()) {
-        HoudiniWriter(session, translation).write();
+        HoudiniWriter(session, translation).write(row.turtle);
     }
-    return translation;
 }
 
 } // namespace lsys

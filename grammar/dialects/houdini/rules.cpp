@@ -1,4 +1,4 @@
-// How HoudiniWriter writes rules.
+// Rules: the part of HoudiniWriter that writes them.
 #include "grammar/ast/number.h"
 #include "grammar/dialects/houdini/writer.h"
 
@@ -11,7 +11,7 @@ namespace {
 /// Numbers of parameters with which a symbol of the turtle stands in words, else as in the head.
 std::vector<std::uint32_t> counts_of(const HoudiniSymbol& symbol, std::uint32_t in_head) {
     std::vector<std::uint32_t> counts;
-    for (std::uint32_t k = 0; k <= HoudiniSymbols::kMostParameters; ++k) {
+    for (std::uint32_t k = 0; k <= HoudiniSymbols::kMaxParameters; ++k) {
         if ((symbol.counts >> k & 1U) != 0) {
             counts.push_back(k);
         }
@@ -24,24 +24,21 @@ std::vector<std::uint32_t> counts_of(const HoudiniSymbol& symbol, std::uint32_t 
 /// Rules of one group compete: the same symbols in predecessor and contexts.
 std::string HoudiniWriter::group_of(const HoudiniRule& rule) const {
     std::string group;
-    for (const int list : {rule.left, rule.predecessor, rule.right}) {
-        if (list != -1) {
-            const HoudiniList& modules = session_.lists[static_cast<std::size_t>(list)];
-            for (std::uint32_t i = modules.begin; i < modules.end; ++i) {
-                group += text(module(i).symbol);
-            }
+    for (const std::vector<HoudiniModule>* const modules : rule.head()) {
+        for (const HoudiniModule& module : *modules) {
+            group += text(module.symbol);
         }
         group += '\n';
     }
     return group;
 }
 
-/// The probability that `rand(seed) < number` holds, and its like; empty: it is no such condition.
+/// Probability of the condition `rand(seed) < number`, or `>`; empty: another condition.
 std::string HoudiniWriter::chance_of(int condition) const {
     const auto node_at = [&](int index) -> const HoudiniNode& {
-        const HoudiniNode* node = &session_.nodes[static_cast<std::size_t>(index)];
+        const HoudiniNode* node = &session_.node(index);
         while (node->kind == HoudiniNodeKind::Group) {
-            node = &session_.nodes[static_cast<std::size_t>(node->first)];
+            node = &session_.node(node->parts[0]);
         }
         return *node;
     };
@@ -49,8 +46,8 @@ std::string HoudiniWriter::chance_of(int condition) const {
     if (test.kind != HoudiniNodeKind::Binary) {
         return {};
     }
-    const HoudiniNode& left = node_at(test.first);
-    const HoudiniNode& right = node_at(test.second);
+    const HoudiniNode& left = node_at(test.parts[0]);
+    const HoudiniNode& right = node_at(test.parts[1]);
     const std::string_view sign = text(test.span);
     if (left.kind != HoudiniNodeKind::Call || text(left.span) != "rand" ||
         right.kind != HoudiniNodeKind::Number || (sign[0] != '<' && sign[0] != '>')) {
@@ -71,12 +68,10 @@ void HoudiniWriter::find_chances() {
     std::map<std::string_view, std::size_t> rules_of; // by symbol
     for (const HoudiniRule& rule : session_.rules) {
         groups[group_of(rule)].push_back(&rule);
-        const HoudiniList& head = session_.lists[static_cast<std::size_t>(rule.predecessor)];
-        ++rules_of[text(module(head.begin).symbol)];
+        ++rules_of[text(rule.predecessor.front().symbol)];
     }
     for (const auto& [group, rules] : groups) {
-        const HoudiniList& head = session_.lists[static_cast<std::size_t>(rules[0]->predecessor)];
-        if (rules.size() != 2 || rules_of[text(module(head.begin).symbol)] != 2 ||
+        if (rules.size() != 2 || rules_of[text(rules[0]->predecessor.front().symbol)] != 2 ||
             has_probability_[group] || rules[0]->condition == -1 || rules[1]->condition != -1) {
             continue;
         }
@@ -89,64 +84,53 @@ void HoudiniWriter::find_chances() {
 }
 
 bool HoudiniWriter::check_head(const HoudiniRule& rule) {
-    const HoudiniList& head = session_.lists[static_cast<std::size_t>(rule.predecessor)];
-    if (head.end - head.begin > 1) {
-        mistake(module(head.begin + 1).symbol, "a rule replaces one symbol");
+    if (rule.predecessor.size() > 1) {
+        report_syntax(rule.predecessor[1].symbol, "a rule replaces one symbol");
         return false;
     }
-    bool fine = true;
-    for (const int list : {rule.left, rule.predecessor, rule.right}) {
-        if (list == -1) {
-            continue;
-        }
-        const HoudiniList& modules = session_.lists[static_cast<std::size_t>(list)];
-        for (std::uint32_t i = modules.begin; i < modules.end; ++i) {
-            const int arguments = module(i).arguments;
-            int node = arguments != -1
-                           ? session_.arguments[static_cast<std::size_t>(arguments)].first
-                           : -1;
-            for (; node != -1; node = session_.nodes[static_cast<std::size_t>(node)].next) {
-                const HoudiniNode& formal = session_.nodes[static_cast<std::size_t>(node)];
+    bool is_valid = true;
+    for (const std::vector<HoudiniModule>* const modules : rule.head()) {
+        for (const HoudiniModule& module : *modules) {
+            for (const int argument : module.arguments) {
+                const HoudiniNode& formal = session_.node(argument);
                 if (formal.kind != HoudiniNodeKind::Name &&
                     formal.kind != HoudiniNodeKind::Missing) {
-                    mistake(formal.span, "here a parameter is named");
-                    fine = false;
+                    report_syntax(formal.span, "here a parameter is named");
+                    is_valid = false;
                 }
             }
         }
     }
-    const HoudiniSymbol& symbol = symbols_.of(module(head.begin));
-    if (symbol.ages && symbol.is_command) {
-        lacks(rule.span, "the age `g` of a symbol that the turtle obeys is not known to lsc");
-        fine = false;
+    const HoudiniSymbol& symbol = symbols_.of(rule.predecessor.front());
+    if (symbol.has_age && symbol.is_command) {
+        report_unsupported(rule.span,
+                           "the age `g` of a symbol that the turtle obeys is not known to lsc");
+        is_valid = false;
     }
-    return fine;
+    return is_valid;
 }
 
 /// All combinations of what the symbols of the turtle in the head may have.
 std::vector<HoudiniWriter::Form> HoudiniWriter::forms_of(const HoudiniRule& rule) const {
     std::vector<Form> forms{{}};
-    for (const int list : {rule.left, rule.predecessor, rule.right}) {
-        if (list == -1) {
-            continue;
-        }
-        const HoudiniList& modules = session_.lists[static_cast<std::size_t>(list)];
-        for (std::uint32_t i = modules.begin; i < modules.end; ++i) {
-            const HoudiniSymbol& symbol = symbols_.of(module(i));
+    for (const std::vector<HoudiniModule>* const modules : rule.head()) {
+        for (const HoudiniModule& module : *modules) {
+            const HoudiniSymbol& symbol = symbols_.of(module);
             if (!symbol.is_command) {
                 continue;
             }
             std::vector<Form> longer;
-            for (const std::uint32_t count : counts_of(symbol, symbols_.count(module(i)))) {
+            for (const std::uint32_t count : counts_of(symbol, symbols_.count(module))) {
                 for (const Form& form : forms) {
                     longer.push_back(form);
                     longer.back().push_back(count);
                 }
             }
-            constexpr std::size_t kMost = 64;
-            if (longer.size() > kMost) {
-                lacks(rule.span, "symbols of the turtle stand here with too many different numbers "
-                                 "of parameters");
+            constexpr std::size_t kMax = 64;
+            if (longer.size() > kMax) {
+                report_unsupported(
+                    rule.span, "symbols of the turtle stand here with too many different numbers "
+                               "of parameters");
                 return {};
             }
             forms = std::move(longer);
@@ -165,41 +149,37 @@ void HoudiniWriter::write_rule(const HoudiniRule& rule, std::size_t index) {
 }
 
 /// `(x, y)` of a module of a head, in which names that are missing are made up.
-void HoudiniWriter::write_formals(const HoudiniModule& head, std::uint32_t count, bool ages) {
-    int node = head.arguments != -1
-                   ? session_.arguments[static_cast<std::size_t>(head.arguments)].first
-                   : -1;
-    const SourceSpan place = node != -1 ? head.parentheses : head.symbol;
+void HoudiniWriter::write_formals(const HoudiniModule& head, std::uint32_t count, bool has_age) {
+    const SourceSpan place = head.arguments.empty() ? head.symbol : head.parentheses;
     for (std::uint32_t i = 0; i < count; ++i) {
         translation_.put(i == 0 ? "(" : ", ", place);
-        const bool named = node != -1 && session_.nodes[static_cast<std::size_t>(node)].kind ==
-                                             HoudiniNodeKind::Name;
-        if (named) {
-            translation_.copy(session_.nodes[static_cast<std::size_t>(node)].span,
-                              session_.context.sources);
+        const HoudiniNode* const formal =
+            i < head.arguments.size() ? &session_.node(head.arguments[i]) : nullptr;
+        if (formal != nullptr && formal->kind == HoudiniNodeKind::Name) {
+            translation_.copy(formal->span, session_.context.sources);
         } else {
             translation_.put("_" + std::to_string(++fresh_), place);
         }
-        node = node != -1 ? session_.nodes[static_cast<std::size_t>(node)].next : -1;
     }
-    for (; node != -1; node = session_.nodes[static_cast<std::size_t>(node)].next) {
-        zeros_.push_back(text(session_.nodes[static_cast<std::size_t>(node)].span));
+    for (std::size_t i = count; i < head.arguments.size(); ++i) {
+        zeros_.push_back(text(session_.node(head.arguments[i]).span));
     }
-    if (ages) {
+    if (has_age) {
         translation_.put(count == 0 ? "(g" : ", g", place);
     }
-    if (count != 0 || ages) {
+    if (count != 0 || has_age) {
         translation_.put(")", place);
     }
 }
 
-void HoudiniWriter::write_pattern(int list, const Form& form, std::size_t& slot) {
-    const HoudiniList& modules = session_.lists[static_cast<std::size_t>(list)];
-    for (std::uint32_t i = modules.begin; i < modules.end; ++i) {
-        const HoudiniSymbol& symbol = symbols_.of(module(i));
-        write_symbol(module(i));
-        const std::uint32_t all = symbol.most + (symbol.ages ? 1U : 0U);
-        write_formals(module(i), symbol.is_command ? form[slot++] : all, false);
+void HoudiniWriter::write_pattern(const std::vector<HoudiniModule>& modules,
+                                  const Form& form,
+                                  std::size_t& slot) {
+    for (const HoudiniModule& module : modules) {
+        const HoudiniSymbol& symbol = symbols_.of(module);
+        write_symbol(module);
+        const std::uint32_t all = symbol.max_count + (symbol.has_age ? 1U : 0U);
+        write_formals(module, symbol.is_command ? form[slot++] : all, false);
     }
 }
 
@@ -208,23 +188,22 @@ void HoudiniWriter::write_form(const HoudiniRule& rule, const Form& form, const 
     fresh_ = 0;
     zeros_.clear();
     translation_.put("#" + name + " : ", rule.span);
-    if (rule.left != -1) {
+    if (!rule.left.empty()) {
         write_pattern(rule.left, form, slot);
         translation_.put(" < ", rule.span);
     }
-    const HoudiniModule& head =
-        module(session_.lists[static_cast<std::size_t>(rule.predecessor)].begin);
+    const HoudiniModule& head = rule.predecessor.front();
     const HoudiniSymbol& symbol = symbols_.of(head);
     write_symbol(head);
-    write_formals(head, symbol.is_command ? form[slot++] : symbol.most, symbol.ages);
-    if (rule.right != -1) {
+    write_formals(head, symbol.is_command ? form[slot++] : symbol.max_count, symbol.has_age);
+    if (!rule.right.empty()) {
         translation_.put(" > ", rule.span);
         write_pattern(rule.right, form, slot);
     }
     translation_.put(" : ", rule.span);
     const bool weighted = has_probability_[group_of(rule)];
     if (const auto chance = chances_.find(&rule); chance != chances_.end()) {
-        expressions_.say_random(rule.span);
+        expressions_.warn_random(rule.span);
         translation_.put("* ~ " + chance->second, rule.span);
     } else if (rule.condition != -1) {
         expressions_.write(rule.condition, {HoudiniPlace::Condition, &rule, &zeros_});
@@ -244,17 +223,16 @@ void HoudiniWriter::write_form(const HoudiniRule& rule, const Form& form, const 
     translation_.put(";\n", {rule.span.file, rule.span.end, rule.span.end});
 }
 
-/// What is not rewritten grows older, where rules ask for the age.
+/// Writes the rule by which a symbol that no other rule matches grows older.
 void HoudiniWriter::write_ageing(const HoudiniRule& rule, std::size_t index) {
-    const HoudiniModule& head =
-        module(session_.lists[static_cast<std::size_t>(rule.predecessor)].begin);
+    const HoudiniModule& head = rule.predecessor.front();
     const HoudiniSymbol& symbol = symbols_.of(head);
-    if (!symbol.ages || symbol.is_command || aged_[text(head.symbol)]) {
+    if (!symbol.has_age || symbol.is_command || aged_[text(head.symbol)]) {
         return;
     }
     aged_[text(head.symbol)] = true;
     std::string formals;
-    for (std::uint32_t i = 1; i <= symbol.most; ++i) {
+    for (std::uint32_t i = 1; i <= symbol.max_count; ++i) {
         formals += "_" + std::to_string(i) + ", ";
     }
     translation_.put("#age" + std::to_string(index) + " : ", rule.span);

@@ -4,6 +4,7 @@
 #include "grammar/base/contract.h"
 #include "grammar/lsys/parse.h"
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -13,40 +14,25 @@ namespace lsys {
 enum class HoudiniNodeKind : std::uint8_t {
     Number,
     Name,
-    Call,    // the place is that of the name; first: the arguments
-    Group,   // first, in parentheses
-    Unary,   // the place is that of the operator; first
-    Binary,  // the same; first and second
+    Call,    // span: the name; parts: the arguments
+    Group,   // part in parentheses
+    Unary,   // span: the operator
+    Binary,  // span: the operator
     Text,    // in quotes
     Missing, // an argument that is left out
 };
 
-/// A node of an expression. Others are told by index; -1: none.
+/// A node of an expression.
 struct HoudiniNode {
     HoudiniNodeKind kind{};
     SourceSpan span;
-    int first = -1;
-    int second = -1;
-    int next = -1; // of a list of arguments
-};
-
-/// Arguments in order: a chain of nodes.
-struct HoudiniArguments {
-    int first = -1;
-    int last = -1;
-    std::uint32_t count = 0;
+    std::vector<int> parts; // in HoudiniSession::nodes
 };
 
 struct HoudiniModule {
     SourceSpan symbol;
-    SourceSpan parentheses; // with what they hold; empty: there are none
-    int arguments = -1;     // an index of HoudiniArguments
-};
-
-/// Modules [begin, end).
-struct HoudiniList {
-    std::uint32_t begin = 0;
-    std::uint32_t end = 0;
+    SourceSpan parentheses;     // with what they hold; empty: there are none
+    std::vector<int> arguments; // in HoudiniSession::nodes; Missing ones count
 };
 
 /// A line `key: value`.
@@ -55,18 +41,23 @@ struct HoudiniSetting {
     SourceSpan value;
 };
 
-/// `left<predecessor>right:condition=successor:probability`; lists and nodes by index, -1: none.
+/// `left<predecessor>right:condition=successor:probability`
 struct HoudiniRule {
-    int left = -1;
-    int predecessor = -1;
-    int right = -1;
-    int condition = -1;
-    int successor = -1;
-    int probability = -1;
+    std::vector<HoudiniModule> left;
+    std::vector<HoudiniModule> predecessor;
+    std::vector<HoudiniModule> right;
+    std::vector<HoudiniModule> successor;
+    int condition = -1;           // a node; -1: none
+    int probability = -1;         // the same
     std::uint32_t first_node = 0; // of the nodes of its line
     std::uint32_t end_node = 0;
     SourceSpan span;
     std::vector<std::string_view> formals; // names of parameters of the head, sorted
+
+    /// Left context, predecessor and right context.
+    [[nodiscard]] std::array<const std::vector<HoudiniModule>*, 3> head() const {
+        return {&left, &predecessor, &right};
+    }
 };
 
 class HoudiniSession {
@@ -76,17 +67,18 @@ public:
     const ParseContext& context;
     std::vector<HoudiniSetting> settings;
     std::vector<HoudiniNode> nodes;
-    std::vector<HoudiniArguments> arguments;
-    std::vector<HoudiniModule> modules;
-    std::vector<HoudiniList> lists;
     std::vector<HoudiniRule> rules;
-    int premise = -1; // a list
+    std::vector<HoudiniModule> premise; // empty: none
     SourceSpan premise_span;
+
+    [[nodiscard]] const HoudiniNode& node(int index) const {
+        return nodes[static_cast<std::size_t>(index)];
+    }
 
     // For the scanner.
     SourceSpan take(std::uint32_t length);
     /// Gives the end of what was taken last back.
-    void untake(std::uint32_t length);
+    void give_back(std::uint32_t length);
     [[nodiscard]] SourceSpan last() const { return last_; }
     /// The token of a line's first word, which blanks may follow; 0: it is no key.
     int key_token(std::string_view text);
@@ -101,20 +93,13 @@ public:
     void end_line();
 
     // For the parser.
-    int add_node(HoudiniNodeKind kind, SourceSpan span, int first, int second);
-    int add_arguments(int node);
-    int extend_arguments(int list, int node);
-    void add_module(SourceSpan symbol, SourceSpan parentheses, int arguments_of_it);
-    int add_list(std::uint32_t modules_in_it);
-    int extend_list(int list);
-    void add_premise(int list, SourceSpan span);
-    void begin_rule(int left, int predecessor, int right);
-    void end_rule(int condition, int successor, int probability, SourceSpan span);
+    int add_node(HoudiniNodeKind kind, SourceSpan span, std::vector<int> parts);
+    void add_premise(std::vector<HoudiniModule> modules, SourceSpan span);
+    /// `rule` has no nodes, span and formals yet.
+    void add_rule(HoudiniRule rule, SourceSpan span);
     void forget_rule();
 
 private:
-    void add_formals(int list);
-
     FileId file_;
     std::uint32_t size_ = 0;
     std::uint32_t at_ = 0;
@@ -122,7 +107,6 @@ private:
     std::uint32_t depth_ = 0; // open parentheses
     bool tail_ = false;       // in a condition or probability
     bool wants_modules_ = false;
-    HoudiniRule rule_;            // that is being read
     std::uint32_t line_node_ = 0; // first node of the line
 };
 
@@ -144,5 +128,3 @@ private:
 };
 
 } // namespace lsys
-
-int houdini_yylex(lsys::SourceSpan* location, lsys::HoudiniSession& session, void* yyscanner);

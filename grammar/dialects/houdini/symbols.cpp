@@ -15,16 +15,15 @@ bool names_parameter(const HoudiniRule& rule, std::string_view name) {
 }
 
 HoudiniSymbols::HoudiniSymbols(const HoudiniSession& session) : session_(session) {
-    see(session.premise, true);
+    count_symbols(session.premise, true);
     for (const HoudiniRule& rule : session.rules) {
-        see(rule.left, false);
-        see(rule.predecessor, false);
-        see(rule.right, false);
-        see(rule.successor, true);
-        const HoudiniList& head = session.lists[static_cast<std::size_t>(rule.predecessor)];
-        HoudiniSymbol& symbol = symbol_of(session.modules[head.begin]);
+        count_symbols(rule.left, false);
+        count_symbols(rule.predecessor, false);
+        count_symbols(rule.right, false);
+        count_symbols(rule.successor, true);
+        HoudiniSymbol& symbol = symbol_of(rule.predecessor.front());
         symbol.is_rewritten = true;
-        symbol.ages = symbol.ages || asks_for_age(rule);
+        symbol.has_age = symbol.has_age || reads_age(rule);
     }
 }
 
@@ -43,38 +42,26 @@ const HoudiniSymbol& HoudiniSymbols::of(const HoudiniModule& module) const {
 }
 
 std::uint32_t HoudiniSymbols::count(const HoudiniModule& module) const {
-    if (module.arguments == -1) {
-        return 0;
-    }
-    std::uint32_t given = 0;
-    std::uint32_t index = 0;
-    for (int node = session_.arguments[static_cast<std::size_t>(module.arguments)].first;
-         node != -1; node = session_.nodes[static_cast<std::size_t>(node)].next) {
-        ++index;
-        if (session_.nodes[static_cast<std::size_t>(node)].kind != HoudiniNodeKind::Missing) {
-            given = index;
-        }
+    auto given = static_cast<std::uint32_t>(module.arguments.size());
+    while (given != 0 &&
+           session_.node(module.arguments[given - 1]).kind == HoudiniNodeKind::Missing) {
+        --given;
     }
     return given;
 }
 
-void HoudiniSymbols::see(int list, bool is_word) {
-    if (list == -1) {
-        return;
-    }
-    const HoudiniList& modules = session_.lists[static_cast<std::size_t>(list)];
-    for (std::uint32_t i = modules.begin; i < modules.end; ++i) {
-        const HoudiniModule& module = session_.modules[i];
+void HoudiniSymbols::count_symbols(const std::vector<HoudiniModule>& modules, bool is_word) {
+    for (const HoudiniModule& module : modules) {
         HoudiniSymbol& symbol = symbol_of(module);
         const std::uint32_t parameters = count(module);
-        symbol.most = std::max(symbol.most, parameters);
+        symbol.max_count = std::max(symbol.max_count, parameters);
         if (is_word) {
-            symbol.counts |= std::uint64_t{1} << std::min(parameters, kMostParameters);
+            symbol.counts |= std::uint64_t{1} << std::min(parameters, kMaxParameters);
         }
     }
 }
 
-bool HoudiniSymbols::asks_for_age(const HoudiniRule& rule) const {
+bool HoudiniSymbols::reads_age(const HoudiniRule& rule) const {
     for (std::uint32_t i = rule.first_node; i < rule.end_node; ++i) {
         const HoudiniNode& node = session_.nodes[i];
         if (node.kind == HoudiniNodeKind::Name && session_.context.sources.text(node.span) == "g") {

@@ -1,5 +1,5 @@
-// What a Houdini rule text says of each symbol: with how many parameters it occurs, whether rules
-// rewrite it, whether they ask for its age. Houdini does not tell modules apart by the number of
+// Facts about each symbol of a Houdini rule text: numbers of parameters, whether rules rewrite it,
+// whether they ask for its age. Houdini does not tell modules apart by the number of
 // their parameters, and takes 0 for those that are left out; .lsys does.
 #pragma once
 
@@ -14,9 +14,9 @@ namespace lsys {
 struct HoudiniSymbol {
     bool is_command = false; // of the turtle: a parameter that is left out has a value of its own
     bool is_rewritten = false;
-    bool ages = false;        // a rule of it asks for `g`
-    std::uint64_t counts = 0; // bit k: occurs in a word with k parameters
-    std::uint32_t most = 0;   // parameters anywhere
+    bool has_age = false;        // a rule of it asks for `g`
+    std::uint64_t counts = 0;    // bit k: occurs in a word with k parameters
+    std::uint32_t max_count = 0; // parameters anywhere
 };
 
 class HoudiniSymbols {
@@ -28,18 +28,18 @@ public:
     [[nodiscard]] std::uint32_t count(const HoudiniModule& module) const;
     [[nodiscard]] bool occurs(std::string_view symbol) const { return symbols_.contains(symbol); }
 
-    static constexpr std::uint32_t kMostParameters = 60;
+    static constexpr std::uint32_t kMaxParameters = 60;
 
 private:
     HoudiniSymbol& symbol_of(const HoudiniModule& module);
-    void see(int list, bool is_word);
-    [[nodiscard]] bool asks_for_age(const HoudiniRule& rule) const;
+    void count_symbols(const std::vector<HoudiniModule>& modules, bool is_word);
+    [[nodiscard]] bool reads_age(const HoudiniRule& rule) const;
 
     const HoudiniSession& session_;
     std::map<std::string_view, HoudiniSymbol> symbols_;
 };
 
-/// Whether the predecessor or a context of the rule names a parameter so.
+/// Returns true when the predecessor or a context of the rule has a parameter of that name.
 [[nodiscard]] bool names_parameter(const HoudiniRule& rule, std::string_view name);
 
 } // namespace lsys

@@ -1,31 +1,13 @@
 #include "grammar/dialects/houdini/writer.h"
 
-#include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 #include "grammar/base/utf8.h"
 #include "grammar/dialects/impl/letter_modules.h"
+#include "grammar/dialects/impl/text.h"
 
 #include <algorithm>
 
 namespace lsys {
-
-namespace {
-
-constexpr std::string_view kBlanks = " \t\r";
-
-std::string_view without_sign(std::string_view number) {
-    number.remove_prefix(!number.empty() && (number[0] == '-' || number[0] == '+') ? 1 : 0);
-    return number;
-}
-
-SourceSpan trimmed(SourceSpan span, std::string_view text) {
-    const std::size_t last = text.find_last_not_of(kBlanks);
-    span.end =
-        span.begin + static_cast<std::uint32_t>(last == std::string_view::npos ? 0 : last + 1);
-    return span;
-}
-
-} // namespace
 
 HoudiniWriter::HoudiniWriter(const HoudiniSession& session, Translation& translation)
     : session_(session), translation_(translation), symbols_(session),
@@ -39,40 +21,39 @@ HoudiniWriter::HoudiniWriter(const HoudiniSession& session, Translation& transla
     find_chances();
 }
 
-void HoudiniWriter::mistake(SourceSpan place, const std::string& message) const {
+void HoudiniWriter::report_syntax(SourceSpan place, const std::string& message) const {
     session_.context.diagnostics.add(DiagnosticCode::ForeignSyntax, place, message);
 }
 
-void HoudiniWriter::lacks(SourceSpan place, const std::string& message) const {
+void HoudiniWriter::report_unsupported(SourceSpan place, const std::string& message) const {
     session_.context.diagnostics.add(DiagnosticCode::ForeignFeature, place, message);
 }
 
 void HoudiniWriter::read_settings() {
     for (const HoudiniSetting& setting : session_.settings) {
         const HoudiniSettingRow* const row = find_houdini_setting(houdini_key(text(setting.key)));
-        const SourceSpan value = trimmed(setting.value, text(setting.value));
-        if (row == nullptr) { // which the scanner lets through for none
+        SourceSpan value = setting.value;
+        value.end = value.begin + static_cast<std::uint32_t>(trimmed(text(value)).size());
+        if (row == nullptr) { // never, by the scanner
             continue;
         }
-        const std::string_view digits = without_sign(text(value));
-        if (row->kind != HoudiniSettingKind::Ignore &&
-            (digits.empty() || literal_length(digits) != digits.size())) {
-            mistake(value, "`" + shown(text(value)) + "` is no number");
+        if (row->kind != HoudiniSettingKind::Ignore && !is_number(text(value), "+-")) {
+            report_syntax(value, "`" + shown(text(value)) + "` is no number");
         } else if (!settings_.emplace(row->name, value).second) {
-            mistake(setting.key, "this setting stands twice");
+            report_syntax(setting.key, "this setting stands twice");
         }
     }
 }
 
-/// A setting as it is written, or what lsc takes without it.
+/// A setting as it is written, or the default of lsc.
 std::string HoudiniWriter::number(std::string_view name, const char* usual) const {
     const auto found = settings_.find(name);
     std::string digits = found != settings_.end() ? std::string(text(found->second)) : usual;
     return digits.starts_with('+') ? digits.substr(1) : digits;
 }
 
-void HoudiniWriter::write_settings() {
-    translation_.put("#set turtle sidefx;\n#set names letters;\n");
+void HoudiniWriter::write_settings(std::string_view turtle) {
+    translation_.put("#set turtle " + std::string(turtle) + ";\n#set names letters;\n");
     for (const std::string_view key : {"angle", "angle_scale", "step", "step_scale", "width",
                                        "width_scale", "sides", "seed", "n"}) {
         const auto found = settings_.find(key);
@@ -97,7 +78,7 @@ void HoudiniWriter::write_settings() {
     }
 }
 
-bool HoudiniWriter::asks_for(std::string_view value) const {
+bool HoudiniWriter::reads_variable(std::string_view value) const {
     std::size_t rule = 0;
     for (std::uint32_t i = 0; i < session_.nodes.size(); ++i) {
         while (rule < session_.rules.size() && session_.rules[rule].end_node <= i) {
@@ -116,7 +97,7 @@ bool HoudiniWriter::asks_for(std::string_view value) const {
 /// The values b, c and d, which -D can replace.
 void HoudiniWriter::write_values() {
     for (const std::string_view value : {"b", "c", "d"}) {
-        if (!asks_for(value)) {
+        if (!reads_variable(value)) {
             continue;
         }
         const auto found = settings_.find(value);
@@ -132,13 +113,13 @@ void HoudiniWriter::write_values() {
     }
 }
 
-void HoudiniWriter::write() {
-    if (session_.premise == -1) {
-        mistake({translation_.file(), 0, 0},
-                "the premise is missing: a line of symbols before the rules");
+void HoudiniWriter::write(std::string_view turtle) {
+    if (session_.premise.empty()) {
+        report_syntax({translation_.file(), 0, 0},
+                      "the premise is missing: a line of symbols before the rules");
         return;
     }
-    write_settings();
+    write_settings(turtle);
     write_values();
     translation_.put("\n#w : ", session_.premise_span);
     write_word(session_.premise, {HoudiniPlace::Premise, nullptr, nullptr});
@@ -156,14 +137,15 @@ void HoudiniWriter::write() {
 void HoudiniWriter::write_symbol(const HoudiniModule& it) {
     const std::string_view symbol = text(it.symbol);
     if (symbol[0] == '`') {
-        lacks(it.symbol, "what stands in back quotes is of Houdini's expressions, which lsc does "
-                         "not have");
+        report_unsupported(it.symbol,
+                           "what stands in back quotes is of Houdini's expressions, which lsc does "
+                           "not have");
         return;
     }
     const CodePoint point = decode_utf8(symbol);
     const std::string spelled = spelled_letter(point.value);
     if (!point.valid || point.value < 0x20 || point.value == 0x7F) {
-        mistake(it.symbol, "this is no character of a module");
+        report_syntax(it.symbol, "this is no character of a module");
     } else if (spelled == symbol) {
         translation_.copy(it.symbol, session_.context.sources);
     } else {
@@ -171,19 +153,18 @@ void HoudiniWriter::write_symbol(const HoudiniModule& it) {
     }
 }
 
-void HoudiniWriter::write_word(int list, const HoudiniScope& scope) {
-    const HoudiniList& modules = session_.lists[static_cast<std::size_t>(list)];
-    for (std::uint32_t i = modules.begin; i < modules.end; ++i) {
-        write_module(module(i), scope);
+void HoudiniWriter::write_word(const std::vector<HoudiniModule>& word, const HoudiniScope& scope) {
+    for (const HoudiniModule& module : word) {
+        write_module(module, scope);
     }
 }
 
-/// Says once what a symbol does in Houdini and not here.
-void HoudiniWriter::say_lost(char symbol, SourceSpan place) {
-    if (lost_.find(symbol) != std::string::npos) {
+/// Warns once per symbol of an effect that lsc does not have.
+void HoudiniWriter::warn_lost(char symbol, SourceSpan place) {
+    if (warned_.find(symbol) != std::string::npos) {
         return;
     }
-    lost_ += symbol;
+    warned_ += symbol;
     const std::string what = symbol == 'g'   ? "groups of primitives"
                              : symbol == 'a' ? "attributes of points"
                              : symbol == 'J' ? "values that are stamped on a leaf"
@@ -203,11 +184,10 @@ void HoudiniWriter::write_module(const HoudiniModule& it, const HoudiniScope& sc
     write_arguments(it, 0, scope);
 }
 
-/// Symbols of the turtle that .lsys writes in another way. False: it does not.
+/// Writes symbols of the turtle that .lsys spells in another way; returns false for others.
 bool HoudiniWriter::write_special(const HoudiniModule& it, char symbol, const HoudiniScope& scope) {
     const std::uint32_t count = symbols_.count(it);
-    const int first =
-        count != 0 ? session_.arguments[static_cast<std::size_t>(it.arguments)].first : -1;
+    const int first = count != 0 ? it.arguments.front() : -1;
     switch (symbol) {
     case '~': // drawn when the module is written
         translation_.put("`~`(", it.symbol);
@@ -236,7 +216,7 @@ bool HoudiniWriter::write_special(const HoudiniModule& it, char symbol, const Ho
             return false;
         }
         if (count != 3) {
-            mistake(it.parentheses, "`$` takes a point: three numbers");
+            report_syntax(it.parentheses, "`$` takes a point: three numbers");
         }
         translation_.put("`aim`", it.symbol);
         translation_.replace_name("aim", "$");
@@ -246,27 +226,26 @@ bool HoudiniWriter::write_special(const HoudiniModule& it, char symbol, const Ho
         if (count == 0) {
             return false;
         }
-        say_lost('a', it.symbol);
-        const bool named =
-            session_.nodes[static_cast<std::size_t>(first)].kind == HoudiniNodeKind::Text;
+        warn_lost('a', it.symbol);
+        const bool named = session_.node(first).kind == HoudiniNodeKind::Text;
         translation_.copy(it.symbol, session_.context.sources);
         write_arguments(it, named ? 1 : 0, scope);
         return true;
     }
     case 'g':
         if (count != 0) {
-            say_lost('g', it.symbol);
+            warn_lost('g', it.symbol);
         }
         return false;
     case '\'':
     case '#':
-        say_lost('\'', it.symbol);
+        warn_lost('\'', it.symbol);
         return false;
     case 'J':
     case 'K':
     case 'M':
         if (count > 2) {
-            say_lost('J', it.symbol);
+            warn_lost('J', it.symbol);
         }
         return false;
     default:
@@ -274,7 +253,7 @@ bool HoudiniWriter::write_special(const HoudiniModule& it, char symbol, const Ho
     }
 }
 
-/// What Houdini takes for a parameter that is left out before others.
+/// Writes the value that Houdini takes for a parameter left out before others.
 void HoudiniWriter::write_left_out(const HoudiniModule& it, std::uint32_t index, SourceSpan place) {
     const char symbol = text(it.symbol)[0];
     if (!symbols_.of(it).is_command) {
@@ -282,11 +261,13 @@ void HoudiniWriter::write_left_out(const HoudiniModule& it, std::uint32_t index,
     } else if (symbol == 'J' || symbol == 'K' || symbol == 'M') {
         translation_.put(index == 0 ? number("step_scale", "0.9") : "0", place);
     } else if (std::string_view("FHGfh").find(symbol) == std::string_view::npos) {
-        mistake(place, "a parameter is missing");
+        report_syntax(place, "a parameter is missing");
     } else if (index == 0 && (symbols_.occurs("\"") || symbols_.occurs("_"))) {
-        lacks(place, "the length that the turtle then has cannot be written as a parameter");
+        report_unsupported(place,
+                           "the length that the turtle then has cannot be written as a parameter");
     } else if (index == 1 && (symbols_.occurs("!") || symbols_.occurs("?"))) {
-        lacks(place, "the width that the turtle then has cannot be written as a parameter");
+        report_unsupported(place,
+                           "the width that the turtle then has cannot be written as a parameter");
     } else if (index < 2) {
         translation_.put(index == 0 ? number("step", "1") : number("width", "0.1"), place);
     } else {
@@ -300,31 +281,25 @@ void HoudiniWriter::write_arguments(const HoudiniModule& it,
                                     const HoudiniScope& scope) {
     const HoudiniSymbol& known = symbols_.of(it);
     const std::uint32_t given = symbols_.count(it);
-    const std::uint32_t count = known.is_command ? given : known.most;
-    if (count > HoudiniSymbols::kMostParameters) {
-        mistake(it.parentheses, "a module with so many parameters is not read");
+    const std::uint32_t count = known.is_command ? given : known.max_count;
+    if (count > HoudiniSymbols::kMaxParameters) {
+        report_syntax(it.parentheses, "a module with so many parameters is not read");
         return;
     }
-    if (count <= skip && !known.ages) {
+    if (count <= skip && !known.has_age) {
         return;
     }
     const SourceSpan place = given != 0 ? it.parentheses : it.symbol;
     translation_.put("(", place);
-    int node = given != 0 ? session_.arguments[static_cast<std::size_t>(it.arguments)].first : -1;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const bool is_there = i < given && session_.nodes[static_cast<std::size_t>(node)].kind !=
-                                               HoudiniNodeKind::Missing;
-        if (i >= skip) {
-            translation_.put(i > skip ? ", " : "", place);
-            if (is_there) {
-                expressions_.write(node, scope);
-            } else {
-                write_left_out(it, i, place);
-            }
+    for (std::uint32_t i = skip; i < count; ++i) {
+        translation_.put(i > skip ? ", " : "", place);
+        if (i < given && session_.node(it.arguments[i]).kind != HoudiniNodeKind::Missing) {
+            expressions_.write(it.arguments[i], scope);
+        } else {
+            write_left_out(it, i, place);
         }
-        node = i < given ? session_.nodes[static_cast<std::size_t>(node)].next : -1;
     }
-    if (known.ages) {
+    if (known.has_age) {
         translation_.put(count > skip ? ", 0" : "0", place);
     }
     translation_.put(")", place);

@@ -1,4 +1,4 @@
-// Writes a Houdini rule text as .lsys text, and says what lsc cannot do of it.
+// Writes a Houdini rule text as .lsys text, and reports the parts that lsc does not support.
 #pragma once
 
 #include "grammar/ast/translation.h"
@@ -19,29 +19,28 @@ class HoudiniWriter {
 public:
     HoudiniWriter(const HoudiniSession& session, Translation& translation);
 
-    void write();
+    /// `turtle`: the profile.
+    void write(std::string_view turtle);
 
 private:
     /// A form of a rule: how many parameters each symbol of the turtle in its head has.
     using Form = std::vector<std::uint32_t>;
 
-    [[nodiscard]] const HoudiniModule& module(std::uint32_t index) const {
-        return session_.modules[index];
-    }
     [[nodiscard]] std::string_view text(SourceSpan span) const {
         return session_.context.sources.text(span);
     }
     [[nodiscard]] std::string number(std::string_view name, const char* usual) const;
 
     void read_settings();
-    void write_settings();
+    void write_settings(std::string_view turtle);
     void write_values();
-    [[nodiscard]] bool asks_for(std::string_view value) const;
+    [[nodiscard]] bool reads_variable(std::string_view value) const;
 
     void write_rule(const HoudiniRule& rule, std::size_t index);
     void write_form(const HoudiniRule& rule, const Form& form, const std::string& name);
-    void write_pattern(int list, const Form& form, std::size_t& slot);
-    void write_formals(const HoudiniModule& head, std::uint32_t count, bool ages);
+    void
+    write_pattern(const std::vector<HoudiniModule>& modules, const Form& form, std::size_t& slot);
+    void write_formals(const HoudiniModule& head, std::uint32_t count, bool has_age);
     void write_ageing(const HoudiniRule& rule, std::size_t index);
     [[nodiscard]] std::vector<Form> forms_of(const HoudiniRule& rule) const;
     [[nodiscard]] std::string group_of(const HoudiniRule& rule) const;
@@ -49,16 +48,16 @@ private:
     [[nodiscard]] std::string chance_of(int condition) const;
     bool check_head(const HoudiniRule& rule);
 
-    void write_word(int list, const HoudiniScope& scope);
+    void write_word(const std::vector<HoudiniModule>& word, const HoudiniScope& scope);
     void write_module(const HoudiniModule& it, const HoudiniScope& scope);
     bool write_special(const HoudiniModule& it, char symbol, const HoudiniScope& scope);
     void write_arguments(const HoudiniModule& it, std::uint32_t skip, const HoudiniScope& scope);
     void write_left_out(const HoudiniModule& it, std::uint32_t index, SourceSpan place);
     void write_symbol(const HoudiniModule& it);
-    void say_lost(char symbol, SourceSpan place);
+    void warn_lost(char symbol, SourceSpan place);
 
-    void mistake(SourceSpan place, const std::string& message) const;
-    void lacks(SourceSpan place, const std::string& message) const;
+    void report_syntax(SourceSpan place, const std::string& message) const;
+    void report_unsupported(SourceSpan place, const std::string& message) const;
 
     const HoudiniSession& session_;
     Translation& translation_;
@@ -69,7 +68,7 @@ private:
     std::map<const HoudiniRule*, std::string> chances_; // in place of a condition with `rand`
     std::map<std::string_view, bool> aged_;
     std::vector<std::string_view> zeros_;
-    std::string lost_; // symbols that have been told
+    std::string warned_; // symbols that have been reported
     std::uint32_t fresh_ = 0;
 };
 

@@ -1,8 +1,8 @@
 #include "grammar/dialects/impl/letter_modules.h"
 
-#include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 #include "grammar/base/utf8.h"
+#include "grammar/dialects/impl/text.h"
 
 #include <cstdint>
 
@@ -10,11 +10,8 @@ namespace lsys {
 
 namespace {
 
+constexpr std::string_view kBlanks = " \t\r\n";
 constexpr std::string_view kSymbols = "+-/\\^&|$!\"'.[]{}%";
-
-bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
 
 /// One past the `)` that closes the `(` at the start of `text`; 0: none does.
 std::size_t closed_at(std::string_view text) {
@@ -35,7 +32,7 @@ std::string spelled_letter(char32_t character) {
     append_utf8(character, text);
     const bool letter = text.size() == 1 &&
                         ((text[0] >= 'A' && text[0] <= 'Z') || (text[0] >= 'a' && text[0] <= 'z'));
-    const bool symbol = text.size() == 1 && kSymbols.find(text[0]) != std::string_view::npos;
+    const bool symbol = text.size() == 1 && is_one_of(text[0], kSymbols);
     return letter || symbol ? text : '`' + text + '`';
 }
 
@@ -43,9 +40,9 @@ bool read_letter_modules(SourceSpan text,
                          const ParseContext& context,
                          const std::function<void(const LetterModule&)>& visit) {
     const std::string_view whole = context.sources.text(text);
-    bool fine = true;
+    bool is_valid = true;
     for (std::size_t at = 0; at < whole.size();) {
-        if (is_blank(whole[at])) {
+        if (is_one_of(whole[at], kBlanks)) {
             ++at;
             continue;
         }
@@ -60,7 +57,7 @@ bool read_letter_modules(SourceSpan text,
             context.diagnostics.add(DiagnosticCode::ForeignSyntax, module.span,
                                     point.value == '`' ? "a back quote is no symbol of a module"
                                                        : "this is no character of a module");
-            fine = false;
+            is_valid = false;
             continue;
         }
         if (at < whole.size() && whole[at] == '(') {
@@ -76,7 +73,7 @@ bool read_letter_modules(SourceSpan text,
         }
         visit(module);
     }
-    return fine;
+    return is_valid;
 }
 
 void write_letter(const LetterModule& module,
@@ -97,23 +94,15 @@ bool write_plain_arguments(SourceSpan arguments,
     const std::string_view inner = whole.substr(1, whole.size() - 2);
     for (std::size_t at = 0; at <= inner.size();) {
         const std::size_t end = std::min(inner.find(',', at), inner.size());
-        std::size_t first = at;
-        std::size_t last = end;
-        while (first < last && is_blank(inner[first])) {
-            ++first;
-        }
-        while (last > first && is_blank(inner[last - 1])) {
-            --last;
-        }
-        std::string_view number = inner.substr(first, last - first);
-        number.remove_prefix(!number.empty() && number[0] == '-' ? 1 : 0);
-        if (number.empty() || literal_length(number) != number.size()) {
-            const auto begin = static_cast<std::uint32_t>(arguments.begin + 1 + first);
-            const auto length = static_cast<std::uint32_t>(last - first);
-            context.diagnostics.add(
-                DiagnosticCode::ForeignSyntax, {arguments.file, begin, begin + length},
-                length == 0 ? std::string("a number is missing")
-                            : "`" + shown(inner.substr(first, last - first)) + "` is no number");
+        const std::string_view number = trimmed(inner.substr(at, end - at), kBlanks);
+        if (!is_number(number, "-")) {
+            const auto begin =
+                static_cast<std::uint32_t>(arguments.begin + 1 + (number.data() - inner.data()));
+            const auto length = static_cast<std::uint32_t>(number.size());
+            context.diagnostics.add(DiagnosticCode::ForeignSyntax,
+                                    {arguments.file, begin, begin + length},
+                                    number.empty() ? std::string("a number is missing")
+                                                   : "`" + shown(number) + "` is no number");
             return false;
         }
         at = end + 1;

@@ -34,7 +34,7 @@ bool read_letter_modules(SourceSpan text,
                          const ParseContext& context,
                          const std::function<void(const LetterModule&)>& visit);
 
-/// Writes `(...)` of a module, numbers and commas only, as it stands; reports what else there is.
+/// Copies `(...)` of a module, numbers and commas only; reports anything else.
 bool write_plain_arguments(SourceSpan arguments,
                            const ParseContext& context,
                            Translation& translation);

@@ -12,9 +12,9 @@ void SyntaxMessage::expected(std::string_view token) {
 }
 
 void SyntaxMessage::report(std::string_view saw) {
-    constexpr int kMostNamed = 5;
+    constexpr int kMaxNamed = 5;
     std::string message;
-    if (count_ != 0 && count_ <= kMostNamed) {
+    if (count_ != 0 && count_ <= kMaxNamed) {
         message = "expected " + expected_ + (expected_.empty() ? "" : " or ") + last_ + ", saw ";
     } else {
         message = "did not expect ";

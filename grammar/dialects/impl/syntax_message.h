@@ -1,4 +1,4 @@
-// The message of a syntax error of a dialect: what was expected, and what stands there.
+// The message of a syntax error of a dialect: tokens that were expected, and the one found.
 #pragma once
 
 #include "grammar/ast/parse_context.h"
@@ -13,7 +13,7 @@ public:
     SyntaxMessage(const ParseContext& context, SourceSpan place)
         : context_(context), place_(place) {}
 
-    /// A token that would have been right, in words.
+    /// Adds a token that would have been right, in words.
     void expected(std::string_view token);
     /// `saw`: the token that stands there, in words.
     void report(std::string_view saw);

@@ -1,14 +1,15 @@
-#include "grammar/dialects/l3d/frontend.h"
-
+// .l, .l3d and .l++: the texts of L3D and its L+System. Three numbers (generations, angle,
+// thickness in percent), an axiom, lines `key=value`, and a line `@`. Rewriting replaces text, key
+// after key; of several values of one key each generation takes one. Words are texts too, so
+// modules are characters here, and the turtle reads parameters.
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
-#include "grammar/dialects/l3d/session.h"
+#include "grammar/dialects/impl/frontends.h"
+#include "grammar/dialects/impl/text.h"
+#include "grammar/dialects/l3d/reader.h"
 #include "grammar/dialects/l3d/writer.h"
-#include "l3d/parser.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <string>
@@ -17,13 +18,7 @@ namespace lsys {
 
 namespace {
 
-constexpr float kMostGenerations = 1e9F;
-
-/// Pieces of a line, once they are known to be an axiom or a rule.
-struct CleanRule {
-    SourceSpan key;
-    SourceSpan value;
-};
+constexpr float kMaxGenerations = 1e9F;
 
 /// A number of the header.
 float value_of(SourceSpan span, const ParseContext& context) {
@@ -35,80 +30,73 @@ float value_of(SourceSpan span, const ParseContext& context) {
     return negative ? -literal.value : literal.value;
 }
 
-std::string text_of(float value) {
-    constexpr std::size_t kLongest = 32;
-    std::array<char, kLongest> buffer{};
-    return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + kLongest, value).ptr};
-}
-
-void write_header(const L3dSession& session, Translation& translation) {
-    const ParseContext& context = session.context;
-    const float generations = value_of(session.numbers[0], context);
-    if (!(generations >= 0.0F && generations < kMostGenerations)) {
-        context.diagnostics.add(DiagnosticCode::ForeignSyntax, session.numbers[0],
-                                "`" + shown(context.sources.text(session.numbers[0])) +
+void write_header(const L3dFile& file, const ParseContext& context, Translation& translation) {
+    const float generations = value_of(file.numbers[0], context);
+    if (!(generations >= 0.0F && generations < kMaxGenerations)) {
+        context.diagnostics.add(DiagnosticCode::ForeignSyntax, file.numbers[0],
+                                "`" + shown(context.sources.text(file.numbers[0])) +
                                     "` is no number of generations");
         return;
     }
     if (generations != std::trunc(generations)) {
-        context.diagnostics.add(DiagnosticCode::ForeignQuirk, session.numbers[0],
+        context.diagnostics.add(DiagnosticCode::ForeignQuirk, file.numbers[0],
                                 "the number of generations is cut down to a whole one");
     }
     translation.put("#n = " + std::to_string(static_cast<std::uint32_t>(generations)) + ";\n",
-                    session.numbers[0]);
-    translation.put("#set angle " + text_of(value_of(session.numbers[1], context)) + ";\n",
-                    session.numbers[1]);
-    const float thickness = value_of(session.numbers[2], context) / 100.0F;
-    translation.put("#set width " + text_of(thickness) + ";\n", session.numbers[2]);
+                    file.numbers[0]);
+    translation.put("#set angle " + text_of(value_of(file.numbers[1], context)) + ";\n",
+                    file.numbers[1]);
+    const float thickness = value_of(file.numbers[2], context) / 100.0F;
+    translation.put("#set width " + text_of(thickness) + ";\n", file.numbers[2]);
 }
 
 /// The axiom: the last line without a `=`; or, where there is none, the first rule if its `=` can
 /// be the command that sets the thickness, `fA=(5)A`.
-std::optional<SourceSpan> take_axiom(L3dSession& session) {
-    Diagnostics& diagnostics = session.context.diagnostics;
-    for (std::size_t i = 0; i + 1 < session.axioms.size(); ++i) {
+std::optional<SourceSpan> take_axiom(L3dFile& file, const ParseContext& context) {
+    Diagnostics& diagnostics = context.diagnostics;
+    for (std::size_t i = 0; i + 1 < file.axioms.size(); ++i) {
         diagnostics
-            .add(DiagnosticCode::ForeignQuirk, session.axioms[i],
+            .add(DiagnosticCode::ForeignQuirk, file.axioms[i],
                  "this is no axiom, since a later line without `=` takes its place")
-            .labels.push_back({session.axioms.back(), "the axiom"});
+            .labels.push_back({file.axioms.back(), "the axiom"});
     }
-    if (!session.axioms.empty()) {
-        return session.axioms.back();
+    if (!file.axioms.empty()) {
+        return file.axioms.back();
     }
-    const auto first = session.rules.begin();
-    if (first == session.rules.end() || session.context.bug_compatible ||
-        !session.context.sources.text(first->value).starts_with('(')) {
+    const auto first = file.rules.begin();
+    if (first == file.rules.end() || context.bug_compatible ||
+        !context.sources.text(first->value).starts_with('(')) {
         return std::nullopt;
     }
     const SourceSpan whole{first->key.file, first->key.begin, first->value.end};
     diagnostics.add(DiagnosticCode::ForeignQuirk, whole,
                     "L3D takes this for a rule; here it is the axiom, since there is no other");
-    session.rules.erase(first);
+    file.rules.erase(first);
     return whole;
 }
 
-/// The end of the file, where a `@` is missed.
-void report_missing_mark(const L3dSession& session, FileId root) {
-    const std::string_view text = session.context.sources.file(root).text();
+/// Reports a missing `@` at the end of the file.
+void report_missing_mark(FileId root, const ParseContext& context) {
+    const std::string_view text = context.sources.file(root).text();
     const bool ends_line = text.ends_with('\n');
-    if (session.mark || (session.context.bug_compatible && !ends_line)) {
+    if (context.bug_compatible && !ends_line) {
         return;
     }
     const auto end = static_cast<std::uint32_t>(text.size());
-    const bool error = session.context.bug_compatible;
-    session.context.diagnostics.add(
+    const bool error = context.bug_compatible;
+    context.diagnostics.add(
         error ? DiagnosticCode::ForeignSyntax : DiagnosticCode::ForeignQuirk, {root, end, end},
         ends_line ? "a line `@` is missing at the end, without which L3D never stops reading"
                   : "a line `@` is missing at the end: the file may be cut off");
 }
 
-void write_rules(const std::vector<CleanRule>& rules,
+void write_rules(const std::vector<L3dRule>& rules,
                  const std::map<std::string_view, std::size_t>& alternatives,
                  const ParseContext& context,
                  L3dWriter& writer,
                  Translation& translation) {
     for (std::size_t i = 0; i < rules.size(); ++i) {
-        const CleanRule& rule = rules[i];
+        const L3dRule& rule = rules[i];
         translation.put("#r" + std::to_string(i + 1) + " : ", rule.key);
         writer.write_key(rule.key);
         const bool chosen = alternatives.at(context.sources.text(rule.key)) > 1;
@@ -120,75 +108,13 @@ void write_rules(const std::vector<CleanRule>& rules,
     }
 }
 
-Translation translate_text(FileId root, const ParseContext& context, std::string turtle) {
-    L3dSession session(root, context);
-    {
-        const L3dScanning scanning(session, context.sources.file(root).text());
-        l3d_grammar::Parser parser(session, scanning.scanner());
-        static_cast<void>(parser.parse()); // what is wrong has been reported
-    }
-    Translation translation(root);
-    if (context.diagnostics.has_errors()) {
-        return translation;
-    }
-    L3dWriter writer(session, translation);
-    std::optional<SourceSpan> axiom = take_axiom(session);
-    std::vector<CleanRule> rules;
-    for (const L3dRule& line : session.rules) {
-        const CleanRule rule{writer.key(line.key), writer.line(line.value)};
-        if (rule.key.begin == rule.key.end) {
-            context.diagnostics.add(DiagnosticCode::ForeignSyntax, rule.key,
-                                    "the left side of the rule is missing");
-        } else {
-            rules.push_back(rule);
-        }
-    }
-    // The program keeps its rules by their left sides, in the order of bytes.
-    const auto text_of_key = [&](const CleanRule& rule) { return context.sources.text(rule.key); };
-    std::stable_sort(rules.begin(), rules.end(), [&](const CleanRule& a, const CleanRule& b) {
-        return text_of_key(a) < text_of_key(b);
-    });
-    std::map<std::string_view, std::size_t> alternatives;
-    bool any_choice = false;
-    for (const CleanRule& rule : rules) {
-        any_choice = ++alternatives[text_of_key(rule)] > 1 || any_choice;
-    }
-    turtle += context.bug_compatible ? "_program" : "";
-    translation.put("#set turtle " + turtle +
-                    ";\n#set names characters;\n#set rewriting sequential;\n");
-    if (any_choice) {
-        translation.put("#set choice generation;\n#set weights any;\n");
-        translation.put(context.bug_compatible ? "#set random glibc;\n" : "");
-    }
-    write_header(session, translation);
-    report_missing_mark(session, root);
-    if (axiom) {
-        axiom = writer.line(*axiom);
-    }
-    if (!axiom || axiom->begin == axiom->end) {
-        const SourceSpan after = session.numbers[2];
-        context.diagnostics.add(DiagnosticCode::ForeignSyntax, {after.file, after.end, after.end},
-                                "an axiom is missing: a line without `=`");
-        return translation;
-    }
-    translation.put("\n#w : ", *axiom);
-    writer.write(*axiom);
-    translation.put(";\n\n");
-    write_rules(rules, alternatives, context, writer, translation);
-    return translation;
-}
-
-bool is_blank(char c) {
-    return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
 } // namespace
 
 std::string_view recognise_l3d(std::string_view text) {
     int numbers = 0;
     std::size_t at = 0;
     while (at < text.size()) {
-        if (is_blank(text[at])) {
+        if (is_one_of(text[at], kL3dBlanks)) {
             ++at;
         } else if (text[at] == '#') {
             at = std::min(text.find('\n', at), text.size());
@@ -198,7 +124,8 @@ std::string_view recognise_l3d(std::string_view text) {
             at += text[at] == '-' || text[at] == '+' ? 1U : 0U;
             const std::size_t length = literal_length(text.substr(at));
             at += length;
-            if (length == 0 || (at < text.size() && !is_blank(text[at]) && text[at] != '#')) {
+            if (length == 0 ||
+                (at < text.size() && !is_one_of(text[at], kL3dBlanks) && text[at] != '#')) {
                 return {};
             }
             ++numbers;
@@ -207,12 +134,58 @@ std::string_view recognise_l3d(std::string_view text) {
     return {};
 }
 
-Translation translate_l3d(FileId root, const ParseContext& context) {
-    return translate_text(root, context, "l3d");
-}
-
-Translation translate_lplus(FileId root, const ParseContext& context) {
-    return translate_text(root, context, "lplus");
+void translate_l3d(const DialectRow& row, const ParseContext& context, Translation& translation) {
+    const FileId root = translation.file();
+    L3dFile file = read_l3d(root, context);
+    if (context.diagnostics.has_errors()) {
+        return;
+    }
+    L3dWriter writer(context, translation);
+    std::optional<SourceSpan> axiom = take_axiom(file, context);
+    std::vector<L3dRule> rules;
+    for (const L3dRule& line : file.rules) {
+        const L3dRule rule{writer.key(line.key), writer.line(line.value)};
+        if (rule.key.begin == rule.key.end) {
+            context.diagnostics.add(DiagnosticCode::ForeignSyntax, rule.key,
+                                    "the left side of the rule is missing");
+        } else {
+            rules.push_back(rule);
+        }
+    }
+    // L3D sorts its rules by the bytes of their left sides.
+    const auto text_of_key = [&](const L3dRule& rule) { return context.sources.text(rule.key); };
+    std::stable_sort(rules.begin(), rules.end(), [&](const L3dRule& a, const L3dRule& b) {
+        return text_of_key(a) < text_of_key(b);
+    });
+    std::map<std::string_view, std::size_t> alternatives;
+    bool any_choice = false;
+    for (const L3dRule& rule : rules) {
+        any_choice = ++alternatives[text_of_key(rule)] > 1 || any_choice;
+    }
+    translation.put("#set turtle " + std::string(row.turtle) +
+                    (context.bug_compatible ? "_program" : "") +
+                    ";\n#set names characters;\n#set rewriting sequential;\n");
+    if (any_choice) {
+        translation.put("#set choice generation;\n#set weights any;\n");
+        translation.put(context.bug_compatible ? "#set random glibc;\n" : "");
+    }
+    write_header(file, context, translation);
+    if (!file.has_mark) {
+        report_missing_mark(root, context);
+    }
+    if (axiom) {
+        axiom = writer.line(*axiom);
+    }
+    if (!axiom || axiom->begin == axiom->end) {
+        const SourceSpan after = file.numbers[2];
+        context.diagnostics.add(DiagnosticCode::ForeignSyntax, {after.file, after.end, after.end},
+                                "an axiom is missing: a line without `=`");
+        return;
+    }
+    translation.put("\n#w : ", *axiom);
+    writer.write(*axiom);
+    translation.put(";\n\n");
+    write_rules(rules, alternatives, context, writer, translation);
 }
 
 } // namespace lsys

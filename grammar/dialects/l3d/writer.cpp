@@ -3,6 +3,8 @@
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 #include "grammar/base/utf8.h"
+#include "grammar/dialects/impl/text.h"
+#include "grammar/dialects/l3d/reader.h"
 
 #include <algorithm>
 #include <string>
@@ -13,26 +15,16 @@ namespace {
 
 /// Commands whose parameter is an angle or a percentage with a default in the header.
 constexpr std::string_view kByHeader = "+-&^\\/<>";
-/// The others that have a parameter.
+/// Other commands with a parameter.
 constexpr std::string_view kOthers = "FfGg=%*";
 
 bool is_blank(char c) {
-    return c == ' ' || (c >= '\t' && c <= '\r');
-}
-bool is_in(char c, std::string_view set) {
-    return set.find(c) != std::string_view::npos;
+    return is_one_of(c, kL3dBlanks);
 }
 
 /// A number with a sign, and blanks around it.
-bool is_number(std::string_view text) {
-    while (!text.empty() && is_blank(text.front())) {
-        text.remove_prefix(1);
-    }
-    while (!text.empty() && is_blank(text.back())) {
-        text.remove_suffix(1);
-    }
-    text.remove_prefix(!text.empty() && is_in(text[0], "+-") ? 1 : 0);
-    return !text.empty() && literal_length(text) == text.size();
+bool is_parameter(std::string_view text) {
+    return is_number(trimmed(text, kL3dBlanks), "+-");
 }
 
 bool is_one(std::string_view text) {
@@ -63,20 +55,14 @@ SourceSpan L3dWriter::line(SourceSpan text) {
     }
     const auto begin = static_cast<std::uint32_t>(text.begin + hash);
     warn(begin, text.end, "L3D reads this as commands; here it is a comment");
-    std::size_t end = hash;
-    while (end > 0 && is_blank(whole[end - 1])) {
-        --end;
-    }
+    const std::size_t end = whole.substr(0, hash).find_last_not_of(kL3dBlanks) + 1;
     return {text.file, text.begin, static_cast<std::uint32_t>(text.begin + end)};
 }
 
 SourceSpan L3dWriter::key(SourceSpan text) {
     file_ = text.file;
     const std::string_view whole = context_.sources.text(text);
-    std::size_t end = whole.size();
-    while (end > 0 && is_blank(whole[end - 1])) {
-        --end;
-    }
+    const std::size_t end = whole.find_last_not_of(kL3dBlanks) + 1;
     if (context_.bug_compatible || end == whole.size()) {
         return text;
     }
@@ -94,7 +80,7 @@ void L3dWriter::write_key(SourceSpan text) {
     translation_.put("`", text);
 }
 
-/// Returns where the next one begins.
+/// Returns the start of the next character.
 std::uint32_t L3dWriter::put_character(std::uint32_t at, std::uint32_t end) {
     const char c = source_[at];
     const CodePoint point = decode_utf8(source_.substr(at, end - at));
@@ -119,17 +105,17 @@ void L3dWriter::put_characters(std::uint32_t at, std::uint32_t end) {
     }
 }
 
-/// What is wrong with the parameter of a command.
+/// Warns of a parameter that L3D reads in another way.
 void L3dWriter::check_parameter(char command, Parameter parameter) {
     const std::string_view inner =
         source_.substr(parameter.open + 1, parameter.end - parameter.open - 2);
-    if (!is_in(command, kByHeader) && !is_in(command, kOthers)) {
+    if (!is_one_of(command, kByHeader) && !is_one_of(command, kOthers)) {
         return;
     }
-    if (!is_number(inner)) {
+    if (!is_parameter(inner)) {
         warn(parameter.open + 1, parameter.end - 1,
              "only the number at the start of `" + shown(inner) + "` is read");
-    } else if (is_in(command, kByHeader) && is_one(inner) && !context_.bug_compatible) {
+    } else if (is_one_of(command, kByHeader) && is_one(inner) && !context_.bug_compatible) {
         warn(parameter.open, parameter.end,
              "L3D takes a parameter of 1 for none, which means the angle of the header; here it "
              "is 1");
@@ -137,11 +123,11 @@ void L3dWriter::check_parameter(char command, Parameter parameter) {
 }
 
 void L3dWriter::check_command(char command, std::uint32_t at) {
-    if (command == '|' && !said_half_turn_ && !context_.bug_compatible) {
-        said_half_turn_ = true;
+    if (command == '|' && !has_warned_half_turn_ && !context_.bug_compatible) {
+        has_warned_half_turn_ = true;
         warn(at, at + 1, "L3D turns by pi degrees here; half a turn is meant");
-    } else if (command >= '0' && command <= '9' && !said_digit_) {
-        said_digit_ = true;
+    } else if (command >= '0' && command <= '9' && !has_warned_digit_) {
+        has_warned_digit_ = true;
         warn(at, at + 1, "L3D has no counts: a digit outside of parentheses does nothing");
     }
 }
@@ -161,13 +147,13 @@ void L3dWriter::write(SourceSpan text) {
     };
     for (std::uint32_t at = text.begin; at < text.end;) {
         const char c = source_[at];
-        const bool has_parameter = is_in(command, kByHeader) || is_in(command, kOthers);
+        const bool has_parameter = is_one_of(command, kByHeader) || is_one_of(command, kOthers);
         if (is_blank(c) && has_parameter && !context_.bug_compatible) {
             const std::size_t open =
                 std::min(whole.find_first_not_of(" \t\r\v\f", at), whole.size());
             const std::size_t end =
                 open < whole.size() && whole[open] == '(' ? next_close(open) : whole.size();
-            if (end < whole.size() && is_number(whole.substr(open + 1, end - open - 1))) {
+            if (end < whole.size() && is_parameter(whole.substr(open + 1, end - open - 1))) {
                 warn(at, static_cast<std::uint32_t>(open),
                      "for L3D a blank parts the command from its parameter; here it does not");
                 at = static_cast<std::uint32_t>(open);

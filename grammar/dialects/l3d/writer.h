@@ -1,9 +1,9 @@
-// Writes texts of a file of L3D as .lsys modules in back quotes, character by character, and says
-// where the program does not do what is meant.
+// Writes texts of a file of L3D as .lsys modules in back quotes, character by character, and warns
+// where L3D does not do what the author means.
 #pragma once
 
+#include "grammar/ast/parse_context.h"
 #include "grammar/ast/translation.h"
-#include "grammar/dialects/l3d/session.h"
 
 #include <cstdint>
 #include <string>
@@ -13,17 +13,16 @@ namespace lsys {
 
 class L3dWriter {
 public:
-    L3dWriter(const L3dSession& session, Translation& translation)
-        : context_(session.context), translation_(translation) {}
+    L3dWriter(const ParseContext& context, Translation& translation)
+        : context_(context), translation_(translation) {}
 
-    /// A line as it counts: without a line end and, unless as the program has it, without a comment
-    /// behind it.
+    /// The line without a line end and, unless bug-compatible, without a comment behind it.
     [[nodiscard]] SourceSpan line(SourceSpan text);
-    /// A left side, with the same exception without blanks at its end.
+    /// A left side; unless bug-compatible, without blanks at its end.
     [[nodiscard]] SourceSpan key(SourceSpan text);
     /// An axiom or a right side.
     void write(SourceSpan text);
-    /// A left side; nothing is said of it.
+    /// A left side, without warnings.
     void write_key(SourceSpan text);
 
 private:
@@ -41,8 +40,8 @@ private:
     Translation& translation_;
     FileId file_ = kNoFile;
     std::string_view source_;
-    bool said_half_turn_ = false;
-    bool said_digit_ = false;
+    bool has_warned_half_turn_ = false;
+    bool has_warned_digit_ = false;
 };
 
 } // namespace lsys

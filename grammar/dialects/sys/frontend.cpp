@@ -1,18 +1,107 @@
-#include "grammar/dialects/sys/frontend.h"
-
+// .sys: the grammars of the forest of 2005. A header `LSYSTEM`, the number of rules, the axiom,
+// then a line `A R p` for each rule: symbol, replacement, probability. Its turtle is the profile
+// `sys`.
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
+#include "grammar/dialects/impl/frontends.h"
 #include "grammar/dialects/impl/letter_modules.h"
-#include "grammar/dialects/sys/session.h"
-#include "sys/parser.h"
+#include "grammar/dialects/impl/line_reader.h"
 
+#include <array>
 #include <charconv>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace lsys {
 
 namespace {
+
+/// A line `A R p` of the file.
+struct SysRule {
+    SourceSpan symbol;
+    SourceSpan replacement;
+    SourceSpan probability;
+};
+
+struct SysFile {
+    std::optional<SourceSpan> count; // of the rules, as written
+    std::optional<SourceSpan> axiom;
+    std::vector<SysRule> rules;
+};
+
+constexpr std::string_view kHeader = "LSYSTEM";
+constexpr std::string_view kBlanks = " \t\r\n";
+
+/// Bytes of a word, which keeps the blanks within its parentheses.
+std::size_t word_length(std::string_view ahead) {
+    std::size_t at = 0;
+    while (at < ahead.size() && kBlanks.find(ahead[at]) == std::string_view::npos) {
+        if (ahead[at] == '(') {
+            const std::size_t close = ahead.find_first_of("()\n", at + 1);
+            if (close == std::string_view::npos || ahead[close] != ')') {
+                break;
+            }
+            at = close;
+        }
+        ++at;
+    }
+    return at;
+}
+
+bool is_word(const LinePiece& piece) {
+    return piece.kind == LinePieceKind::Text && piece.text != kHeader && piece.text != "(";
+}
+
+/// Reads the lines of a file; stops at a mistake before the rules.
+SysFile read_file(FileId root, const ParseContext& context) {
+    LineReader reader(whole_file(root, context), {" \t\r"}, context);
+    const auto next = [&] { return reader.next(word_length); };
+    SysFile file;
+    LinePiece piece = next();
+    const bool is_first = piece.kind != LinePieceKind::LineEnd;
+    piece = is_first ? piece : next();
+    const bool has_header = piece.text == kHeader;
+    if (is_first ? !reader.expect(has_header, piece, {"the end of the line", "`LSYSTEM`"})
+                 : !reader.expect(has_header, piece, {"`LSYSTEM`"})) {
+        return file;
+    }
+    for (std::optional<SourceSpan>* const word : {&file.count, &file.axiom}) {
+        if (!reader.expect_line_end(word_length)) {
+            return file;
+        }
+        piece = next();
+        if (!reader.expect(is_word(piece), piece, {"a word"})) {
+            return file;
+        }
+        *word = piece.span;
+    }
+    if (!reader.expect_line_end(word_length)) {
+        return file;
+    }
+    while ((piece = next()).kind != LinePieceKind::TextEnd) {
+        std::array<SourceSpan, 3> words;
+        std::size_t count = 0;
+        for (; count < words.size() && is_word(piece); piece = next()) {
+            words[count++] = piece.span;
+        }
+        const bool ends = piece.kind == LinePieceKind::LineEnd;
+        bool fits = false;
+        if (count == 0) {
+            fits = reader.expect(ends, piece,
+                                 {"the end of the file", "the end of the line", "a word"});
+        } else if (count < words.size()) {
+            fits = reader.expect(false, piece, {"a word"});
+        } else {
+            fits = reader.expect(ends, piece, {"the end of the line"});
+        }
+        if (fits && count != 0) {
+            file.rules.push_back({words[0], words[1], words[2]});
+        }
+    }
+    return file;
+}
 
 /// The modules of a word of the file.
 void write_modules(SourceSpan text, const ParseContext& context, Translation& translation) {
@@ -24,31 +113,29 @@ void write_modules(SourceSpan text, const ParseContext& context, Translation& tr
     });
 }
 
-/// The number of rules of the file, beside those that are there.
-void check_count(const SysSession& session) {
-    if (!session.count) {
+/// Compares the stated number of rules with those of the file.
+void check_count(const SysFile& file, const ParseContext& context) {
+    if (!file.count) {
         return;
     }
-    const std::string_view text = session.context.sources.text(*session.count);
+    const std::string_view text = context.sources.text(*file.count);
     std::uint32_t count = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
     if (error != std::errc() || end != text.data() + text.size()) {
-        session.context.diagnostics.add(DiagnosticCode::ForeignSyntax, *session.count,
-                                        "expected the number of rules, saw `" + shown(text) + "`");
-    } else if (count != session.rules.size() && !session.context.diagnostics.has_errors()) {
-        session.context.diagnostics.add(DiagnosticCode::ForeignSyntax, *session.count,
-                                        "the file says that it has " + std::string(text) +
-                                            " rules, and has " +
-                                            std::to_string(session.rules.size()));
+        context.diagnostics.add(DiagnosticCode::ForeignSyntax, *file.count,
+                                "expected the number of rules, saw `" + shown(text) + "`");
+    } else if (count != file.rules.size() && !context.diagnostics.has_errors()) {
+        context.diagnostics.add(DiagnosticCode::ForeignSyntax, *file.count,
+                                "the file says that it has " + std::string(text) +
+                                    " rules, and has " + std::to_string(file.rules.size()));
     }
 }
 
 void write_rule(const SysRule& rule,
                 std::size_t number,
                 bool certain,
-                SysSession& session,
+                const ParseContext& context,
                 Translation& translation) {
-    const ParseContext& context = session.context;
     const SourceSpan whole = join(rule.symbol, rule.probability);
     int modules = 0;
     SourceSpan second;
@@ -84,51 +171,37 @@ void write_rule(const SysRule& rule,
 
 } // namespace
 
-int SysSession::at_end() {
-    const bool first = !ended_;
-    ended_ = true;
-    return first ? sys_grammar::Parser::token::TOK_NEWLINE : sys_grammar::Parser::token::TOK_END;
-}
-
 std::string_view recognise_sys(std::string_view text) {
-    const std::size_t begin = text.find_first_not_of(" \t\r\n");
-    constexpr std::string_view kHeader = "LSYSTEM";
+    const std::size_t begin = text.find_first_not_of(kBlanks);
     if (begin == std::string_view::npos || text.substr(begin, kHeader.size()) != kHeader) {
         return {};
     }
     const std::string_view rest = text.substr(begin + kHeader.size());
-    return rest.empty() || rest.find_first_of(" \t\r\n") == 0 ? "its first word, `LSYSTEM`"
-                                                              : std::string_view();
+    return rest.empty() || rest.find_first_of(kBlanks) == 0 ? "its first word, `LSYSTEM`"
+                                                            : std::string_view();
 }
 
-Translation translate_sys(FileId root, const ParseContext& context) {
-    SysSession session(root, context);
-    {
-        const SysScanning scanning(session, context.sources.file(root).text());
-        sys_grammar::Parser parser(session, scanning.scanner());
-        static_cast<void>(parser.parse()); // what is wrong has been reported
+void translate_sys(const DialectRow& row, const ParseContext& context, Translation& translation) {
+    const SysFile file = read_file(translation.file(), context);
+    check_count(file, context);
+    if (!file.axiom) {
+        return;
     }
-    Translation translation(root);
-    check_count(session);
-    if (!session.axiom) {
-        return translation;
-    }
-    translation.put("#set turtle sys;\n#set names letters;\n\n#w : ");
-    write_modules(*session.axiom, context, translation);
+    translation.put("#set turtle " + std::string(row.turtle) + ";\n#set names letters;\n\n#w : ");
+    write_modules(*file.axiom, context, translation);
     translation.put(";\n\n");
     std::map<std::string_view, std::size_t> alternatives;
-    for (const SysRule& rule : session.rules) {
+    for (const SysRule& rule : file.rules) {
         ++alternatives[context.sources.text(rule.symbol)];
     }
-    for (std::size_t i = 0; i < session.rules.size(); ++i) {
-        const SysRule& rule = session.rules[i];
+    for (std::size_t i = 0; i < file.rules.size(); ++i) {
+        const SysRule& rule = file.rules[i];
         const std::string_view probability = context.sources.text(rule.probability);
         const bool certain = alternatives[context.sources.text(rule.symbol)] == 1 &&
                              literal_length(probability) == probability.size() &&
                              read_literal(probability).value == 1.0F;
-        write_rule(rule, i + 1, certain, session, translation);
+        write_rule(rule, i + 1, certain, context, translation);
     }
-    return translation;
 }
 
 } // namespace lsys

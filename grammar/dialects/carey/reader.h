@@ -1,0 +1,41 @@
+// Lines of a .rules file: settings of the form, `key: value`, and rules, `left=right:ratio`.
+#pragma once
+
+#include "grammar/ast/parse_context.h"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+/// A setting of the form.
+struct CareyKey {
+    std::string_view name;
+    std::string_view lsys; // its name in .lsys; empty: a statement
+};
+/// The key at the start of `text`, which a colon follows; null: none.
+[[nodiscard]] const CareyKey* find_carey_key(std::string_view text);
+
+/// The spans hold no blanks around them.
+struct CareySetting {
+    const CareyKey* key = nullptr;
+    SourceSpan place; // of the key and its colon
+    SourceSpan value;
+};
+
+struct CareyRule {
+    SourceSpan left;
+    SourceSpan right; // empty: the rule erases
+    std::optional<SourceSpan> ratio;
+};
+
+struct CareyFile {
+    std::vector<CareySetting> settings;
+    std::vector<CareyRule> rules;
+};
+
+/// Reports each line that is neither, and leaves it out.
+[[nodiscard]] CareyFile read_carey(FileId root, const ParseContext& context);
+
+} // namespace lsys

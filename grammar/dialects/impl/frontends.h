@@ -1,0 +1,23 @@
+// The functions of every dialect's front end, by the rows of dialects.def. Each dialect's folder
+// defines its own.
+#pragma once
+
+#include "grammar/dialects/dialect.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+/// For dialects whose files hold one system: no names.
+std::vector<std::string> one_system(std::string_view text);
+
+#define LSYS_DIALECT(enumerator, name, folder, title, extensions, turtle, systems)                 \
+    std::string_view recognise_##folder(std::string_view text);                                    \
+    void translate_##folder(const DialectRow& row, const ParseContext& context, Translation& out); \
+    std::vector<std::string> systems(std::string_view text);
+#include "grammar/dialects/dialects.def"
+#undef LSYS_DIALECT
+
+} // namespace lsys

@@ -1,0 +1,70 @@
+// Reader of formats that are lists of lines: `key: value`, `A=B`. Splits a text into pieces, each
+// with its span. The format says where blanks and comments stand; the front end of a dialect says
+// how long a piece is, and which pieces a line takes.
+#pragma once
+
+#include "grammar/ast/parse_context.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <string_view>
+
+namespace lsys {
+
+enum class LinePieceKind : std::uint8_t {
+    Text,    // not empty
+    LineEnd, // with the blank lines behind it; empty where the text ends
+    TextEnd, // empty, behind the last LineEnd
+};
+
+struct LinePiece {
+    LinePieceKind kind{};
+    SourceSpan span;
+    std::string_view text;
+};
+
+struct LineFormat {
+    std::string_view blanks;  // between pieces; with `\n` the text has no LineEnd
+    char comment = '\0';      // its first character, in front of a piece; NUL: none
+    bool comment_nul = false; // a comment goes on after a NUL character
+};
+
+class LineReader {
+public:
+    /// Bytes of the piece at the start of a text, which is not empty and begins with no blank; 0:
+    /// the piece is one character.
+    using PieceLength = std::size_t (*)(std::string_view ahead);
+
+    /// Precondition: the sources of `context` hold `text` as long as the reader is in use.
+    LineReader(SourceSpan text, const LineFormat& format, const ParseContext& context);
+
+    /// The next piece behind blanks and comments.
+    LinePiece next(PieceLength length);
+    /// Text from the next piece on, in front of which blanks and comments are skipped.
+    [[nodiscard]] std::string_view ahead();
+    /// Text from here on.
+    [[nodiscard]] std::string_view rest() const { return text_.substr(at_); }
+    /// The next `length` bytes from here on, which may be none.
+    LinePiece take(std::size_t length);
+    /// Returns `fits`. If not, reports that one of `wanted` was expected at `found`, and skips the
+    /// line of `found`.
+    bool expect(bool fits, const LinePiece& found, std::initializer_list<std::string_view> wanted);
+    /// Expects the end of the line next.
+    bool expect_line_end(PieceLength length);
+
+private:
+    LinePiece piece(LinePieceKind kind, std::size_t length);
+
+    SourceSpan span_;
+    std::string_view text_;
+    LineFormat format_;
+    const ParseContext& context_;
+    std::size_t at_ = 0;
+    bool ended_ = false; // the last LineEnd has been taken
+};
+
+/// A file as one span.
+[[nodiscard]] SourceSpan whole_file(FileId file, const ParseContext& context);
+
+} // namespace lsys

@@ -1,0 +1,21 @@
+// Small questions about texts that several front ends ask.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lsys {
+
+/// `text` without the characters of `blanks` at both ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r");
+[[nodiscard]] bool is_one_of(char c, std::string_view set);
+/// Bytes in front of the first of `stops`, or all.
+[[nodiscard]] std::size_t length_up_to(std::string_view text, std::string_view stops);
+/// Whether all of `text` is a number, which may begin with one of `signs`.
+[[nodiscard]] bool is_number(std::string_view text, std::string_view signs = "");
+/// Letters of ASCII in lower case.
+[[nodiscard]] std::string lowered(std::string_view text);
+/// The shortest text that reads back as `value`.
+[[nodiscard]] std::string text_of(float value);
+
+} // namespace lsys

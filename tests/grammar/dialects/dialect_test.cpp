@@ -1,0 +1,69 @@
+// The table of dialects: its columns, and what is made of them.
+#include "grammar/dialects/dialect.h"
+
+#include <catch2/catch.hpp>
+
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+using namespace lsys;
+
+TEST_CASE("a dialect is found by its name") {
+    std::set<std::string_view> names;
+    for (const DialectRow& row : dialects()) {
+        CHECK(names.insert(row.name).second);
+        CHECK(find_dialect(row.name) == row.dialect);
+        CHECK(&row_of(row.dialect) == &row);
+    }
+    CHECK(names.size() == 8);
+    CHECK(dialects().front().dialect == Dialect::Lsys);
+    CHECK(!find_dialect("none"));
+    CHECK(!find_dialect(""));
+}
+
+TEST_CASE("an extension tells the dialect of a text that does not") {
+    for (const DialectRow& row : dialects()) {
+        std::istringstream extensions{std::string(row.extensions)};
+        for (std::string extension; extensions >> extension;) {
+            INFO(extension);
+            CHECK(detect_dialect("plant" + extension, "").dialect == row.dialect);
+        }
+    }
+    CHECK(!detect_dialect("plant", "").dialect);
+    CHECK(!detect_dialect("plant.txt", "F\n").dialect);
+}
+
+TEST_CASE("a text tells its dialect") {
+    struct Told {
+        std::string path;
+        std::string text;
+        Dialect dialect;
+    };
+    const std::vector<Told> texts{
+        {"a", "\n LSYSTEM\n1\nA\n", Dialect::Sys},
+        {"a", "premise: A\nA=FA\n", Dialect::Houdini},
+        {"a.rules", "A\nA=FA\n", Dialect::Houdini},
+        {"a", "axiom: A\nangle: 30\nA=FA\n", Dialect::Carey},
+        {"a.l", "Lsystem: 1\nAxiom: A\n", Dialect::Cpfg},
+        {"a.l", "one { axiom A }\n", Dialect::Fractint},
+        {"a.txt", "3 90 5\nA\nA=FA\n@\n", Dialect::L3d},
+        {"a.l++", "3 90 5\nA\nA=FA\n@\n", Dialect::Lplus},
+        {"a.lsys", "3 90 5\nA\nA=FA\n@\n", Dialect::Lsys},
+    };
+    for (const Told& told : texts) {
+        INFO(told.path << " " << told.text);
+        CHECK(detect_dialect(told.path, told.text).dialect == told.dialect);
+    }
+}
+
+TEST_CASE("files of one dialect hold several systems") {
+    for (const DialectRow& row : dialects()) {
+        CHECK(has_systems(row.dialect) == (row.dialect == Dialect::Fractint));
+        CHECK(row.systems("one { }\ntwo { }\n").empty() == !row.has_systems);
+    }
+    CHECK(systems_in(Dialect::Fractint, "one { }\ntwo { }\n") ==
+          std::vector<std::string>{"one", "two"});
+}
