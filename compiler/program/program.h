@@ -11,6 +11,7 @@
 #include "compiler/bytecode/settings.h"
 #include "grammar/ast/ast.h"
 #include "grammar/base/chunked_vector.h"
+#include "grammar/base/grouped_lists.h"
 #include "grammar/base/names.h"
 #include "grammar/base/source.h"
 
@@ -213,5 +214,10 @@ void for_each_module(const Program& program, const ProgramWord& word, Visit&& vi
         argument += program.symbol(module.symbol).parameter_count;
     }
 }
+
+/// By symbol: the productions with a module of it in their predecessor, once for each.
+[[nodiscard]] GroupedLists rewriters_of(const Program& program);
+/// By symbol: the productions whose successor holds it.
+[[nodiscard]] GroupedLists writers_of(const Program& program);
 
 } // namespace lsys

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <numeric>
 
 namespace lsys {
 
@@ -61,20 +62,10 @@ public:
     }
 
     void run() {
-        // By symbol: the productions whose successor holds it.
-        std::vector<std::vector<std::uint32_t>> users(program_.symbols.size());
-        std::deque<std::uint32_t> work;
+        const GroupedLists writers = writers_of(program_);
+        std::deque<std::uint32_t> work(program_.productions.size());
+        std::iota(work.begin(), work.end(), 0U);
         std::vector<bool> queued(program_.productions.size(), true);
-        for (std::uint32_t p = 0; p < program_.productions.size(); ++p) {
-            const ProgramWord& word = program_.productions[p].successor;
-            for_each_symbol(program_, word, [&](std::size_t, SymbolId symbol) {
-                std::vector<std::uint32_t>& list = users[static_cast<std::size_t>(symbol)];
-                if (list.empty() || list.back() != p) {
-                    list.push_back(p);
-                }
-            });
-            work.push_back(p);
-        }
         while (!work.empty()) {
             const std::uint32_t p = work.front();
             work.pop_front();
@@ -91,7 +82,7 @@ public:
                 next.lowest = next.lowest < depth_[s].lowest ? -kFar : next.lowest;
             }
             depth_[s] = next;
-            for (const std::uint32_t user : users[s]) {
+            for (const std::uint32_t user : writers[s]) {
                 if (!queued[user]) {
                     queued[user] = true;
                     work.push_back(user);

@@ -24,7 +24,7 @@ class DeadProductions {
 public:
     DeadProductions(const CheckInput& input, ModuleUse& use, Diagnostics& diagnostics)
         : input_(input), program_(input.program), use_(use), diagnostics_(diagnostics),
-          explained_(program_.symbols.size(), false) {}
+          explained_(program_.symbols.size(), false), rewriters_(rewriters_of(program_)) {}
 
     void run() {
         // A module that only dead productions write is missing because those are dead: the message
@@ -36,13 +36,10 @@ public:
                 continue;
             }
             const SymbolId own = production.predecessor.items.front().symbol;
-            for (std::size_t i = 0; i < production.successor.module_count; ++i) {
-                const SymbolId symbol =
-                    program_.modules[production.successor.first_module + i].symbol;
-                if (symbol != own) {
-                    written[static_cast<std::size_t>(symbol)] = true;
-                }
-            }
+            for_each_symbol(program_, production.successor, [&](std::size_t, SymbolId symbol) {
+                written[static_cast<std::size_t>(symbol)] =
+                    written[static_cast<std::size_t>(symbol)] || symbol != own;
+            });
         }
         for (const bool circles : {false, true}) {
             for (std::size_t p = 0; p < program_.productions.size(); ++p) {
@@ -66,28 +63,19 @@ public:
 private:
     /// Marks what would occur if `symbol` did.
     void explain(SymbolId symbol) {
-        if (by_symbol_.empty()) {
-            by_symbol_.resize(program_.symbols.size());
-            for (std::uint32_t p = 0; p < program_.productions.size(); ++p) {
-                for (const ProgramPatternItem& item : program_.productions[p].predecessor.items) {
-                    by_symbol_[static_cast<std::size_t>(item.symbol)].push_back(p);
-                }
-            }
-        }
         std::vector<SymbolId> work{symbol};
         explained_[static_cast<std::size_t>(symbol)] = true;
         while (!work.empty()) {
             const SymbolId at = work.back();
             work.pop_back();
-            for (const std::uint32_t p : by_symbol_[static_cast<std::size_t>(at)]) {
-                const ProgramWord& word = program_.productions[p].successor;
-                for (std::size_t i = 0; i < word.module_count; ++i) {
-                    const SymbolId next = program_.modules[word.first_module + i].symbol;
-                    if (!explained_[static_cast<std::size_t>(next)]) {
-                        explained_[static_cast<std::size_t>(next)] = true;
-                        work.push_back(next);
-                    }
-                }
+            for (const std::uint32_t p : rewriters_[static_cast<std::size_t>(at)]) {
+                for_each_symbol(program_, program_.productions[p].successor,
+                                [&](std::size_t, SymbolId next) {
+                                    if (!explained_[static_cast<std::size_t>(next)]) {
+                                        explained_[static_cast<std::size_t>(next)] = true;
+                                        work.push_back(next);
+                                    }
+                                });
             }
         }
     }
@@ -188,8 +176,8 @@ private:
     const Program& program_;
     ModuleUse& use_;
     Diagnostics& diagnostics_;
-    std::vector<bool> explained_;                       // by symbol
-    std::vector<std::vector<std::uint32_t>> by_symbol_; // productions by predecessor
+    std::vector<bool> explained_; // by symbol
+    GroupedLists rewriters_;
     std::vector<std::string_view> candidates_;
 };
 
