@@ -18,7 +18,6 @@ namespace lsys::analysis {
 struct ConditionView {
     std::uint32_t first_instruction = 0;
     std::uint32_t first_formal = 0;
-    std::uint32_t formal_count = 0; // of the production
 };
 
 /// All binary32 numbers from low to high.

@@ -118,27 +118,26 @@ void ModuleClasses::count_word(const WordTemplate& word, CountedWord& out) {
         code_counts_.assign(bytecode_->code_count(), 0);
     }
     if (index_.any_relevant() && word.arguments != kNone) {
-        for_each_argument(
-            *bytecode_, word,
-            [&](Code code, std::uint32_t argument, std::uint32_t first, std::uint32_t) {
-                const auto symbol = static_cast<SymbolId>(code);
-                if (!index_.is_relevant(symbol, argument)) {
-                    return true;
-                }
-                bool first_relevant = true;
-                for (std::uint32_t i = 0; i < argument; ++i) {
-                    first_relevant = first_relevant && !index_.is_relevant(symbol, i);
-                }
-                if (first_relevant) {
-                    if (out.variable.size() == kMaxVariableModules) {
-                        return false;
-                    }
-                    out.variable.push_back(
-                        {code, static_cast<std::uint32_t>(argument_starts_.size())});
-                }
-                argument_starts_.push_back(first);
-                return true;
-            });
+        for_each_argument(*bytecode_, word,
+                          [&](Code code, std::uint32_t argument, InstructionRange instructions) {
+                              const auto symbol = static_cast<SymbolId>(code);
+                              if (!index_.is_relevant(symbol, argument)) {
+                                  return true;
+                              }
+                              bool first_relevant = true;
+                              for (std::uint32_t i = 0; i < argument; ++i) {
+                                  first_relevant = first_relevant && !index_.is_relevant(symbol, i);
+                              }
+                              if (first_relevant) {
+                                  if (out.variable.size() == kMaxVariableModules) {
+                                      return false;
+                                  }
+                                  out.variable.push_back(
+                                      {code, static_cast<std::uint32_t>(argument_starts_.size())});
+                              }
+                              argument_starts_.push_back(instructions.first());
+                              return true;
+                          });
     }
     std::vector<Code> met;
     std::size_t variable = 0;
@@ -287,8 +286,7 @@ ModuleClasses::Matches ModuleClasses::match_everywhere(SymbolId symbol,
     for (const std::uint32_t p : productions) {
         const BytecodeProduction& production = bytecode_->productions[p];
         if (production.condition != kNone && !production.has_left && !production.has_right) {
-            conditions.push_back(
-                {production.condition, index_.first_formal(p), production.formal_count});
+            conditions.push_back({production.condition, index_.first_formal(p)});
         }
     }
     if (conditions.empty()) {

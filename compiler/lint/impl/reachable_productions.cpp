@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -55,14 +56,10 @@ private:
 
     /// The instructions of a condition; equal ones are equal conditions within a group.
     std::string key(std::uint32_t p) const {
-        std::uint32_t at = code(p).condition;
-        const std::uint32_t first = at;
-        while (analysis::opcode_of(bytecode_.instructions[at]) != Opcode::Test) {
-            at += analysis::instruction_length(analysis::opcode_of(bytecode_.instructions[at]));
-        }
         std::string text = std::to_string(code(p).group) + ":";
-        for (std::uint32_t i = first; i < at; ++i) {
-            text += std::to_string(bytecode_.instructions[i]) + ",";
+        for (const Instruction each : InstructionRange(bytecode_.instructions, code(p).condition)) {
+            text += fmt::format("{},{},{},", static_cast<unsigned>(each.opcode), each.operand,
+                                std::bit_cast<std::uint32_t>(each.literal));
         }
         return text;
     }

@@ -27,8 +27,7 @@ std::optional<RuleTable> make_rule_table(const Bytecode& bytecode,
     std::vector<analysis::ConditionView> views;
     for (const std::uint32_t p : productions) {
         if (bytecode.productions[p].condition != kNone) {
-            views.push_back({bytecode.productions[p].condition, index.first_formal(p),
-                             bytecode.productions[p].formal_count});
+            views.push_back({bytecode.productions[p].condition, index.first_formal(p)});
         }
     }
     const std::vector<analysis::KnownValue> unknown(bytecode.symbol(symbol).parameter_count);

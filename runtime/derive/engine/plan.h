@@ -5,7 +5,7 @@
 //
 // A row tells how modules of a code are rewritten: always by one entry, by a choice among a fixed
 // set, by the first of some comparisons that holds, or as conditions and contexts say. An entry is
-// one way: the codes to copy, and for each parameter a lane (expressions/shape.h), or general code.
+// one way: the codes to copy, and for each parameter an affine term (shape.h), or general code.
 // Entry c < code_count belongs to code c: what a Fixed row writes, and the copy that stands for no
 // match in other rows. The others follow in the order of the families, so that record r > 0 of a
 // module means entry row.base + r. A code whose entries differ from those of its family, because
@@ -146,7 +146,7 @@ public:
     [[nodiscard]] const Row& row(Code code) const { return rows_[code]; }
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
     [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
-    [[nodiscard]] const std::vector<Lane>& lanes() const { return lanes_; }
+    [[nodiscard]] const std::vector<AffineTerm>& lanes() const { return lanes_; }
     [[nodiscard]] const Family& family(std::uint32_t index) const { return families_[index]; }
     [[nodiscard]] std::span<const Candidate> candidates(const Family& family) const {
         return {candidates_.data() + family.first, family.count};
@@ -248,7 +248,7 @@ private:
     std::optional<RuleDice> dice_; // with `random glibc`
     std::vector<Row> rows_;
     std::vector<Entry> entries_;
-    std::vector<Lane> lanes_;
+    std::vector<AffineTerm> lanes_;
     std::vector<Family> families_;
     std::vector<Candidate> candidates_;
     std::vector<Comparison> comparisons_;

@@ -78,11 +78,11 @@ void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
         shapes_of(bytecode_, successor.arguments, knowledge(candidate));
     entry.general = shapes.size() != successor.parameter_count;
     for (std::uint32_t i = 0; i < shapes.size() && !entry.general; ++i) {
-        Lane lane;
+        AffineTerm lane;
         if (shapes[i].kind == ShapeKind::Constant && is_lane_constant(shapes[i].constant)) {
             lane = {0, 0.0F, shapes[i].constant};
-        } else if (shapes[i].kind == ShapeKind::Affine && shapes[i].lane.input <= 0xFF) {
-            lane = shapes[i].lane;
+        } else if (shapes[i].kind == ShapeKind::Affine && shapes[i].affine.input <= 0xFF) {
+            lane = shapes[i].affine;
             entry.reads_own = true;
         } else {
             entry.general = true;

@@ -314,7 +314,7 @@ private:
         }
         const float* const own = matcher_.own(place_);
         if (entry.parameter_count > kEntryLanes) {
-            const Lane* const lanes = plan_.lanes().data() + entry.first_lane;
+            const AffineTerm* const lanes = plan_.lanes().data() + entry.first_lane;
             for (std::uint32_t i = 0; i < entry.parameter_count; ++i) {
                 parameters_[i] = value_of(lanes[i], own);
             }
