@@ -15,10 +15,10 @@ namespace {
 
 /// Says what instancing will not do.
 void note_variety(const Program& program, const Branches& branches, Diagnostics& diagnostics) {
-    const bool varies =
-        branches.axiom_varies || std::any_of(branches.kinds.begin(), branches.kinds.end(),
-                                             [](const BranchKind& kind) { return kind.varies; });
-    if (!varies) {
+    const bool is_random = branches.axiom_is_random ||
+                           std::any_of(branches.kinds.begin(), branches.kinds.end(),
+                                       [](const BranchKind& kind) { return kind.is_random; });
+    if (!is_random) {
         diagnostics
             .add(DiagnosticCode::NoVariety, program.axiom.span,
                  "nothing that this system derives is left to chance, so all its plants are equal")
@@ -54,9 +54,9 @@ std::optional<InstancedSystem> compile_instanced(Program program,
     InstancedSystem system;
     system.bytecode = std::move(*bytecode);
     system.kind_count = branches->kinds.size();
-    system.knows_up.push_back(false); // of the axiom, which is never shared
+    system.depends_on_vertical.push_back(false); // of the axiom, which is never shared
     for (const BranchKind& kind : branches->kinds) {
-        system.knows_up.push_back(kind.knows_up);
+        system.depends_on_vertical.push_back(kind.depends_on_vertical);
     }
     return system;
 }

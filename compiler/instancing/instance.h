@@ -16,8 +16,8 @@ namespace lsys {
 
 struct InstancedSystem {
     Bytecode bytecode;
-    std::vector<bool> knows_up; // by id: what is drawn depends on where up is
-    std::size_t kind_count = 0; // of different valid branches
+    std::vector<bool> depends_on_vertical; // by id: the drawing does
+    std::size_t kind_count = 0;            // of different valid branches
 };
 
 /// Each valid branch is taken with probability `rho`, in [0, 1]. Nothing if the system cannot be

@@ -49,7 +49,7 @@ bool add_stage(const std::string& grammar,
     stage.generations = generations;
     CacheOptions options;
     options.generations = generations;
-    options.knows_up = system->knows_up;
+    options.knows_up = system->depends_on_vertical;
     if (!make_instance_cache(system->bytecode, options, stage.cache).fine()) {
         return complain("no heroes");
     }

@@ -26,16 +26,16 @@ struct BranchSite {
 struct BranchKind {
     std::uint32_t first_site = 0;
     std::vector<std::uint32_t> formals; // that its text uses, ascending
-    /// What is drawn depends on where up is: by `$` or tropism, at once or after rewriting.
-    bool knows_up = false;
+    /// Its drawing depends on the vertical: by `$` or tropism, at once or after rewriting.
+    bool depends_on_vertical = false;
     /// Some production that its modules can reach is stochastic or draws a number.
-    bool varies = false;
+    bool is_random = false;
 };
 
 struct Branches {
     std::vector<BranchSite> sites; // in file order, an outer branch before its inner ones
     std::vector<BranchKind> kinds; // of id - 1; id 0 is the axiom
-    bool axiom_varies = false;
+    bool axiom_is_random = false;
 };
 
 /// Nothing if the system cannot be instanced; `diagnostics` then says why. Precondition: a complete
