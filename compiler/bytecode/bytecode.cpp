@@ -143,9 +143,9 @@ bool Bytecode::cuts() const {
 
 std::uint32_t site_of(const Bytecode& bytecode, std::uint32_t instruction) {
     const auto after = std::upper_bound(
-        bytecode.site_marks.begin(), bytecode.site_marks.end(), instruction,
-        [](std::uint32_t at, const SiteMark& mark) { return at < mark.instruction; });
-    return after == bytecode.site_marks.begin() ? kNone : (after - 1)->site;
+        bytecode.site_ranges.begin(), bytecode.site_ranges.end(), instruction,
+        [](std::uint32_t at, const SiteRange& range) { return at < range.instruction; });
+    return after == bytecode.site_ranges.begin() ? kNone : (after - 1)->site;
 }
 
 ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index) {
@@ -153,7 +153,7 @@ ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index) {
     if (index - bytecode.axiom.codes.first < bytecode.axiom.codes.count) {
         return kNoProduction;
     }
-    // of several that begin there only the last is not empty
+    // Of several productions that begin at one index only the last has a successor.
     const auto after = std::upper_bound(
         bytecode.productions.begin(), bytecode.productions.end(), index,
         [](std::uint32_t at, const BytecodeProduction& p) { return at < p.successor.codes.first; });

@@ -1,12 +1,12 @@
 // The layout of a .lsb file. Numbers are little-endian; f32 is the bits of an IEEE binary32.
 //
 //   offset  size
-//        0     8  magic: 89 4C 53 42 0D 0A 1A 0A. Damaged by any transfer that changes line ends or
-//                 drops the eighth bit.
+//        0     8  magic: 89 4C 53 42 0D 0A 1A 0A. A transfer that changes line ends or drops the
+//                 eighth bit damages it.
 //        8     4  version
 //       12     4  0
 //       16     8  size of the whole file
-//       24     8  checksum() of all that follows
+//       24     8  checksum() of the contents
 //       32        the contents, in the order of describe() in bytecode_contents.h
 //
 // A table is its number of rows (u64) and the rows; a text is its number of bytes (u32) and the
@@ -86,7 +86,7 @@ private:
     std::string& out_;
 };
 
-/// Counts the bytes that a Writer writes for a row with empty texts: every row takes as many.
+/// Counts the bytes of a row with empty texts, the minimum of a row.
 class LeastBytes {
 public:
     [[nodiscard]] std::size_t count() const { return count_; }
@@ -113,8 +113,8 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Reads what a Writer wrote. After the first thing that does not fit it yields zeros and nothing
-/// more, and failed() holds.
+/// Reads the output of a Writer. After the first value that does not fit, failed() holds and all
+/// further values are zero.
 class Reader {
 public:
     explicit Reader(std::string_view bytes) : bytes_(bytes) {}
@@ -165,7 +165,7 @@ public:
         number(given);
         value = has ? std::optional(given) : std::nullopt;
     }
-    /// Makes no more rows than the bytes left can hold.
+    /// Makes at most as many rows as the remaining bytes can hold.
     template <typename Row, typename Function>
     void table(std::vector<Row>& rows, Function row) {
         LeastBytes least;

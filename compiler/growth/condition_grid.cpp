@@ -68,8 +68,8 @@ float chain_at(const Node& chain, std::int32_t index) {
     return value;
 }
 
-/// The domain of values that are monotone in one parameter or constant in cells. Notes where cells
-/// have to end.
+/// The domain of values that are monotone in one parameter or constant in cells; collects the cuts
+/// between cells.
 class GridBuilder : public UnknownDomain<Node> {
 public:
     GridBuilder(std::span<const std::uint32_t> instructions,
@@ -78,7 +78,7 @@ public:
         : instructions_(instructions), parameters_(parameters), surroundings_(surroundings),
           stack_(kMaxStack) {}
 
-    /// Notes the cuts of one condition; false if it has another form.
+    /// Adds the cuts of a condition; false if it has another form.
     bool add(const ConditionView& condition);
     [[nodiscard]] std::optional<ConditionGrid> finish(std::uint64_t max_points);
 
@@ -115,7 +115,7 @@ private:
 Node GridBuilder::formal(std::uint32_t index) const {
     const std::uint32_t parameter = index - first_formal_;
     if (index < first_formal_ || parameter >= parameters_.size()) {
-        return {}; // of a context
+        return {}; // a parameter of a context
     }
     if (parameters_[parameter].known) {
         return constant(parameters_[parameter].value);
@@ -126,7 +126,7 @@ Node GridBuilder::formal(std::uint32_t index) const {
     return node;
 }
 
-/// Cuts where the truth of `chain opcode constant` changes.
+/// Adds the cuts where the truth of `chain opcode constant` changes.
 void GridBuilder::cut(const Node& chain, Opcode opcode, float constant) {
     std::vector<std::int32_t>& cuts = cuts_[chain.parameter];
     const bool below = opcode != Opcode::LessEqual && opcode != Opcode::Greater;
@@ -161,7 +161,7 @@ void GridBuilder::cut(const Node& chain, Opcode opcode, float constant) {
     }
 }
 
-/// Makes a value into one that is constant in every cell, as a truth value; false if it cannot be.
+/// Turns a value into a truth value that is constant in every cell; false if that fails.
 bool GridBuilder::as_truth(Node& node) {
     if (node.kind == Node::Kind::Chain) {
         cut(node, Opcode::NotEqual, 0.0F);
@@ -238,7 +238,7 @@ Node GridBuilder::binary(Opcode opcode, const Node& x, const Node& y) {
     if (!left && !right) {
         return {};
     }
-    // Rounding keeps order, so these stay monotone; a factor of 0 could meet an infinity.
+    // Rounding keeps order, so results stay monotone. A factor of 0 fails for infinite values.
     const float constant = left ? y.value : x.value;
     const bool sum = opcode == Opcode::Add || opcode == Opcode::Subtract;
     const bool product = opcode == Opcode::Multiply || (opcode == Opcode::Divide && left);
@@ -257,7 +257,7 @@ bool GridBuilder::add(const ConditionView& condition) {
     return has_grid_;
 }
 
-/// A short number of a cell, for people: a whole one near zero if there is one.
+/// A number of a cell that is easy to read: whole and near zero if possible.
 float friendly(std::int32_t first, std::int32_t last) {
     if (first <= 0 && last >= 0) {
         return 0.0F;
@@ -280,7 +280,7 @@ std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
     if (cuts_.size() > kMaxAxes || (!pairs_.empty() && cuts_.size() > 3)) {
         return std::nullopt;
     }
-    // Parameters that are compared share their cuts: within one interval all orders are tried.
+    // Compared parameters share their cuts, so that every order can be tried within a cell.
     for (bool changed = true; changed;) {
         changed = false;
         for (const auto& [a, b] : pairs_) {
@@ -309,7 +309,7 @@ std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
             if (!axis.compared) {
                 axis.samples.push_back({friendly(first, last), cell});
             } else {
-                // Three numbers of an interval realise every order of up to three parameters.
+                // Three numbers of a cell allow every order of up to three parameters.
                 const auto middle = static_cast<std::int32_t>((std::int64_t{first} + last) / 2);
                 axis.samples.push_back({number_at(first), cell});
                 if (middle != first && middle != last) {

@@ -1,6 +1,5 @@
-// Which productions rewrite a symbol, which belong to a stochastic group, and which parameters can
-// decide what is taken: those that a condition of their module reads, and those that such
-// parameters of successors are computed from.
+// The productions of each symbol and of each stochastic group, and the relevant parameters: those
+// that a condition reads, and those from which successors compute relevant parameters.
 #pragma once
 
 #include "compiler/bytecode/instructions.h"

@@ -44,7 +44,7 @@ inline Bytecode small_bytecode() {
     b.axiom_site = 1;
     b.productions[0].name_site = 2;
     b.productions[1].name_site = 4;
-    b.site_marks = {{b.productions[0].condition, 3}};
+    b.site_ranges = {{b.productions[0].condition, 3}};
     b.template_places = {{0, 34, 6, 7, 3, 4}, {3, 66, 2, 2, 4, 26}, {7, 82, 1, 0, 5, 14}};
     return b;
 }

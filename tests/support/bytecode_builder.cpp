@@ -60,7 +60,7 @@ public:
 
     /// Appends the instructions of one value and what takes it.
     void emit(const Instructions& code, Opcode taker) {
-        bytecode_.site_marks.push_back({next(), site()});
+        bytecode_.site_ranges.push_back({next(), site()});
         bytecode_.instructions.insert(bytecode_.instructions.end(), code.begin(), code.end());
         bytecode_.instructions.push_back(encode(taker, 0));
     }

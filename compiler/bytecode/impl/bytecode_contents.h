@@ -4,20 +4,20 @@
 //
 // A stream has these functions, each of which takes a field by reference:
 //   number, real, truth, tag (an enumerator), id, text, optional_number, table, codes
-//   implied       a truth that follows from a field beside the word, and that the word depends on
+//   implied       a truth on which the word depends, computed from a field beside the word
 //   beside_word() the stream for fields on which no derived word depends: itself, or one that
 //                 ignores them
-// Every struct is taken apart by a structured binding, so that a field added to it does not compile
-// before it has a name here. Hand it to the stream: then it is written, read and digested. Only a
-// field that decides drawing, printing or messages goes to beside_word(). Either way the format of
-// .lsb files changes: raise kModuleFileVersion.
+// Structured bindings name every field of a struct, so that a new field does not compile before it
+// is named here. Hand it to the stream to have it written, read and digested, or to beside_word()
+// if it only decides drawing, printing or messages. A new field changes the format of .lsb files:
+// raise kModuleFileVersion.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
 
 namespace lsys {
 
-// `Value` is const for a stream that only looks at it.
+// `Value` is const for a stream that does not change it.
 
 template <typename Stream, typename Value>
 void describe_settings(Stream& stream, Value& settings) {
@@ -124,8 +124,8 @@ void describe_site(Stream& stream, Value& site) {
 }
 
 template <typename Stream, typename Value>
-void describe_site_mark(Stream& stream, Value& mark) {
-    auto& [instruction, site] = mark;
+void describe_site_range(Stream& stream, Value& range) {
+    auto& [instruction, site] = range;
     stream.number(instruction);
     stream.number(site);
 }
@@ -166,7 +166,7 @@ void describe_production(Stream& stream, Value& production) {
 template <typename Stream, typename Value>
 void describe(Stream& stream, Value& bytecode) {
     auto& [settings, generations, files, symbols, folded, constants, globals, patterns,
-           template_codes, instructions, sites, site_marks, template_places, productions,
+           template_codes, instructions, sites, site_ranges, template_places, productions,
            rule_count, group_count, axiom, axiom_site, axiom_draw_position, uses_steps] = bytecode;
     auto&& beside = stream.beside_word();
     describe_settings(stream, settings);
@@ -181,7 +181,7 @@ void describe(Stream& stream, Value& bytecode) {
                  code_width(std::uint64_t{bytecode.symbols.size()} + bytecode.folded.size()));
     stream.table(instructions, [](auto& s, auto& word) { s.number(word); });
     beside.table(sites, [](auto& s, auto& row) { describe_site(s, row); });
-    beside.table(site_marks, [](auto& s, auto& row) { describe_site_mark(s, row); });
+    beside.table(site_ranges, [](auto& s, auto& row) { describe_site_range(s, row); });
     beside.table(template_places, [](auto& s, auto& row) { describe_place_run(s, row); });
     stream.table(productions, [](auto& s, auto& row) { describe_production(s, row); });
     stream.number(rule_count);

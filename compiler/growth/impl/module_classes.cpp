@@ -13,7 +13,7 @@ namespace lsys::analysis {
 
 namespace {
 
-constexpr std::uint32_t kUnknownBits = 0xFFFFFFFFU; // not a number, which no parameter is
+constexpr std::uint32_t kUnknownBits = 0xFFFFFFFFU; // a NaN, which no parameter is
 constexpr std::uint64_t kMaxGridWork = 65'536;      // points times productions
 constexpr std::size_t kMaxVariableModules = 65'536; // of one word
 
@@ -40,7 +40,7 @@ ClassId ModuleClasses::fixed_class(Code code) {
     return static_cast<ClassId>(fixed_ids_[code]);
 }
 
-/// The class of a code of whose parameters nothing is known.
+/// The class of a code with unknown parameters.
 ClassId ModuleClasses::unknown_class(Code code) {
     const SymbolId symbol = bytecode_->symbol_of(code);
     const std::uint32_t values =
@@ -144,7 +144,7 @@ void ModuleClasses::count_word(const WordTemplate& word, CountedWord& out) {
     for (std::uint32_t i = 0; i < word.codes.count; ++i) {
         const Code code = bytecode_->template_codes[word.codes.first + i];
         if (variable < out.variable.size() && out.variable[variable].code == code) {
-            ++variable; // the variable modules are the first of the word that could be
+            ++variable; // variable modules are listed in the order of the word
             continue;
         }
         if (code_counts_[code]++ == 0) {
@@ -237,7 +237,7 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
                                      : Holds::Yes;
     };
     Matches matches;
-    std::unordered_set<std::uint32_t> groups; // that were added
+    std::unordered_set<std::uint32_t> groups; // already added
     for (const std::uint32_t p : index_.productions_of(symbol)) {
         const BytecodeProduction& production = bytecode_->productions[p];
         const Holds first = holds(p);
@@ -272,7 +272,7 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
     return matches;
 }
 
-/// The matches of a module of which some parameters are not known, over all their values.
+/// The matches of a module over all values of its unknown parameters.
 ModuleClasses::Matches ModuleClasses::match_everywhere(SymbolId symbol,
                                                        std::span<const KnownValue> parameters) {
     const std::span<const std::uint32_t> productions = index_.productions_of(symbol);
@@ -336,7 +336,7 @@ bool ModuleClasses::is_identity(Code code, std::uint32_t production) const {
     return true;
 }
 
-/// Whether every outcome yields the module itself. Many outcomes hardly do, and are not looked at.
+/// Whether every outcome yields the module itself. More than 16 outcomes count as a change.
 bool ModuleClasses::is_unchanged(const ClassExpansion& expansion, Code code) const {
     constexpr std::uint32_t kMaxOutcomes = 16;
     if (expansion.outcomes.count > kMaxOutcomes) {
@@ -369,7 +369,7 @@ ClassExpansion ModuleClasses::expand_matches(const Matches& matches,
             outcome.production = static_cast<ProductionId>(m.production);
             formals.assign(index_.first_formal(m.production), KnownValue{});
             formals.insert(formals.end(), parameters.begin(), parameters.end());
-            // Without values a successor is looked at once and need not be kept.
+            // Without values a successor is counted once and need not be kept.
             CountedWord once;
             CountedWord& word = index_.any_relevant() ? words_[m.production] : once;
             if (!word.made) {
@@ -386,7 +386,7 @@ ClassExpansion ModuleClasses::expand_matches(const Matches& matches,
     return expansion;
 }
 
-/// The componentwise least and greatest of the outcomes.
+/// Adds the min and max count of each class over the outcomes.
 void ModuleClasses::add_bounds(ClassExpansion& expansion) {
     if (expansion.outcomes.count == 1) {
         expansion.low = expansion.high = outcomes_[expansion.outcomes.first].terms;
@@ -395,7 +395,7 @@ void ModuleClasses::add_bounds(ClassExpansion& expansion) {
     struct Bounds {
         std::uint32_t low = 0;
         std::uint32_t high = 0;
-        std::uint32_t met = 0; // outcomes that have the class at all
+        std::uint32_t met = 0; // outcomes that have the class
     };
     std::map<ClassId, Bounds> bounds;
     for (const ClassOutcome& outcome : outcomes(expansion.outcomes)) {
@@ -447,7 +447,7 @@ const ClassExpansion& ModuleClasses::expand(ClassId id, std::uint32_t age) {
         expansion = shared;
         if (shared.copies && id != unknown_class(static_cast<Code>(symbol))) {
             if (exhausted()) {
-                covers_folded_ = true; // where it is copied it stands for them all
+                covers_folded_ = true; // a copied module stands for all codes of its symbol
             } else {
                 const std::vector<KnownValue> values = parameters(id);
                 expansion = expand_matches(match_everywhere(symbol, values), id, values);

@@ -16,7 +16,7 @@ namespace lsys {
 
 namespace {
 
-/// What a symbol can lead to by rewriting.
+/// Properties of all words that rewriting can make of a symbol.
 struct Effects {
     bool depends_on_vertical = false;
     bool is_random = false;
@@ -46,8 +46,8 @@ public:
         find_effects();
         walk(program_.axiom, "axiom", kNone);
         branches_.sites.clear(); // the axiom has no choice
-        // Branches that a decomposition writes are not offered: how many passes are left for what
-        // is in them is no part of their key. What is drawn in place of a module, none rewrites.
+        // Branches that a decomposition writes get no id, since the number of passes left for their
+        // modules is not part of their key. Interpreted branches are never rewritten.
         for (std::uint32_t i = 0; i < program_.productions.size(); ++i) {
             const Production& production = program_.productions[i];
             walk(production.successor, "successor", production.stage == Stage::Rewrite ? i : kNone);
@@ -57,34 +57,34 @@ public:
         });
         branches_.axiom_is_random = branches_.axiom_is_random || program_.axiom.draw_count != 0 ||
                                     !program_.globals.empty();
-        return fine_ ? std::optional(std::move(branches_)) : std::nullopt;
+        return instanceable_ ? std::optional(std::move(branches_)) : std::nullopt;
     }
 
 private:
-    /// A `[` whose `]` has not been met.
+    /// A `[` that waits for its `]`.
     struct Open {
         std::uint32_t index = 0;
         std::uint32_t site = kNone; // in found_
         std::uint32_t polygons = 0; // open at it
         bool valid = false;
         Effects effects;
-        std::string key; // of what has been read
+        std::string key; // of the modules read so far
         std::vector<std::uint32_t> formals;
     };
-    /// A branch that has been read, valid or not.
+    /// A closed branch, valid or not.
     struct Found {
         BranchSite site;
-        std::uint32_t kind = 0; // structural
+        std::uint32_t kind = 0; // in structures_
         bool valid = false;
     };
     struct Structure {
         std::vector<std::uint32_t> formals;
         Effects effects;
-        std::uint32_t id = 0; // once given
+        std::uint32_t id = 0; // 0 until a valid branch has this structure
     };
 
     Diagnostic& refuse(SourceSpan span, std::string message) {
-        fine_ = false;
+        instanceable_ = false;
         return diagnostics_.add(DiagnosticCode::NotInstanceable, span, std::move(message));
     }
 
@@ -128,8 +128,8 @@ private:
         return static_cast<std::size_t>(production.predecessor.items.front().symbol);
     }
 
-    /// Whether the predecessor of a production that rewrites stands at module `index` of a word.
-    /// None of them has brackets, so that it never goes across the border of a branch.
+    /// Whether the predecessor of a production of Stage::Rewrite stands at module `index` of a
+    /// word. Predecessors have no brackets, so that a match stays within its branch.
     [[nodiscard]] bool is_rewritten(const ProgramWord& word, std::uint32_t index) const {
         const SymbolId symbol = program_.modules[word.first_module + index].symbol;
         const auto& rules = rules_of_[static_cast<std::size_t>(symbol)];
@@ -151,7 +151,7 @@ private:
         return effects_[static_cast<std::size_t>(symbol)];
     }
 
-    /// The least solution: what the successors of a symbol's productions hold.
+    /// The least fixed point: a symbol has the effects of the symbols that its productions write.
     void find_effects() {
         for (std::size_t i = 0; i < program_.symbols.size(); ++i) {
             const TurtleOperation turtle = program_.symbols[i].turtle;
@@ -265,7 +265,7 @@ private:
         open.effects.add(effects_of(id));
     }
 
-    /// An expression from left to right, after its operation.
+    /// Appends an expression to the key in prefix order.
     void add_value(ValueId root, Open& open) {
         values_.assign(1, root);
         while (!values_.empty()) {
@@ -284,7 +284,7 @@ private:
                 append_bytes(open.key, value.index);
                 break;
             case Opcode::Range:
-                open.effects.is_random = true; // whose number is not part of its text
+                open.effects.is_random = true; // the number of a range is not part of the key
                 break;
             default:
                 break;
@@ -358,12 +358,12 @@ private:
     std::vector<std::vector<const ProgramPattern*>> rules_of_; // by first symbol
     std::vector<Effects> effects_;                             // by symbol
     std::vector<Open> open_;
-    std::vector<Found> found_; // of the word that is read, by `[`
+    std::vector<Found> found_; // branches of the current word, in order of their `[`
     std::vector<Structure> structures_;
     std::unordered_map<std::string, std::uint32_t> structure_of_;
     std::vector<ValueId> values_;
     Branches branches_;
-    bool fine_ = true;
+    bool instanceable_ = true;
 };
 
 } // namespace

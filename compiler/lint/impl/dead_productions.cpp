@@ -27,8 +27,8 @@ public:
           explained_(program_.symbols.size(), false), rewriters_(rewriters_of(program_)) {}
 
     void run() {
-        // A module that only dead productions write is missing because those are dead: the message
-        // belongs to the first of such a chain, or of a circle.
+        // A module that only dead productions write is missing because they are dead. Only the
+        // first production of such a chain or cycle is reported.
         std::vector<bool> written(program_.symbols.size(), false);
         for (std::size_t p = 0; p < program_.productions.size(); ++p) {
             const Production& production = program_.productions[p];
@@ -61,7 +61,7 @@ public:
     }
 
 private:
-    /// Marks what would occur if `symbol` did.
+    /// Marks the modules that would occur if `symbol` did.
     void explain(SymbolId symbol) {
         std::vector<SymbolId> work{symbol};
         explained_[static_cast<std::size_t>(symbol)] = true;
@@ -80,13 +80,13 @@ private:
         }
     }
 
-    [[nodiscard]] bool quiet(const Production& production, SymbolId symbol) const {
+    [[nodiscard]] bool is_exempt(const Production& production, SymbolId symbol) const {
         const auto s = static_cast<std::size_t>(symbol);
-        // A library may rewrite more than is used; a declaration says that it is meant so.
-        return production.span.file != program_.axiom.file || use_.settled[s] || use_.declared[s];
+        // A library may rewrite more than a grammar uses; a declared module may be unused.
+        return production.span.file != program_.axiom.file || use_.reported[s] || use_.declared[s];
     }
 
-    /// Where the name occurs with another number of parameters.
+    /// Adds a label where the name occurs with another number of parameters; false if nowhere.
     bool note_other_counts(Diagnostic& diagnostic, SymbolId symbol) const {
         for (const SymbolId other : use_.same_name(program_, symbol)) {
             if (use_.reachable.occurs(other)) {
@@ -133,7 +133,7 @@ private:
     }
 
     void report(const Production& production, const ProgramPatternItem& item) {
-        if (quiet(production, item.symbol)) {
+        if (is_exempt(production, item.symbol)) {
             return;
         }
         const SourceSpan span = item_span(production, item);
@@ -155,7 +155,7 @@ private:
         for (const ProgramPattern* context : {&production.left, &production.right}) {
             const ProgramPatternItem* item = missing_item(use_, *context);
             if (item == nullptr || explained_[static_cast<std::size_t>(item->symbol)] ||
-                program_.symbol(item->symbol).ignored || quiet(production, item->symbol)) {
+                program_.symbol(item->symbol).ignored || is_exempt(production, item->symbol)) {
                 continue;
             }
             explained_[static_cast<std::size_t>(item->symbol)] = true;

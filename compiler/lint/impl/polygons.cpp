@@ -1,5 +1,5 @@
-// Polygons: `{` and `}` balance in the axiom and in every successor and do not nest; a `.` makes
-// sense within them, and three vertices make a polygon.
+// Polygons: `{` and `}` balance in the axiom and in every successor and do not nest; `.` only
+// stands within them, and a polygon has at least three vertices.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
@@ -45,7 +45,7 @@ private:
     }
 
     /// Calls visit(symbol) for the modules of a word that stand in a polygon of it. A `{` that is
-    /// never closed has none: it is an error, and what follows it says nothing more.
+    /// never closed is an error and opens no polygon.
     template <typename Visit>
     void for_each_inside(const ProgramWord& word, Visit&& visit) const {
         std::optional<std::size_t> open;
@@ -77,7 +77,7 @@ private:
         }
     }
 
-    /// Which modules can stand in a polygon, directly or as a part of what does.
+    /// Finds the modules that can stand in a polygon, directly or in place of a module that does.
     void find_inside() {
         std::vector<std::vector<std::uint32_t>> productions(program_.symbols.size());
         for (std::uint32_t p = 0; p < program_.productions.size(); ++p) {
@@ -109,10 +109,10 @@ private:
     void check_word(const ProgramWord& word, const char* where, bool may_be_inside) {
         std::optional<std::size_t> open;
         bool broken = false;        // one error per word
-        bool may_nest = false;      // one warning per word; hides no error
+        bool may_nest = false;      // one warning per word, beside the error
         std::uint32_t vertices = 0; // of the open polygon
         std::uint32_t moves = 0;
-        bool may_grow = false; // what stands in it may become more
+        bool may_grow = false; // some module in it is rewritten
         for (std::size_t i = word.first_module;
              i < std::size_t{word.first_module} + word.module_count; ++i) {
             const SymbolId id = program_.modules[i].symbol;
@@ -132,7 +132,7 @@ private:
                         DiagnosticCode::NestedPolygon, module_name_span(input_, word, i),
                         "this polygon can begin within another one: the module that becomes it "
                         "also stands in one");
-                    diagnostic.severity = Severity::Warning; // before it is counted
+                    diagnostic.severity = Severity::Warning; // before add() counts it
                     diagnostics_.add(std::move(diagnostic));
                 }
                 open = i;
@@ -175,7 +175,7 @@ private:
         }
     }
 
-    /// ABOP 1.25: without any `.`, the start and end of every move are vertices.
+    /// The vertices of a polygon without `.` are the start and end of every move (ABOP 1.25).
     void check_size(const ProgramWord& word,
                     std::size_t open,
                     std::size_t close,

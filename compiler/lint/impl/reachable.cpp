@@ -39,7 +39,7 @@ Reachable find_reachable(const Program& program) {
     result.generation.assign(program.symbols.size(), kNone);
     result.usable.assign(program.productions.size(), false);
 
-    std::vector<std::uint32_t> missing; // symbols that a production still waits for
+    std::vector<std::uint32_t> missing; // by production: needed symbols not yet reached
     for (const Production& production : program.productions) {
         missing.push_back(static_cast<std::uint32_t>(needed_symbols(production).size()));
     }
@@ -51,7 +51,7 @@ Reachable find_reachable(const Program& program) {
         }
     });
 
-    // The order of the queue is that of generations only where each step is one.
+    // The queue has the order of generations only if each step is one generation.
     const bool ordered =
         program.settings.rewriting != RewritingMode::Sequential &&
         (program.productions.empty() || program.productions.back().stage == Stage::Rewrite);

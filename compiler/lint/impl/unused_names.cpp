@@ -10,7 +10,7 @@ namespace {
 
 void check_constants(const CheckInput& input, Diagnostics& diagnostics) {
     for (const Constant& constant : input.program.constants) {
-        // An included file may define more than this grammar needs.
+        // An included file may define more than a grammar needs.
         if (constant.is_used || constant.span.file != input.program.axiom.file) {
             continue;
         }
@@ -50,8 +50,8 @@ std::vector<bool> used_formals(const Program& program, const Production& product
     return used;
 }
 
-/// Parameters of predecessors that no production of the module reads. Those of contexts only count,
-/// and those of a module that draws are read by the turtle.
+/// Reports parameters of predecessors that no production of the module reads. Contexts may have
+/// unread parameters; the turtle reads the parameters of a module that draws.
 void check_formals(const CheckInput& input, Diagnostics& diagnostics) {
     const Program& program = input.program;
     std::vector<std::vector<bool>> used(program.symbols.size());
