@@ -34,28 +34,12 @@ constexpr std::array<TurtleInfo, kTurtleOperationCount> kTurtleOperations{{
 /// The hash of an empty sequence, before finish().
 constexpr std::uint64_t kStart = 0x6C73797374656D73; // "lsystems"
 
-/// A stream that ignores the fields handed to it.
-struct Ignored {
-    template <typename Value>
-    void number(const Value& /*value*/) {}
-    void real(const float& /*value*/) {}
-    void truth(const bool& /*value*/) {}
-    template <typename Enum>
-    void tag(const Enum& /*value*/) {}
-    template <typename Id>
-    void id(const Id& /*value*/) {}
-    void text(const std::string& /*value*/) {}
-    void optional_number(const std::optional<std::uint32_t>& /*value*/) {}
-    template <typename Row, typename Function>
-    void table(const std::vector<Row>& /*rows*/, Function /*row*/) {}
-};
-
 /// Combines all fields that the derived word may depend on.
 class Digest {
 public:
     [[nodiscard]] std::uint64_t result() const { return finish(state_); }
 
-    Ignored beside_word() { return {}; }
+    IgnoringStream beside_word() { return {}; }
     void implied(bool value) { number(std::uint64_t{value}); }
     template <typename Value>
     void number(const Value& value) {

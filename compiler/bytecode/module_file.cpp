@@ -86,33 +86,6 @@ private:
     std::string& out_;
 };
 
-/// Counts the bytes of a row with empty texts, the minimum of a row.
-class LeastBytes {
-public:
-    [[nodiscard]] std::size_t count() const { return count_; }
-
-    LeastBytes& beside_word() { return *this; }
-    void implied(bool /*value*/) {}
-    template <std::unsigned_integral T>
-    void number(const T& /*value*/) {
-        count_ += sizeof(T);
-    }
-    void real(const float& /*value*/) { count_ += 4; }
-    void truth(const bool& /*value*/) { ++count_; }
-    template <typename Enum>
-    void tag(const Enum& /*value*/) {
-        ++count_;
-    }
-    template <typename Id>
-    void id(const Id& /*value*/) {
-        count_ += 4;
-    }
-    void text(const std::string& /*value*/) { count_ += 4; }
-
-private:
-    std::size_t count_ = 0;
-};
-
 /// Reads the output of a Writer. After the first value that does not fit, failed() holds and all
 /// further values are zero.
 class Reader {
@@ -168,11 +141,12 @@ public:
     /// Makes at most as many rows as the remaining bytes can hold.
     template <typename Row, typename Function>
     void table(std::vector<Row>& rows, Function row) {
-        LeastBytes least;
+        std::string smallest; // a row with empty texts
+        Writer writer(smallest);
         const Row empty{};
-        row(least, empty);
+        row(writer, empty);
         const std::uint64_t count = take_number(8);
-        if (count > bytes_.size() / least.count()) {
+        if (count > bytes_.size() / smallest.size()) {
             failed_ = true;
             return;
         }

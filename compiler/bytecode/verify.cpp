@@ -16,7 +16,7 @@ namespace {
 
 /// A stream of describe_settings() that finds values which no enumerator has or which are not
 /// finite.
-struct RangeCheck {
+struct RangeCheck : IgnoringStream {
     bool all_enumerators = true;
     bool all_finite = true;
 
@@ -26,9 +26,6 @@ struct RangeCheck {
         all_enumerators = all_enumerators && is_enumerator(value);
     }
     void real(const float& value) { all_finite = all_finite && std::isfinite(value); }
-    template <typename Value>
-    void number(const Value& /*value*/) {}
-    void truth(const bool& /*value*/) {}
 };
 
 std::uint32_t number(SymbolId id) {

@@ -2,6 +2,18 @@
 
 namespace lsys {
 
+std::vector<ValueId> expressions_of(const Program& program, const Production& production) {
+    std::vector<ValueId> roots{production.condition};
+    for_each_module(program, production.successor,
+                    [&](std::size_t, std::size_t argument, const ProgramModule& module) {
+                        const std::uint32_t count = program.symbol(module.symbol).parameter_count;
+                        for (std::uint32_t i = 0; i < count; ++i) {
+                            roots.push_back(program.arguments[argument + i]);
+                        }
+                    });
+    return roots;
+}
+
 GroupedLists rewriters_of(const Program& program) {
     return GroupedLists(program.symbols.size(), [&](auto&& add) {
         for (std::uint32_t p = 0; p < program.productions.size(); ++p) {

@@ -213,6 +213,25 @@ void for_each_module(const Program& program, const ProgramWord& word, Visit&& vi
     }
 }
 
+/// Calls visit(id, value) for each node of the expressions with these roots. Iterative, since an
+/// expression may be as deep as its file is long.
+template <typename Visit>
+void for_each_value(const Program& program, std::vector<ValueId> roots, Visit&& visit) {
+    while (!roots.empty()) {
+        const ValueId id = roots.back();
+        roots.pop_back();
+        if (id != kNoValue) {
+            const Value& value = program.value(id);
+            visit(id, value);
+            roots.push_back(value.left);
+            roots.push_back(value.right);
+        }
+    }
+}
+/// The condition, or kNoValue, and all arguments of the successor of a production.
+[[nodiscard]] std::vector<ValueId> expressions_of(const Program& program,
+                                                  const Production& production);
+
 /// By symbol: the productions with a module of it in their predecessor, once for each.
 [[nodiscard]] GroupedLists rewriters_of(const Program& program);
 /// By symbol: the productions whose successor holds it.

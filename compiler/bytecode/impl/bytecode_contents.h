@@ -17,6 +17,22 @@
 
 namespace lsys {
 
+/// A stream that ignores all fields; others derive from it.
+struct IgnoringStream {
+    template <typename Value>
+    void number(const Value& /*value*/) {}
+    void real(const float& /*value*/) {}
+    void truth(const bool& /*value*/) {}
+    template <typename Enum>
+    void tag(const Enum& /*value*/) {}
+    template <typename Id>
+    void id(const Id& /*value*/) {}
+    void text(const std::string& /*value*/) {}
+    void optional_number(const std::optional<std::uint32_t>& /*value*/) {}
+    template <typename Row, typename Function>
+    void table(const std::vector<Row>& /*rows*/, Function /*row*/) {}
+};
+
 // `Value` is const for a stream that does not change it.
 
 template <typename Stream, typename Value>

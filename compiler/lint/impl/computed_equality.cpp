@@ -70,25 +70,12 @@ private:
                 }
             }
         }
-        std::vector<ValueId> work;
-        if (production.condition != kNoValue) {
-            work.push_back(production.condition);
-        }
-        for_each_argument(production.successor,
-                          [&](ValueId argument, std::uint32_t) { work.push_back(argument); });
-        while (!work.empty()) {
-            const ValueId id = work.back();
-            work.pop_back();
-            const Value& value = program_.value(id);
-            if (value.opcode == Opcode::Formal && value.index < parameter.size()) {
-                source_[static_cast<std::size_t>(id)] = parameter[value.index];
-            }
-            for (const ValueId child : {value.left, value.right}) {
-                if (child != kNoValue) {
-                    work.push_back(child);
-                }
-            }
-        }
+        for_each_value(program_, expressions_of(program_, production),
+                       [&](ValueId id, const Value& value) {
+                           if (value.opcode == Opcode::Formal && value.index < parameter.size()) {
+                               source_[static_cast<std::size_t>(id)] = parameter[value.index];
+                           }
+                       });
     }
 
     /// Calls visit(argument, parameter) for each argument of a word.

@@ -16,7 +16,7 @@ class PolygonCheck {
 public:
     PolygonCheck(const CheckInput& input, Diagnostics& diagnostics)
         : input_(input), program_(input.program), diagnostics_(diagnostics),
-          inside_(program_.symbols.size(), false), rewritten_(program_.symbols.size(), false) {}
+          inside_(program_.symbols.size(), false), rewriters_(rewriters_of(program_)) {}
 
     void run() {
         bool any = false;
@@ -79,13 +79,6 @@ private:
 
     /// Finds the modules that can stand in a polygon, directly or in place of a module that does.
     void find_inside() {
-        std::vector<std::vector<std::uint32_t>> productions(program_.symbols.size());
-        for (std::uint32_t p = 0; p < program_.productions.size(); ++p) {
-            for (const ProgramPatternItem& item : program_.productions[p].predecessor.items) {
-                productions[static_cast<std::size_t>(item.symbol)].push_back(p);
-                rewritten_[static_cast<std::size_t>(item.symbol)] = true;
-            }
-        }
         std::vector<SymbolId> work;
         const auto mark = [&](SymbolId symbol) {
             if (!inside_[static_cast<std::size_t>(symbol)]) {
@@ -100,7 +93,7 @@ private:
         while (!work.empty()) {
             const SymbolId symbol = work.back();
             work.pop_back();
-            for (const std::uint32_t p : productions[static_cast<std::size_t>(symbol)]) {
+            for (const std::uint32_t p : rewriters_[static_cast<std::size_t>(symbol)]) {
                 for_each(program_.productions[p].successor, mark);
             }
         }
@@ -159,7 +152,7 @@ private:
                                  symbol.turtle == TurtleOperation::TaperedForward
                              ? 1U
                              : 0U;
-                may_grow = may_grow || rewritten_[static_cast<std::size_t>(id)];
+                may_grow = may_grow || !rewriters_[static_cast<std::size_t>(id)].empty();
             } else if (symbol.turtle == TurtleOperation::PolygonVertex && !may_be_inside &&
                        !std::exchange(stray_reported_, true)) {
                 Diagnostic& diagnostic =
@@ -204,8 +197,8 @@ private:
     const CheckInput& input_;
     const Program& program_;
     Diagnostics& diagnostics_;
-    std::vector<bool> inside_;    // by symbol: can stand in a polygon
-    std::vector<bool> rewritten_; // by symbol
+    std::vector<bool> inside_; // by symbol: can stand in a polygon
+    GroupedLists rewriters_;
     bool stray_reported_ = false;
 };
 
