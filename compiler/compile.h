@@ -1,5 +1,4 @@
-// The one entry of the compiler: Ast to Program to Bytecode. Both `lsc` and the viewer come through
-// here.
+// The entry of the compiler: Ast to Program to Bytecode.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -17,12 +16,12 @@
 namespace lsys {
 
 struct CompileOutcome {
-    std::optional<Program> program;               // without errors only
-    std::optional<Bytecode> bytecode;             // without errors only
+    std::optional<Program> program;               // if there are no errors
+    std::optional<Bytecode> bytecode;             // if there are no errors
     std::vector<std::string> unknown_definitions; // -D names that no #define or #param has
 };
 
-/// Checks and compiles. Diagnostics are appended; the Ast is consumed to keep peak memory low.
+/// Checks and compiles; appends diagnostics. Consumes the Ast to keep peak memory low.
 [[nodiscard]] CompileOutcome compile(Ast ast,
                                      Names& names,
                                      const SourceMap& sources,

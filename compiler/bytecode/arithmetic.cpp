@@ -18,16 +18,16 @@ double wide(float x) {
     return static_cast<double>(x);
 }
 
-/// The angle in (-360, 360), exactly.
+/// The angle modulo 360, in (-360, 360), without error.
 double reduced(float degrees) {
     return std::fmod(wide(degrees), 360.0);
 }
 
-/// 0 to 3 for the angles 0, 90, 180, 270 and those a turn away from them; -1 for others.
+/// 0 to 3 for 0, 90, 180 and 270 degrees and angles equal to them modulo 360; -1 for others.
 int quarter_turns(double angle) {
     const double quarters = angle / 90.0;
     if (quarters != std::floor(quarters)) {
-        return -1; // also where the angle is not a number
+        return -1; // NaN too
     }
     return static_cast<int>(quarters < 0.0 ? quarters + 4.0 : quarters);
 }

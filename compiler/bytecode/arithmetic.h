@@ -1,7 +1,7 @@
-// The arithmetic of expressions (docs/language.md section 4): every value is an IEEE binary32; + -
-// * / and sqrt round correctly, other functions and powers are computed in binary64 and rounded
-// once. The compiler folds constants and the runtime evaluates instructions with these same
-// functions, so the two cannot differ. Angles are degrees.
+// The arithmetic of expressions (docs/language.md section 4). Every value is an IEEE binary32. The
+// operators + - * / and sqrt round correctly; other functions and powers are computed in binary64
+// and rounded once. Constant folding and evaluation use these functions, so both give the same
+// result. Angles are degrees.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -16,7 +16,7 @@ namespace lsys::arithmetic {
 [[nodiscard]] inline float logical_not(float x) {
     return truth(x == 0.0F);
 }
-/// Not a number counts as true: it differs from 0.
+/// NaN counts as true, since it differs from 0.
 [[nodiscard]] inline float logical_and(float x, float y) {
     return truth(x != 0.0F && y != 0.0F);
 }
@@ -25,18 +25,18 @@ namespace lsys::arithmetic {
 }
 
 [[nodiscard]] float power(float x, float y);
-/// Reduced exactly modulo 360; exact at multiples of 90, with positive zeros.
+/// The argument is reduced modulo 360 without error. Exact at multiples of 90, with positive zeros.
 [[nodiscard]] float sine(float degrees);
 [[nodiscard]] float cosine(float degrees);
 [[nodiscard]] float tangent(float degrees);
 [[nodiscard]] float arc_sine(float x);
 [[nodiscard]] float arc_cosine(float x);
 [[nodiscard]] float arc_tangent(float x);
-/// The angle of the direction (y, x), in C's order of arguments.
+/// The angle of the vector (x, y); the arguments have the order of std::atan2.
 [[nodiscard]] float arc_tangent2(float y, float x);
 [[nodiscard]] float exponential(float x);
 [[nodiscard]] float logarithm(float x);
-/// Half away from zero.
+/// The nearest whole number; halves round away from zero.
 [[nodiscard]] inline float nearest(float x) {
     return std::round(x);
 }
@@ -53,10 +53,10 @@ namespace lsys::arithmetic {
     return std::fmod(x, y);
 }
 
-/// The value of an instruction that takes one value or two and depends on nothing else: those
-/// of opcodes.def from Negate to Mod. Unary ones ignore `y`.
+/// The value of an arithmetic instruction, which is one of opcodes.def from Negate to Mod. Unary
+/// instructions ignore `y`.
 [[nodiscard]] float apply(Opcode opcode, float x, float y);
-/// Whether apply() takes this opcode.
+/// Whether the opcode is one from Negate to Mod.
 [[nodiscard]] bool is_arithmetic(Opcode opcode);
 
 } // namespace lsys::arithmetic

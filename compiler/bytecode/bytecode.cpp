@@ -23,28 +23,12 @@ static_assert(kOpcodeCount <= 256, "an opcode is eight bits of an instruction");
 /// The hash of an empty sequence, before finish().
 constexpr std::uint64_t kStart = 0x6C73797374656D73; // "lsystems"
 
-/// A stream that ignores the fields handed to it.
-struct Ignored {
-    template <typename Value>
-    void number(const Value& /*value*/) {}
-    void real(const float& /*value*/) {}
-    void truth(const bool& /*value*/) {}
-    template <typename Enum>
-    void tag(const Enum& /*value*/) {}
-    template <typename Id>
-    void id(const Id& /*value*/) {}
-    void text(const std::string& /*value*/) {}
-    void optional_number(const std::optional<std::uint32_t>& /*value*/) {}
-    template <typename Row, typename Function>
-    void table(const std::vector<Row>& /*rows*/, Function /*row*/) {}
-};
-
 /// Combines all fields that the derived word may depend on.
 class Digest {
 public:
     [[nodiscard]] std::uint64_t result() const { return finish(state_); }
 
-    Ignored beside_word() { return {}; }
+    IgnoringStream beside_word() { return {}; }
     void implied(bool value) { number(std::uint64_t{value}); }
     template <typename Value>
     void number(const Value& value) {
@@ -106,9 +90,9 @@ bool Bytecode::cuts() const {
 
 std::uint32_t site_of(const Bytecode& bytecode, std::uint32_t instruction) {
     const auto after = std::upper_bound(
-        bytecode.site_marks.begin(), bytecode.site_marks.end(), instruction,
-        [](std::uint32_t at, const SiteMark& mark) { return at < mark.instruction; });
-    return after == bytecode.site_marks.begin() ? kNone : (after - 1)->site;
+        bytecode.site_ranges.begin(), bytecode.site_ranges.end(), instruction,
+        [](std::uint32_t at, const SiteRange& range) { return at < range.instruction; });
+    return after == bytecode.site_ranges.begin() ? kNone : (after - 1)->site;
 }
 
 ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index) {
@@ -116,7 +100,7 @@ ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index) {
     if (index - bytecode.axiom.codes.first < bytecode.axiom.codes.count) {
         return kNoProduction;
     }
-    // Of several productions that begin there only the last has a successor with modules.
+    // Of several productions that begin at one index only the last has a successor.
     const auto after = std::upper_bound(
         bytecode.productions.begin(), bytecode.productions.end(), index,
         [](std::uint32_t at, const BytecodeProduction& p) { return at < p.successor.codes.first; });

@@ -1,5 +1,5 @@
-// Bytecode: a compiled L-system, the contract of compiler and runtime. Made by lower/ or read from
-// a .lsb file; read by the runtime, which sees nothing else of the compiler. It is self-contained,
+// Bytecode: a compiled L-system, the contract of compiler and runtime. Made by compiler/lower or
+// read from a .lsb file; the runtime sees nothing else of the compiler. It is self-contained,
 // immutable and passes verify().
 //
 // A word is a sequence of codes. Code c < symbols.size() is a module of symbol c whose parameters
@@ -10,12 +10,12 @@
 //
 // Each table is filled in one order without gaps, so that nothing is shared and a walk over the
 // productions is a walk over the tables:
-//   constants       of folded[0], folded[1], ...
-//   patterns        of each production its left context, predecessor and right context
-//   template_codes  of the axiom, then of each production's successor
-//   instructions    of each global, of the axiom's arguments, then of each production its condition
-//                   and its successor's arguments
-//   template_places of the modules of template_codes, or empty: the places are unknown
+//   constants       the arguments of folded[0], folded[1], ...
+//   patterns        per production its left context, predecessor and right context
+//   template_codes  the axiom, then the successor of each production
+//   instructions    each global, the arguments of the axiom, then per production its condition and
+//                   the arguments of its successor
+//   template_places the places of the modules of template_codes, or empty if they are not known
 #pragma once
 
 #include "compiler/bytecode/settings.h"
@@ -59,8 +59,8 @@ inline constexpr std::uint32_t kOpcodeCount = kCountOf<Opcode>;
 /// Precondition: opcode < kOpcodeCount.
 [[nodiscard]] const OpcodeInfo& info(Opcode opcode);
 inline constexpr std::uint32_t kMaxOperand = (1U << 24) - 1;
-/// Random ranges of one successor with `rewriting sequential`, where pass k adds 4096 k to their
-/// numbers.
+/// Maximum of random ranges per successor with `rewriting sequential`, where pass k adds 4096 k to
+/// their numbers.
 inline constexpr std::uint32_t kMaxSequentialDraws = 4095;
 [[nodiscard]] constexpr std::uint32_t encode(Opcode opcode, std::uint32_t operand) {
     return static_cast<std::uint32_t>(opcode) | (operand << 8);
@@ -87,43 +87,43 @@ struct BytecodeSymbol {
     SymbolKind kind = SymbolKind::Plain;
     bool ignored = false; // by #ignore
     TurtleOperation turtle = TurtleOperation::Nothing;
-    std::string mesh_file; // of TurtleOperation::MeshFile
+    std::string mesh_file; // for TurtleOperation::MeshFile
 };
 
 /// A module whose arguments are constants: code = symbols.size() + its index.
 struct FoldedModule {
     SymbolId symbol = kNoSymbol;
-    std::uint32_t first_constant = 0; // in constants; parameter_count of the symbol many
+    std::uint32_t first_constant = 0; // in constants, one per parameter of the symbol
 };
 
-/// A place for messages that works without the source text.
+/// A place in a source file for messages; needs no source text.
 struct Site {
     SourceSpan span; // FileId indexes Bytecode::files
     std::uint32_t line = 0;
     std::uint32_t column = 0;
 };
 
-/// instructions[instruction] and those that follow, up to the next mark, stem from site.
-struct SiteMark {
+/// Instructions from `instruction` up to the next range come from one site.
+struct SiteRange {
     std::uint32_t instruction = 0;
     std::uint32_t site = 0; // in sites
 };
 
-/// Where modules of template_codes stand in the text: one after the other at equal distances, in
-/// one line and without a character beyond ASCII, so that a long axiom takes few rows. The file is
-/// that of the axiom's or the production's site. The first module of each word begins a run.
+/// Places of consecutive modules of template_codes that stand at equal distances in one line of
+/// ASCII text, so that a long axiom takes few rows. Their file is the one of the site of the axiom
+/// or production. The first module of each word begins a run.
 struct PlaceRun {
     std::uint32_t first = 0;  // in template_codes; the run ends where the next begins
     std::uint32_t begin = 0;  // offset of its first module
     std::uint32_t length = 0; // bytes of each module, arguments included
-    std::uint32_t stride = 0; // bytes from one to the next; 0 if there is one only
+    std::uint32_t stride = 0; // bytes from one module to the next; 0 for a single module
     std::uint32_t line = 0;
-    std::uint32_t column = 0; // of the first
+    std::uint32_t column = 0; // of its first module
 };
 
 LSYS_COUNTED_ENUM(PatternKind, Module, Open, Close);
 
-/// One element of a context or predecessor. A module's parameters become formals first_formal, ...
+/// One element of a context or predecessor. Parameter i of a module is formal first_formal + i.
 struct PatternItem {
     PatternKind kind = PatternKind::Module;
     SymbolId symbol = kNoSymbol;
@@ -135,8 +135,8 @@ struct TableRange {
     std::uint32_t count = 0;
 };
 
-/// Codes [first, first + count) of template_codes, and the instructions that make their stored
-/// parameters, in order. `parameter_count` values are emitted.
+/// The codes of a word in template_codes, and the instructions that emit its `parameter_count`
+/// stored parameters in order.
 struct WordTemplate {
     TableRange codes;
     std::uint32_t arguments = kNone; // first instruction, or kNone if nothing is stored
@@ -147,8 +147,8 @@ struct WordTemplate {
 struct BytecodeProduction {
     std::string name;
     std::uint32_t name_site = kNone;
-    std::uint32_t rule = 0;  // productions whose predecessors are equal, by first appearance
-    std::uint32_t group = 0; // ... and whose contexts are equal
+    std::uint32_t rule = 0;  // of productions with equal predecessors, by first appearance
+    std::uint32_t group = 0; // of productions with equal predecessors and contexts
     Stage stage = Stage::Rewrite;
     bool has_left = false;
     bool has_right = false;
@@ -158,7 +158,7 @@ struct BytecodeProduction {
     std::uint32_t formal_count = 0;
     std::uint32_t condition = kNone; // first instruction, or kNone for `*`
     bool stochastic = false;
-    float weight = 0.0F; // p as written, if stochastic
+    float weight = 0.0F; // as written after `~`, if stochastic
     WordTemplate successor;
 };
 
@@ -168,7 +168,7 @@ struct BytecodeGlobal {
     std::uint32_t instruction = 0;   // computes the value: Emit, End
     std::uint32_t draw_position = 0; // number of its first range among #define, #param, #w
     std::uint32_t draw_count = 0;
-    bool has_bounds = false; // of a #param
+    bool has_bounds = false; // true for a #param
     float minimum = 0.0F;
     float maximum = 0.0F;
     std::uint32_t site = kNone;
@@ -176,7 +176,7 @@ struct BytecodeGlobal {
 
 struct Bytecode {
     Settings settings;
-    std::optional<std::uint32_t> generations; // of #n
+    std::optional<std::uint32_t> generations; // from #n
 
     std::vector<std::string> files; // paths; FileId of a Site indexes them
     std::vector<BytecodeSymbol> symbols;
@@ -187,7 +187,7 @@ struct Bytecode {
     std::vector<Code> template_codes;
     std::vector<std::uint32_t> instructions;
     std::vector<Site> sites;
-    std::vector<SiteMark> site_marks;            // ascending
+    std::vector<SiteRange> site_ranges;          // ascending
     std::vector<PlaceRun> template_places;       // ascending
     std::vector<BytecodeProduction> productions; // by stage, then in file order
     std::uint32_t rule_count = 0;
@@ -195,14 +195,14 @@ struct Bytecode {
     WordTemplate axiom;
     std::uint32_t axiom_site = kNone;
     std::uint32_t axiom_draw_position = 0; // number of the axiom's first range
-    bool uses_steps = false; // steps() occurs: the word depends on the number asked for
+    bool uses_steps = false;               // some expression calls steps()
 
     /// The productions of a stage.
     [[nodiscard]] TableRange of(Stage stage) const;
     [[nodiscard]] bool has(Stage stage) const { return of(stage).count != 0; }
-    /// Rules of Stage::Rewrite: those up to this number.
+    /// Number of rules of Stage::Rewrite, which are the first ones.
     [[nodiscard]] std::uint32_t rewriting_rules() const;
-    /// Whether some module cuts its branch off.
+    /// Whether a symbol cuts off its branch.
     [[nodiscard]] bool cuts() const;
 
     [[nodiscard]] Code code_count() const {
@@ -227,22 +227,22 @@ struct Bytecode {
     return code_count <= 256 ? 1 : code_count <= 65'536 ? 2 : 4;
 }
 
-/// The site of an instruction, or kNone.
+/// The site that an instruction comes from, or kNone.
 [[nodiscard]] std::uint32_t site_of(const Bytecode& bytecode, std::uint32_t instruction);
 
-/// The production whose successor holds template_codes[index]; kNoProduction: the axiom does.
+/// The production whose successor holds template_codes[index]; kNoProduction for the axiom.
 /// Precondition: index < template_codes.size().
 [[nodiscard]] ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index);
-/// Where the module of template_codes[index] stands, with its arguments, if that is known.
+/// The place of the module of template_codes[index] with its arguments, if known.
 /// Precondition: index < template_codes.size().
 [[nodiscard]] std::optional<Site> place_of(const Bytecode& bytecode, std::uint32_t index);
 
-/// A 64-bit checksum of bytes, for .lsb and state files: any change within one aligned group of
-/// eight bytes changes it.
+/// A 64-bit checksum for .lsb and state files; a change within one aligned group of eight bytes
+/// always changes it.
 [[nodiscard]] std::uint64_t checksum(std::string_view bytes);
 
-/// A 64-bit digest of everything that decides the derived word; equal programs have equal digests,
-/// however their text is laid out.
+/// A 64-bit digest of all fields that decide the derived word. Programs that differ only in the
+/// layout of their text have equal digests.
 [[nodiscard]] std::uint64_t digest(const Bytecode& bytecode);
 
 } // namespace lsys

@@ -1,8 +1,9 @@
 #include "compiler/bytecode/disassemble.h"
 
+#include "compiler/bytecode/instructions.h"
+
 #include <fmt/format.h>
 
-#include <bit>
 #include <charconv>
 #include <iterator>
 #include <utility>
@@ -160,41 +161,34 @@ private:
         }
     }
 
-    void code(std::uint32_t at) {
+    void code(std::uint32_t first) {
         std::uint32_t site = kNone;
-        while (true) {
-            const std::uint32_t word = bytecode_.instructions[at];
-            const auto opcode = static_cast<Opcode>(word & 0xFF);
-            const OpcodeInfo& row = info(opcode);
-            std::string text = fmt::format("{:8} {}", at, row.mnemonic);
-            const std::uint32_t here = site_of(bytecode_, at);
-            ++at;
+        for (const Instruction each : InstructionRange(bytecode_.instructions, first)) {
+            const OpcodeInfo& row = info(each.opcode);
+            std::string text = fmt::format("{:8} {}", each.at, row.mnemonic);
             switch (row.operand) {
             case OperandKind::None:
                 break;
             case OperandKind::Literal:
-                text += ' ' + real(std::bit_cast<float>(bytecode_.instructions[at]));
-                ++at;
+                text += ' ' + real(each.literal);
                 break;
             case OperandKind::Formal:
-                text += fmt::format(" ${}", word >> 8);
+                text += fmt::format(" ${}", each.operand);
                 break;
             case OperandKind::Global:
-                text += ' ' + bytecode_.globals[word >> 8].name;
+                text += ' ' + bytecode_.globals[each.operand].name;
                 break;
             case OperandKind::Draw:
             case OperandKind::Branch:
-                text += fmt::format(" {}", word >> 8);
+                text += fmt::format(" {}", each.operand);
                 break;
             }
+            const std::uint32_t here = site_of(bytecode_, each.at);
             if (here != site) {
                 text = fmt::format("{:<30}{}", text, at_site(here));
                 site = here;
             }
             line("{}", text);
-            if (opcode == Opcode::End) {
-                return;
-            }
         }
     }
 

@@ -1,5 +1,4 @@
-// A listing of Bytecode for people: `lsc dump --stage bytecode`. Total: any verified Bytecode has
-// one.
+// The text listing of verified Bytecode: `lsc dump --stage bytecode`.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

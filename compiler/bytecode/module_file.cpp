@@ -1,12 +1,12 @@
 // The layout of a .lsb file. Numbers are little-endian; f32 is the bits of an IEEE binary32.
 //
 //   offset  size
-//        0     8  magic: 89 4C 53 42 0D 0A 1A 0A. Damaged by any transfer that changes line ends or
-//                 drops the eighth bit.
+//        0     8  magic: 89 4C 53 42 0D 0A 1A 0A. A transfer that changes line ends or drops the
+//                 eighth bit damages it.
 //        8     4  version
 //       12     4  0
 //       16     8  size of the whole file
-//       24     8  checksum() of all that follows
+//       24     8  checksum() of the contents
 //       32        the contents, in the order of describe() in bytecode_contents.h
 //
 // A table is its number of rows (u64) and the rows; a text is its number of bytes (u32) and the
@@ -86,35 +86,8 @@ private:
     std::string& out_;
 };
 
-/// Counts the bytes that a Writer writes for a row with empty texts: every row takes as many.
-class LeastBytes {
-public:
-    [[nodiscard]] std::size_t count() const { return count_; }
-
-    LeastBytes& beside_word() { return *this; }
-    void implied(bool /*value*/) {}
-    template <std::unsigned_integral T>
-    void number(const T& /*value*/) {
-        count_ += sizeof(T);
-    }
-    void real(const float& /*value*/) { count_ += 4; }
-    void truth(const bool& /*value*/) { ++count_; }
-    template <typename Enum>
-    void tag(const Enum& /*value*/) {
-        ++count_;
-    }
-    template <typename Id>
-    void id(const Id& /*value*/) {
-        count_ += 4;
-    }
-    void text(const std::string& /*value*/) { count_ += 4; }
-
-private:
-    std::size_t count_ = 0;
-};
-
-/// Reads what a Writer wrote. After the first thing that does not fit it yields zeros and nothing
-/// more, and failed() holds.
+/// Reads the output of a Writer. After the first value that does not fit, failed() holds and all
+/// further values are zero.
 class Reader {
 public:
     explicit Reader(std::string_view bytes) : bytes_(bytes) {}
@@ -165,14 +138,15 @@ public:
         number(given);
         value = has ? std::optional(given) : std::nullopt;
     }
-    /// Makes no more rows than the bytes left can hold.
+    /// Makes at most as many rows as the remaining bytes can hold.
     template <typename Row, typename Function>
     void table(std::vector<Row>& rows, Function row) {
-        LeastBytes least;
+        std::string smallest; // a row with empty texts
+        Writer writer(smallest);
         const Row empty{};
-        row(least, empty);
+        row(writer, empty);
         const std::uint64_t count = take_number(8);
-        if (count > bytes_.size() / least.count()) {
+        if (count > bytes_.size() / smallest.size()) {
             failed_ = true;
             return;
         }

@@ -1,5 +1,5 @@
-// Bytecode as bytes: the .lsb file. Little-endian, with magic, version, sizes and a checksum; the
-// .cpp draws the layout. Reading checks everything, ends with verify(), and never trusts a size.
+// The .lsb file: Bytecode as little-endian bytes with magic, version, sizes and a checksum; the
+// .cpp draws the layout. Reading checks everything, trusts no size and ends with verify().
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -10,8 +10,8 @@
 
 namespace lsys {
 
-// Version history. Every change of what a .lsb file can hold takes a new version: a field, an
-// enumerator, an opcode or an operation of the turtle more, another order, another meaning.
+// Version history. Every change of the contents of a .lsb file takes a new version: a new field,
+// enumerator, opcode or turtle operation, another order, another meaning.
 //   1  The first format. Opcode BranchDraw, operation SaveBranch and profile Carey were added
 //      without a new version.
 //   2  Places of the modules in the text (template_places).
@@ -46,7 +46,7 @@ static_assert(kFieldCount<BytecodeGlobal> == 8, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<PatternItem> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Site> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<SourceSpan> == 3, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<SiteMark> == 2, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<SiteRange> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<PlaceRun> == 6, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<TableRange> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<WordTemplate> == 4, LSYS_VERSION_MATTERS);
@@ -55,13 +55,13 @@ static_assert(kFieldCount<Bytecode> == 20, LSYS_VERSION_MATTERS);
 #undef LSYS_VERSION_MATTERS
 
 [[nodiscard]] std::string write_module_file(const Bytecode& bytecode);
-/// Refuses, each with its own message: a foreign file, a newer or older version, a truncated one, a
-/// checksum that does not fit, and contents that do not verify. The message does not name the file.
+/// Fails with its own message for a foreign file, a newer or older version, a truncated file, a
+/// wrong checksum, and contents that do not verify. The message does not name the file.
 [[nodiscard]] Result<Bytecode> read_module_file(std::string_view bytes);
-/// Whether these bytes begin like a .lsb file.
+/// Whether the bytes begin with the magic of a .lsb file.
 [[nodiscard]] bool is_module_file(std::string_view bytes);
-/// Makes head, size and checksum fit whatever contents follow, so that tests reach what lies behind
-/// them.
+/// Writes head, size and checksum for the contents that follow them, so that tests get past these
+/// checks.
 void seal_module_file(std::string& bytes);
 
 } // namespace lsys

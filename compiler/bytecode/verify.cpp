@@ -14,8 +14,9 @@ namespace lsys {
 
 namespace {
 
-/// A stream that checks the fields whose type has more values than the bytecode may hold.
-struct RangeCheck {
+/// A stream of describe_settings() that finds values which no enumerator has or which are not
+/// finite.
+struct RangeCheck : IgnoringStream {
     bool all_enumerators = true;
     bool all_finite = true;
 
@@ -25,9 +26,6 @@ struct RangeCheck {
         all_enumerators = all_enumerators && is_enumerator(value);
     }
     void real(const float& value) { all_finite = all_finite && std::isfinite(value); }
-    template <typename Value>
-    void number(const Value& /*value*/) {}
-    void truth(const bool& /*value*/) {}
 };
 
 std::uint32_t number(SymbolId id) {
@@ -38,7 +36,7 @@ std::uint32_t number(SymbolId id) {
 enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Successor };
 
 /// One walk over the tables in the order that bytecode.h promises. Every function returns false
-/// after it has said what is wrong in `problem`.
+/// after it has stored a message in problem_.
 class Verifier {
 public:
     explicit Verifier(const Bytecode& bytecode) : bytecode_(bytecode) {}
@@ -146,18 +144,18 @@ private:
             }
         }
         std::uint64_t next = 0;
-        for (std::size_t i = 0; i < bytecode_.site_marks.size(); ++i) {
-            const SiteMark mark = bytecode_.site_marks[i];
-            if (mark.site >= bytecode_.sites.size() || mark.instruction < next ||
-                mark.instruction >= bytecode_.instructions.size()) {
+        for (std::size_t i = 0; i < bytecode_.site_ranges.size(); ++i) {
+            const SiteRange range = bytecode_.site_ranges[i];
+            if (range.site >= bytecode_.sites.size() || range.instruction < next ||
+                range.instruction >= bytecode_.instructions.size()) {
                 return fail("site mark {} is out of place", i);
             }
-            next = std::uint64_t{mark.instruction} + 1;
+            next = std::uint64_t{range.instruction} + 1;
         }
         return true;
     }
 
-    /// That the first module of each word begins a run is seen to by word().
+    /// Checks the rows by themselves; has_places() checks that each word begins a run.
     bool places() {
         const std::vector<PlaceRun>& runs = bytecode_.template_places;
         for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -172,7 +170,7 @@ private:
                 (run.stride < run.length && (count > 1 || run.stride != 0))) {
                 return fail("place run {} is malformed", i);
             }
-            // of its last module
+            // From the first module of the run to its last.
             const std::uint64_t distance = (count - 1) * run.stride;
             if (distance + run.begin + run.length > kNone || distance + run.column > kNone) {
                 return fail("place run {} ends beyond every file", i);
@@ -181,7 +179,7 @@ private:
         return true;
     }
 
-    /// Whether a word's places begin with it, and its file is known.
+    /// Whether a run begins with the word, and the file of its places is known.
     bool has_places(const WordTemplate& word, std::uint32_t site) {
         const std::vector<PlaceRun>& runs = bytecode_.template_places;
         if (runs.empty() || word.codes.count == 0) {
@@ -400,10 +398,10 @@ private:
                     {.formals = formals, .draws = word.draw_count, .emits = word.parameter_count});
     }
 
-    /// Limits of the operands of a piece of code, and the values it has to produce.
+    /// Limits of the operands of a piece of code, and the number of values it must emit.
     struct CodeBounds {
         std::uint32_t formals = 0;
-        std::uint32_t globals = kNone; // kNone: all
+        std::uint32_t globals = kNone; // kNone: no limit
         std::uint32_t draws = 0;
         std::uint32_t emits = 1;
     };

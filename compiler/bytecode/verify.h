@@ -1,6 +1,6 @@
-// Is this Bytecode well-formed? Every index in range, stacks balanced, operands of the right kind,
-// formals numbered in order, folded constants finite, rules and groups dense. The emitter asks in
-// debug builds, a loaded file is always asked; what passes can be run without further checks.
+// Verification of Bytecode: every index in range, stacks balanced, operands of the right kind,
+// formals numbered in order, folded constants finite, rules and groups dense. Debug builds verify
+// emitted bytecode; a loaded file is always verified. Verified bytecode runs without more checks.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -10,12 +10,12 @@
 
 namespace lsys {
 
-/// The deepest expression stack a verified program can need. Deeper expressions are no obstacle:
-/// the deeper operand is then computed first, which bounds the stack by the logarithm of their
-/// size.
+/// Maximum depth of the expression stack of verified bytecode. Code of deeper expressions computes
+/// the deeper operand first, which bounds the stack by the logarithm of the size of the
+/// expression.
 inline constexpr std::uint32_t kMaxStack = 256;
 
-/// The first problem, or nothing.
+/// The first problem found, or nothing.
 [[nodiscard]] std::optional<std::string> verify(const Bytecode& bytecode);
 
 } // namespace lsys

@@ -1,6 +1,7 @@
 #include "compiler/growth/condition_grid.h"
 
 #include "compiler/bytecode/arithmetic.h"
+#include "compiler/bytecode/interpret.h"
 
 #include <algorithm>
 #include <bit>
@@ -16,7 +17,14 @@ namespace {
 constexpr std::size_t kMaxAxes = 16;
 constexpr std::int32_t kLargest = 0x7F7FFFFF; // order index of the largest finite number
 
-/// What is known of a value on the stack.
+/// `x opcode constant`, `constant opcode x`, or `opcode x`.
+struct MonotoneStep {
+    Opcode opcode = Opcode::Negate;
+    float constant = 0.0F;
+    bool constant_first = false;
+};
+
+/// A value of the domain.
 struct Node {
     enum class Kind : std::uint8_t {
         Constant,
@@ -25,96 +33,105 @@ struct Node {
         Other,
     };
     Kind kind = Kind::Other;
-    float value = 0.0F;          // Constant
-    std::uint32_t parameter = 0; // Chain
-    bool plain = false;          // Chain: the parameter itself
-    TableRange part;             // Chain: its instructions
-};
+    float value = 0.0F;              // Constant
+    std::uint32_t parameter = 0;     // Chain
+    std::vector<MonotoneStep> steps; // Chain: from the parameter to the value
 
-class GridBuilder {
-public:
-    GridBuilder(std::span<const std::uint32_t> instructions,
-                std::span<const KnownValue> parameters,
-                const Surroundings& surroundings)
-        : instructions_(instructions), parameters_(parameters), surroundings_(surroundings) {}
-
-    /// Notes the cuts of one condition; false if it has another form.
-    bool add(const ConditionView& condition);
-    [[nodiscard]] std::optional<ConditionGrid> finish(std::uint64_t max_points);
-
-private:
-    Node leaf(std::uint32_t at, const ConditionView& condition) const;
-    Node unary(Opcode opcode, const Node& x, std::uint32_t at);
-    Node binary(Opcode opcode, const Node& x, const Node& y, std::uint32_t at);
-    Node compare(Opcode opcode, const Node& x, const Node& y);
-    bool as_truth(Node& node);
-    void cut(const Node& chain, Opcode opcode, float constant);
-    float chain_at(const Node& chain, std::int32_t index);
-
-    std::span<const std::uint32_t> instructions_;
-    std::span<const KnownValue> parameters_;
-    const Surroundings& surroundings_;
-    ConditionView condition_;
-    std::vector<KnownValue> formals_;
-    Evaluator evaluator_;
-    std::map<std::uint32_t, std::vector<std::int32_t>>
-        cuts_; // by parameter: first indices of cells
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_; // parameters compared
+    [[nodiscard]] bool is_parameter() const { return kind == Kind::Chain && steps.empty(); }
 };
 
 bool is_comparison(Opcode opcode) {
     return opcode >= Opcode::Less && opcode <= Opcode::NotEqual;
 }
 
-Node GridBuilder::leaf(std::uint32_t at, const ConditionView& condition) const {
-    const std::uint32_t word = instructions_[at];
+Node constant(float value) {
     Node node;
-    const auto constant = [&](float value) {
-        node.kind = std::isfinite(value) ? Node::Kind::Constant : Node::Kind::Other;
-        node.value = value;
-        return node;
-    };
-    switch (opcode_of(word)) {
-    case Opcode::Literal:
-        return constant(std::bit_cast<float>(instructions_[at + 1]));
-    case Opcode::Step:
-        return surroundings_.step ? constant(static_cast<float>(*surroundings_.step)) : node;
-    case Opcode::Steps:
-        return surroundings_.steps ? constant(static_cast<float>(*surroundings_.steps)) : node;
-    case Opcode::Formal: {
-        const std::uint32_t parameter = operand_of(word) - condition.first_formal;
-        if (operand_of(word) < condition.first_formal || parameter >= parameters_.size()) {
-            return node; // of a context
-        }
-        if (parameters_[parameter].known) {
-            return constant(parameters_[parameter].value);
-        }
-        node.kind = Node::Kind::Chain;
-        node.parameter = parameter;
-        node.plain = true;
-        node.part = {at, 1};
-        return node;
-    }
-    default:
-        return node;
-    }
+    node.kind = std::isfinite(value) ? Node::Kind::Constant : Node::Kind::Other;
+    node.value = value;
+    return node;
+}
+
+/// A value that is constant in every cell.
+Node pieces() {
+    Node node;
+    node.kind = Node::Kind::Pieces;
+    return node;
 }
 
 /// The value of a chain where its parameter is number `index`.
-float GridBuilder::chain_at(const Node& chain, std::int32_t index) {
-    formals_[condition_.first_formal + chain.parameter] = {number_at(index), true};
-    const Surroundings here{formals_, surroundings_.step, surroundings_.steps};
-    const float value = evaluator_.run_part(instructions_, chain.part, here).value;
-    formals_[condition_.first_formal + chain.parameter] = {};
+float chain_at(const Node& chain, std::int32_t index) {
+    float value = number_at(index);
+    for (const MonotoneStep& step : chain.steps) {
+        value = step.constant_first ? arithmetic::apply(step.opcode, step.constant, value)
+                                    : arithmetic::apply(step.opcode, value, step.constant);
+    }
     return value;
 }
 
-/// Cuts where the truth of `chain opcode constant` changes.
+/// The domain of values that are monotone in one parameter or constant in cells; collects the cuts
+/// between cells.
+class GridBuilder : public UnknownDomain<Node> {
+public:
+    GridBuilder(std::span<const std::uint32_t> instructions,
+                std::span<const KnownValue> parameters,
+                const Surroundings& surroundings)
+        : instructions_(instructions), parameters_(parameters), surroundings_(surroundings),
+          stack_(kMaxStack) {}
+
+    /// Adds the cuts of a condition; false if it has another form.
+    bool add(const ConditionView& condition);
+    [[nodiscard]] std::optional<ConditionGrid> finish(std::uint64_t max_points);
+
+    static Node literal(float value) { return constant(value); }
+    [[nodiscard]] Node formal(std::uint32_t index) const;
+    [[nodiscard]] Node step() const { return count(surroundings_.step); }
+    [[nodiscard]] Node steps() const { return count(surroundings_.steps); }
+    Node unary(Opcode opcode, const Node& x);
+    Node binary(Opcode opcode, const Node& x, const Node& y);
+    bool take(Node x, const std::uint32_t* /*at*/) {
+        has_grid_ = as_truth(x);
+        return false;
+    }
+
+private:
+    static Node count(const std::optional<std::uint32_t>& value) {
+        return value ? constant(static_cast<float>(*value)) : Node{};
+    }
+    Node compare(Opcode opcode, const Node& x, const Node& y);
+    bool as_truth(Node& node);
+    void cut(const Node& chain, Opcode opcode, float constant);
+
+    std::span<const std::uint32_t> instructions_;
+    std::span<const KnownValue> parameters_;
+    const Surroundings& surroundings_;
+    std::uint32_t first_formal_ = 0; // of the condition
+    std::vector<Node> stack_;
+    bool has_grid_ = false;
+    std::map<std::uint32_t, std::vector<std::int32_t>>
+        cuts_; // by parameter: first indices of cells
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_; // parameters compared
+};
+
+Node GridBuilder::formal(std::uint32_t index) const {
+    const std::uint32_t parameter = index - first_formal_;
+    if (index < first_formal_ || parameter >= parameters_.size()) {
+        return {}; // a parameter of a context
+    }
+    if (parameters_[parameter].known) {
+        return constant(parameters_[parameter].value);
+    }
+    Node node;
+    node.kind = Node::Kind::Chain;
+    node.parameter = parameter;
+    return node;
+}
+
+/// Adds the cuts where the truth of `chain opcode constant` changes.
 void GridBuilder::cut(const Node& chain, Opcode opcode, float constant) {
     std::vector<std::int32_t>& cuts = cuts_[chain.parameter];
     const bool below = opcode != Opcode::LessEqual && opcode != Opcode::Greater;
     const bool above = opcode != Opcode::Less && opcode != Opcode::GreaterEqual;
-    if (chain.plain) {
+    if (chain.is_parameter()) {
         if (below) {
             cuts.push_back(order_index(constant));
         }
@@ -144,7 +161,7 @@ void GridBuilder::cut(const Node& chain, Opcode opcode, float constant) {
     }
 }
 
-/// Makes a value into one that is constant in every cell, as a truth value; false if it cannot be.
+/// Turns a value into a truth value that is constant in every cell; false if that fails.
 bool GridBuilder::as_truth(Node& node) {
     if (node.kind == Node::Kind::Chain) {
         cut(node, Opcode::NotEqual, 0.0F);
@@ -153,38 +170,29 @@ bool GridBuilder::as_truth(Node& node) {
     return node.kind != Node::Kind::Other;
 }
 
-Node GridBuilder::unary(Opcode opcode, const Node& x, std::uint32_t at) {
+Node GridBuilder::unary(Opcode opcode, const Node& x) {
+    if (x.kind == Node::Kind::Constant) {
+        return constant(arithmetic::apply(opcode, x.value, 0.0F));
+    }
     Node node = x;
-    switch (x.kind) {
-    case Node::Kind::Constant:
-        node.value = arithmetic::apply(opcode, x.value, 0.0F);
-        node.kind = std::isfinite(node.value) ? Node::Kind::Constant : Node::Kind::Other;
-        return node;
-    case Node::Kind::Chain:
+    if (x.kind == Node::Kind::Chain) {
+        const bool monotone = opcode == Opcode::Negate || opcode == Opcode::Floor ||
+                              opcode == Opcode::Ceil || opcode == Opcode::Round;
         if (opcode == Opcode::Not) {
             as_truth(node);
-            return node;
+        } else if (monotone) {
+            node.steps.push_back({opcode, 0.0F, false});
+        } else {
+            return {};
         }
-        if (opcode == Opcode::Negate || opcode == Opcode::Floor || opcode == Opcode::Ceil ||
-            opcode == Opcode::Round) {
-            node.plain = false;
-            node.part.count = at + 1 - node.part.first;
-            return node;
-        }
-        return {};
-    case Node::Kind::Pieces:
-    case Node::Kind::Other:
-        return node;
     }
-    return {};
+    return node;
 }
 
 Node GridBuilder::compare(Opcode opcode, const Node& x, const Node& y) {
-    Node node;
-    node.kind = Node::Kind::Pieces;
     if (x.kind == Node::Kind::Chain && y.kind == Node::Kind::Constant) {
         cut(x, opcode, y.value);
-        return node;
+        return pieces();
     }
     if (x.kind == Node::Kind::Constant && y.kind == Node::Kind::Chain) {
         const Opcode mirrored = opcode == Opcode::Less           ? Opcode::Greater
@@ -193,42 +201,34 @@ Node GridBuilder::compare(Opcode opcode, const Node& x, const Node& y) {
                                 : opcode == Opcode::GreaterEqual ? Opcode::LessEqual
                                                                  : opcode;
         cut(y, mirrored, x.value);
-        return node;
+        return pieces();
     }
-    if (x.kind == Node::Kind::Chain && y.kind == Node::Kind::Chain && x.plain && y.plain) {
+    if (x.is_parameter() && y.is_parameter()) {
         if (x.parameter != y.parameter) {
             pairs_.emplace_back(x.parameter, y.parameter);
             cuts_[x.parameter];
             cuts_[y.parameter];
         }
-        return node;
+        return pieces();
     }
     return {};
 }
 
-Node GridBuilder::binary(Opcode opcode, const Node& x, const Node& y, std::uint32_t at) {
+Node GridBuilder::binary(Opcode opcode, const Node& x, const Node& y) {
     using Kind = Node::Kind;
     if (x.kind == Kind::Constant && y.kind == Kind::Constant) {
-        Node node = x;
-        node.value = arithmetic::apply(opcode, x.value, y.value);
-        node.kind = std::isfinite(node.value) ? Kind::Constant : Kind::Other;
-        return node;
+        return constant(arithmetic::apply(opcode, x.value, y.value));
     }
     if (opcode == Opcode::And || opcode == Opcode::Or) {
         Node left = x;
         Node right = y;
-        const bool both = as_truth(left) && as_truth(right);
-        Node node;
-        node.kind = both ? Kind::Pieces : Kind::Other;
-        return node;
+        return as_truth(left) && as_truth(right) ? pieces() : Node{};
     }
-    const auto pieces = [](const Node& node) {
+    const auto in_pieces = [](const Node& node) {
         return node.kind == Kind::Constant || node.kind == Kind::Pieces;
     };
-    if (pieces(x) && pieces(y)) {
-        Node node;
-        node.kind = Kind::Pieces;
-        return node;
+    if (in_pieces(x) && in_pieces(y)) {
+        return pieces();
     }
     if (is_comparison(opcode)) {
         return compare(opcode, x, y);
@@ -238,54 +238,26 @@ Node GridBuilder::binary(Opcode opcode, const Node& x, const Node& y, std::uint3
     if (!left && !right) {
         return {};
     }
-    // Rounding keeps order, so these stay monotone; a factor of 0 could meet an infinity.
+    // Rounding keeps order, so results stay monotone. A factor of 0 fails for infinite values.
     const float constant = left ? y.value : x.value;
     const bool sum = opcode == Opcode::Add || opcode == Opcode::Subtract;
     const bool product = opcode == Opcode::Multiply || (opcode == Opcode::Divide && left);
     if (!sum && !(product && constant != 0.0F)) {
         return {};
     }
-    // Both stand side by side in the instructions, the left one first.
     Node node = left ? x : y;
-    node.plain = false;
-    node.part = {x.part.first, at + 1 - x.part.first};
+    node.steps.push_back({opcode, constant, right});
     return node;
 }
 
 bool GridBuilder::add(const ConditionView& condition) {
-    condition_ = condition;
-    formals_.assign(condition.formal_count, KnownValue{});
-    for (std::size_t i = 0; i < parameters_.size(); ++i) {
-        if (condition.first_formal + i < formals_.size()) {
-            formals_[condition.first_formal + i] = parameters_[i];
-        }
-    }
-    std::vector<Node> stack;
-    for (std::uint32_t at = condition.first_instruction;;) {
-        const Opcode opcode = opcode_of(instructions_[at]);
-        if (opcode == Opcode::Test || opcode == Opcode::End || opcode == Opcode::Emit) {
-            return !stack.empty() && as_truth(stack.back());
-        }
-        if (info(opcode).pops == 0) {
-            Node node = leaf(at, condition);
-            node.part.first = at;
-            stack.push_back(node);
-        } else if (info(opcode).pops == 1) {
-            const std::uint32_t first = stack.back().part.first;
-            stack.back() = unary(opcode, stack.back(), at);
-            stack.back().part.first = first;
-        } else {
-            const Node y = stack.back();
-            stack.pop_back();
-            const std::uint32_t first = stack.back().part.first;
-            stack.back() = opcode == Opcode::Range ? Node{} : binary(opcode, stack.back(), y, at);
-            stack.back().part.first = first;
-        }
-        at += instruction_length(opcode);
-    }
+    first_formal_ = condition.first_formal;
+    has_grid_ = false;
+    interpret(instructions_.data() + condition.first_instruction, *this, stack_.data());
+    return has_grid_;
 }
 
-/// A short number of a cell, for people: a whole one near zero if there is one.
+/// A number of a cell that is easy to read: whole and near zero if possible.
 float friendly(std::int32_t first, std::int32_t last) {
     if (first <= 0 && last >= 0) {
         return 0.0F;
@@ -308,7 +280,7 @@ std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
     if (cuts_.size() > kMaxAxes || (!pairs_.empty() && cuts_.size() > 3)) {
         return std::nullopt;
     }
-    // Parameters that are compared share their cuts: within one interval all orders are tried.
+    // Compared parameters share their cuts, so that every order can be tried within a cell.
     for (bool changed = true; changed;) {
         changed = false;
         for (const auto& [a, b] : pairs_) {
@@ -337,7 +309,7 @@ std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
             if (!axis.compared) {
                 axis.samples.push_back({friendly(first, last), cell});
             } else {
-                // Three numbers of an interval realise every order of up to three parameters.
+                // Three numbers of a cell allow every order of up to three parameters.
                 const auto middle = static_cast<std::int32_t>((std::int64_t{first} + last) / 2);
                 axis.samples.push_back({number_at(first), cell});
                 if (middle != first && middle != last) {

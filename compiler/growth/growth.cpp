@@ -19,7 +19,7 @@ using analysis::same;
 
 constexpr std::uint64_t kMaxListWork = 5'000'000; // terms, and classes of each generation
 
-/// The sizes of generations 0, 1, ..., as far as they were followed; `walk` stands at the last.
+/// The sizes of generations 0, 1, ... up to the one at which `walk` stands.
 struct Listing {
     std::vector<GenerationSize> low;
     std::vector<GenerationSize> high;
@@ -177,7 +177,7 @@ find_growth_limit(const Bytecode& bytecode, std::uint32_t generations, std::uint
     } else {
         return std::nullopt;
     }
-    // How large the word asked for would be, if that is soon found.
+    // The size of the requested word, if it is found quickly.
     if (powers) {
         powers->advance_to(walk, generations);
     } else if (walk.age() < listed) {

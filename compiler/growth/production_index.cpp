@@ -5,71 +5,41 @@
 namespace lsys::analysis {
 
 ProductionIndex::ProductionIndex(const Bytecode& bytecode) : bytecode_(&bytecode) {
-    list_productions();
+    const TableRange rewriting = bytecode.of(Stage::Rewrite);
+    by_symbol_ = GroupedLists(bytecode.symbols.size(), [&](auto&& add) {
+        for (std::uint32_t p = 0; p < rewriting.count; ++p) {
+            const TableRange predecessor = bytecode.productions[p].predecessor;
+            if (predecessor.count == 1) {
+                add(static_cast<std::size_t>(bytecode.patterns[predecessor.first].symbol), p);
+            }
+        }
+    });
+    by_group_ = GroupedLists(bytecode.group_count, [&](auto&& add) {
+        for (std::uint32_t p = 0; p < rewriting.count; ++p) {
+            if (bytecode.productions[p].stochastic) {
+                add(bytecode.productions[p].group, p);
+            }
+        }
+    });
     find_relevant();
     find_age();
 }
 
-void ProductionIndex::list_productions() {
-    const Bytecode& bytecode = *bytecode_;
-    const auto symbol_of = [&](const BytecodeProduction& production) {
-        return static_cast<std::size_t>(bytecode.patterns[production.predecessor.first].symbol);
-    };
-    first_.assign(bytecode.symbols.size() + 1, 0);
-    group_first_.assign(std::size_t{bytecode.group_count} + 1, 0);
-    for (const BytecodeProduction& production : bytecode.productions) {
-        if (production.stage != Stage::Rewrite) {
-            break;
-        }
-        if (production.predecessor.count == 1) {
-            ++first_[symbol_of(production) + 1];
-        }
-        if (production.stochastic) {
-            ++group_first_[production.group + 1];
-        }
-    }
-    for (std::size_t i = 1; i < first_.size(); ++i) {
-        first_[i] += first_[i - 1];
-    }
-    for (std::size_t i = 1; i < group_first_.size(); ++i) {
-        group_first_[i] += group_first_[i - 1];
-    }
-    list_.resize(first_.back());
-    group_list_.resize(group_first_.back());
-    std::vector<std::uint32_t> next = first_;
-    std::vector<std::uint32_t> next_in_group = group_first_;
-    for (std::uint32_t p = 0; p < bytecode.productions.size(); ++p) {
-        const BytecodeProduction& production = bytecode.productions[p];
-        if (production.stage != Stage::Rewrite) {
-            break;
-        }
-        if (production.predecessor.count == 1) {
-            list_[next[symbol_of(production)]++] = p;
-        }
-        if (production.stochastic) {
-            group_list_[next_in_group[production.group]++] = p;
-        }
-    }
-}
-
 template <typename Visit>
 bool ProductionIndex::scan(std::uint32_t production,
-                           std::uint32_t first,
-                           std::uint32_t last,
+                           InstructionRange instructions,
                            Visit&& visit) const {
     const PatternItem& head =
         bytecode_->patterns[bytecode_->productions[production].predecessor.first];
     const std::uint32_t count = bytecode_->symbol(head.symbol).parameter_count;
     bool asks_step = false;
-    for (std::uint32_t at = first; at < last;) {
-        const std::uint32_t word = bytecode_->instructions[at];
-        if (opcode_of(word) == Opcode::Formal && operand_of(word) >= head.first_formal &&
-            operand_of(word) - head.first_formal < count) {
-            visit(parameter_base_[static_cast<std::size_t>(head.symbol)] + operand_of(word) -
+    for (const Instruction each : instructions) {
+        if (each.opcode == Opcode::Formal && each.operand >= head.first_formal &&
+            each.operand - head.first_formal < count) {
+            visit(parameter_base_[static_cast<std::size_t>(head.symbol)] + each.operand -
                   head.first_formal);
         }
-        asks_step = asks_step || opcode_of(word) == Opcode::Step;
-        at += instruction_length(opcode_of(word));
+        asks_step = asks_step || each.opcode == Opcode::Step;
     }
     return asks_step;
 }
@@ -90,16 +60,11 @@ void ProductionIndex::find_relevant() {
             work.push_back(parameter);
         }
     };
-    for (const std::uint32_t p : list_) {
-        const std::uint32_t first = bytecode.productions[p].condition;
-        if (first == kNone) {
-            continue;
+    for (const std::uint32_t p : by_symbol_.all()) {
+        const std::uint32_t condition = bytecode.productions[p].condition;
+        if (condition != kNone) {
+            depends_on_age_ |= scan(p, InstructionRange(bytecode.instructions, condition), mark);
         }
-        std::uint32_t last = first;
-        while (opcode_of(bytecode.instructions[last]) != Opcode::Test) {
-            last += instruction_length(opcode_of(bytecode.instructions[last]));
-        }
-        depends_on_age_ |= scan(p, first, last, mark);
     }
     if (work.empty()) {
         return;
@@ -109,16 +74,16 @@ void ProductionIndex::find_relevant() {
         std::uint32_t from; // `to` is computed from it
     };
     std::vector<Edge> edges;
-    for (const std::uint32_t p : list_) {
+    for (const std::uint32_t p : by_symbol_.all()) {
         const WordTemplate& successor = bytecode.productions[p].successor;
         if (successor.parameter_count == 0) {
             continue;
         }
         for_each_argument(
             bytecode, successor,
-            [&](Code code, std::uint32_t argument, std::uint32_t first, std::uint32_t last) {
+            [&](Code code, std::uint32_t argument, InstructionRange instructions) {
                 const std::uint32_t to = parameter_base_[code] + argument;
-                scan(p, first, last, [&](std::uint32_t from) { edges.push_back({to, from}); });
+                scan(p, instructions, [&](std::uint32_t from) { edges.push_back({to, from}); });
                 return true;
             });
     }
@@ -141,19 +106,18 @@ void ProductionIndex::find_age() {
     if (!any_relevant_ || depends_on_age_) {
         return;
     }
-    for (const std::uint32_t p : list_) {
+    for (const std::uint32_t p : by_symbol_.all()) {
         const WordTemplate& successor = bytecode_->productions[p].successor;
         if (successor.parameter_count == 0) {
             continue;
         }
-        for_each_argument(
-            *bytecode_, successor,
-            [&](Code code, std::uint32_t argument, std::uint32_t first, std::uint32_t last) {
-                if (relevant_[parameter_base_[code] + argument]) {
-                    depends_on_age_ |= scan(p, first, last, [](std::uint32_t) {});
-                }
-                return !depends_on_age_;
-            });
+        for_each_argument(*bytecode_, successor,
+                          [&](Code code, std::uint32_t argument, InstructionRange instructions) {
+                              if (relevant_[parameter_base_[code] + argument]) {
+                                  depends_on_age_ |= scan(p, instructions, [](std::uint32_t) {});
+                              }
+                              return !depends_on_age_;
+                          });
     }
 }
 

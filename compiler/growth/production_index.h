@@ -1,10 +1,9 @@
-// Which productions rewrite a symbol, which belong to a stochastic group, and which parameters can
-// decide what is taken: those that a condition of their module reads, and those that such
-// parameters of successors are computed from.
+// The productions of each symbol and of each stochastic group, and the relevant parameters: those
+// that a condition reads, and those from which successors compute relevant parameters.
 #pragma once
 
-#include "compiler/bytecode/bytecode.h"
-#include "compiler/growth/impl/known_values.h"
+#include "compiler/bytecode/instructions.h"
+#include "grammar/base/grouped_lists.h"
 
 #include <cstdint>
 #include <span>
@@ -19,13 +18,11 @@ public:
 
     /// The productions whose predecessor is one module of this symbol, in file order.
     [[nodiscard]] std::span<const std::uint32_t> productions_of(SymbolId symbol) const {
-        const auto s = static_cast<std::size_t>(symbol);
-        return std::span(list_).subspan(first_[s], first_[s + 1] - first_[s]);
+        return by_symbol_[static_cast<std::size_t>(symbol)];
     }
     /// The stochastic productions of a group, in file order.
     [[nodiscard]] std::span<const std::uint32_t> group(std::uint32_t group) const {
-        return std::span(group_list_)
-            .subspan(group_first_[group], group_first_[group + 1] - group_first_[group]);
+        return by_group_[group];
     }
     /// The formal that is the first parameter of a production's predecessor.
     [[nodiscard]] std::uint32_t first_formal(std::uint32_t production) const {
@@ -42,28 +39,24 @@ public:
     [[nodiscard]] bool depends_on_age() const { return depends_on_age_; }
 
 private:
-    void list_productions();
     void find_relevant();
     void find_age();
-    /// Calls visit(parameter) for each formal of the predecessor that instructions [first, last)
-    /// read; tells whether they ask for step().
+    /// Calls visit(parameter) for each formal of the predecessor that the instructions read.
+    /// Returns whether they ask for step().
     template <typename Visit>
-    bool
-    scan(std::uint32_t production, std::uint32_t first, std::uint32_t last, Visit&& visit) const;
+    bool scan(std::uint32_t production, InstructionRange instructions, Visit&& visit) const;
 
     const Bytecode* bytecode_;
-    std::vector<std::uint32_t> list_;  // by symbol
-    std::vector<std::uint32_t> first_; // symbol s: [first_[s], first_[s + 1])
-    std::vector<std::uint32_t> group_list_;
-    std::vector<std::uint32_t> group_first_;
+    GroupedLists by_symbol_;
+    GroupedLists by_group_;
     std::vector<std::uint32_t> parameter_base_; // of a symbol in relevant_
     std::vector<bool> relevant_;
     bool any_relevant_ = false;
     bool depends_on_age_ = false;
 };
 
-/// Calls `visit(code, argument, first instruction, one past the Emit)` for each stored parameter of
-/// a word; stops where it returns false.
+/// Calls visit(code, argument, its instructions) for each stored parameter of a word until it
+/// returns false.
 template <typename Visit>
 void for_each_argument(const Bytecode& bytecode, const WordTemplate& word, Visit&& visit) {
     std::uint32_t at = word.arguments;
@@ -76,7 +69,7 @@ void for_each_argument(const Bytecode& bytecode, const WordTemplate& word, Visit
                 at += instruction_length(opcode_of(bytecode.instructions[at]));
             }
             ++at;
-            if (!visit(code, argument, first, at)) {
+            if (!visit(code, argument, InstructionRange(bytecode.instructions, first, at))) {
                 return;
             }
         }

@@ -31,7 +31,7 @@ struct Uint128 {
     return {a.high - b.high - (a.low < b.low ? 1U : 0U), a.low - b.low};
 }
 
-/// The whole product of two 64-bit numbers, by halves of 32 bits.
+/// The product of two 64-bit numbers, computed from halves of 32 bits.
 [[nodiscard]] constexpr Uint128 full_product(std::uint64_t a, std::uint64_t b) {
     constexpr std::uint64_t kHalf = 0xFFFFFFFF;
     const std::uint64_t low = (a & kHalf) * (b & kHalf);
@@ -54,7 +54,7 @@ struct Uint128 {
     if (a.high != 0 && b.high != 0) {
         return std::nullopt;
     }
-    // One of the factors fits 64 bits, so a single crossed product is left.
+    // One of the factors fits 64 bits, which leaves one cross product.
     const Uint128 crossed = a.high != 0 ? full_product(a.high, b.low) : full_product(a.low, b.high);
     if (crossed.high != 0) {
         return std::nullopt;
@@ -86,8 +86,8 @@ struct Uint128Division {
     if (value.high == 0) {
         return static_cast<double>(value.low);
     }
-    // The upper 64 significant bits; the lowest of them stands for all that are cut off, so that
-    // the one rounding to 53 bits is the right one.
+    // The upper 64 significant bits, the lowest of which is also set for any bit that is cut off,
+    // so that the one rounding to 53 bits is correct.
     const int shift = 64 - std::countl_zero(value.high); // 1 ... 64
     const std::uint64_t kept =
         shift == 64 ? value.high : value.high << (64 - shift) | value.low >> shift;

@@ -13,12 +13,12 @@ namespace lsys {
 
 namespace {
 
-/// Says what instancing will not do.
+/// Reports a system to which instancing adds no variety.
 void note_variety(const Program& program, const Branches& branches, Diagnostics& diagnostics) {
-    const bool varies =
-        branches.axiom_varies || std::any_of(branches.kinds.begin(), branches.kinds.end(),
-                                             [](const BranchKind& kind) { return kind.varies; });
-    if (!varies) {
+    const bool is_random = branches.axiom_is_random ||
+                           std::any_of(branches.kinds.begin(), branches.kinds.end(),
+                                       [](const BranchKind& kind) { return kind.is_random; });
+    if (!is_random) {
         diagnostics
             .add(DiagnosticCode::NoVariety, program.axiom.span,
                  "nothing that this system derives is left to chance, so all its plants are equal")
@@ -54,9 +54,9 @@ std::optional<InstancedSystem> compile_instanced(Program program,
     InstancedSystem system;
     system.bytecode = std::move(*bytecode);
     system.kind_count = branches->kinds.size();
-    system.knows_up.push_back(false); // of the axiom, which is never shared
+    system.depends_on_vertical.push_back(false); // the axiom, which is never shared
     for (const BranchKind& kind : branches->kinds) {
-        system.knows_up.push_back(kind.knows_up);
+        system.depends_on_vertical.push_back(kind.depends_on_vertical);
     }
     return system;
 }
@@ -76,14 +76,14 @@ std::optional<std::string> list_instanced(const Program& program,
         ++counts[site.production];
     }
     for (std::size_t i = 0; i < counts.size(); ++i) {
-        if (counts[i] > kMostListedBranches) {
+        if (counts[i] > kMaxListedBranches) {
             const Production& production = program.productions[i];
             Diagnostic& diagnostic = diagnostics.add(
                 DiagnosticCode::TooManyForms, production.name_span,
                 fmt::format("production `{}` has {} branches that can be taken, so 2^{} forms",
                             names.text(production.name), counts[i], counts[i]));
             diagnostic.notes.emplace_back(fmt::format(
-                "forms are listed up to 2^{}; deriving never lists them", kMostListedBranches));
+                "forms are listed up to 2^{}; deriving never lists them", kMaxListedBranches));
             return std::nullopt;
         }
     }

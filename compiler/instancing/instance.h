@@ -1,5 +1,5 @@
-// Instancing for those who use the compiler: from a checked Program to the bytecode of its
-// instanced system, and the list of that system's productions (docs/language.md section 9).
+// Instancing (docs/language.md section 9): from a checked Program to the bytecode of its instanced
+// system, and the list of the productions of that system.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -16,20 +16,20 @@ namespace lsys {
 
 struct InstancedSystem {
     Bytecode bytecode;
-    std::vector<bool> knows_up; // by id: what is drawn depends on where up is
-    std::size_t kind_count = 0; // of different valid branches
+    std::vector<bool> depends_on_vertical; // by id, of the drawing of the branch
+    std::size_t kind_count = 0;            // number of different valid branches
 };
 
-/// Each valid branch is taken with probability `rho`, in [0, 1]. Nothing if the system cannot be
-/// instanced: `diagnostics` say why. The program is used up.
+/// Compiles the instanced system, in which each valid branch is taken with probability `rho` in
+/// [0, 1]. Returns nothing if the system cannot be instanced, after reporting the reasons.
 [[nodiscard]] std::optional<InstancedSystem> compile_instanced(Program program,
                                                                const Names& names,
                                                                const SourceMap& sources,
                                                                float rho,
                                                                Diagnostics& diagnostics);
 
-/// The 2^n forms of each production with their probabilities. Nothing as above, or if a production
-/// has so many branches that its forms are not for reading.
+/// The 2^n forms of each production with their probabilities. Returns nothing, after a report, if
+/// the system cannot be instanced or a production has more than 12 branches.
 [[nodiscard]] std::optional<std::string> list_instanced(const Program& program,
                                                         const Names& names,
                                                         const SourceMap& sources,

@@ -8,10 +8,10 @@ namespace {
 
 struct ListedCheck {
     Check check;
-    bool needs_complete; // keeps quiet about a program with errors
+    bool needs_complete; // skipped for a program with errors
 };
 
-// The order is that of the messages about one place.
+// Messages about one place have the order of this list.
 constexpr ListedCheck kChecks[] = {
     {check_probability_sums, false},
     {check_formal_names, false},

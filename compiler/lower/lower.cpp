@@ -136,7 +136,7 @@ private:
     CodeEmitter emitter_;
     ModuleFolder folder_;
     PlaceWriter places_;
-    std::vector<ValueId> stored_; // of the word in work
+    std::vector<ValueId> stored_; // arguments of the current word
 };
 
 } // namespace

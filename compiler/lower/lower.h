@@ -11,8 +11,8 @@
 
 namespace lsys {
 
-/// Precondition: program.complete. Nothing only where a number (formals, ranges, globals) is beyond
-/// what an operand can hold.
+/// Returns nothing if the number of a formal, range or global exceeds kMaxOperand. Precondition:
+/// program.complete.
 [[nodiscard]] std::optional<Bytecode>
 lower(const Program& program, const Names& names, const SourceMap& sources);
 

@@ -1,4 +1,4 @@
-// Keys of hash tables: the bytes of several values in one string.
+// Hash table keys made of the bytes of several values.
 #pragma once
 
 #include <string>

@@ -18,7 +18,7 @@ struct Definition {
 
 struct CompileOptions {
     std::vector<Definition> definitions;
-    std::optional<std::uint32_t> generations; // -n: a missing #n is no longer worth a warning
+    std::optional<std::uint32_t> generations; // -n; a missing #n then gets no warning
     std::uint64_t max_modules = std::uint64_t{1}
                                 << 32; // for the warning about words that grow past it
     bool lower = true;                 // false: stop after the Program

@@ -1,4 +1,4 @@
-// How far a module reaches in the text, which a Program does not keep.
+// The end of a module in its text, which a Program does not keep.
 #pragma once
 
 #include <cstddef>
@@ -6,11 +6,11 @@
 
 namespace lsys {
 
-/// Past blanks and comments.
+/// The first offset from here on that is no blank or comment.
 [[nodiscard]] std::size_t skip_blanks(std::string_view text, std::size_t at);
 
-/// One past the `)` of the arguments of a module whose name ends at `name_end`; `name_end` if no
-/// parenthesis follows.
+/// One past the `)` of the arguments that follow a name ending at `name_end`; `name_end` without
+/// arguments.
 [[nodiscard]] std::size_t end_of_arguments(std::string_view text, std::size_t name_end);
 
 } // namespace lsys

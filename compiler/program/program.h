@@ -1,9 +1,9 @@
-// Program: the checked system. Names are resolved to symbols, constants are values, conditions and
-// probabilities are apart, name splitting is done. Made by check/ from an Ast, changed by passes/,
-// lowered to Bytecode by lower/. Holds no text but names and no pointer into the Ast.
+// Program: the resolved system. Names are symbols, constants are values, conditions and
+// probabilities are separate, joined names are split. Made by resolve/ from an Ast, changed by
+// instancing/, lowered to Bytecode by lower/. Holds no text but names and no pointer into the Ast.
 //
-// A Program of a grammar with errors serves further checks only (`complete` is false). What it
-// holds is well-formed: productions whose head or names could not be resolved are left out, and an
+// The Program of a grammar with errors (`complete` is false) only serves further checks. It is
+// still well-formed: productions whose head or names could not be resolved are left out, and an
 // expression in error is kPoison.
 #pragma once
 
@@ -11,6 +11,7 @@
 #include "compiler/bytecode/settings.h"
 #include "grammar/ast/ast.h"
 #include "grammar/base/chunked_vector.h"
+#include "grammar/base/grouped_lists.h"
 #include "grammar/base/names.h"
 #include "grammar/base/source.h"
 
@@ -24,13 +25,13 @@ namespace lsys {
 
 enum class ValueId : std::uint32_t {};
 inline constexpr ValueId kNoValue{0xFFFFFFFFu};
-/// Program::values[0]: a literal that is not a number, in place of an expression in error. Checks
-/// keep quiet about it. No other literal of a complete program has this id.
+/// Program::values[0]: the literal NaN, which replaces an expression in error. Checks ignore it. No
+/// literal of a complete program has this id.
 inline constexpr ValueId kPoison{0};
 
 /// A node of an expression: an instruction and the values it takes. Constants are folded: a node
-/// whose children are literals is a literal. Literals are shared, and `span` is the place of one of
-/// them; every other node is a place of its own. Children come before parents.
+/// whose children are literals is a literal. Equal literals share a node, whose `span` is the place
+/// of one of them; other nodes have one place. Children come before parents.
 struct Value {
     Opcode opcode = Opcode::Literal;
     SourceSpan span;
@@ -67,8 +68,7 @@ struct ProgramWord {
     SourceSpan span;
 };
 
-/// One element of a context or predecessor, as PatternItem, with its bytes in the production's
-/// file.
+/// A PatternItem with its bytes in the file of the production.
 struct ProgramPatternItem {
     PatternKind kind = PatternKind::Module;
     SymbolId symbol = kNoSymbol;
@@ -100,7 +100,7 @@ struct Production {
     SourceSpan condition_span;
     Stage stage = Stage::Rewrite;
     bool stochastic = false;
-    float weight = 0.0F; // not a number if the probability is in error
+    float weight = 0.0F; // NaN if the probability is in error
     SourceSpan weight_span;
     ProgramWord successor;
 };
@@ -117,12 +117,12 @@ struct Global {
     float maximum = 0.0F;
 };
 
-/// A constant as the author sees it, for dumps and for sliders.
+/// A constant of the grammar, for dumps and for sliders.
 struct Constant {
     NameId name = kNoName;
     SourceSpan span;
     bool is_param = false;
-    bool is_drawn = false; // then `global` names it, else `value` is it
+    bool is_drawn = false; // its value is `global` if drawn, else `value`
     bool is_used = false;
     float value = 0.0F;
     std::uint32_t global = kNone;
@@ -136,7 +136,7 @@ struct ModuleDeclaration {
     SourceSpan span; // of the module
 };
 
-/// `#object NAME OBJECT;`: modules NAME of any count draw it.
+/// `#object NAME OBJECT;`: modules of this name draw the object, whatever their parameter count.
 struct ObjectBinding {
     NameId name = kNoName;
     SourceSpan name_span;
@@ -152,10 +152,10 @@ struct IgnoredName {
 };
 
 struct Program {
-    /// No error was found while the program was made. Else something may be missing, and checks
-    /// that need the whole keep quiet.
+    /// No error was found while the program was made. Checks that need the whole program require
+    /// it.
     bool complete = false;
-    /// No statement was left out: what is missing here is missing in the grammar, errors or not.
+    /// No statement was left out, so that a missing statement is missing in the grammar too.
     bool has_all_statements = false;
     Settings settings;
     std::optional<std::uint32_t> generations;
@@ -167,7 +167,7 @@ struct Program {
     std::vector<ModuleDeclaration> declarations;
     std::vector<ObjectBinding> objects;
     std::vector<IgnoredName> ignored;
-    std::vector<IgnoredName> considered; // where there are any, all others are ignored
+    std::vector<IgnoredName> considered; // if not empty, all other names are ignored
     std::vector<Constant> constants;
     std::vector<Global> globals;
     std::vector<Production> productions; // those of Stage::Rewrite first, of Interpret last
@@ -189,8 +189,7 @@ struct Program {
 };
 
 /// Calls visit(index in Program::modules, symbol) for each module of a word, in order. Words may
-/// have a hundred million modules: what is asked of each of them should be a look into one flat
-/// table.
+/// have a hundred million modules, so `visit` should read one flat table.
 template <typename Visit>
 void for_each_symbol(const Program& program, const ProgramWord& word, Visit&& visit) {
     std::size_t index = word.first_module;
@@ -213,5 +212,29 @@ void for_each_module(const Program& program, const ProgramWord& word, Visit&& vi
         argument += program.symbol(module.symbol).parameter_count;
     }
 }
+
+/// Calls visit(id, value) for each node of the expressions with these roots. Iterative, since an
+/// expression may be as deep as its file is long.
+template <typename Visit>
+void for_each_value(const Program& program, std::vector<ValueId> roots, Visit&& visit) {
+    while (!roots.empty()) {
+        const ValueId id = roots.back();
+        roots.pop_back();
+        if (id != kNoValue) {
+            const Value& value = program.value(id);
+            visit(id, value);
+            roots.push_back(value.left);
+            roots.push_back(value.right);
+        }
+    }
+}
+/// The condition, or kNoValue, and all arguments of the successor of a production.
+[[nodiscard]] std::vector<ValueId> expressions_of(const Program& program,
+                                                  const Production& production);
+
+/// By symbol: the productions with a module of it in their predecessor, once for each.
+[[nodiscard]] GroupedLists rewriters_of(const Program& program);
+/// By symbol: the productions whose successor holds it.
+[[nodiscard]] GroupedLists writers_of(const Program& program);
 
 } // namespace lsys

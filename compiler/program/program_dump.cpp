@@ -130,7 +130,7 @@ private:
         }
     }
 
-    /// A name as a grammar can hold it: identifiers and one-character symbols plain, others quoted.
+    /// A name as a grammar writes it: identifiers and one-character symbols plain, others quoted.
     void name(NameId id) {
         const std::string_view text = names_.text(id);
         const bool plain =
@@ -207,8 +207,8 @@ private:
         }
     }
 
-    /// Operations are written as functions of their operands, so that no precedence has to be
-    /// known. Iterative: expressions may be as deep as a file is long.
+    /// Operations are written as functions of their operands, so that readers need no precedence.
+    /// Iterative, since an expression may be as deep as its file is long.
     void value(ValueId root, const Production* production) {
         struct Step {
             ValueId value;

@@ -24,7 +24,7 @@ namespace lsys {
 
 namespace {
 
-/// Which names are known (docs/language.md section 3), by name.
+/// By name: whether it is known (docs/language.md section 3).
 std::vector<bool> known_names(const Resolution& resolution) {
     std::vector<bool> known(resolution.names.count());
     const auto add = [&](ModuleList list) {
@@ -110,7 +110,7 @@ public:
             case StatementKind::Object:
             case StatementKind::Ignore:
             case StatementKind::Include:
-                break; // read before, or by the front end
+                break; // handled before, or by the front end
             }
         }
         productions.finish();
@@ -196,7 +196,7 @@ ResolveOutcome resolve(Ast ast,
     outcome.program.has_all_statements = !ast.incomplete;
     SetResolver settings(resolution);
     settings.read_modes();
-    // Tables by name are as long as there are names, so all names are made before them.
+    // Tables by name have the length of Names, so all names are interned before.
     for (const std::string_view function : function_names()) {
         static_cast<void>(names.intern(function));
     }

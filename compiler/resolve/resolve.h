@@ -1,5 +1,5 @@
-// The resolution: Ast to Program. All that docs/language.md decides about names, numbers and the
-// form of productions is decided here; what a program means as a whole is for the checks (check.h).
+// The resolution: Ast to Program. Applies the rules of docs/language.md about names, numbers and
+// the form of productions; compiler/lint has the rules about whole programs.
 #pragma once
 
 #include "compiler/program/compile_options.h"
@@ -19,7 +19,7 @@ struct ResolveOutcome {
     std::vector<std::string> unknown_definitions; // -D names that no #define or #param has
 };
 
-/// Consumes the Ast; its memory is given back on the way.
+/// Consumes the Ast and releases its memory on the way.
 [[nodiscard]] ResolveOutcome resolve(Ast ast,
                                      Names& names,
                                      const SourceMap& sources,

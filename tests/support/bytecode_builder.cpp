@@ -60,7 +60,7 @@ public:
 
     /// Appends the instructions of one value and what takes it.
     void emit(const Instructions& code, Opcode taker) {
-        bytecode_.site_marks.push_back({next(), site()});
+        bytecode_.site_ranges.push_back({next(), site()});
         bytecode_.instructions.insert(bytecode_.instructions.end(), code.begin(), code.end());
         bytecode_.instructions.push_back(encode(taker, 0));
     }
@@ -201,6 +201,10 @@ BytecodeBuilder::parameter(std::string name, std::string value, float minimum, f
     globals_.push_back({std::move(name), std::move(value), true, minimum, maximum});
     return *this;
 }
+BytecodeBuilder& BytecodeBuilder::declare(std::string modules) {
+    declared_ = std::move(modules);
+    return *this;
+}
 BytecodeBuilder& BytecodeBuilder::unused_symbols(std::uint32_t count) {
     unused_ = count;
     return *this;
@@ -210,6 +214,7 @@ Bytecode BytecodeBuilder::build() const {
     Assembler assembler(fold, unused_);
     Bytecode& bytecode = assembler.bytecode();
     bytecode.settings = settings;
+    assembler.see_symbols(declared_);
     assembler.see_symbols(axiom_);
     std::vector<ProductionText> texts;
     for (const std::string& text : productions_) {

@@ -1,6 +1,6 @@
-// Bytecode from short texts, without the front end and the compiler: tests of the runtime depend on
-// neither. Modules, expressions and productions look as in the language; names are identifiers or
-// single characters, blanks separate, and only what tests need is understood.
+// Bytecode from short texts for unit tests, without the front end and the compiler. Modules,
+// expressions and productions look as in the language; names are identifiers or single characters
+// and blanks separate.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -26,6 +26,8 @@ public:
     /// A constant that is drawn at the start.
     BytecodeBuilder& global(std::string name, std::string value);
     BytecodeBuilder& parameter(std::string name, std::string value, float minimum, float maximum);
+    /// "A(x) B": symbols before those of the texts, so that a test knows their numbers.
+    BytecodeBuilder& declare(std::string modules);
     /// Declares symbols nobody uses, so that codes need two or four bytes.
     BytecodeBuilder& unused_symbols(std::uint32_t count);
 
@@ -40,6 +42,7 @@ private:
         float minimum = 0.0F;
         float maximum = 0.0F;
     };
+    std::string declared_;
     std::string axiom_;
     std::vector<std::string> productions_;
     std::vector<std::string> ignored_;

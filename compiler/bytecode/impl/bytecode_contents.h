@@ -4,7 +4,7 @@
 //
 // A stream has these functions, each of which takes a field by reference:
 //   number, real, truth, tag (an enumerator), id, text, optional_number, table, codes
-//   implied       a truth that follows from a field beside the word, and that the word depends on
+//   implied       a truth on which the word depends, computed from a field beside the word
 //   beside_word() the stream for fields on which no derived word depends: itself, or one that
 //                 ignores them
 // The settings follow their table, settings.def. Every other struct is taken apart by a structured
@@ -20,7 +20,23 @@
 
 namespace lsys {
 
-// `Value` is const for a stream that only looks at it.
+/// A stream that ignores all fields; others derive from it.
+struct IgnoringStream {
+    template <typename Value>
+    void number(const Value& /*value*/) {}
+    void real(const float& /*value*/) {}
+    void truth(const bool& /*value*/) {}
+    template <typename Enum>
+    void tag(const Enum& /*value*/) {}
+    template <typename Id>
+    void id(const Id& /*value*/) {}
+    void text(const std::string& /*value*/) {}
+    void optional_number(const std::optional<std::uint32_t>& /*value*/) {}
+    template <typename Row, typename Function>
+    void table(const std::vector<Row>& /*rows*/, Function /*row*/) {}
+};
+
+// `Value` is const for a stream that does not change it.
 
 template <typename Stream, typename Value>
 void describe_traits(Stream& stream, Value& traits) {
@@ -140,8 +156,8 @@ void describe_site(Stream& stream, Value& site) {
 }
 
 template <typename Stream, typename Value>
-void describe_site_mark(Stream& stream, Value& mark) {
-    auto& [instruction, site] = mark;
+void describe_site_range(Stream& stream, Value& range) {
+    auto& [instruction, site] = range;
     stream.number(instruction);
     stream.number(site);
 }
@@ -182,7 +198,7 @@ void describe_production(Stream& stream, Value& production) {
 template <typename Stream, typename Value>
 void describe(Stream& stream, Value& bytecode) {
     auto& [settings, generations, files, symbols, folded, constants, globals, patterns,
-           template_codes, instructions, sites, site_marks, template_places, productions,
+           template_codes, instructions, sites, site_ranges, template_places, productions,
            rule_count, group_count, axiom, axiom_site, axiom_draw_position, uses_steps] = bytecode;
     auto&& beside = stream.beside_word();
     describe_settings(stream, settings);
@@ -197,7 +213,7 @@ void describe(Stream& stream, Value& bytecode) {
                  code_width(std::uint64_t{bytecode.symbols.size()} + bytecode.folded.size()));
     stream.table(instructions, [](auto& s, auto& word) { s.number(word); });
     beside.table(sites, [](auto& s, auto& row) { describe_site(s, row); });
-    beside.table(site_marks, [](auto& s, auto& row) { describe_site_mark(s, row); });
+    beside.table(site_ranges, [](auto& s, auto& row) { describe_site_range(s, row); });
     beside.table(template_places, [](auto& s, auto& row) { describe_place_run(s, row); });
     stream.table(productions, [](auto& s, auto& row) { describe_production(s, row); });
     stream.number(rule_count);

@@ -105,7 +105,7 @@ GrowthPowers::times(const GrowthWalk& walk, const Power& power, std::uint32_t ge
 
 void GrowthPowers::advance_to(GrowthWalk& walk, std::uint32_t age) {
     LSYS_CHECK(age >= walk.age(), age, walk.age());
-    // A cyclic walk first comes to the turn of its first rule.
+    // With cyclic rewriting, first advance to the turn of the first rule.
     while (walk.age() < age && walk.age() % period_ != 0) {
         walk.advance();
     }

@@ -1,5 +1,5 @@
-// Growth over very many generations: powers of the growth matrix by repeated squaring, for programs
-// of few classes.
+// Growth over very many generations by powers of the growth matrix, for programs of few classes.
+// Powers are made by repeated squaring.
 #pragma once
 
 #include "compiler/growth/impl/growth_walk.h"
@@ -15,13 +15,13 @@ class GrowthPowers {
 public:
     static constexpr std::size_t kMaxClasses = 48;
 
-    /// Nothing if the program has more classes, or a generation is not a linear map.
+    /// Returns nothing if the program has more classes, or a generation is not a linear map.
     [[nodiscard]] static std::optional<GrowthPowers> make(ModuleClasses& classes);
 
     /// Moves the walk ahead to generation `age`. Precondition: age >= walk.age().
     void advance_to(GrowthWalk& walk, std::uint32_t age);
-    /// Moves the walk ahead as far as its lower bound is at most `max_modules`, at most to `age`;
-    /// the bound must not fall from one generation to the next, which never_shrinks() promises.
+    /// Moves the walk ahead while its lower bound is at most `max_modules`, at most to `age`.
+    /// Precondition: never_shrinks().
     void advance_while_fitting(GrowthWalk& walk, std::uint32_t age, std::uint64_t max_modules);
     [[nodiscard]] bool never_shrinks() const { return never_shrinks_; }
 
@@ -33,12 +33,12 @@ private:
     };
 
     GrowthPowers() = default;
-    const Power& power(std::size_t exponent); // of 2
+    const Power& power(std::size_t exponent); // 2^exponent periods
     [[nodiscard]] GrowthWalk
     times(const GrowthWalk& walk, const Power& power, std::uint32_t generations);
 
     std::size_t size_ = 0;
-    std::uint32_t period_ = 1; // generations that the first power stands for
+    std::uint32_t period_ = 1; // generations of the first power
     bool never_shrinks_ = true;
     std::vector<Power> powers_; // of exponents 1, 2, 4, ... in periods
 };

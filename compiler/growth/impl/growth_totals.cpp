@@ -56,7 +56,7 @@ public:
             values_[i].low = size;
             all_.push_back(id);
             if (!classes.expanded(id)) {
-                continue; // the generations asked for do not reach beyond it
+                continue; // the requested generations do not reach beyond it
             }
             const ClassExpansion expansion = classes.expand(id, 0);
             for (const ClassOutcome& outcome : classes.outcomes(expansion.outcomes)) {
@@ -84,7 +84,7 @@ public:
     [[nodiscard]] std::uint64_t terms() const { return terms_; }
     [[nodiscard]] const std::vector<Bounds>& values() const { return values_; }
 
-    /// From the sizes after g generations to those after g + 1.
+    /// Advances the sizes from g generations to g + 1.
     void step_back() {
         if (by_rule_.empty()) {
             rewrite(all_);

@@ -1,8 +1,7 @@
-// Sharper bounds of whole words where modules have several outcomes: the least and the greatest
-// size that a word of each generation can have, found backwards from the modules of the last
-// generation (a module's least size after g generations is the least, over its outcomes, of the sum
-// of what it yields after g - 1). Modules of a context-free system are rewritten independently, so
-// these are reached.
+// Sharper bounds of whole words of modules with several outcomes: the min and max size of the words
+// of each generation, computed backwards. The min size of a module after g generations is the min,
+// over its outcomes, of the sum of the sizes of the outcome after g - 1 generations. Modules of a
+// context-free system are rewritten independently, so the bounds are reached.
 #pragma once
 
 #include "compiler/growth/growth.h"
@@ -18,9 +17,9 @@ struct SizeBounds {
     std::vector<GenerationSize> high;
 };
 
-/// Generations 0 ... generations. The classes are expanded as far as those generations reach. Empty
-/// where this way is not open: expansions that depend on the age, cyclic rewriting, predecessors of
-/// several modules, or too much work.
+/// Bounds of generations 0 ... generations; expands the classes that these reach. Empty for
+/// expansions that depend on the age, cyclic rewriting, predecessors of several modules, and too
+/// much work.
 [[nodiscard]] SizeBounds bound_totals(ModuleClasses& classes, std::uint32_t generations);
 
 } // namespace lsys::analysis

@@ -20,7 +20,7 @@ Count count_of(std::uint64_t value) {
     return {value, false, 0.0};
 }
 
-/// a - b, not below 0; the least it can be where logarithms hide the difference.
+/// A lower bound of a - b, not below 0; exact unless both are logarithms.
 Count subtract(const Count& a, const Count& b) {
     if (is_zero(b)) {
         return a;
@@ -101,7 +101,7 @@ void GrowthWalk::list_rules() {
     }
     for (std::size_t i = 0; i < sequences_.size(); ++i) {
         for (const auto& [target, count] : most[i]) {
-            sequences_[i].most.push_back({target, count});
+            sequences_[i].max_written.push_back({target, count});
         }
     }
     reserve();
@@ -128,7 +128,7 @@ void GrowthWalk::meet(ClassId id) {
     }
 }
 
-/// Takes all modules of these classes out of the word and puts in what becomes of them.
+/// Replaces all modules of these classes by their outcomes.
 void GrowthWalk::rewrite(std::span<const ClassId> ids) {
     struct Taken {
         ClassId id;
@@ -173,7 +173,7 @@ void GrowthWalk::rewrite(std::span<const ClassId> ids) {
     }
 }
 
-Count GrowthWalk::most_matches(const SequenceRule& rule) const {
+Count GrowthWalk::max_matches(const SequenceRule& rule) const {
     Count most;
     bool first = true;
     for (const auto& [symbol, uses] : rule.uses) {
@@ -195,7 +195,7 @@ Count GrowthWalk::most_matches(const SequenceRule& rule) const {
     return most;
 }
 
-/// A sequence may match any number of times up to `matches`.
+/// Subtracts the modules of up to `matches` matches of a sequence.
 void GrowthWalk::use_up(const SequenceRule& rule, const Count& matches) {
     if (is_zero(matches)) {
         return;
@@ -214,25 +214,26 @@ void GrowthWalk::write(const SequenceRule& rule, const Count& matches) {
         return;
     }
     reserve();
-    for (const ClassTerm& term : rule.most) {
+    for (const ClassTerm& term : rule.max_written) {
         meet(term.target);
         add_times(high_[static_cast<std::size_t>(term.target)], matches, term.count);
     }
-    work_ += rule.most.size();
+    work_ += rule.max_written.size();
 }
 
 void GrowthWalk::pass(const Rule& rule) {
     ++work_;
     if (rule.sequence != kNone) {
         const SequenceRule& sequence = sequences_[rule.sequence];
-        const Count matches = most_matches(sequence);
+        const Count matches = max_matches(sequence);
         use_up(sequence, matches);
         write(sequence, matches);
         return;
     }
     const auto found = by_symbol_.find(static_cast<std::uint32_t>(rule.symbol));
     if (found != by_symbol_.end()) {
-        const std::vector<ClassId> ids = found->second; // what is written is not read again
+        const std::vector<ClassId> ids =
+            found->second; // a pass does not read the modules it writes
         rewrite(ids);
     }
 }
@@ -268,7 +269,7 @@ void GrowthWalk::advance() {
         std::vector<Count> matches;
         matches.reserve(sequences_.size());
         for (const SequenceRule& sequence : sequences_) {
-            matches.push_back(most_matches(sequence));
+            matches.push_back(max_matches(sequence));
         }
         for (std::size_t i = 0; i < sequences_.size(); ++i) {
             use_up(sequences_[i], matches[i]);
@@ -306,7 +307,7 @@ GenerationSize GrowthWalk::total(const std::vector<Count>& counts, bool least) c
             size.parameters = {};
             size.bytes = count_of(code_width(bytecode.code_count()));
         }
-        // The sizes of one module are small numbers.
+        // The counts of one module are small.
         const Count& times = counts[static_cast<std::size_t>(id)];
         add_times(sum.modules, times, 1);
         add_times(sum.parameters, times, small(size.parameters));
@@ -333,7 +334,7 @@ bool GrowthWalk::is_final() {
     }
     const bool none =
         std::all_of(sequences_.begin(), sequences_.end(),
-                    [&](const SequenceRule& rule) { return is_zero(most_matches(rule)); });
+                    [&](const SequenceRule& rule) { return is_zero(max_matches(rule)); });
     return none && std::all_of(present_.begin(), present_.end(), [&](ClassId id) {
                const ClassExpansion expansion = classes_->expand(id, age_);
                reserve();
@@ -371,10 +372,10 @@ ProductionId GrowthWalk::dominant() {
     for (const SequenceRule& rule : sequences_) {
         // The first production of the rule stands for all.
         double modules = 0.0;
-        for (const ClassTerm& term : rule.most) {
+        for (const ClassTerm& term : rule.max_written) {
             modules += term.count;
         }
-        made[rule.first] += as_double(most_matches(rule)) * modules;
+        made[rule.first] += as_double(max_matches(rule)) * modules;
     }
     const auto most = std::max_element(
         made.begin(), made.end(), [](const auto& a, const auto& b) { return a.second < b.second; });

@@ -1,5 +1,5 @@
-// The growth of a word, generation by generation: how many modules of each class it holds at least
-// and at most, and how many are expected. One value is one word; advance() makes it the next.
+// The min, max and expected number of modules of each class in a word, generation by generation. A
+// GrowthWalk stands for one word; advance() moves it to the next generation.
 #pragma once
 
 #include "compiler/growth/growth.h"
@@ -17,12 +17,12 @@ namespace lsys::analysis {
 [[nodiscard]] bool same(const Count& a, const Count& b);
 [[nodiscard]] bool same(const GenerationSize& a, const GenerationSize& b);
 [[nodiscard]] bool less(const Count& a, const Count& b);
-/// What one module of a code takes.
+/// The size of one module of a code.
 [[nodiscard]] GenerationSize size_of(const Bytecode& bytecode, Code code);
 
 class GrowthWalk {
 public:
-    /// The axiom of `classes`, which outlives the walk.
+    /// Begins at the axiom. `classes` outlives the walk.
     explicit GrowthWalk(ModuleClasses& classes);
 
     [[nodiscard]] std::uint32_t age() const { return age_; }
@@ -31,34 +31,34 @@ public:
     [[nodiscard]] GenerationSize low() const { return total(low_, true); }
     [[nodiscard]] GenerationSize high() const { return total(high_, false); }
     [[nodiscard]] double expected_modules() const;
-    /// Whether the expectation is known: every outcome so far had a known probability.
+    /// Whether the expected counts are known: every outcome so far had a known probability.
     [[nodiscard]] bool decided() const { return decided_; }
-    /// Whether no production can change this word or a later one.
+    /// Whether no production can change this word or the later ones.
     [[nodiscard]] bool is_final();
-    /// Whether a generation is a linear map of the counts that does not depend on the age, but for
-    /// the turn of rules in cyclic rewriting.
+    /// Whether a generation is a linear map of the counts that does not depend on the age, except
+    /// for the turn of rules in cyclic rewriting.
     [[nodiscard]] bool is_linear() const;
-    /// The production that makes the most modules in the next generation.
+    /// The production that writes most modules of the next generation.
     [[nodiscard]] ProductionId dominant();
-    /// Terms handled so far.
+    /// Number of terms processed so far.
     [[nodiscard]] std::uint64_t work() const { return work_; }
 
     [[nodiscard]] Count low(ClassId id) const { return at(low_, id); }
     [[nodiscard]] Count high(ClassId id) const { return at(high_, id); }
     [[nodiscard]] std::span<const ClassId> present() const { return present_; }
-    /// Replaces the word by these counts, by class, at age `age`.
+    /// Replaces the word by one of age `age` with these counts by class.
     void load(std::uint32_t age, std::span<const Count> low, std::span<const Count> high);
 
 private:
     /// A rule with several predecessor modules.
     struct SequenceRule {
-        std::vector<std::pair<SymbolId, std::uint32_t>> uses; // modules of one match
-        std::vector<ClassTerm> most;                          // that one match writes
+        std::vector<std::pair<SymbolId, std::uint32_t>> uses; // modules of a match
+        std::vector<ClassTerm> max_written;                   // by a match
         ProductionId first = kNoProduction;
     };
     struct Rule {
-        SymbolId symbol = kNoSymbol;    // of one predecessor module
-        std::uint32_t sequence = kNone; // else: in sequences_
+        SymbolId symbol = kNoSymbol;    // of a predecessor of one module
+        std::uint32_t sequence = kNone; // in sequences_, for several modules
     };
 
     static Count at(const std::vector<Count>& counts, ClassId id) {
@@ -70,7 +70,7 @@ private:
     void rewrite(std::span<const ClassId> ids);
     void use_up(const SequenceRule& rule, const Count& matches);
     void write(const SequenceRule& rule, const Count& matches);
-    [[nodiscard]] Count most_matches(const SequenceRule& rule) const;
+    [[nodiscard]] Count max_matches(const SequenceRule& rule) const;
     void meet(ClassId id);
     void reserve();
     void index_by_symbol();
@@ -85,7 +85,7 @@ private:
     std::vector<double> expected_;
     std::vector<bool> is_present_;
     std::vector<ClassId> present_;
-    std::vector<Rule> rules_; // of the modes that work by rules
+    std::vector<Rule> rules_; // for rewriting modes with a pass per rule
     std::vector<SequenceRule> sequences_;
     std::unordered_map<std::uint32_t, std::vector<ClassId>> by_symbol_;
     std::uint64_t work_ = 0;

@@ -13,7 +13,7 @@ namespace lsys::analysis {
 
 namespace {
 
-constexpr std::uint32_t kUnknownBits = 0xFFFFFFFFU; // not a number, which no parameter is
+constexpr std::uint32_t kUnknownBits = 0xFFFFFFFFU; // a NaN, which no parameter is
 constexpr std::uint64_t kMaxGridWork = 65'536;      // points times productions
 constexpr std::size_t kMaxVariableModules = 65'536; // of one word
 
@@ -40,7 +40,7 @@ ClassId ModuleClasses::fixed_class(Code code) {
     return static_cast<ClassId>(fixed_ids_[code]);
 }
 
-/// The class of a code of whose parameters nothing is known.
+/// The class of a code with unknown parameters.
 ClassId ModuleClasses::unknown_class(Code code) {
     const SymbolId symbol = bytecode_->symbol_of(code);
     const std::uint32_t values =
@@ -118,34 +118,33 @@ void ModuleClasses::count_word(const WordTemplate& word, CountedWord& out) {
         code_counts_.assign(bytecode_->code_count(), 0);
     }
     if (index_.any_relevant() && word.arguments != kNone) {
-        for_each_argument(
-            *bytecode_, word,
-            [&](Code code, std::uint32_t argument, std::uint32_t first, std::uint32_t) {
-                const auto symbol = static_cast<SymbolId>(code);
-                if (!index_.is_relevant(symbol, argument)) {
-                    return true;
-                }
-                bool first_relevant = true;
-                for (std::uint32_t i = 0; i < argument; ++i) {
-                    first_relevant = first_relevant && !index_.is_relevant(symbol, i);
-                }
-                if (first_relevant) {
-                    if (out.variable.size() == kMaxVariableModules) {
-                        return false;
-                    }
-                    out.variable.push_back(
-                        {code, static_cast<std::uint32_t>(argument_starts_.size())});
-                }
-                argument_starts_.push_back(first);
-                return true;
-            });
+        for_each_argument(*bytecode_, word,
+                          [&](Code code, std::uint32_t argument, InstructionRange instructions) {
+                              const auto symbol = static_cast<SymbolId>(code);
+                              if (!index_.is_relevant(symbol, argument)) {
+                                  return true;
+                              }
+                              bool first_relevant = true;
+                              for (std::uint32_t i = 0; i < argument; ++i) {
+                                  first_relevant = first_relevant && !index_.is_relevant(symbol, i);
+                              }
+                              if (first_relevant) {
+                                  if (out.variable.size() == kMaxVariableModules) {
+                                      return false;
+                                  }
+                                  out.variable.push_back(
+                                      {code, static_cast<std::uint32_t>(argument_starts_.size())});
+                              }
+                              argument_starts_.push_back(instructions.first());
+                              return true;
+                          });
     }
     std::vector<Code> met;
     std::size_t variable = 0;
     for (std::uint32_t i = 0; i < word.codes.count; ++i) {
         const Code code = bytecode_->template_codes[word.codes.first + i];
         if (variable < out.variable.size() && out.variable[variable].code == code) {
-            ++variable; // the variable modules are the first of the word that could be
+            ++variable; // variable modules are listed in the order of the word
             continue;
         }
         if (code_counts_[code]++ == 0) {
@@ -238,7 +237,7 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
                                      : Holds::Yes;
     };
     Matches matches;
-    std::unordered_set<std::uint32_t> groups; // that were added
+    std::unordered_set<std::uint32_t> groups; // already added
     for (const std::uint32_t p : index_.productions_of(symbol)) {
         const BytecodeProduction& production = bytecode_->productions[p];
         const Holds first = holds(p);
@@ -273,7 +272,7 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
     return matches;
 }
 
-/// The matches of a module of which some parameters are not known, over all their values.
+/// The matches of a module over all values of its unknown parameters.
 ModuleClasses::Matches ModuleClasses::match_everywhere(SymbolId symbol,
                                                        std::span<const KnownValue> parameters) {
     const std::span<const std::uint32_t> productions = index_.productions_of(symbol);
@@ -287,8 +286,7 @@ ModuleClasses::Matches ModuleClasses::match_everywhere(SymbolId symbol,
     for (const std::uint32_t p : productions) {
         const BytecodeProduction& production = bytecode_->productions[p];
         if (production.condition != kNone && !production.has_left && !production.has_right) {
-            conditions.push_back(
-                {production.condition, index_.first_formal(p), production.formal_count});
+            conditions.push_back({production.condition, index_.first_formal(p)});
         }
     }
     if (conditions.empty()) {
@@ -338,7 +336,7 @@ bool ModuleClasses::is_identity(Code code, std::uint32_t production) const {
     return true;
 }
 
-/// Whether every outcome yields the module itself. Many outcomes hardly do, and are not looked at.
+/// Whether every outcome yields the module itself. More than 16 outcomes count as a change.
 bool ModuleClasses::is_unchanged(const ClassExpansion& expansion, Code code) const {
     constexpr std::uint32_t kMaxOutcomes = 16;
     if (expansion.outcomes.count > kMaxOutcomes) {
@@ -371,7 +369,7 @@ ClassExpansion ModuleClasses::expand_matches(const Matches& matches,
             outcome.production = static_cast<ProductionId>(m.production);
             formals.assign(index_.first_formal(m.production), KnownValue{});
             formals.insert(formals.end(), parameters.begin(), parameters.end());
-            // Without values a successor is looked at once and need not be kept.
+            // Without values a successor is counted once and need not be kept.
             CountedWord once;
             CountedWord& word = index_.any_relevant() ? words_[m.production] : once;
             if (!word.made) {
@@ -388,7 +386,7 @@ ClassExpansion ModuleClasses::expand_matches(const Matches& matches,
     return expansion;
 }
 
-/// The componentwise least and greatest of the outcomes.
+/// Adds the min and max count of each class over the outcomes.
 void ModuleClasses::add_bounds(ClassExpansion& expansion) {
     if (expansion.outcomes.count == 1) {
         expansion.low = expansion.high = outcomes_[expansion.outcomes.first].terms;
@@ -397,7 +395,7 @@ void ModuleClasses::add_bounds(ClassExpansion& expansion) {
     struct Bounds {
         std::uint32_t low = 0;
         std::uint32_t high = 0;
-        std::uint32_t met = 0; // outcomes that have the class at all
+        std::uint32_t met = 0; // outcomes that have the class
     };
     std::map<ClassId, Bounds> bounds;
     for (const ClassOutcome& outcome : outcomes(expansion.outcomes)) {
@@ -449,7 +447,7 @@ const ClassExpansion& ModuleClasses::expand(ClassId id, std::uint32_t age) {
         expansion = shared;
         if (shared.copies && id != unknown_class(static_cast<Code>(symbol))) {
             if (exhausted()) {
-                covers_folded_ = true; // where it is copied it stands for them all
+                covers_folded_ = true; // a copied module stands for all codes of its symbol
             } else {
                 const std::vector<KnownValue> values = parameters(id);
                 expansion = expand_matches(match_everywhere(symbol, values), id, values);

@@ -1,10 +1,8 @@
-// Classes of modules that are rewritten alike: what the growth analysis counts instead of modules.
-// A class is a code and, of its parameters, the exact values of those that can decide which
-// production is taken, as far as they are known before the derivation. So A(12), whose condition
-// reads its parameter, is another class than A(11), while F(2) and F(2.2) are one where no
-// condition asks. A class whose values are not known stands for every value. Values stop being told
-// apart when there are more than kMaxValuedClasses; what is said of a class then stays true but is
-// less sharp.
+// Classes of modules that are rewritten alike, which the growth analysis counts instead of modules.
+// A class is a code and the known values of its relevant parameters (production_index.h). A(12),
+// whose condition reads its parameter, is another class than A(11); F(2) and F(2.2) are one class
+// if no condition reads the parameter. An unknown value stands for every value. Beyond
+// kMaxValuedClasses values are dropped from new classes: results stay true but are less sharp.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -28,14 +26,14 @@ struct ClassTerm {
     std::uint32_t count = 0;
 };
 
-/// One way in which a module of a class may be rewritten.
+/// One possible rewriting of a module of a class.
 struct ClassOutcome {
-    ProductionId production = kNoProduction; // none: the module is copied
+    ProductionId production = kNoProduction; // kNoProduction: the module is copied
     TableRange terms;                        // in ModuleClasses::terms
     double probability = 1.0;
 };
 
-/// All ways, and the least and the greatest number of modules of each class that they can yield.
+/// All outcomes of a class, and the min and max number of modules of each class among them.
 struct ClassExpansion {
     bool done = false;
     bool decided = false;   // the probabilities of the outcomes are known
@@ -49,7 +47,7 @@ struct ClassExpansion {
 class ModuleClasses {
 public:
     static constexpr std::uint32_t kMaxValuedClasses = 4096;
-    /// Instructions and template codes after which classes are no longer told apart by values.
+    /// Instructions and template codes after which new classes have no values.
     static constexpr std::uint64_t kMaxWork = 20'000'000;
 
     /// `bytecode` is verified and outlives this; `steps` is the number of generations asked for.
@@ -59,17 +57,17 @@ public:
     [[nodiscard]] std::size_t count() const { return classes_.size(); }
     [[nodiscard]] Code code(ClassId id) const { return classes_[number(id)].code; }
     [[nodiscard]] SymbolId symbol(ClassId id) const { return bytecode_->symbol_of(code(id)); }
-    /// The parameters of a class: exact where known.
+    /// The parameters of a class; known ones are exact.
     [[nodiscard]] std::vector<KnownValue> parameters(ClassId id) const;
 
     /// The classes of the axiom.
     [[nodiscard]] std::vector<ClassTerm> axiom();
-    /// The classes of a production's successor where nothing is known of its formals.
+    /// The classes of a production's successor for unknown formals.
     [[nodiscard]] std::vector<ClassTerm> successor(ProductionId production);
-    /// What becomes of a module of a class in a word of age `age`. May add classes. The result and
-    /// ranges taken from it hold until the age changes.
+    /// The outcomes of a class in a word of age `age`. May add classes. The result and its ranges
+    /// are valid until the age changes.
     const ClassExpansion& expand(ClassId id, std::uint32_t age);
-    /// Whether what becomes of a class can depend on the age of the word.
+    /// Whether outcomes can depend on the age of the word.
     [[nodiscard]] bool depends_on_age() const { return index_.depends_on_age(); }
     [[nodiscard]] bool expanded(ClassId id) const {
         return number(id) < expansions_.size() && expansions_[number(id)].done;
@@ -96,7 +94,7 @@ private:
         Code code = 0;
         std::uint32_t first_argument = 0; // in argument_starts_: its relevant arguments
     };
-    /// A word; its modules with fixed classes are counted together.
+    /// A word, with modules of fixed classes counted by class.
     struct CountedWord {
         bool made = false;
         std::vector<ClassTerm> fixed;
@@ -124,8 +122,8 @@ private:
 
     [[nodiscard]] Surroundings surroundings(std::span<const KnownValue> formals) const;
     KnownValue condition(std::uint32_t production, std::span<const KnownValue> parameters);
-    /// What may be taken where every condition is evaluated at `point`, but those of productions
-    /// with contexts at `sure`.
+    /// The productions that may be taken. Conditions are evaluated at `point`, or at `sure` for
+    /// productions with contexts.
     Matches
     match(SymbolId symbol, std::span<const KnownValue> point, std::span<const KnownValue> sure);
     Matches match_everywhere(SymbolId symbol, std::span<const KnownValue> parameters);
@@ -140,15 +138,15 @@ private:
     ProductionIndex index_;
     std::uint32_t steps_;
     bool covers_folded_ = false;
-    std::uint32_t age_ = 0; // of the expansions
+    std::uint32_t age_ = 0; // of the word, in expansions_
 
     std::vector<Class> classes_;
     std::vector<KnownValue> values_;
     std::vector<std::uint32_t> fixed_ids_;   // by code; kNone while there is none
-    std::vector<std::uint32_t> unknown_ids_; // by code: nothing is known of its relevant parameters
-    std::map<std::vector<std::uint32_t>, ClassId> valued_ids_; // with some known value
+    std::vector<std::uint32_t> unknown_ids_; // by code: the class with unknown values
+    std::map<std::vector<std::uint32_t>, ClassId> valued_ids_; // classes with known values
     std::vector<ClassExpansion> expansions_;
-    std::unordered_map<std::uint32_t, ClassExpansion> shared_; // by symbol: nothing is known
+    std::unordered_map<std::uint32_t, ClassExpansion> shared_; // by symbol: with unknown values
     std::vector<ClassOutcome> outcomes_;
     std::vector<ClassTerm> terms_;
     std::unordered_map<std::uint32_t, CountedWord> words_; // by production

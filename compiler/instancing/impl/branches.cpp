@@ -16,15 +16,16 @@ namespace lsys {
 
 namespace {
 
-/// What a symbol can lead to by rewriting.
-struct Reach {
-    bool knows_up = false;
-    bool varies = false;
+/// Properties of all words that rewriting can make of a symbol.
+struct Effects {
+    bool depends_on_vertical = false;
+    bool is_random = false;
 
-    bool add(const Reach& other) {
-        const bool grows = (other.knows_up && !knows_up) || (other.varies && !varies);
-        knows_up = knows_up || other.knows_up;
-        varies = varies || other.varies;
+    bool add(const Effects& other) {
+        const bool grows =
+            (other.depends_on_vertical && !depends_on_vertical) || (other.is_random && !is_random);
+        depends_on_vertical = depends_on_vertical || other.depends_on_vertical;
+        is_random = is_random || other.is_random;
         return grows;
     }
 };
@@ -33,7 +34,7 @@ class BranchFinder {
 public:
     BranchFinder(const Program& program, const Names& names, Diagnostics& diagnostics)
         : program_(program), names_(names), diagnostics_(diagnostics),
-          rules_of_(program.symbols.size()), reach_(program.symbols.size()) {}
+          rules_of_(program.symbols.size()), effects_(program.symbols.size()) {}
 
     std::optional<Branches> run() {
         refuse_system();
@@ -42,48 +43,48 @@ public:
                 rules_of_[first_of(production)].push_back(&production.predecessor);
             }
         }
-        find_reach();
+        find_effects();
         walk(program_.axiom, "axiom", kNone);
         branches_.sites.clear(); // the axiom has no choice
-        // Branches that a decomposition writes are not offered: how many passes are left for what
-        // is in them is no part of their key. What is drawn in place of a module, none rewrites.
+        // Branches that a decomposition writes get no id, since the number of passes left for their
+        // modules is not part of their key. Interpreted branches are never rewritten.
         for (std::uint32_t i = 0; i < program_.productions.size(); ++i) {
             const Production& production = program_.productions[i];
             walk(production.successor, "successor", production.stage == Stage::Rewrite ? i : kNone);
         }
         for_each_symbol(program_, program_.axiom, [&](std::size_t, SymbolId symbol) {
-            branches_.axiom_varies = branches_.axiom_varies || reach_of(symbol).varies;
+            branches_.axiom_is_random = branches_.axiom_is_random || effects_of(symbol).is_random;
         });
-        branches_.axiom_varies =
-            branches_.axiom_varies || program_.axiom.draw_count != 0 || !program_.globals.empty();
-        return fine_ ? std::optional(std::move(branches_)) : std::nullopt;
+        branches_.axiom_is_random = branches_.axiom_is_random || program_.axiom.draw_count != 0 ||
+                                    !program_.globals.empty();
+        return instanceable_ ? std::optional(std::move(branches_)) : std::nullopt;
     }
 
 private:
-    /// A `[` whose `]` has not been met.
+    /// A `[` that waits for its `]`.
     struct Open {
         std::uint32_t index = 0;
         std::uint32_t site = kNone; // in found_
         std::uint32_t polygons = 0; // open at it
         bool valid = false;
-        Reach reach;
-        std::string key; // of what has been read
+        Effects effects;
+        std::string key; // of the modules read so far
         std::vector<std::uint32_t> formals;
     };
-    /// A branch that has been read, valid or not.
+    /// A closed branch, valid or not.
     struct Found {
         BranchSite site;
-        std::uint32_t kind = 0; // structural
+        std::uint32_t kind = 0; // in structures_
         bool valid = false;
     };
     struct Structure {
         std::vector<std::uint32_t> formals;
-        Reach reach;
-        std::uint32_t id = 0; // once given
+        Effects effects;
+        std::uint32_t id = 0; // 0 until a valid branch has this structure
     };
 
     Diagnostic& refuse(SourceSpan span, std::string message) {
-        fine_ = false;
+        instanceable_ = false;
         return diagnostics_.add(DiagnosticCode::NotInstanceable, span, std::move(message));
     }
 
@@ -128,8 +129,8 @@ private:
         return static_cast<std::size_t>(production.predecessor.items.front().symbol);
     }
 
-    /// Whether the predecessor of a production that rewrites stands at module `index` of a word.
-    /// None of them has brackets, so that it never goes across the border of a branch.
+    /// Whether the predecessor of a production of Stage::Rewrite stands at module `index` of a
+    /// word. Predecessors have no brackets, so that a match stays within its branch.
     [[nodiscard]] bool is_rewritten(const ProgramWord& word, std::uint32_t index) const {
         const SymbolId symbol = program_.modules[word.first_module + index].symbol;
         const auto& rules = rules_of_[static_cast<std::size_t>(symbol)];
@@ -147,45 +148,36 @@ private:
         });
     }
 
-    [[nodiscard]] const Reach& reach_of(SymbolId symbol) const {
-        return reach_[static_cast<std::size_t>(symbol)];
+    [[nodiscard]] const Effects& effects_of(SymbolId symbol) const {
+        return effects_[static_cast<std::size_t>(symbol)];
     }
 
-    /// The least solution: what the successors of a symbol's productions hold.
-    void find_reach() {
+    /// The least fixed point: a symbol has the effects of the symbols that its productions write.
+    void find_effects() {
         for (std::size_t i = 0; i < program_.symbols.size(); ++i) {
             const TurtleOperation turtle = program_.symbols[i].turtle;
-            reach_[i].knows_up = info(turtle).has(TurtleInfo::DependsOnVertical) ||
-                                 (program_.settings.has_tropism && draws(turtle));
+            effects_[i].depends_on_vertical = info(turtle).has(TurtleInfo::DependsOnVertical) ||
+                                              (program_.settings.has_tropism && draws(turtle));
         }
         std::vector<std::uint32_t> rule_sizes(program_.rule_count, 0);
         for (const Production& production : program_.productions) {
             ++rule_sizes[production.rule];
         }
         for (const Production& production : program_.productions) {
-            Reach& reach = reach_[first_of(production)];
-            reach.varies = reach.varies || production.successor.draw_count != 0 ||
-                           (production.stochastic && rule_sizes[production.rule] > 1);
+            Effects& effects = effects_[first_of(production)];
+            effects.is_random = effects.is_random || production.successor.draw_count != 0 ||
+                                (production.stochastic && rule_sizes[production.rule] > 1);
         }
-        // From each symbol to those whose successors hold it.
-        std::vector<std::vector<std::uint32_t>> makers(program_.symbols.size());
-        for (const Production& production : program_.productions) {
-            const auto maker = static_cast<std::uint32_t>(first_of(production));
-            for_each_symbol(program_, production.successor, [&](std::size_t, SymbolId written) {
-                std::vector<std::uint32_t>& known = makers[static_cast<std::size_t>(written)];
-                if (known.empty() || known.back() != maker) {
-                    known.push_back(maker);
-                }
-            });
-        }
+        const GroupedLists writers = writers_of(program_);
         std::vector<std::uint32_t> changed(program_.symbols.size());
         std::iota(changed.begin(), changed.end(), 0U);
         while (!changed.empty()) {
             const std::uint32_t symbol = changed.back();
             changed.pop_back();
-            for (const std::uint32_t maker : makers[symbol]) {
-                if (reach_[maker].add(reach_[symbol])) {
-                    changed.push_back(maker);
+            for (const std::uint32_t p : writers[symbol]) {
+                const std::size_t writer = first_of(program_.productions[p]);
+                if (effects_[writer].add(effects_[symbol])) {
+                    changed.push_back(static_cast<std::uint32_t>(writer));
                 }
             }
         }
@@ -270,10 +262,10 @@ private:
             add_value(program_.arguments[first_argument + i], open);
         }
         open.valid = open.valid || is_rewritten(word, index);
-        open.reach.add(reach_of(id));
+        open.effects.add(effects_of(id));
     }
 
-    /// An expression from left to right, after its operation.
+    /// Appends an expression to the key in prefix order.
     void add_value(ValueId root, Open& open) {
         values_.assign(1, root);
         while (!values_.empty()) {
@@ -292,7 +284,7 @@ private:
                 append_bytes(open.key, value.index);
                 break;
             case Opcode::Range:
-                open.reach.varies = true; // whose number is not part of its text
+                open.effects.is_random = true; // the number of a range is not part of the key
                 break;
             default:
                 break;
@@ -321,7 +313,7 @@ private:
         const auto [known, is_new] = structure_of_.emplace(
             std::move(open.key), static_cast<std::uint32_t>(structures_.size()));
         if (is_new) {
-            structures_.push_back({open.formals, open.reach, 0});
+            structures_.push_back({open.formals, open.effects, 0});
         }
         Found& found = found_[open.site];
         found.site.production = production;
@@ -337,7 +329,7 @@ private:
         append_bytes(outer.key, kBranch);
         append_bytes(outer.key, known->second);
         outer.valid = outer.valid || open.valid;
-        outer.reach.add(open.reach);
+        outer.effects.add(open.effects);
         outer.formals.insert(outer.formals.end(), open.formals.begin(), open.formals.end());
     }
 
@@ -351,8 +343,8 @@ private:
             if (structure.id == 0) {
                 structure.id = static_cast<std::uint32_t>(branches_.kinds.size()) + 1;
                 branches_.kinds.push_back({static_cast<std::uint32_t>(branches_.sites.size()),
-                                           structure.formals, structure.reach.knows_up,
-                                           structure.reach.varies});
+                                           structure.formals, structure.effects.depends_on_vertical,
+                                           structure.effects.is_random});
             }
             found.site.id = structure.id;
             found.site.number = number++;
@@ -364,14 +356,14 @@ private:
     const Names& names_;
     Diagnostics& diagnostics_;
     std::vector<std::vector<const ProgramPattern*>> rules_of_; // by first symbol
-    std::vector<Reach> reach_;                                 // by symbol
+    std::vector<Effects> effects_;                             // by symbol
     std::vector<Open> open_;
-    std::vector<Found> found_; // of the word that is read, by `[`
+    std::vector<Found> found_; // branches of the current word, in order of their `[`
     std::vector<Structure> structures_;
     std::unordered_map<std::string, std::uint32_t> structure_of_;
     std::vector<ValueId> values_;
     Branches branches_;
-    bool fine_ = true;
+    bool instanceable_ = true;
 };
 
 } // namespace

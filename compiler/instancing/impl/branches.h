@@ -1,6 +1,6 @@
-// The valid branches of a system: what the instancing of Kenwood, Gain and Marais 2014 ("Efficient
-// procedural generation of forests", J. WSCG 22(1)), as Carey 2019 implemented it, records once and
-// puts in place of other branches (docs/language.md section 9).
+// The valid branches of a system, which instancing records once and puts in place of equal branches
+// (docs/language.md section 9; Kenwood, Gain and Marais 2014, "Efficient procedural generation of
+// forests", J. WSCG 22(1), as implemented by Carey 2019).
 #pragma once
 
 #include "compiler/program/program.h"
@@ -22,24 +22,24 @@ struct BranchSite {
     std::uint32_t id = 0;
 };
 
-/// Branches that are equal after names are resolved share one.
+/// A set of branches that are equal after names are resolved.
 struct BranchKind {
     std::uint32_t first_site = 0;
-    std::vector<std::uint32_t> formals; // that its text uses, ascending
-    /// What is drawn depends on where up is: by `$` or tropism, at once or after rewriting.
-    bool knows_up = false;
-    /// Some production that its modules can reach is stochastic or draws a number.
-    bool varies = false;
+    std::vector<std::uint32_t> formals; // used in its text, ascending
+    /// Its drawing depends on the vertical: by `$` or tropism, at once or after rewriting.
+    bool depends_on_vertical = false;
+    /// A production that its modules can reach is stochastic or draws a number.
+    bool is_random = false;
 };
 
 struct Branches {
     std::vector<BranchSite> sites; // in file order, an outer branch before its inner ones
-    std::vector<BranchKind> kinds; // of id - 1; id 0 is the axiom
-    bool axiom_varies = false;
+    std::vector<BranchKind> kinds; // kind of id i at i - 1; id 0 is the axiom
+    bool axiom_is_random = false;
 };
 
-/// Nothing if the system cannot be instanced; `diagnostics` then says why. Precondition: a complete
-/// program.
+/// Returns nothing if the system cannot be instanced, after reporting the reasons. Precondition:
+/// program.complete.
 [[nodiscard]] std::optional<Branches>
 find_branches(const Program& program, const Names& names, Diagnostics& diagnostics);
 

@@ -13,7 +13,7 @@ namespace lsys {
 
 namespace {
 
-/// The shortest decimal that is this number in binary32: what its author wrote.
+/// The shortest decimal that reads back as this binary32, as the author wrote it.
 double as_written(float number) {
     return std::stod(fmt::format("{}", number));
 }
@@ -44,8 +44,8 @@ public:
     }
 
 private:
-    /// Of each production, with the alternatives of its group counted in; without conditions this
-    /// is what it is chosen with.
+    /// The share of each production in the weights of its group; without conditions this is its
+    /// probability.
     [[nodiscard]] std::vector<double> probabilities() const {
         std::vector<double> sums(program_.group_count, 0.0);
         for (const Production& production : program_.productions) {
@@ -65,7 +65,7 @@ private:
     }
 
     void forms(const Production& production, double chance, std::span<const BranchSite> sites) {
-        LSYS_CHECK(sites.size() <= kMostListedBranches);
+        LSYS_CHECK(sites.size() <= kMaxListedBranches);
         const std::uint32_t count = 1U << sites.size();
         for (std::uint32_t form = 0; form < count; ++form) {
             std::uint32_t taken = 0;
@@ -99,7 +99,7 @@ private:
             before[site.open] += fmt::format("{}({},#)", takes ? '<' : '@', site.id);
             after[site.close] = takes ? ">" : "$";
         }
-        std::uint32_t end = word.span.begin; // of the module before
+        std::uint32_t end = word.span.begin; // end of the previous module
         for (std::uint32_t i = 0; i < word.module_count; ++i) {
             const ProgramModule module = program_.modules[word.first_module + i];
             if (i > 0 && module.begin > end) {
@@ -114,7 +114,7 @@ private:
                 end = static_cast<std::uint32_t>(end_of_arguments(text, end));
             }
             out_ += before[i];
-            // What the author means by a symbol of the instancing stands in back quotes.
+            // A symbol of the grammar that looks like one of instancing stands in back quotes.
             if (name == "$" && !quoted) {
                 out_ += "`$`";
                 out_ += text.substr(module.begin + 1, end - module.begin - 1);

@@ -1,5 +1,5 @@
 // The instanced system of Kenwood, Gain and Marais 2014 (docs/language.md section 9): each valid
-// branch is recorded, or with probability rho taken from those that were.
+// branch is recorded, or with probability rho replaced by a recorded branch.
 #pragma once
 
 #include "compiler/instancing/impl/branches.h"
@@ -12,17 +12,18 @@
 
 namespace lsys {
 
-/// Longer lists than that of 2^12 forms of one production are refused.
-inline constexpr std::uint32_t kMostListedBranches = 12;
+/// Maximum number of branches of a production whose 2^n forms are listed.
+inline constexpr std::uint32_t kMaxListedBranches = 12;
 
-/// Lets the `[` of each valid branch say whether it is taken, its age and id, and the formals that
-/// its text uses: a module SaveBranch in its place, so that all modules keep their positions and
-/// the word is that of the plain system. Each branch draws by itself. Precondition: rho in [0, 1].
+/// Replaces the `[` of each valid branch by a module SaveBranch, whose parameters say whether a
+/// recorded branch is taken, the age, the id, and the formals that the branch uses. All modules
+/// keep their positions, so the rest of the word is the one of the plain system. Each branch has a
+/// draw of its own. Precondition: rho in [0, 1].
 void instance_branches(Program& program, const Branches& branches, float rho);
 
 /// The 2^n forms of each production with their probabilities, `@(id,#)[...]$` where a branch is
 /// recorded and `<(id,#)[...]>` where it is taken. Precondition: no production has more than
-/// kMostListedBranches; `program` is as it was checked.
+/// kMaxListedBranches; `program` has not been instanced.
 [[nodiscard]] std::string list_branches(const Program& program,
                                         const Branches& branches,
                                         const Names& names,

@@ -1,4 +1,4 @@
-// Modules used with a number of parameters with which nothing rewrites or draws them.
+// Modules that are rewritten or drawn, but not with the number of parameters they are used with.
 #include "compiler/lint/impl/module_use.h"
 #include "compiler/lint/impl/places.h"
 
@@ -10,7 +10,8 @@ namespace lsys {
 
 namespace {
 
-/// Two neighbouring constant arguments that would be one random range: R(0, 100) for R({0, 100}).
+/// Finds two neighbouring constant arguments that may be meant as a random range: R(0, 100) for
+/// R({0, 100}).
 std::optional<Fix> range_fix(const CheckInput& input,
                              const ModuleMention& place,
                              std::uint32_t wanted,
@@ -61,7 +62,7 @@ void check_arities(const CheckInput& input, ModuleUse& use, Diagnostics& diagnos
             row.kind != SymbolKind::Plain || row.ignored) {
             continue;
         }
-        // The rewritten module of this name whose number of parameters is nearest.
+        // The rewritten module of this name with the nearest number of parameters.
         SymbolId nearest = kNoSymbol;
         bool any_used = false;
         for (const SymbolId other : use.same_name(program, symbol)) {
@@ -78,7 +79,7 @@ void check_arities(const CheckInput& input, ModuleUse& use, Diagnostics& diagnos
                 nearest = other;
             }
         }
-        // A command of the turtle may well be used in a second form that stays as it is.
+        // A turtle command may have a second form that is not rewritten.
         if (nearest == kNoSymbol || (row.turtle != TurtleOperation::Nothing && any_used)) {
             continue;
         }
@@ -112,8 +113,8 @@ void check_arities(const CheckInput& input, ModuleUse& use, Diagnostics& diagnos
             diagnostic.help.push_back(
                 fmt::format("give it {}, or declare it with `#module`", parameters_text(wanted)));
         }
-        use.settled[s] = true;
-        use.settled[static_cast<std::size_t>(nearest)] = true;
+        use.reported[s] = true;
+        use.reported[static_cast<std::size_t>(nearest)] = true;
     }
 }
 

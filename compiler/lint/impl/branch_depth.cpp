@@ -1,7 +1,7 @@
-// Brackets that balance only across productions: what one leaves open another closes. Bounds, for
-// every module and over all generations, of the brackets it opens in all and of the lowest depth
-// within it, by a fixed point over the productions; so it is known whether a `]` can ever lack its
-// `[`.
+// Brackets that only balance across productions: one leaves a branch open that another closes.
+// A fixed point over the productions bounds, for each module over all generations, the number of
+// brackets that it leaves open and the lowest depth within it. This decides whether a `]` can ever
+// lack its `[`.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
@@ -9,15 +9,17 @@
 
 #include <algorithm>
 #include <deque>
+#include <numeric>
 
 namespace lsys {
 
 namespace {
 
-constexpr std::int64_t kFar = std::int64_t{1} << 40; // beyond any text; stands for no bound
-constexpr std::uint32_t kMaxRounds = 16; // of one module, before its bounds are given up
+constexpr std::int64_t kUnbounded = std::int64_t{1} << 40; // beyond the depth of any text
+constexpr std::uint32_t kMaxRounds =
+    16; // changes of the bounds of a module before they are dropped
 
-/// What a module can become: the least and the greatest of its closing depth, its lowest depth.
+/// Bounds of all words that a module can become: min and max depth at the end, lowest depth within.
 struct Depth {
     std::int64_t low = 0;
     std::int64_t high = 0;
@@ -27,7 +29,7 @@ struct Depth {
 };
 
 std::int64_t bounded(std::int64_t value) {
-    return std::clamp(value, -kFar, kFar);
+    return std::clamp(value, -kUnbounded, kUnbounded);
 }
 
 Depth after(const Depth& first, const Depth& second) {
@@ -61,20 +63,10 @@ public:
     }
 
     void run() {
-        // By symbol: the productions whose successor holds it.
-        std::vector<std::vector<std::uint32_t>> users(program_.symbols.size());
-        std::deque<std::uint32_t> work;
+        const GroupedLists writers = writers_of(program_);
+        std::deque<std::uint32_t> work(program_.productions.size());
+        std::iota(work.begin(), work.end(), 0U);
         std::vector<bool> queued(program_.productions.size(), true);
-        for (std::uint32_t p = 0; p < program_.productions.size(); ++p) {
-            const ProgramWord& word = program_.productions[p].successor;
-            for_each_symbol(program_, word, [&](std::size_t, SymbolId symbol) {
-                std::vector<std::uint32_t>& list = users[static_cast<std::size_t>(symbol)];
-                if (list.empty() || list.back() != p) {
-                    list.push_back(p);
-                }
-            });
-            work.push_back(p);
-        }
         while (!work.empty()) {
             const std::uint32_t p = work.front();
             work.pop_front();
@@ -85,13 +77,13 @@ public:
             if (next == depth_[s]) {
                 continue;
             }
-            if (++rounds_[s] > kMaxRounds) { // it grows without end
-                next.low = next.low < depth_[s].low ? -kFar : next.low;
-                next.high = next.high > depth_[s].high ? kFar : next.high;
-                next.lowest = next.lowest < depth_[s].lowest ? -kFar : next.lowest;
+            if (++rounds_[s] > kMaxRounds) { // grows without bound
+                next.low = next.low < depth_[s].low ? -kUnbounded : next.low;
+                next.high = next.high > depth_[s].high ? kUnbounded : next.high;
+                next.lowest = next.lowest < depth_[s].lowest ? -kUnbounded : next.lowest;
             }
             depth_[s] = next;
-            for (const std::uint32_t user : users[s]) {
+            for (const std::uint32_t user : writers[s]) {
                 if (!queued[user]) {
                     queued[user] = true;
                     work.push_back(user);
@@ -106,7 +98,7 @@ private:
     std::vector<std::uint32_t> rounds_;
 };
 
-/// Brackets opened less brackets closed.
+/// The number of `[` minus the number of `]`.
 std::int64_t balance(const Program& program, const ProgramWord& word) {
     std::int64_t sum = 0;
     for_each_symbol(program, word, [&](std::size_t, SymbolId symbol) {
@@ -120,12 +112,12 @@ std::int64_t balance(const Program& program, const ProgramWord& word) {
 
 void check_branch_depth(const CheckInput& input, Diagnostics& diagnostics) {
     const Program& program = input.program;
-    // One that leaves a branch open and one that closes more than it opens.
+    // A production that leaves a branch open, and one that closes more than it opens.
     const Production* opening = nullptr;
     const Production* closing = nullptr;
     for (const Production& production : program.productions) {
         if (production.predecessor.items.size() != 1) {
-            return; // how often such a match can be made is not bounded here
+            return; // the number of such matches is not bounded here
         }
         const std::int64_t sum = balance(program, production.successor);
         opening = sum > 0 && opening == nullptr ? &production : opening;

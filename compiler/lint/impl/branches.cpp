@@ -55,7 +55,7 @@ void check_word(const CheckInput& input,
             brackets += " ]";
         }
         fix.edits = {{{word.file, word.span.end, word.span.end}, brackets}};
-        // Where the branch was to end is a guess.
+        // The intended end of the branch is a guess.
         fix.machine_applicable = false;
         if (open.size() <= 16) {
             diagnostic.fixes.push_back(std::move(fix));

@@ -1,6 +1,6 @@
-// `==` and `!=` on values that rounding may keep from being equal. A value is exact while it is
-// made of whole numbers (and halves, quarters, ...) by + - * and the like; a constant that is only
-// passed on is equal to itself; anything else is computed.
+// `==` and `!=` on values that rounding may keep from being equal. Values made of whole numbers,
+// halves, quarters ... by + - * and similar operations are exact; a constant that is only passed on
+// equals itself; all other values are computed.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
@@ -56,7 +56,7 @@ private:
         return false;
     }
 
-    /// Notes which parameter each formal of a production's expressions is.
+    /// Finds the parameter that each formal in the expressions of a production is.
     void trace(const Production& production) {
         std::vector<std::uint32_t> parameter(production.formals.size(), kNone);
         for (const ProgramPattern* pattern :
@@ -70,25 +70,12 @@ private:
                 }
             }
         }
-        std::vector<ValueId> work;
-        if (production.condition != kNoValue) {
-            work.push_back(production.condition);
-        }
-        for_each_argument(production.successor,
-                          [&](ValueId argument, std::uint32_t) { work.push_back(argument); });
-        while (!work.empty()) {
-            const ValueId id = work.back();
-            work.pop_back();
-            const Value& value = program_.value(id);
-            if (value.opcode == Opcode::Formal && value.index < parameter.size()) {
-                source_[static_cast<std::size_t>(id)] = parameter[value.index];
-            }
-            for (const ValueId child : {value.left, value.right}) {
-                if (child != kNoValue) {
-                    work.push_back(child);
-                }
-            }
-        }
+        for_each_value(program_, expressions_of(program_, production),
+                       [&](ValueId id, const Value& value) {
+                           if (value.opcode == Opcode::Formal && value.index < parameter.size()) {
+                               source_[static_cast<std::size_t>(id)] = parameter[value.index];
+                           }
+                       });
     }
 
     /// Calls visit(argument, parameter) for each argument of a word.
@@ -159,7 +146,7 @@ private:
         }
     }
 
-    /// One round over all values and all arguments; whether something changed.
+    /// One round over all values and arguments. Returns whether a level changed.
     bool propagate() {
         for (std::size_t i = 0; i < program_.values.size(); ++i) {
             levels_[i] = level_of(i);

@@ -1,4 +1,5 @@
-// Conditions that always or never hold, leave single values out, or meet at single values.
+// Conditions that always or never hold, and pairs of conditions that leave out or share a single
+// value.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 #include "compiler/lint/impl/rule_table.h"
@@ -9,7 +10,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kMaxTogether = 1'000; // productions of one module that are compared
+constexpr std::size_t kMaxTogether = 1'000; // productions of a module; more are not compared
 
 void check_constant(const CheckInput& input,
                     const analysis::ProductionIndex& index,
@@ -42,8 +43,8 @@ void check_constant(const CheckInput& input,
     }
 }
 
-/// Looks at the values that stand alone in the table of a rule: `x > 2` and `x < 2` leave out 2,
-/// `x >= 2` and `x <= 2` share it.
+/// Checks single values of the table of a rule: `x > 2` and `x < 2` leave out 2, `x >= 2` and
+/// `x <= 2` share it.
 class SingleValues {
 public:
     SingleValues(const CheckInput& input, SymbolId symbol, const RuleTable& table)
@@ -58,8 +59,7 @@ public:
                     continue;
                 }
                 const std::size_t here = count(point);
-                // Where one production stands on both sides, it leaves the value out on purpose: `x
-                // != 2`.
+                // One production on both sides leaves out the value on purpose: `x != 2`.
                 if (here == 0 && !gap_ && count(below) != 0 && count(above) != 0 &&
                     first(below) != first(above)) {
                     gap_ = true;
@@ -75,7 +75,8 @@ public:
     }
 
 private:
-    /// The points beside a point where parameter `axis` has a single value, or equals another one.
+    /// Finds the points beside a point at which parameter `axis` has a single value or equals
+    /// another parameter; false at other points.
     bool neighbours(std::uint64_t point,
                     std::size_t axis,
                     std::uint64_t& below,
@@ -95,7 +96,7 @@ private:
         return cell.low == cell.high || equal_axis(point, axis);
     }
 
-    /// The parameter that is compared with parameter `axis` and is equal to it at a point.
+    /// A parameter compared with parameter `axis` that equals it at a point.
     std::optional<std::size_t> equal_axis(std::uint64_t point, std::size_t axis) const {
         const std::vector<analysis::GridAxis>& axes = table_.grid.axes;
         const auto value = [&](std::size_t i) {
@@ -110,7 +111,7 @@ private:
         return std::nullopt;
     }
 
-    /// How many productions match at a point; those of a stochastic group are one.
+    /// The number of productions that match at a point; all stochastic ones count as one.
     std::size_t count(std::uint64_t point) const {
         std::size_t matching = 0;
         bool stochastic = false;
@@ -134,7 +135,7 @@ private:
         return input_.program.productions[table_.productions[row]];
     }
 
-    /// `x > 2` with `>=`, if the condition is such a comparison.
+    /// The fix that makes `x > 2` an `x >= 2`, if the condition is such a comparison.
     std::optional<Fix> inclusive(std::size_t row) const {
         const Production& p = production(row);
         const Value& value = input_.program.value(p.condition);
@@ -144,7 +145,7 @@ private:
         const std::string_view text = input_.sources.text(p.condition_span);
         const char sign = value.opcode == Opcode::Greater ? '>' : '<';
         const std::size_t at = text.find_first_of("<>");
-        // The text may write the comparison the other way round, but it has only one sign then.
+        // The text may write the comparison the other way round, but must have one sign only.
         if (at == std::string_view::npos ||
             text.find_first_of("<>=", at + 1) != std::string_view::npos || text[at] != sign ||
             text.find("/*") != std::string_view::npos) {
@@ -223,7 +224,7 @@ private:
     const CheckInput& input_;
     SymbolId symbol_;
     const RuleTable& table_;
-    bool gap_ = false; // one of each is reported
+    bool gap_ = false; // reported
     bool overlap_ = false;
 };
 
@@ -247,7 +248,7 @@ void check_conditions(const CheckInput& input, Diagnostics& diagnostics) {
             conditions = conditions || production.condition != kNone;
             unconditional = unconditional || production.condition == kNone;
         }
-        // With a production for every value, or with contexts, a gap may well be meant.
+        // With a production for every value, or with contexts, a gap may be intended.
         if (contexts || unconditional || !conditions || productions.size() < 2 ||
             productions.size() > kMaxTogether) {
             continue;

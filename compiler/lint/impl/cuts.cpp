@@ -1,6 +1,6 @@
-// The module that cuts off a branch. Cuts are made before anything is matched, so productions and
-// contexts never see it. Where a turtle profile gives `%` another meaning it is a module like any
-// other.
+// Productions and contexts that name the module which cuts off a branch. Cuts are made before
+// matching, so that they never match it. In turtle profiles in which `%` has another meaning it is
+// an ordinary module.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
@@ -32,7 +32,7 @@ void check_pattern(const CheckInput& input,
 void check_cuts(const CheckInput& input, Diagnostics& diagnostics) {
     for (const Production& production : input.program.productions) {
         if (production.stage != Stage::Rewrite) {
-            continue; // these come after the cuts, and may meet it
+            continue; // the stages after the cuts can match it
         }
         check_pattern(input, production, production.predecessor,
                       "`%` is never rewritten, so this production is never used", diagnostics);

@@ -24,11 +24,11 @@ class DeadProductions {
 public:
     DeadProductions(const CheckInput& input, ModuleUse& use, Diagnostics& diagnostics)
         : input_(input), program_(input.program), use_(use), diagnostics_(diagnostics),
-          explained_(program_.symbols.size(), false) {}
+          explained_(program_.symbols.size(), false), rewriters_(rewriters_of(program_)) {}
 
     void run() {
-        // A module that only dead productions write is missing because those are dead: the message
-        // belongs to the first of such a chain, or of a circle.
+        // A module that only dead productions write is missing because they are dead. Only the
+        // first production of such a chain or cycle is reported.
         std::vector<bool> written(program_.symbols.size(), false);
         for (std::size_t p = 0; p < program_.productions.size(); ++p) {
             const Production& production = program_.productions[p];
@@ -36,13 +36,10 @@ public:
                 continue;
             }
             const SymbolId own = production.predecessor.items.front().symbol;
-            for (std::size_t i = 0; i < production.successor.module_count; ++i) {
-                const SymbolId symbol =
-                    program_.modules[production.successor.first_module + i].symbol;
-                if (symbol != own) {
-                    written[static_cast<std::size_t>(symbol)] = true;
-                }
-            }
+            for_each_symbol(program_, production.successor, [&](std::size_t, SymbolId symbol) {
+                written[static_cast<std::size_t>(symbol)] =
+                    written[static_cast<std::size_t>(symbol)] || symbol != own;
+            });
         }
         for (const bool circles : {false, true}) {
             for (std::size_t p = 0; p < program_.productions.size(); ++p) {
@@ -64,41 +61,32 @@ public:
     }
 
 private:
-    /// Marks what would occur if `symbol` did.
+    /// Marks the modules that would occur if `symbol` did.
     void explain(SymbolId symbol) {
-        if (by_symbol_.empty()) {
-            by_symbol_.resize(program_.symbols.size());
-            for (std::uint32_t p = 0; p < program_.productions.size(); ++p) {
-                for (const ProgramPatternItem& item : program_.productions[p].predecessor.items) {
-                    by_symbol_[static_cast<std::size_t>(item.symbol)].push_back(p);
-                }
-            }
-        }
         std::vector<SymbolId> work{symbol};
         explained_[static_cast<std::size_t>(symbol)] = true;
         while (!work.empty()) {
             const SymbolId at = work.back();
             work.pop_back();
-            for (const std::uint32_t p : by_symbol_[static_cast<std::size_t>(at)]) {
-                const ProgramWord& word = program_.productions[p].successor;
-                for (std::size_t i = 0; i < word.module_count; ++i) {
-                    const SymbolId next = program_.modules[word.first_module + i].symbol;
-                    if (!explained_[static_cast<std::size_t>(next)]) {
-                        explained_[static_cast<std::size_t>(next)] = true;
-                        work.push_back(next);
-                    }
-                }
+            for (const std::uint32_t p : rewriters_[static_cast<std::size_t>(at)]) {
+                for_each_symbol(program_, program_.productions[p].successor,
+                                [&](std::size_t, SymbolId next) {
+                                    if (!explained_[static_cast<std::size_t>(next)]) {
+                                        explained_[static_cast<std::size_t>(next)] = true;
+                                        work.push_back(next);
+                                    }
+                                });
             }
         }
     }
 
-    [[nodiscard]] bool quiet(const Production& production, SymbolId symbol) const {
+    [[nodiscard]] bool is_exempt(const Production& production, SymbolId symbol) const {
         const auto s = static_cast<std::size_t>(symbol);
-        // A library may rewrite more than is used; a declaration says that it is meant so.
-        return production.span.file != program_.axiom.file || use_.settled[s] || use_.declared[s];
+        // A library may rewrite more than a grammar uses; a declared module may be unused.
+        return production.span.file != program_.axiom.file || use_.reported[s] || use_.declared[s];
     }
 
-    /// Where the name occurs with another number of parameters.
+    /// Adds a label where the name occurs with another number of parameters; false if nowhere.
     bool note_other_counts(Diagnostic& diagnostic, SymbolId symbol) const {
         for (const SymbolId other : use_.same_name(program_, symbol)) {
             if (use_.reachable.occurs(other)) {
@@ -145,7 +133,7 @@ private:
     }
 
     void report(const Production& production, const ProgramPatternItem& item) {
-        if (quiet(production, item.symbol)) {
+        if (is_exempt(production, item.symbol)) {
             return;
         }
         const SourceSpan span = item_span(production, item);
@@ -167,7 +155,7 @@ private:
         for (const ProgramPattern* context : {&production.left, &production.right}) {
             const ProgramPatternItem* item = missing_item(use_, *context);
             if (item == nullptr || explained_[static_cast<std::size_t>(item->symbol)] ||
-                program_.symbol(item->symbol).ignored || quiet(production, item->symbol)) {
+                program_.symbol(item->symbol).ignored || is_exempt(production, item->symbol)) {
                 continue;
             }
             explained_[static_cast<std::size_t>(item->symbol)] = true;
@@ -188,8 +176,8 @@ private:
     const Program& program_;
     ModuleUse& use_;
     Diagnostics& diagnostics_;
-    std::vector<bool> explained_;                       // by symbol
-    std::vector<std::vector<std::uint32_t>> by_symbol_; // productions by predecessor
+    std::vector<bool> explained_; // by symbol
+    GroupedLists rewriters_;
     std::vector<std::string_view> candidates_;
 };
 

@@ -1,4 +1,4 @@
-// Grammars that mean to draw, and draw nothing in the generations asked for.
+// Grammars that are meant to draw but draw nothing in the requested generations.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 #include "compiler/lint/impl/reachable.h"
@@ -13,8 +13,8 @@ void check_drawing(const CheckInput& input, Diagnostics& diagnostics) {
     const Program& program = input.program;
     const Reachable reachable = find_reachable(program);
     bool prepared = false;
-    bool out_of_reach = false;  // something would draw, but never occurs
-    SymbolId drawn = kNoSymbol; // the first to appear
+    bool out_of_reach = false;  // some module would draw, but never occurs
+    SymbolId drawn = kNoSymbol; // the first module that draws
     for (std::uint32_t s = 0; s < program.symbols.size(); ++s) {
         const auto symbol = SymbolId{s};
         const TurtleOperation operation = program.symbols[s].turtle;
@@ -30,8 +30,7 @@ void check_drawing(const CheckInput& input, Diagnostics& diagnostics) {
                    (reachable.occurs(symbol) && info(operation).has(TurtleInfo::PreparesDrawing));
     }
     if (drawn == kNoSymbol) {
-        // Why a module never occurs is said where its production is; and words may be all that is
-        // meant.
+        // Other checks report modules that never occur; a grammar may also be meant for its words.
         if (out_of_reach || !prepared) {
             return;
         }

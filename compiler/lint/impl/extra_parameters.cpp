@@ -1,5 +1,5 @@
-// A turtle command with more parameters than it reads: `+(1, 2)`. A module that productions rewrite
-// may carry what it likes.
+// Turtle commands with more parameters than they read: `+(1, 2)`. Modules that productions rewrite
+// may have any parameters.
 #include "compiler/lint/checks.h"
 #include "compiler/lint/impl/places.h"
 #include "compiler/resolve/profiles.h"
@@ -38,7 +38,7 @@ void check_extra_parameters(const CheckInput& input, Diagnostics& diagnostics) {
     if (!program.has_all_statements) {
         return;
     }
-    // What each symbol lacks: a command that takes fewer parameters, and is not rewritten.
+    // By symbol that is not rewritten: the command of its name with fewer parameters.
     std::vector<const TurtleCommand*> exceeded(program.symbols.size(), nullptr);
     bool any = false;
     for (std::size_t i = 0; i < program.symbols.size(); ++i) {
@@ -67,7 +67,7 @@ void check_extra_parameters(const CheckInput& input, Diagnostics& diagnostics) {
                 const TurtleCommand*& command = exceeded[static_cast<std::size_t>(module.symbol)];
                 if (command != nullptr) {
                     report(input, word, index, *command, diagnostics);
-                    command = nullptr; // once is enough
+                    command = nullptr; // reported
                 }
             });
     };

@@ -1,4 +1,4 @@
-// Productions of one choice may name their parameters differently; each then uses its own names.
+// Productions of one choice that name their parameters differently.
 #include "compiler/lint/checks.h"
 #include "compiler/lint/impl/places.h"
 
@@ -10,7 +10,7 @@ namespace lsys {
 
 void check_formal_names(const CheckInput& input, Diagnostics& diagnostics) {
     const Program& program = input.program;
-    std::vector<std::uint32_t> first(program.group_count, kNone); // production of each group
+    std::vector<std::uint32_t> first(program.group_count, kNone); // first production by group
     std::vector<bool> noted(program.group_count);
     for (std::uint32_t i = 0; i < program.productions.size(); ++i) {
         const Production& production = program.productions[i];

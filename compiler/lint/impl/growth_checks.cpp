@@ -1,5 +1,4 @@
-// Words that outgrow the limit before the generation asked for, and words that stop changing before
-// it.
+// Words that exceed the limit, or stop changing, before the requested generation.
 #include "compiler/growth/growth.h"
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
@@ -57,12 +56,12 @@ void check_growth(const CheckInput& input, Diagnostics& diagnostics) {
         }
         return;
     }
-    // Not worth a second look at a very large program.
+    // Skip very large programs.
     if (!written || program.productions.size() > kMaxProductions) {
         return;
     }
     const GrowthPrediction prediction = predict_growth(*input.bytecode, generations);
-    // A last generation that changes nothing shows that the word is complete.
+    // One last generation without change shows that the word is complete.
     if (prediction.unchanged_from && *prediction.unchanged_from + 1 < generations) {
         Diagnostic& diagnostic =
             diagnostics.add(DiagnosticCode::FixedPoint, place,

@@ -10,7 +10,7 @@ namespace lsys {
 
 namespace {
 
-/// Names that do something, in order of appearance.
+/// Names of modules that are rewritten or drawn, in order of appearance.
 std::vector<std::string_view> working_names(const CheckInput& input, const ModuleUse& use) {
     std::vector<std::string_view> names;
     for (std::uint32_t s = 0; s < input.program.symbols.size(); ++s) {
@@ -32,7 +32,7 @@ void check_unused_objects(const CheckInput& input, ModuleUse& use, Diagnostics& 
     const Program& program = input.program;
     for (const ObjectBinding& object : program.objects) {
         if (object.name_span.file != program.axiom.file) {
-            continue; // a library may bind more than is used
+            continue; // a library may bind more than a grammar uses
         }
         const auto named = use.by_name.find(static_cast<std::uint32_t>(object.name));
         bool occurs = false;
@@ -48,11 +48,11 @@ void check_unused_objects(const CheckInput& input, ModuleUse& use, Diagnostics& 
         Diagnostic diagnostic = make_diagnostic(
             DiagnosticCode::UnusedObject, object.name_span,
             fmt::format("module {} never occurs, so this object is never drawn", quoted(name)));
-        // The module that was meant is most likely one that has no drawing.
+        // The author most likely means a module without drawing.
         std::vector<SymbolId> idle;
         std::vector<std::string_view> idle_names;
         for (std::uint32_t s = 0; s < program.symbols.size(); ++s) {
-            if (is_idle(input, use, SymbolId{s}) && !use.settled[s]) {
+            if (is_idle(input, use, SymbolId{s}) && !use.reported[s]) {
                 idle.push_back(SymbolId{s});
                 idle_names.push_back(input.name(SymbolId{s}));
             }
@@ -76,7 +76,7 @@ void check_unused_objects(const CheckInput& input, ModuleUse& use, Diagnostics& 
             fix.machine_applicable = false;
             diagnostic.fixes.push_back(std::move(fix));
             for (const SymbolId symbol : use.same_name(program, meant)) {
-                use.settled[static_cast<std::size_t>(symbol)] = true;
+                use.reported[static_cast<std::size_t>(symbol)] = true;
             }
         } else {
             diagnostic.help.push_back(fmt::format(
@@ -87,14 +87,14 @@ void check_unused_objects(const CheckInput& input, ModuleUse& use, Diagnostics& 
 }
 
 void check_idle_modules(const CheckInput& input, ModuleUse& use, Diagnostics& diagnostics) {
-    // A grammar that draws nothing at all is about words; there every module may stand for itself.
+    // The result of a grammar that draws nothing is its word, in which every module may be final.
     if (!use.draws) {
         return;
     }
     std::vector<std::string_view> candidates;
     for (std::uint32_t s = 0; s < input.program.symbols.size(); ++s) {
         const auto symbol = SymbolId{s};
-        if (!is_idle(input, use, symbol) || use.settled[s]) {
+        if (!is_idle(input, use, symbol) || use.reported[s]) {
             continue;
         }
         if (candidates.empty()) {
@@ -120,7 +120,7 @@ void check_idle_modules(const CheckInput& input, ModuleUse& use, Diagnostics& di
                         "nothing, declare it with `#module {0};`",
                         text));
         for (const SymbolId other : use.same_name(input.program, symbol)) {
-            use.settled[static_cast<std::size_t>(other)] = true;
+            use.reported[static_cast<std::size_t>(other)] = true;
         }
     }
 }

@@ -1,4 +1,4 @@
-// A context that names an ignored module can never match: matching skips such modules.
+// Contexts that name an ignored module, which never match since matching skips such modules.
 #include "compiler/lint/checks.h"
 #include "compiler/lint/impl/places.h"
 

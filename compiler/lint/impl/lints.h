@@ -1,19 +1,19 @@
-// The checks of what a grammar may say but hardly means, and of brackets. One function a topic,
-// each in a file of its own; checks.cpp lists them. They keep quiet when in doubt: what is
-// published and works must pass without a warning.
+// Lints: checks for what authors hardly mean, and checks of brackets. One function per topic, each
+// in a file of its own; checks.cpp lists them. They report nothing in doubt: published grammars
+// that work must pass without a warning.
 #pragma once
 
 #include "compiler/lint/checks.h"
 
 namespace lsys {
 
-// One word or production at a time; these also look at programs with errors.
+// Checks of single words and productions, which also run on programs with errors.
 void check_cuts(const CheckInput& input, Diagnostics& diagnostics);
 void check_branches(const CheckInput& input, Diagnostics& diagnostics);
 void check_polygons(const CheckInput& input, Diagnostics& diagnostics);
 void check_turtle_arguments(const CheckInput& input, Diagnostics& diagnostics);
 
-// The whole program.
+// Checks of whole programs.
 void check_unused_names(const CheckInput& input, Diagnostics& diagnostics);
 void check_module_use(const CheckInput& input, Diagnostics& diagnostics);
 void check_conditions(const CheckInput& input, Diagnostics& diagnostics);

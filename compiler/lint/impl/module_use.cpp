@@ -15,12 +15,12 @@ ModuleUse find_module_use(const Program& program) {
     use.first_production.assign(symbols, kNone);
     use.in_context.assign(symbols, false);
     use.declared.assign(symbols, false);
-    use.settled.assign(symbols, false);
+    use.reported.assign(symbols, false);
     for (std::uint32_t s = 0; s < symbols; ++s) {
         use.by_name[static_cast<std::uint32_t>(program.symbols[s].name)].push_back(SymbolId{s});
     }
-    const auto meet = [&](const ProgramWord& word, bool occurs) {
-        // A symbol with a first place has any place as well.
+    const auto add_places = [&](const ProgramWord& word, bool occurs) {
+        // A first place is also any place.
         std::vector<ModuleMention>& known = occurs ? use.first_place : use.any_place;
         for_each_symbol(program, word, [&](std::size_t index, SymbolId symbol) {
             const auto s = static_cast<std::size_t>(symbol);
@@ -32,10 +32,10 @@ ModuleUse find_module_use(const Program& program) {
             }
         });
     };
-    meet(program.axiom, true);
+    add_places(program.axiom, true);
     for (std::uint32_t p = 0; p < program.productions.size(); ++p) {
         const Production& production = program.productions[p];
-        meet(production.successor, use.reachable.usable[p]);
+        add_places(production.successor, use.reachable.usable[p]);
         for (const ProgramPatternItem& item : production.predecessor.items) {
             std::uint32_t& first = use.first_production[static_cast<std::size_t>(item.symbol)];
             first = first == kNone ? p : first;

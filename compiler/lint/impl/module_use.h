@@ -1,4 +1,4 @@
-// How each symbol of a program is used: what the checks of modules share. Made once by
+// The use of each symbol of a program, shared by the checks of modules. Made once by
 // check_module_use().
 #pragma once
 
@@ -21,16 +21,15 @@ struct ModuleMention {
 
 struct ModuleUse {
     Reachable reachable;
-    /// By symbol: the first place in a word that can come about, and in any word.
+    /// By symbol: its first place in a reachable word, and its first place in any word.
     std::vector<ModuleMention> first_place;
     std::vector<ModuleMention> any_place;
-    std::vector<std::uint32_t> first_production; // by symbol: that rewrites it, or kNone
+    std::vector<std::uint32_t> first_production; // by symbol: which rewrites it, or kNone
     std::vector<bool> in_context;                // by symbol
-    std::vector<bool> declared;                  // by symbol: #module
+    std::vector<bool> declared;                  // by symbol: has a #module
     std::unordered_map<std::uint32_t, std::vector<SymbolId>> by_name;
-    bool draws = false; // some module that occurs draws
-    /// Names about which something was said already.
-    std::vector<bool> settled; // by symbol
+    bool draws = false;         // some module that occurs draws
+    std::vector<bool> reported; // by symbol: its name has had a message
 
     [[nodiscard]] const std::vector<SymbolId>& same_name(const Program& program,
                                                          SymbolId id) const {
@@ -38,7 +37,7 @@ struct ModuleUse {
     }
 };
 
-/// A module that occurs, and that nothing rewrites, draws, reads or declares.
+/// Whether the module occurs but is not rewritten, drawn, read or declared.
 [[nodiscard]] bool is_idle(const CheckInput& input, const ModuleUse& use, SymbolId symbol);
 
 void check_arities(const CheckInput& input, ModuleUse& use, Diagnostics& diagnostics);

@@ -1,5 +1,4 @@
-// Places in the text that a Program does not keep, found again in the source when a message needs
-// them.
+// Places that a Program does not keep, found again in the source for messages.
 #pragma once
 
 #include "compiler/lint/checks.h"
@@ -11,11 +10,11 @@
 
 namespace lsys {
 
-/// Module `index` of Program::modules, which stands in `word`, with its arguments.
+/// The place of module `index` of Program::modules, which stands in `word`, with its arguments.
 [[nodiscard]] SourceSpan
 module_span(const CheckInput& input, const ProgramWord& word, std::size_t index);
 
-/// The arguments of that module.
+/// The places of the arguments of that module.
 [[nodiscard]] std::vector<SourceSpan>
 argument_spans(const CheckInput& input, const ProgramWord& word, std::size_t index);
 

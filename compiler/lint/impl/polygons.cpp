@@ -1,5 +1,5 @@
-// Polygons: `{` and `}` balance in the axiom and in every successor and do not nest; a `.` makes
-// sense within them, and three vertices make a polygon.
+// Polygons: `{` and `}` balance in the axiom and in every successor and do not nest; `.` only
+// stands within them, and a polygon has at least three vertices.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
@@ -16,7 +16,7 @@ class PolygonCheck {
 public:
     PolygonCheck(const CheckInput& input, Diagnostics& diagnostics)
         : input_(input), program_(input.program), diagnostics_(diagnostics),
-          inside_(program_.symbols.size(), false), rewritten_(program_.symbols.size(), false) {}
+          inside_(program_.symbols.size(), false), rewriters_(rewriters_of(program_)) {}
 
     void run() {
         bool any = false;
@@ -45,7 +45,7 @@ private:
     }
 
     /// Calls visit(symbol) for the modules of a word that stand in a polygon of it. A `{` that is
-    /// never closed has none: it is an error, and what follows it says nothing more.
+    /// never closed is an error and opens no polygon.
     template <typename Visit>
     void for_each_inside(const ProgramWord& word, Visit&& visit) const {
         std::optional<std::size_t> open;
@@ -77,15 +77,8 @@ private:
         }
     }
 
-    /// Which modules can stand in a polygon, directly or as a part of what does.
+    /// Finds the modules that can stand in a polygon, directly or in place of a module that does.
     void find_inside() {
-        std::vector<std::vector<std::uint32_t>> productions(program_.symbols.size());
-        for (std::uint32_t p = 0; p < program_.productions.size(); ++p) {
-            for (const ProgramPatternItem& item : program_.productions[p].predecessor.items) {
-                productions[static_cast<std::size_t>(item.symbol)].push_back(p);
-                rewritten_[static_cast<std::size_t>(item.symbol)] = true;
-            }
-        }
         std::vector<SymbolId> work;
         const auto mark = [&](SymbolId symbol) {
             if (!inside_[static_cast<std::size_t>(symbol)]) {
@@ -100,7 +93,7 @@ private:
         while (!work.empty()) {
             const SymbolId symbol = work.back();
             work.pop_back();
-            for (const std::uint32_t p : productions[static_cast<std::size_t>(symbol)]) {
+            for (const std::uint32_t p : rewriters_[static_cast<std::size_t>(symbol)]) {
                 for_each(program_.productions[p].successor, mark);
             }
         }
@@ -109,10 +102,10 @@ private:
     void check_word(const ProgramWord& word, const char* where, bool may_be_inside) {
         std::optional<std::size_t> open;
         bool broken = false;        // one error per word
-        bool may_nest = false;      // one warning per word; hides no error
+        bool may_nest = false;      // one warning per word, beside the error
         std::uint32_t vertices = 0; // of the open polygon
         std::uint32_t moves = 0;
-        bool may_grow = false; // what stands in it may become more
+        bool may_grow = false; // some module in it is rewritten
         for (std::size_t i = word.first_module;
              i < std::size_t{word.first_module} + word.module_count; ++i) {
             const SymbolId id = program_.modules[i].symbol;
@@ -132,7 +125,7 @@ private:
                         DiagnosticCode::NestedPolygon, module_name_span(input_, word, i),
                         "this polygon can begin within another one: the module that becomes it "
                         "also stands in one");
-                    diagnostic.severity = Severity::Warning; // before it is counted
+                    diagnostic.severity = Severity::Warning; // before add() counts it
                     diagnostics_.add(std::move(diagnostic));
                 }
                 open = i;
@@ -153,7 +146,7 @@ private:
             } else if (open) {
                 vertices += symbol.turtle == TurtleOperation::PolygonVertex ? 1U : 0U;
                 moves += info(symbol.turtle).has(TurtleInfo::AddsCorners) ? 1U : 0U;
-                may_grow = may_grow || rewritten_[static_cast<std::size_t>(id)];
+                may_grow = may_grow || !rewriters_[static_cast<std::size_t>(id)].empty();
             } else if (symbol.turtle == TurtleOperation::PolygonVertex && !may_be_inside &&
                        !std::exchange(stray_reported_, true)) {
                 Diagnostic& diagnostic =
@@ -169,7 +162,7 @@ private:
         }
     }
 
-    /// ABOP 1.25: without any `.`, the start and end of every move are vertices.
+    /// The vertices of a polygon without `.` are the start and end of every move (ABOP 1.25).
     void check_size(const ProgramWord& word,
                     std::size_t open,
                     std::size_t close,
@@ -198,8 +191,8 @@ private:
     const CheckInput& input_;
     const Program& program_;
     Diagnostics& diagnostics_;
-    std::vector<bool> inside_;    // by symbol: can stand in a polygon
-    std::vector<bool> rewritten_; // by symbol
+    std::vector<bool> inside_; // by symbol: can stand in a polygon
+    GroupedLists rewriters_;
     bool stray_reported_ = false;
 };
 

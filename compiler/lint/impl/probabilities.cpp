@@ -15,8 +15,8 @@ void check_probabilities(const CheckInput& input, Diagnostics& diagnostics) {
         }
     }
     for (const Production& production : program.productions) {
-        // A probability of 1 says what happens. Alone and without condition it must be 1 unless
-        // weights are free.
+        // A probability of 1 is correct. A single production without condition must have 1 unless
+        // `weights any` is set.
         const bool must_be_one =
             production.condition == kNoValue && program.settings.weights == WeightRule::One;
         if (!production.stochastic || production.group >= members.size() ||

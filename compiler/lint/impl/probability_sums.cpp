@@ -1,5 +1,5 @@
 // The probabilities of a choice without conditions sum to 1 (docs/language.md section 5). With
-// conditions the sum depends on what matches, and weights are normalised at run time.
+// conditions the sum depends on the matches, and weights are normalised at run time.
 #include "compiler/lint/checks.h"
 #include "compiler/lint/impl/places.h"
 
@@ -12,19 +12,19 @@ namespace lsys {
 
 namespace {
 
-/// Three times 0.33 is fine.
+/// Tolerance of sums: 0.33 + 0.33 + 0.33 is accepted.
 constexpr double kTolerance = 0.011 + 1e-6;
 constexpr std::size_t kMaxLabels = 12;
 
 struct Group {
     double sum = 0.0;
-    bool is_judged = true; // no conditions, no errors
+    bool is_judged = true; // has no conditions and no errors
     std::vector<std::uint32_t> members;
 };
 
 void report(const CheckInput& input, const Group& group, Diagnostics& diagnostics) {
     const std::vector<Production>& productions = input.program.productions;
-    // The message stands at the number that goes beyond 1, or at the last.
+    // The number that exceeds 1, or the last, is the place of the message.
     std::uint32_t culprit = group.members.back();
     double running = 0.0;
     for (const std::uint32_t member : group.members) {

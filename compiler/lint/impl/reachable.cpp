@@ -1,5 +1,7 @@
 #include "compiler/lint/impl/reachable.h"
 
+#include "grammar/base/grouped_lists.h"
+
 #include <algorithm>
 
 namespace lsys {
@@ -37,27 +39,19 @@ Reachable find_reachable(const Program& program) {
     result.generation.assign(program.symbols.size(), kNone);
     result.usable.assign(program.productions.size(), false);
 
-    // By symbol: the productions that wait for it.
-    std::vector<std::uint32_t> first(program.symbols.size() + 1, 0);
-    std::vector<std::uint32_t> missing(program.productions.size(), 0);
-    for (std::size_t p = 0; p < program.productions.size(); ++p) {
-        for (const SymbolId symbol : needed_symbols(program.productions[p])) {
-            ++first[static_cast<std::size_t>(symbol) + 1];
-            ++missing[p];
+    std::vector<std::uint32_t> missing; // by production: needed symbols not yet reached
+    for (const Production& production : program.productions) {
+        missing.push_back(static_cast<std::uint32_t>(needed_symbols(production).size()));
+    }
+    const GroupedLists waiting(program.symbols.size(), [&](auto&& add) {
+        for (std::uint32_t p = 0; p < program.productions.size(); ++p) {
+            for (const SymbolId symbol : needed_symbols(program.productions[p])) {
+                add(static_cast<std::size_t>(symbol), p);
+            }
         }
-    }
-    for (std::size_t i = 1; i < first.size(); ++i) {
-        first[i] += first[i - 1];
-    }
-    std::vector<std::uint32_t> waiting(first.back());
-    std::vector<std::uint32_t> next = first;
-    for (std::uint32_t p = 0; p < program.productions.size(); ++p) {
-        for (const SymbolId symbol : needed_symbols(program.productions[p])) {
-            waiting[next[static_cast<std::size_t>(symbol)]++] = p;
-        }
-    }
+    });
 
-    // The order of the queue is that of generations only where each step is one.
+    // The queue has the order of generations only if each step is one generation.
     const bool ordered =
         program.settings.rewriting != RewritingMode::Sequential &&
         (program.productions.empty() || program.productions.back().stage == Stage::Rewrite);
@@ -74,8 +68,7 @@ Reachable find_reachable(const Program& program) {
     reach(program.axiom, 0);
     for (std::size_t head = 0; head < queue.size(); ++head) {
         const auto s = static_cast<std::size_t>(queue[head]);
-        for (std::uint32_t i = first[s]; i < first[s + 1]; ++i) {
-            const std::uint32_t p = waiting[i];
+        for (const std::uint32_t p : waiting[s]) {
             if (--missing[p] == 0 && !never_holds(program, program.productions[p])) {
                 result.usable[p] = true;
                 reach(program.productions[p].successor, result.generation[s] + 1);

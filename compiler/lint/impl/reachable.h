@@ -1,6 +1,6 @@
-// Which modules can occur in a word of the program and which productions can be used, as far as
-// names, counts and contexts tell; conditions are taken to hold unless they are the constant 0.
-// What is not reachable here never occurs.
+// The modules that can occur in a word and the productions that can be used, judged by names,
+// counts and contexts. Conditions count as true unless they are the constant 0, so that modules
+// which are not reachable here never occur.
 #pragma once
 
 #include "compiler/program/program.h"
@@ -11,8 +11,8 @@
 namespace lsys {
 
 struct Reachable {
-    /// By symbol: the first generation it can occur in, or kNone. In sequential rewriting a lower
-    /// bound does not exist, and it is 0.
+    /// By symbol: the first generation in which it can occur, or kNone. Always 0 for sequential
+    /// rewriting, where the first generation is not known.
     std::vector<std::uint32_t> generation;
     /// By production: whether it can be used.
     std::vector<bool> usable;

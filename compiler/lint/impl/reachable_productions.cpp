@@ -1,4 +1,4 @@
-// Productions that earlier ones always precede, and conditions that stand twice.
+// Productions that are never used because earlier ones match first, and duplicate conditions.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 #include "compiler/lint/impl/rule_table.h"
@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -14,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kMaxTogether = 1'000; // productions of one module that are compared
+constexpr std::size_t kMaxTogether = 1'000; // productions of a module; more are not compared
 
 class PrecedenceCheck {
 public:
@@ -53,16 +54,12 @@ private:
     bool is_free(std::uint32_t p) const { return !code(p).has_left && !code(p).has_right; }
     bool is_reported(std::uint32_t p) const { return reported_.contains(p); }
 
-    /// The instructions of a condition; equal ones are equal conditions within a group.
+    /// The instructions of a condition, whose equality decides the equality of conditions.
     std::string key(std::uint32_t p) const {
-        std::uint32_t at = code(p).condition;
-        const std::uint32_t first = at;
-        while (analysis::opcode_of(bytecode_.instructions[at]) != Opcode::Test) {
-            at += analysis::instruction_length(analysis::opcode_of(bytecode_.instructions[at]));
-        }
         std::string text = std::to_string(code(p).group) + ":";
-        for (std::uint32_t i = first; i < at; ++i) {
-            text += std::to_string(bytecode_.instructions[i]) + ",";
+        for (const Instruction each : InstructionRange(bytecode_.instructions, code(p).condition)) {
+            text += fmt::format("{},{},{},", static_cast<unsigned>(each.opcode), each.operand,
+                                std::bit_cast<std::uint32_t>(each.literal));
         }
         return text;
     }
@@ -75,7 +72,7 @@ private:
             }
             const auto [place, is_new] = met.emplace(key(p), p);
             const Production& earlier = production(place->second);
-            // Two constants may well have one value.
+            // Two constants may have one value by chance.
             const bool by_chance =
                 (names_constant(input_, production(p)) || names_constant(input_, earlier)) &&
                 input_.sources.text(production(p).condition_span) !=
@@ -95,19 +92,19 @@ private:
         }
     }
 
-    /// Those after a production that always matches where they could.
+    /// Reports productions after one without condition that matches wherever they could.
     void check_unconditional(std::span<const std::uint32_t> productions) {
-        std::uint32_t free = kNone; // the first that matches everywhere
-        std::unordered_map<std::uint32_t, std::uint32_t> in_group; // the first of each group
+        std::uint32_t free = kNone; // the first without condition and context
         std::unordered_map<std::uint32_t, std::uint32_t>
-            members; // first stochastic one of each group
+            in_group; // by group: the first without condition
+        std::unordered_map<std::uint32_t, std::uint32_t>
+            members; // by group: the first stochastic production
         for (const std::uint32_t p : productions) {
             const std::uint32_t group = code(p).group;
             if (code(p).stochastic) {
                 members.emplace(group, p);
             }
-            // A stochastic production is chosen from its group, so what counts is the group's
-            // first.
+            // A stochastic production is tried at the place of the first of its group.
             const std::uint32_t from = code(p).stochastic ? members.at(group) : p;
             const auto own = in_group.find(group);
             std::uint32_t earlier = free != kNone && free < from ? free : kNone;
@@ -130,7 +127,7 @@ private:
         return code(a).stochastic && code(b).stochastic && code(a).group == code(b).group;
     }
 
-    /// Those whose condition holds only where earlier conditions do.
+    /// Reports productions whose condition holds only where earlier conditions do.
     void check_covered(SymbolId symbol, std::span<const std::uint32_t> productions) {
         const bool plain = std::all_of(productions.begin(), productions.end(),
                                        [&](std::uint32_t p) { return is_free(p); });
@@ -142,14 +139,15 @@ private:
         if (!table) {
             return;
         }
-        std::vector<bool> turned; // by row: a constant decides
+        std::vector<bool> adjustable; // by row: the condition depends on a constant
         for (const std::uint32_t p : productions) {
-            turned.push_back(code(p).condition != kNone && names_constant(input_, production(p)));
+            adjustable.push_back(code(p).condition != kNone &&
+                                 names_constant(input_, production(p)));
         }
         for (std::size_t row = 1; row < productions.size(); ++row) {
             const std::uint32_t p = productions[row];
-            bool ever = false;   // it holds somewhere
-            bool usable = false; // and nothing precedes it there
+            bool ever = false;   // holds somewhere
+            bool usable = false; // holds where no earlier condition does
             std::vector<std::uint32_t> before;
             for (std::uint64_t point = 0; point < table->points && !usable; ++point) {
                 if (!table->holds(row, point)) {
@@ -160,12 +158,12 @@ private:
                 while (!table->holds(first, point)) {
                     ++first;
                 }
-                usable = first == row || turned[first] || same_choice(productions[first], p);
+                usable = first == row || adjustable[first] || same_choice(productions[first], p);
                 if (std::find(before.begin(), before.end(), productions[first]) == before.end()) {
                     before.push_back(productions[first]);
                 }
             }
-            if (ever && !usable && !turned[row] && !is_reported(p)) {
+            if (ever && !usable && !adjustable[row] && !is_reported(p)) {
                 report_covered(p, before);
             }
         }
@@ -220,7 +218,7 @@ private:
     const Bytecode& bytecode_;
     analysis::ProductionIndex index_;
     Diagnostics& diagnostics_;
-    std::unordered_set<std::uint32_t> reported_; // of the rule at hand
+    std::unordered_set<std::uint32_t> reported_; // productions of the current rule
 };
 
 } // namespace

@@ -27,8 +27,7 @@ std::optional<RuleTable> make_rule_table(const Bytecode& bytecode,
     std::vector<analysis::ConditionView> views;
     for (const std::uint32_t p : productions) {
         if (bytecode.productions[p].condition != kNone) {
-            views.push_back({bytecode.productions[p].condition, index.first_formal(p),
-                             bytecode.productions[p].formal_count});
+            views.push_back({bytecode.productions[p].condition, index.first_formal(p)});
         }
     }
     const std::vector<analysis::KnownValue> unknown(bytecode.symbol(symbol).parameter_count);
@@ -101,7 +100,7 @@ bool names_constant(const CheckInput& input, const Production& production) {
             continue;
         }
         if (!is_letter(text[at])) {
-            // An exponent's `e` belongs to its number.
+            // The `e` of an exponent belongs to its number.
             const bool number = is_part(text[at]);
             ++at;
             while (number && at < text.size() && is_part(text[at])) {

@@ -1,5 +1,5 @@
-// The truth of the conditions of one module's productions over all values of its parameters: what
-// the checks of gaps, overlaps and productions that are never used share.
+// The truth of the conditions of the productions of one module over all values of its parameters.
+// Shared by the checks for gaps, overlaps and unused productions.
 #pragma once
 
 #include "compiler/growth/condition_grid.h"
@@ -26,22 +26,22 @@ struct RuleTable {
     }
 };
 
-/// The table of some productions of one symbol. Nothing if a condition is of a form that has no
-/// grid or the table would be large.
+/// The table of productions of one symbol. Returns nothing if a condition has a form without grid
+/// (condition_grid.h) or the table would be large.
 [[nodiscard]] std::optional<RuleTable> make_rule_table(const Bytecode& bytecode,
                                                        const analysis::ProductionIndex& index,
                                                        SymbolId symbol,
                                                        std::vector<std::uint32_t> productions);
 
-/// `A(2, y)`: the module at a point, as the author would write it; parameters that no condition
-/// reads keep the names of `production`.
+/// The module at a point as an author would write it: `A(2, y)`. Parameters that no condition reads
+/// have their names in `production`.
 [[nodiscard]] std::string module_at(const CheckInput& input,
                                     const Production& production,
                                     SymbolId symbol,
                                     const RuleTable& table,
                                     std::uint64_t point);
 
-/// Whether a condition's text names a constant: what it is worth may be turned by the user.
+/// Whether the text of the condition names a constant, whose value a user may change.
 [[nodiscard]] bool names_constant(const CheckInput& input, const Production& production);
 
 } // namespace lsys

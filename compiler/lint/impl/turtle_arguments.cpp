@@ -1,4 +1,4 @@
-// Arguments of turtle commands that are hardly meant: an angle in radians, a negative width.
+// Suspicious arguments of turtle commands: an angle in radians, a negative width.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
@@ -12,8 +12,8 @@ namespace lsys {
 
 namespace {
 
-/// The fraction of a half turn that an angle is in radians, to the places it is commonly written
-/// with.
+/// The fraction of a half turn that an angle is if it is meant in radians, with the precision in
+/// which such angles are usually written.
 std::optional<int> radians_degrees(float value) {
     constexpr double kPi = 3.14159265358979323846;
     constexpr std::array<int, 11> kDegrees{360, 270, 180, 150, 135, 120, 90, 60, 45, 36, 30};

@@ -10,7 +10,7 @@ namespace {
 
 void check_constants(const CheckInput& input, Diagnostics& diagnostics) {
     for (const Constant& constant : input.program.constants) {
-        // An included file may define more than this grammar needs.
+        // An included file may define more than a grammar needs.
         if (constant.is_used || constant.span.file != input.program.axiom.file) {
             continue;
         }
@@ -24,34 +24,16 @@ void check_constants(const CheckInput& input, Diagnostics& diagnostics) {
 /// The formals that a production reads.
 std::vector<bool> used_formals(const Program& program, const Production& production) {
     std::vector<bool> used(production.formals.size(), false);
-    std::vector<ValueId> work;
-    if (production.condition != kNoValue) {
-        work.push_back(production.condition);
-    }
-    for_each_module(program, production.successor,
-                    [&](std::size_t, std::size_t argument, const ProgramModule& module) {
-                        const std::uint32_t count = program.symbol(module.symbol).parameter_count;
-                        for (std::uint32_t i = 0; i < count; ++i) {
-                            work.push_back(program.arguments[argument + i]);
-                        }
-                    });
-    while (!work.empty()) {
-        const Value& value = program.value(work.back());
-        work.pop_back();
+    for_each_value(program, expressions_of(program, production), [&](ValueId, const Value& value) {
         if (value.opcode == Opcode::Formal && value.index < used.size()) {
             used[value.index] = true;
         }
-        for (const ValueId child : {value.left, value.right}) {
-            if (child != kNoValue) {
-                work.push_back(child);
-            }
-        }
-    }
+    });
     return used;
 }
 
-/// Parameters of predecessors that no production of the module reads. Those of contexts only count,
-/// and those of a module that draws are read by the turtle.
+/// Reports parameters of predecessors that no production of the module reads. Contexts may have
+/// unread parameters; the turtle reads the parameters of a module that draws.
 void check_formals(const CheckInput& input, Diagnostics& diagnostics) {
     const Program& program = input.program;
     std::vector<std::vector<bool>> used(program.symbols.size());

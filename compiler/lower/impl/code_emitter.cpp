@@ -11,9 +11,9 @@ namespace lsys {
 
 namespace {
 
-/// Operands are computed from left to right while that keeps the stack below this. Beyond, the
-/// deeper operand goes first (Sethi and Ullman 1970), so that only the logarithm of the size adds
-/// to it.
+/// Maximum stack for operands in order from left to right. Beyond it the deeper operand is computed
+/// first (Sethi and Ullman 1970), so that the stack grows with the logarithm of the size of the
+/// expression.
 constexpr std::uint8_t kNaturalStack = 64;
 static_assert(kNaturalStack + 32 < kMaxStack);
 
@@ -71,17 +71,17 @@ void CodeEmitter::instruction(Opcode opcode, std::uint32_t operand) {
     bytecode_.instructions.push_back(encode(opcode, operand & kMaxOperand));
 }
 
-void CodeEmitter::mark(std::uint32_t site) {
-    if (site == marked_ || site == kNone) {
+void CodeEmitter::begin_site(std::uint32_t site) {
+    if (site == current_site_ || site == kNone) {
         return;
     }
-    marked_ = site;
+    current_site_ = site;
     const auto here = static_cast<std::uint32_t>(bytecode_.instructions.size());
-    std::vector<SiteMark>& marks = bytecode_.site_marks;
-    if (!marks.empty() && marks.back().instruction == here) {
-        marks.back().site = site; // the one range ends where the braces around it are drawn
+    std::vector<SiteRange>& ranges = bytecode_.site_ranges;
+    if (!ranges.empty() && ranges.back().instruction == here) {
+        ranges.back().site = site; // the range before it is empty
     } else {
-        marks.push_back({here, site});
+        ranges.push_back({here, site});
     }
 }
 
@@ -97,13 +97,13 @@ void CodeEmitter::leaf_or_operation(const Value& value, bool swapped, std::uint3
         instruction(value.opcode, value.index);
         return;
     case Opcode::Range:
-        // A bad range is reported at its braces, what follows at the whole argument again.
+        // Errors of a random range are reported at its braces, others at the whole argument.
         if (swapped) {
             instruction(Opcode::Swap);
         }
-        mark(add_site(value.span));
+        begin_site(add_site(value.span));
         instruction(Opcode::Range, value.index);
-        mark(site);
+        begin_site(site);
         return;
     default:
         if (value.opcode == Opcode::Steps) {
@@ -145,7 +145,7 @@ void CodeEmitter::expression(ValueId root, std::uint32_t site) {
 std::uint32_t CodeEmitter::condition(ValueId value, SourceSpan span) {
     const auto first = static_cast<std::uint32_t>(bytecode_.instructions.size());
     const std::uint32_t site = add_site(span);
-    mark(site);
+    begin_site(site);
     expression(value, site);
     instruction(Opcode::Test);
     instruction(Opcode::End);
@@ -159,7 +159,7 @@ std::uint32_t CodeEmitter::arguments(std::span<const ValueId> values) {
         // A finite literal cannot fail and needs no place.
         const bool safe = value.opcode == Opcode::Literal && std::isfinite(value.literal);
         const std::uint32_t site = safe ? kNone : add_site(value.span);
-        mark(site);
+        begin_site(site);
         expression(id, site);
         instruction(Opcode::Emit);
     }

@@ -1,4 +1,4 @@
-// Expressions to instructions. Writes Bytecode::instructions, sites and site_marks; used by
+// Expressions to instructions. Writes Bytecode::instructions, sites and site_ranges; used by
 // lower().
 #pragma once
 
@@ -16,7 +16,7 @@ class CodeEmitter {
 public:
     CodeEmitter(const Program& program, const SourceMap& sources, Bytecode& bytecode);
 
-    /// A place for messages.
+    /// Appends a place for messages; returns its index.
     std::uint32_t add_site(SourceSpan span);
 
     /// Emits code for `value` that ends with Test, End; returns its first instruction.
@@ -24,12 +24,12 @@ public:
     /// Emits code that computes `values` and emits each, ending with End.
     std::uint32_t arguments(std::span<const ValueId> values);
 
-    /// An operand did not fit its 24 bits; what was emitted is of no use then.
+    /// Whether an operand did not fit its 24 bits, which makes the emitted code useless.
     [[nodiscard]] bool overflowed() const { return overflowed_; }
 
 private:
     void instruction(Opcode opcode, std::uint32_t operand = 0);
-    void mark(std::uint32_t site);
+    void begin_site(std::uint32_t site);
     void expression(ValueId root, std::uint32_t site);
     void leaf_or_operation(const Value& value, bool swapped, std::uint32_t site);
     [[nodiscard]] bool right_first(const Value& value) const;
@@ -38,7 +38,7 @@ private:
     const SourceMap& sources_;
     Bytecode& bytecode_;
     std::vector<std::uint8_t> stack_need_; // by ValueId
-    std::uint32_t marked_ = kNone;         // the site in force
+    std::uint32_t current_site_ = kNone;   // of the next instruction
     bool overflowed_ = false;
 
     struct Frame {

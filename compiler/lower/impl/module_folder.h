@@ -1,5 +1,5 @@
-// Gives modules with constant arguments codes of their own, in order of first appearance, as long
-// as the width of a code does not grow for it.
+// Codes for modules with constant arguments, given in order of first appearance while the width of
+// a code does not grow.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -16,8 +16,8 @@ public:
     ModuleFolder(const Program& program, Bytecode& bytecode);
 
     /// The code for a module of `symbol` whose arguments begin at
-    /// Program::arguments[first_argument]: a folded one if all are finite constants and there is
-    /// room, else the symbol itself.
+    /// Program::arguments[first_argument]: a folded module if all arguments are finite constants
+    /// and a code is free, else the symbol.
     [[nodiscard]] Code code(SymbolId symbol, std::size_t first_argument);
 
 private:
@@ -26,7 +26,7 @@ private:
     std::uint64_t capacity_;                      // codes
     std::unordered_map<std::string, Code> codes_; // by the bytes of symbol and constants
     std::string key_;
-    std::string last_key_; // long axioms repeat one module
+    std::string last_key_; // of the last module, since long axioms repeat one module
     Code last_code_ = 0;
 };
 

@@ -28,7 +28,8 @@ void PlaceWriter::start(const SourceFile& file, std::uint32_t offset) {
     place_ = file.line_column(offset);
 }
 
-/// Goes on to a module; whether all before it, from the last one on, is ASCII of its line.
+/// Moves on to a module. Returns whether the text from the last module to this one is ASCII of one
+/// line.
 bool PlaceWriter::move_to(std::uint32_t offset) {
     bool plain = true;
     bool ascii = true;
@@ -77,8 +78,8 @@ void PlaceWriter::word(const ProgramWord& word, std::uint32_t first) {
             if (code == first) {
                 start(sources_.file(word.file), module.begin);
             }
-            // Modules of a translation may stand at one place, and in another order than their
-            // text.
+            // Modules of a translated grammar may share a place, and may have another order than
+            // the text.
             const bool ascends = module.begin >= offset_;
             if (!ascends) {
                 start(sources_.file(word.file), module.begin);

@@ -1,4 +1,4 @@
-// Where the modules of the axiom and of the successors stand: Bytecode::template_places. Used by
+// Writes the places of the modules of axiom and successors, Bytecode::template_places. Used by
 // lower().
 #pragma once
 
@@ -32,7 +32,7 @@ private:
     struct Spelling {
         std::uint32_t length = 0; // of the name
         bool has_arguments = false;
-        bool may_be_quoted = true; // no back quote itself
+        bool may_be_quoted = true; // the name has no back quote
     };
 
     const Program& program_;

@@ -6,7 +6,7 @@ namespace lsys {
 
 namespace {
 
-/// The identifier at the start of `text`, after blanks; may be empty.
+/// The identifier at the start of `text`, after blanks, or an empty string.
 std::string_view leading_identifier(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
     std::size_t length = 0;

@@ -1,6 +1,5 @@
-// What the statements that did not parse seem to have been: a second look at the text, so that a
-// damaged `#define a 2 2;` does not make every use of `a` one more error. Only read when the Ast is
-// incomplete.
+// The probable kind of statements that did not parse, from a second look at the text, so that a
+// damaged `#define a 2 2;` does not make every use of `a` an error. Only used for incomplete Asts.
 #pragma once
 
 #include "compiler/resolve/impl/resolution.h"
@@ -23,7 +22,7 @@ public:
 private:
     void read(std::string_view text);
 
-    std::unordered_set<std::string> keywords_; // those of interest
+    std::unordered_set<std::string> keywords_; // found in the text
     std::unordered_set<std::string> constants_;
 };
 

@@ -1,6 +1,6 @@
-// The constants of #define and #param by name: which are known where, and what they are. A constant
-// must precede its use, so the table is filled while the statements are walked; where a name is
-// defined later is known from the beginning, for the message.
+// The constants of #define and #param by name. A constant must precede its use, so the table is
+// filled while the statements are walked; places of later definitions are known from the beginning,
+// for messages.
 #pragma once
 
 #include "compiler/resolve/impl/resolution.h"
@@ -14,9 +14,9 @@ namespace lsys {
 
 enum class ConstantState : std::uint8_t {
     Unknown, // no statement defines it
-    Later,   // a later statement does
-    Known,   // constant() is it
-    Failed,  // its definition is in error: keep quiet
+    Later,   // a later statement defines it
+    Known,   // constant() has it
+    Failed,  // its definition is in error, which has been reported
 };
 
 class ConstantTable {
@@ -24,14 +24,14 @@ public:
     explicit ConstantTable(Resolution& resolution);
 
     [[nodiscard]] ConstantState state(NameId name) const;
-    /// Where the name is first defined; precondition: not Unknown.
+    /// The place of the first definition of the name. Precondition: not Unknown.
     [[nodiscard]] SourceSpan definition_span(NameId name) const;
     /// Precondition: Known.
     [[nodiscard]] Constant& constant(NameId name);
 
-    /// Makes the name known; it is in Program::constants from now on.
+    /// Makes the name known and adds it to Program::constants.
     void define(const Constant& constant);
-    /// The definition of the name is in error.
+    /// Marks the definition of the name as failed.
     void fail(NameId name);
 
     /// Texts of the constants known so far, for suggestions.

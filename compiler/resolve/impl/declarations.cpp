@@ -14,7 +14,7 @@ void DeclarationResolver::bad(SourceSpan span, std::string message) {
     resolution_.diagnostics.add(DiagnosticCode::BadDeclaration, span, std::move(message));
 }
 
-/// With `names letters` the letters of one word are modules of their own; else one is wanted.
+/// Checks that a statement names one module; with `names letters` it may name several.
 bool DeclarationResolver::is_one_name(ModuleList list, SourceSpan statement, const char* keyword) {
     if (list.count == 0) {
         bad(statement, fmt::format("`{}` names no module", keyword));
@@ -38,7 +38,7 @@ bool DeclarationResolver::check_bare(const ModuleView& module, const char* state
     Diagnostic& error = resolution_.diagnostics.add(
         DiagnosticCode::BadDeclaration, parentheses,
         fmt::format("`{}` is about modules with any number of parameters", statement));
-    // Formals say nothing that is lost; a number does.
+    // Formals carry no information, numbers do.
     const bool has_formals =
         resolution_.sources.text(parentheses).find_first_of("0123456789") == std::string_view::npos;
     error.fixes.push_back({"leave the parentheses out", {{parentheses, ""}}, has_formals});

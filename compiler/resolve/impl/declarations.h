@@ -1,4 +1,4 @@
-// #module, #object, #ignore and #consider: what is said about modules by name.
+// #module, #object, #ignore and #consider: properties of modules by name.
 #pragma once
 
 #include "compiler/resolve/impl/words.h"
@@ -12,10 +12,10 @@ public:
     DeclarationResolver(Resolution& resolution, SymbolTable& symbols)
         : resolution_(resolution), symbols_(symbols) {}
 
-    /// Before any symbol is made; `splitter` may be made after the objects are bound.
+    /// Call before any symbol is made; `splitter` may be made after the objects are bound.
     void object(const ObjectNode& node);
     void ignore(const IgnoreNode& node, NameSplitter& splitter);
-    /// After all of them.
+    /// Call after all statements.
     void finish_ignores();
     void module(const ModuleDeclarationNode& node, SourceSpan statement, ModuleReading& reading);
 
@@ -33,7 +33,7 @@ private:
     Resolution& resolution_;
     SymbolTable& symbols_;
     Suggestions suggestions_;
-    SourceSpan first_ignore_; // of kNoFile: none
+    SourceSpan first_ignore_; // kNoFile: none
     SourceSpan first_consider_;
     std::unordered_map<NameId, std::size_t> bindings_; // in Program::objects
 };

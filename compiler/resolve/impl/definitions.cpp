@@ -130,7 +130,7 @@ void DefinitionResolver::param(const ParamNode& node) {
     advance_draw_position(draws);
 }
 
-/// Makes the constant, drawn or not, with the value of -D if there is one.
+/// Makes the constant, drawn or not, with the value of -D if given.
 void DefinitionResolver::add(Constant constant, ValueId value, bool is_drawn) {
     const auto replaced = replacements_.empty()
                               ? replacements_.end()

@@ -1,4 +1,4 @@
-// Resolves #n, #define and #param: one value each.
+// Resolves #n, #define and #param, which have one value each.
 #pragma once
 
 #include "compiler/resolve/impl/constants.h"
@@ -13,14 +13,13 @@
 
 namespace lsys {
 
-/// A second statement of what may stand once.
+/// Reports a second statement of a kind that may occur once.
 void report_duplicate(Resolution& resolution,
                       SourceSpan second,
                       SourceSpan first,
                       const std::string& what);
 
-/// The value of a literal as it is written, if it is nothing but digits and fits: binary32 has no
-/// 16,777,217.
+/// The exact value of a literal that is nothing but digits, if it fits; binary32 lacks 16,777,217.
 [[nodiscard]] std::optional<std::uint64_t> exact_whole_number(const Resolution& resolution,
                                                               ExpressionId expression);
 
@@ -33,7 +32,7 @@ public:
     void generations(const GenerationsNode& node, SourceSpan statement);
     void define(const DefineNode& node);
     void param(const ParamNode& node);
-    /// -D names that no #define or #param has.
+    /// Names of -D without #define or #param.
     [[nodiscard]] std::vector<std::string> unknown_definitions() const;
 
     /// The number of the next range among #define, #param and #w.
@@ -48,7 +47,7 @@ private:
     Resolution& resolution_;
     ConstantTable& constants_;
     ExpressionResolver& expressions_;
-    std::unordered_map<std::string, float> replacements_; // by -D
+    std::unordered_map<std::string, float> replacements_; // from -D
     std::optional<SourceSpan> first_generations_;
     std::uint32_t draw_position_ = 0;
 };

@@ -73,13 +73,13 @@ bool in_production(ExpressionPlace place) {
     return place == ExpressionPlace::Condition || place == ExpressionPlace::Successor;
 }
 
-/// Where `{min, max}` may be written.
+/// Whether `{min, max}` may be written here.
 bool ranges_allowed(ExpressionPlace place) {
     return place == ExpressionPlace::Define || place == ExpressionPlace::Param ||
            place == ExpressionPlace::Axiom || place == ExpressionPlace::Successor;
 }
 
-/// Where constants that are drawn when the derivation starts may be used.
+/// Whether constants that are drawn when the derivation starts may be used here.
 bool drawn_constants_allowed(ExpressionPlace place) {
     return ranges_allowed(place) || place == ExpressionPlace::Condition;
 }
@@ -111,8 +111,8 @@ ExpressionResolver::ExpressionResolver(Resolution& resolution,
 }
 
 void ExpressionResolver::begin_statement() {
-    // Children come before parents and statements follow each other, so all that comes before the
-    // last root has been resolved.
+    // Children come before parents and statements follow each other, so every expression before
+    // the last root has been resolved.
     resolution_.ast.expressions.release_before(last_root_);
     for (const NameId formal : formals_) {
         formal_of_[index_of(formal)] = kNone;
@@ -174,7 +174,7 @@ ValueId ExpressionResolver::resolve_name(NameId name, SourceSpan span, Expressio
     return name_value(expression, place);
 }
 
-/// Looks at the expression on top: goes down to its next operand, or takes their values.
+/// Processes the expression on top: pushes its next operand, or combines the values of all.
 void ExpressionResolver::visit(ExpressionPlace place) {
     Frame& frame = frames_.back();
     const Expression& expression = resolution_.ast.expression(frame.expression);

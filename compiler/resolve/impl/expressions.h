@@ -1,6 +1,6 @@
-// Expressions of the Ast to values of the Program: names to formals and constants, functions to
-// instructions, constants folded, ranges numbered. Every place in the language allows something
-// else in its expressions; ExpressionPlace says what.
+// Expressions of the Ast to values of the Program: names become formals and constants, functions
+// become instructions, constants are folded, ranges numbered. ExpressionPlace decides what an
+// expression may contain.
 #pragma once
 
 #include "compiler/resolve/impl/attempts.h"
@@ -21,7 +21,7 @@ enum class ExpressionPlace : std::uint8_t {
     Generations,
     Define,
     Param,
-    Bound, // of a #param
+    Bound, // min or max of a #param
     Setting,
     Axiom,
     Condition,
@@ -33,25 +33,26 @@ class ExpressionResolver {
 public:
     ExpressionResolver(Resolution& resolution, ValueBuilder& values, ConstantTable& constants);
 
-    /// Begins a statement: no formals, nothing reported yet, ranges numbered from 0.
+    /// Begins a statement: clears formals and reported names, numbers ranges from 0.
     void begin_statement();
-    /// Adds a formal of the production at hand; `where` serves messages. False: there is one.
+    /// Adds a formal of the current production; `where` is its place in messages. Returns false if
+    /// the name is a formal already.
     bool add_formal(NameId name, SourceSpan where);
     [[nodiscard]] SourceSpan formal_span(NameId name) const;
-    /// Names may be unknown because the head of the production is in error: keep quiet about them.
+    /// Suppresses messages about unknown names, since the head of the production is in error.
     void set_formals_incomplete() { formals_incomplete_ = true; }
 
-    /// The value of an expression; kPoison after an error was reported here or before. Where the
-    /// value reaches a module or a condition, it is an error that it can never be finite.
+    /// The value of an expression, or kPoison after an error was reported here or before. A value
+    /// of a module or condition that can never be finite is an error.
     [[nodiscard]] ValueId resolve(ExpressionId root, ExpressionPlace place);
-    /// The same for a name that stands alone, as after #set.
+    /// The value of a single name, as after #set.
     [[nodiscard]] ValueId resolve_name(NameId name, SourceSpan span, ExpressionPlace place);
-    /// Whether the value last resolved depends on a range.
+    /// Whether the last resolved value depends on a range.
     [[nodiscard]] bool is_drawn() const { return is_drawn_; }
-    /// Ranges met since begin_statement().
+    /// Number of ranges since begin_statement().
     [[nodiscard]] std::uint32_t draw_count() const { return draw_count_; }
 
-    /// The literal, if the value is one.
+    /// The number, if the value is a literal.
     [[nodiscard]] std::optional<float> constant_value(ValueId id) const;
 
 private:
@@ -59,7 +60,7 @@ private:
         ExpressionId expression{};
         std::uint32_t next = 0; // operand to visit
     };
-    /// Why a constant is infinite or not a number.
+    /// The cause of a constant that is infinite or NaN.
     struct Culprit {
         SourceSpan span;
         std::string reason;
@@ -82,7 +83,7 @@ private:
     [[nodiscard]] std::uint32_t operand_count(const Expression& expression) const;
     [[nodiscard]] ExpressionId operand(const Expression& expression, std::uint32_t index) const;
 
-    // messages
+    // Messages.
     void report_unknown_name(const Expression& expression);
     void report_unknown_function(const Expression& expression, NameId function);
     void report_not_allowed(const Expression& expression, ExpressionPlace place, bool is_range);
@@ -107,7 +108,7 @@ private:
     std::unordered_set<NameId> reported_; // names with an error in this statement
     bool drawn_once_noted_ = false;
     std::uint32_t draw_count_ = 0;
-    std::size_t last_root_ = 0; // the greatest id resolved so far
+    std::size_t last_root_ = 0; // the largest id resolved so far
     bool is_drawn_ = false;
 
     std::vector<Frame> frames_;

@@ -1,4 +1,4 @@
-// Words for what goes wrong when constants are folded.
+// Texts of the errors of constant folding.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -9,7 +9,7 @@
 
 namespace lsys {
 
-/// Why an instruction of these values yields something infinite or no number: "division by zero".
+/// The reason why an instruction of these values yields an infinity or NaN: "division by zero".
 [[nodiscard]] std::string reason_for_fault(Opcode opcode, float x, float y);
 
 /// The names of all functions of expressions.

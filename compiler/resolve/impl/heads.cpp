@@ -13,22 +13,22 @@ bool HeadResolver::resolve(const ProductionNode& node, Production& production) {
     production_ = &production;
     production.has_left = node.has_left;
     production.has_right = node.has_right;
-    bool fine = check_shape(node);
-    fine = pattern(node.left, Part::Left, production.left) && fine;
-    fine = pattern(node.predecessor, Part::Predecessor, production.predecessor) && fine;
-    fine = pattern(node.right, Part::Right, production.right) && fine;
-    return fine;
+    bool ok = check_shape(node);
+    ok = pattern(node.left, Part::Left, production.left) && ok;
+    ok = pattern(node.predecessor, Part::Predecessor, production.predecessor) && ok;
+    ok = pattern(node.right, Part::Right, production.right) && ok;
+    return ok;
 }
 
-/// What is there at all: one predecessor or more, and no empty context.
+/// Checks that there is at least one predecessor module and no empty context.
 bool HeadResolver::check_shape(const ProductionNode& node) {
-    bool fine = true;
+    bool ok = true;
     const auto empty_context = [&](SourceSpan sign, const char* side) {
         Diagnostic& error = resolution_.diagnostics.add(
             DiagnosticCode::EmptyContext, sign, fmt::format("the {} context is empty", side));
         error.help.emplace_back("write the module that has to stand there, or leave the sign out");
         error.fixes.push_back({"remove the sign", {{sign, ""}}, false});
-        fine = false;
+        ok = false;
     };
     if (node.has_left && node.left.count == 0) {
         empty_context(node.less_span, "left");
@@ -54,10 +54,10 @@ bool HeadResolver::check_shape(const ProductionNode& node) {
                                 "`#set rewriting leftmost;` or `sequential`");
         return false;
     }
-    return fine;
+    return ok;
 }
 
-/// What is decomposed or drawn is one module, wherever it stands.
+/// Checks that a production of #decompose or #interpret has one module and no context.
 bool HeadResolver::check_stage(const ProductionNode& node) {
     const bool several = node.predecessor.count > 1;
     if (!several && !node.has_left && !node.has_right) {
@@ -78,7 +78,7 @@ bool HeadResolver::check_stage(const ProductionNode& node) {
 }
 
 bool HeadResolver::pattern(ModuleList list, Part part, ProgramPattern& out) {
-    bool fine = true;
+    bool ok = true;
     out.span = list.span;
     out.items.reserve(list.count);
     open_.clear();
@@ -86,17 +86,17 @@ bool HeadResolver::pattern(ModuleList list, Part part, ProgramPattern& out) {
     for (; !cursor.done(); cursor.next()) {
         const ModuleView module = cursor.view();
         if (!check_module(reading_, module)) {
-            fine = false;
+            ok = false;
             continue;
         }
         const SymbolKind kind =
             kind_of(resolution_.program.settings.turtle, resolution_.text(module.name));
         if (kind == SymbolKind::BranchOpen || kind == SymbolKind::BranchClose) {
-            fine = bracket(module, part, out) && fine;
+            ok = bracket(module, part, out) && ok;
             continue;
         }
         const auto first_formal = static_cast<std::uint32_t>(production_->formals.size());
-        fine = formals(module) && fine;
+        ok = formals(module) && ok;
         append(module, first_formal, out);
     }
     for (const SourceSpan open : open_) {
@@ -104,9 +104,9 @@ bool HeadResolver::pattern(ModuleList list, Part part, ProgramPattern& out) {
                                     part == Part::Predecessor
                                         ? "this `[` of the predecessor is never closed"
                                         : "this `[` of the context is never closed");
-        fine = false;
+        ok = false;
     }
-    return fine;
+    return ok;
 }
 
 bool HeadResolver::bracket(const ModuleView& module, Part part, ProgramPattern& out) {
@@ -135,11 +135,11 @@ bool HeadResolver::bracket(const ModuleView& module, Part part, ProgramPattern& 
     } else {
         open_.pop_back();
     }
-    if (rewritten) { // a module like others
+    if (rewritten) { // an ordinary module
         const auto first_formal = static_cast<std::uint32_t>(production_->formals.size());
-        const bool fine = formals(module);
+        const bool ok = formals(module);
         append(module, first_formal, out);
-        return fine;
+        return ok;
     }
     out.items.push_back({opens ? PatternKind::Open : PatternKind::Close, kNoSymbol, 0,
                          module.span.begin, module.span.end});
@@ -171,12 +171,12 @@ void HeadResolver::append(const ModuleView& module,
 }
 
 bool HeadResolver::formals(const ModuleView& module) {
-    bool fine = true;
+    bool ok = true;
     for (std::uint32_t i = 0; i < module.arguments.count; ++i) {
         const ExpressionId argument = resolution_.ast.expression_lists[module.arguments.first + i];
-        fine = formal(resolution_.ast.expression(argument)) && fine;
+        ok = formal(resolution_.ast.expression(argument)) && ok;
     }
-    return fine;
+    return ok;
 }
 
 bool HeadResolver::formal(const Expression& argument) {
@@ -209,7 +209,7 @@ bool HeadResolver::formal(const Expression& argument) {
     return true;
 }
 
-/// A number or expression where a parameter is named: `A(2)` for `A(x) : x == 2`.
+/// Reports a number or expression in place of a formal: `A(2)` for `A(x) : x == 2`.
 void HeadResolver::report_argument(const Expression& argument) {
     const std::string_view written = resolution_.sources.text(argument.span());
     Diagnostic& error =
@@ -240,7 +240,7 @@ void HeadResolver::report_argument(const Expression& argument) {
     }
 }
 
-/// The edit that makes `test` the condition of a production that has none.
+/// The edit that adds the condition `test` to a production without one.
 std::optional<Edit> HeadResolver::condition_edit(const std::string& test) const {
     const ConditionNode& condition = node_->condition;
     const SourceSpan span = condition.span;

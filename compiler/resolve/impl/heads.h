@@ -11,8 +11,8 @@ public:
     HeadResolver(ModuleReading& reading, ConstantTable& constants)
         : reading_(reading), resolution_(reading.resolution), constants_(constants) {}
 
-    /// Fills contexts, predecessor and formals of `production`, and makes the formals known to the
-    /// expressions that follow. False: the head is in error, which has been reported.
+    /// Fills contexts, predecessor and formals of `production`, and adds the formals to the
+    /// expressions. Returns false after reporting an error of the head.
     [[nodiscard]] bool resolve(const ProductionNode& node, Production& production);
 
 private:
@@ -33,7 +33,7 @@ private:
     ConstantTable& constants_;
     const ProductionNode* node_ = nullptr;
     Production* production_ = nullptr;
-    std::vector<SourceSpan> open_; // brackets of the right context
+    std::vector<SourceSpan> open_; // open brackets of the right context
 };
 
 } // namespace lsys

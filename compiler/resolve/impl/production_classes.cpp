@@ -25,7 +25,7 @@ std::uint64_t group_hash(const Production& production) {
     return hash_of(production.right, hash_of(production.left, rule_hash(production)));
 }
 
-/// Names, counts and brackets agree.
+/// Whether names, parameter counts and brackets agree.
 bool equal_patterns(const ProgramPattern& a, const ProgramPattern& b) {
     if (a.items.size() != b.items.size()) {
         return false;

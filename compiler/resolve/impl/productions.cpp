@@ -28,7 +28,7 @@ bool ProductionResolver::is_first_of_name(const ProductionNode& node) {
 }
 
 void ProductionResolver::resolve(const ProductionNode& node, SourceSpan statement) {
-    bool fine = is_first_of_name(node);
+    bool ok = is_first_of_name(node);
     Production production;
     production.name = node.name;
     production.stage = node.stage;
@@ -37,13 +37,13 @@ void ProductionResolver::resolve(const ProductionNode& node, SourceSpan statemen
     reading_.expressions.begin_statement();
     if (!heads_.resolve(node, production)) {
         reading_.expressions.set_formals_incomplete();
-        fine = false;
+        ok = false;
     }
     resolve_condition(node.condition, production);
     production.successor = resolve_word(reading_, node.successor, ExpressionPlace::Successor);
     check_draws(production.successor);
     reading_.splits.finish();
-    if (!fine) {
+    if (!ok) {
         resolution_.program.has_all_statements = false;
         return;
     }
@@ -78,7 +78,7 @@ void ProductionResolver::resolve_condition(const ConditionNode& node, Production
     }
 }
 
-/// The probability, or not a number after an error.
+/// The probability, or NaN after an error.
 float ProductionResolver::weight_of(ExpressionId probability) {
     constexpr float kInError = std::numeric_limits<float>::quiet_NaN();
     const ValueId value = reading_.expressions.resolve(probability, ExpressionPlace::Probability);

@@ -16,7 +16,7 @@ public:
     ProductionResolver(ModuleReading& reading, ConstantTable& constants);
 
     void resolve(const ProductionNode& node, SourceSpan statement);
-    /// After the last: productions of later stages take their place behind the others.
+    /// Call after the last production: appends the productions of later stages.
     void finish();
 
 private:
@@ -30,7 +30,7 @@ private:
     HeadResolver heads_;
     ProductionClasses classes_;
     std::array<std::vector<Production>, 2> later_; // of Decompose, of Interpret
-    std::vector<SourceSpan> first_of_name_;        // by name; of kNoFile if there is none
+    std::vector<SourceSpan> first_of_name_;        // by name; kNoFile: none
 };
 
 } // namespace lsys

@@ -1,4 +1,4 @@
-// What all parts of the resolution (Ast to Program) work on. One per compilation; made and owned by
+// The state shared by all parts of the resolution (Ast to Program). One per compilation, owned by
 // resolve().
 #pragma once
 
@@ -18,13 +18,13 @@
 namespace lsys {
 
 struct Resolution {
-    Ast& ast; // its modules are released as they are consumed
+    Ast& ast; // modules are released when consumed
     Names& names;
     const SourceMap& sources;
     const CompileOptions& options;
     Diagnostics& diagnostics;
     Program& program;
-    std::vector<FileId> letter_files; // those with `names letters`
+    std::vector<FileId> letter_files; // files with `names letters`
 
     [[nodiscard]] std::string_view text(NameId name) const { return names.text(name); }
 };
@@ -33,21 +33,21 @@ struct Resolution {
     return static_cast<std::size_t>(name);
 }
 
-/// Finds the nearest of some names for a name that is unknown, and stops looking when a file of a
-/// million mistakes has used up its share of work.
+/// Suggests the nearest known name for an unknown one. A work limit keeps files of a million
+/// mistakes fast.
 class Suggestions {
 public:
-    /// The nearest candidate that is near enough, or an empty string.
+    /// The nearest candidate that is similar enough, or an empty string.
     [[nodiscard]] std::string nearest(std::string_view wanted,
                                       const std::vector<std::string_view>& candidates);
-    /// Whether comparing with `count` more candidates is still worth it.
+    /// Whether the work limit allows comparing with `count` more candidates.
     [[nodiscard]] bool may_compare(std::size_t count) const { return count <= work_left_; }
 
 private:
     std::size_t work_left_ = 4'000'000;
 };
 
-/// Adds "did you mean `name`?" to a message, with a repair that an author should look at first.
+/// Adds "did you mean `name`?" to a message, with a fix that is not applied by machines.
 void suggest(Diagnostic& diagnostic, SourceSpan span, std::string_view name);
 
 } // namespace lsys

@@ -10,7 +10,7 @@ namespace lsys {
 namespace {
 
 constexpr std::size_t kMaxLabels = 8;
-/// A repair of more places is not made: the file is better mended with `names letters`.
+/// Maximum of places in a fix; files with more are better fixed by `names letters`.
 constexpr std::size_t kMaxEdits = 10'000;
 constexpr std::size_t kMaxShown = 60;
 

@@ -1,4 +1,4 @@
-// Gathers the names of one statement that are read split, for one warning with one repair.
+// Collects the split names of a statement for one warning with one fix.
 #pragma once
 
 #include "compiler/resolve/impl/resolution.h"
@@ -13,9 +13,9 @@ class SplitReport {
 public:
     explicit SplitReport(Resolution& resolution) : resolution_(resolution) {}
 
-    /// `name` is the place of the name, `module` that of the name with its arguments.
+    /// `name` is the place of the name, `module` the place of the name with its arguments.
     void add(SourceSpan name, SourceSpan module, std::span<const NamePart> parts);
-    /// Reports what was added since the last call.
+    /// Reports the names added since the last call.
     void finish();
 
 private:

@@ -7,7 +7,7 @@ namespace lsys {
 
 namespace {
 
-/// By name: whether some module has it.
+/// By name: whether a module has it.
 std::vector<std::uint8_t> names_of_modules(const Resolution& resolution) {
     std::vector<std::uint8_t> used(resolution.names.count());
     const ChunkedVector<ModuleNode>& modules = resolution.ast.modules;
@@ -98,7 +98,7 @@ void NameSplitter::for_each_known_prefix(std::string_view text, Function found) 
             return;
         }
         const char next = text[length];
-        // Sorted names whose first and last agree all agree: no search then.
+        // Sorted names all agree if the first and last do; then no search is needed.
         if ((*first)[length] != next || (*(last - 1))[length] != next) {
             first = std::lower_bound(first, last, next, [length](std::string_view name, char c) {
                 return name[length] < c;
@@ -119,8 +119,8 @@ void NameSplitter::for_each_known_prefix(std::string_view text, Function found) 
 
 std::vector<NamePart> NameSplitter::split(const Use& whole) {
     const std::string_view text = resolution_.text(whole.name);
-    // ways[i]: in how many ways, up to two, the first i characters are a row of known names;
-    // from[i]: where the last of these names begins.
+    // ways[i]: number of ways, up to two, to split the first i characters into known names;
+    // from[i]: offset of the last of these names.
     std::vector<std::uint8_t> ways(text.size() + 1);
     std::vector<std::uint32_t> from(text.size() + 1);
     ways[0] = 1;
@@ -138,7 +138,7 @@ std::vector<NamePart> NameSplitter::split(const Use& whole) {
         if (begin == 0 || work_left_ < length || !use_lengths_.contains(length)) {
             continue;
         }
-        // The last part may be an unknown name, if it stands alone elsewhere in the file.
+        // The last part may be an unknown name that stands alone elsewhere in the file.
         work_left_ -= length;
         const NameId rest = resolution_.names.find(text.substr(begin));
         if (rest != kNoName && unknown_[index_of(rest)] &&

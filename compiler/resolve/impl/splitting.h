@@ -1,6 +1,6 @@
-// Name splitting (docs/language.md section 3): a module name that nobody knows, but that is a row
-// of known names in exactly one way, is read as that row: `AS(1)` as `A S(1)`. Decided once all
-// statements are read; the decision depends on the name, the number of parameters and the file.
+// Name splitting (docs/language.md section 3): an unknown module name that is a sequence of known
+// names in exactly one way is read as that sequence, `AS(1)` as `A S(1)`. Decided after all
+// statements are parsed, from the name, the number of parameters and the file.
 #pragma once
 
 #include "compiler/resolve/impl/resolution.h"
@@ -15,7 +15,7 @@
 
 namespace lsys {
 
-/// A part of a name and where it begins in it.
+/// A part of a name and its offset in the name.
 struct NamePart {
     NameId name = kNoName;
     std::uint32_t offset = 0;
@@ -27,14 +27,14 @@ public:
     /// Precondition: no module of the Ast is released yet.
     NameSplitter(Resolution& resolution, const std::vector<bool>& known);
 
-    /// Whether parts() may have an answer for this name.
+    /// Whether parts() may split this name.
     [[nodiscard]] bool may_split(NameId name) const { return unknown_[index_of(name)]; }
-    /// The parts of a name, or nothing if it is one module. Not for names in back quotes.
+    /// The parts of a name, or nothing if it is one module. Precondition: not in back quotes.
     [[nodiscard]] std::span<const NamePart>
     parts(NameId name, std::uint32_t parameter_count, FileId file);
 
 private:
-    /// A name as it is used in a file.
+    /// A use of a name in a file.
     struct Use {
         NameId name = kNoName;
         std::uint32_t parameter_count = 0;
@@ -53,17 +53,17 @@ private:
     void collect_uses();
     void add_uses(ModuleList list);
     [[nodiscard]] std::vector<NamePart> split(const Use& whole);
-    /// Calls `found` with the length of every known name that `text` begins with.
+    /// Calls found(length) for every known name that `text` begins with.
     template <typename Function>
     void for_each_known_prefix(std::string_view text, Function found);
 
     Resolution& resolution_;
     std::vector<bool> unknown_;                  // by name: unknown identifiers that occur
     std::vector<std::string_view> known_sorted_; // known identifiers
-    std::unordered_set<Use, UseHash> uses_;      // of unknown identifiers
+    std::unordered_set<Use, UseHash> uses_;      // uses of unknown identifiers
     std::unordered_set<std::size_t> use_lengths_;
     std::unordered_map<Use, std::vector<NamePart>, UseHash> decided_;
-    /// Steps left: names made to be costly to split are left as they are in the end.
+    /// Steps left; beyond them names that are costly to split stay whole.
     std::uint64_t work_left_ = std::uint64_t{1} << 28;
 };
 

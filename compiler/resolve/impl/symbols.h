@@ -1,5 +1,4 @@
-// The symbols of a Program by name and number of parameters: made where they first appear, so that
-// their order is that of the text.
+// The symbols of a Program by name and number of parameters, in order of first appearance.
 #pragma once
 
 #include "compiler/resolve/impl/resolution.h"
@@ -15,12 +14,12 @@ class SymbolTable {
 public:
     explicit SymbolTable(Resolution& resolution);
 
-    /// Modules of this name, of any count, draw `object` from now on.
+    /// Makes modules of this name, with any number of parameters, draw `object`.
     void bind(NameId name, TurtleOperation object, std::string mesh_file);
-    /// Modules of this name, of any count, are skipped in contexts from now on.
+    /// Makes contexts skip modules of this name, with any number of parameters.
     void ignore(NameId name);
     void consider(NameId name);
-    /// From now on only brackets and what consider() named count in contexts.
+    /// Makes contexts skip all modules but brackets and those of consider().
     void ignore_all_but_considered() { others_ignored_ = true; }
     [[nodiscard]] bool is_ignored(NameId name) const;
 
@@ -39,7 +38,7 @@ private:
     SymbolId make(NameId name, std::uint32_t parameter_count);
 
     Resolution& resolution_;
-    std::vector<Latest> latest_; // by name: the count asked for last
+    std::vector<Latest> latest_; // by name: the last symbol looked up
     std::unordered_map<std::uint64_t, SymbolId> symbols_;
     std::unordered_map<std::uint32_t, Binding> bindings_;
     std::vector<bool> ignored_; // by name

@@ -1,5 +1,5 @@
-// Makes the values of a Program: shares literals and folds what depends on constants only, in the
-// arithmetic of the runtime.
+// Makes the values of a Program: shares equal literals and folds constants with the arithmetic of
+// the runtime.
 #pragma once
 
 #include "compiler/program/program.h"
@@ -12,16 +12,16 @@ namespace lsys {
 
 class ValueBuilder {
 public:
-    /// `values` is empty and becomes the builder's; its first element is made kPoison.
+    /// Adds kPoison to `values`, which is empty and which nothing else changes.
     explicit ValueBuilder(ChunkedVector<Value>& values);
 
     [[nodiscard]] ValueId literal(float value, SourceSpan span);
     /// A value without operands: Formal, Global, Step, Steps.
     [[nodiscard]] ValueId leaf(Opcode opcode, std::uint32_t index, SourceSpan span);
-    /// A range; its operands are never folded away, since it draws.
+    /// A random range, which is never folded since it draws.
     [[nodiscard]] ValueId
     range(ValueId minimum, ValueId maximum, std::uint32_t draw, SourceSpan span);
-    /// An operation on one value or two: a literal if they are. kPoison if one of them is.
+    /// An operation on one or two values: a literal if all operands are, kPoison if one is.
     [[nodiscard]] ValueId operation(Opcode opcode, ValueId left, ValueId right, SourceSpan span);
 
     [[nodiscard]] const Value& operator[](ValueId id) const {

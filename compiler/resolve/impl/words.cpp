@@ -24,7 +24,7 @@ bool check_module(ModuleReading& reading, const ModuleView& module) {
 
 namespace {
 
-/// Appends a module, or the modules that its name is read as; arguments belong to the last.
+/// Appends a module, or the modules that its name is split into; the last one gets the arguments.
 void append_module(ModuleReading& reading, const ModuleView& module) {
     Program& program = reading.resolution.program;
     const std::uint32_t count = module.arguments.count;
@@ -48,8 +48,8 @@ void append_module(ModuleReading& reading, const ModuleView& module) {
     }
 }
 
-/// Appends the modules from `index` on that are names met before and nothing else; returns the
-/// first that is not. Nearly all modules of a long word are.
+/// Appends modules from `index` on while they are known names without arguments, as nearly all
+/// modules of a long word are; returns the index of the first that is not.
 std::uint32_t append_bare(ModuleReading& reading, std::uint32_t index, std::uint32_t end) {
     ChunkedVector<ProgramModule>& made = reading.resolution.program.modules;
     const std::span<const SymbolId> bare = reading.bare;

@@ -1,4 +1,4 @@
-// Module lists of axioms and successors to words of the Program.
+// Module lists of axiom and successors to words of the Program.
 #pragma once
 
 #include "compiler/resolve/impl/expressions.h"
@@ -11,22 +11,21 @@
 
 namespace lsys {
 
-/// What the parts of a resolution that read module lists share.
+/// State shared by the parts of the resolution that read module lists.
 struct ModuleReading {
     Resolution& resolution;
     SymbolTable& symbols;
     NameSplitter& splitter;
     ExpressionResolver& expressions;
     SplitReport splits;
-    /// By name: the symbol of its modules without arguments, once met, where the name is one module
-    /// however it is written.
+    /// By name that is never split: the symbol of its modules without arguments, once found.
     std::vector<SymbolId> bare;
 };
 
-/// Reports parameters of a module that takes none. False: the module is wrong.
+/// Reports parameters of a module that takes none. Returns false if the module is in error.
 [[nodiscard]] bool check_module(ModuleReading& reading, const ModuleView& module);
 
-/// Resolves the modules of a list and appends them to the Program. Ranges of its arguments are
+/// Resolves the modules of a list and appends them to the Program. Ranges in the arguments are
 /// numbered from 0.
 [[nodiscard]] ProgramWord
 resolve_word(ModuleReading& reading, ModuleList list, ExpressionPlace place);

@@ -1,13 +1,12 @@
 #include "runtime/derive/engine/eval.h"
 
 #include "compiler/bytecode/arithmetic.h"
+#include "compiler/bytecode/interpret.h"
 #include "compiler/bytecode/verify.h"
 #include "grammar/base/contract.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
-#include <utility>
 
 namespace lsys {
 
@@ -32,6 +31,60 @@ Fault check_range(float minimum, float maximum) {
     return std::isfinite(maximum - minimum) ? Fault::None : Fault::RangeTooWide;
 }
 
+namespace {
+
+/// The domain of numbers.
+struct Numbers : UnknownDomain<float> {
+    const EvalFrame& frame;
+    RangeDraws* draws;
+    float* out;
+    const std::uint32_t* begin;
+    EvalFault& fault;
+
+    static float literal(float value) { return value; }
+    [[nodiscard]] float formal(std::uint32_t index) const { return frame.formals[index]; }
+    [[nodiscard]] float global(std::uint32_t index) const { return frame.globals[index]; }
+    [[nodiscard]] float step() const { return frame.step; }
+    [[nodiscard]] float steps() const { return frame.steps; }
+    [[nodiscard]] float branch_draw(std::uint32_t branch) const {
+        LSYS_DCHECK(draws != nullptr);
+        return draws->draw_branch(branch);
+    }
+    static float unary(Opcode opcode, float x) { return arithmetic::apply(opcode, x, 0.0F); }
+    static float binary(Opcode opcode, float x, float y) {
+        switch (opcode) {
+        case Opcode::Multiply:
+            return x * y;
+        case Opcode::Add:
+            return x + y;
+        case Opcode::Subtract:
+            return x - y;
+        default:
+            return arithmetic::apply(opcode, x, y);
+        }
+    }
+    bool range(float& x, float maximum, std::uint32_t index, const std::uint32_t* at) {
+        const Fault kind = check_range(x, maximum);
+        if (kind != Fault::None) {
+            fault = {kind, static_cast<std::uint32_t>(at - begin), x, maximum};
+            return false;
+        }
+        LSYS_DCHECK(draws != nullptr);
+        x = draw_in_range(x, maximum, draws->draw(index));
+        return true;
+    }
+    bool take(float x, const std::uint32_t* at) {
+        if (!std::isfinite(x)) {
+            fault = {Fault::NotFinite, static_cast<std::uint32_t>(at - begin), x, 0.0F};
+            return false;
+        }
+        *out++ = x;
+        return true;
+    }
+};
+
+} // namespace
+
 bool evaluate(const Bytecode& bytecode,
               std::uint32_t first,
               const EvalFrame& frame,
@@ -39,75 +92,9 @@ bool evaluate(const Bytecode& bytecode,
               float* out,
               EvalFault& fault) {
     std::array<float, kMaxStack> stack; // NOLINT: written before it is read, as verify() promises
-    float* top = stack.data();          // one past the top
     const std::uint32_t* const begin = bytecode.instructions.data();
-    for (const std::uint32_t* at = begin + first;; ++at) {
-        const auto opcode = static_cast<Opcode>(*at & 0xFF);
-        const std::uint32_t operand = *at >> 8;
-        switch (opcode) {
-        case Opcode::Literal:
-            *top++ = std::bit_cast<float>(*++at);
-            break;
-        case Opcode::Formal:
-            *top++ = frame.formals[operand];
-            break;
-        case Opcode::Global:
-            *top++ = frame.globals[operand];
-            break;
-        case Opcode::Step:
-            *top++ = frame.step;
-            break;
-        case Opcode::Steps:
-            *top++ = frame.steps;
-            break;
-        case Opcode::Multiply:
-            --top;
-            top[-1] = top[-1] * top[0];
-            break;
-        case Opcode::Add:
-            --top;
-            top[-1] = top[-1] + top[0];
-            break;
-        case Opcode::Subtract:
-            --top;
-            top[-1] = top[-1] - top[0];
-            break;
-        case Opcode::Swap:
-            std::swap(top[-1], top[-2]);
-            break;
-        case Opcode::Range: {
-            --top;
-            const Fault kind = check_range(top[-1], top[0]);
-            if (kind != Fault::None) {
-                fault = {kind, static_cast<std::uint32_t>(at - begin), top[-1], top[0]};
-                return false;
-            }
-            LSYS_DCHECK(draws != nullptr);
-            top[-1] = draw_in_range(top[-1], top[0], draws->draw(operand));
-            break;
-        }
-        case Opcode::BranchDraw:
-            LSYS_DCHECK(draws != nullptr);
-            *top++ = draws->draw_branch(operand);
-            break;
-        case Opcode::Emit:
-        case Opcode::Test:
-            --top;
-            if (!std::isfinite(top[0])) {
-                fault = {Fault::NotFinite, static_cast<std::uint32_t>(at - begin), top[0], 0.0F};
-                return false;
-            }
-            *out++ = top[0];
-            break;
-        case Opcode::End:
-            return true;
-        default: {
-            const float y = info(opcode).pops == 2 ? *--top : 0.0F;
-            top[-1] = arithmetic::apply(opcode, top[-1], y);
-            break;
-        }
-        }
-    }
+    Numbers numbers{{}, frame, draws, out, begin, fault};
+    return interpret(begin + first, numbers, stack.data());
 }
 
 } // namespace lsys

@@ -1,10 +1,10 @@
 #include "runtime/derive/engine/shape.h"
 
 #include "compiler/bytecode/arithmetic.h"
+#include "compiler/bytecode/interpret.h"
+#include "compiler/bytecode/verify.h"
 
-#include <bit>
 #include <cmath>
-#include <utility>
 
 namespace lsys {
 
@@ -14,9 +14,9 @@ namespace {
 struct Term {
     ShapeKind kind = ShapeKind::Other;
     float constant = 0.0F;
-    AffineTerm lane;
-    bool scaled = false; // the lane multiplies, so a further factor would round differently
-    bool offset = false; // the lane adds
+    AffineTerm affine;
+    bool scaled = false; // it multiplies, so a further factor would round differently
+    bool offset = false; // it adds
     std::size_t first_comparison = 0;
     std::size_t comparison_count = 0;
 };
@@ -28,128 +28,121 @@ Term constant_term(float value) {
     return term;
 }
 
-class Shaper {
+/// The domain of affine terms and of comparisons of them with constants.
+class AffineDomain : public UnknownDomain<Term> {
 public:
-    explicit Shaper(const ShapeKnowledge& knowledge) : knowledge_(knowledge) {}
+    AffineDomain(const ShapeKnowledge& knowledge, std::vector<ValueShape>& shapes)
+        : knowledge_(knowledge), shapes_(shapes) {}
 
-    void push_formal(std::uint32_t formal) {
+    bool enter() { return ++count_ <= kMaxShapedInstructions; }
+    static Term literal(float value) { return constant_term(value); }
+    [[nodiscard]] Term formal(std::uint32_t formal) const {
         Term term;
         const std::uint32_t own = formal - knowledge_.own_first;
         if (formal >= knowledge_.own_first && own < knowledge_.own_count) {
             if (knowledge_.own_constants != nullptr) {
-                term = constant_term(knowledge_.own_constants[own]);
-            } else {
-                term.kind = ShapeKind::Affine;
-                term.lane.input = own;
+                return constant_term(knowledge_.own_constants[own]);
             }
+            term.kind = ShapeKind::Affine;
+            term.affine.input = own;
         }
-        stack_.push_back(term);
+        return term;
     }
-    void push_constant(float value) { stack_.push_back(constant_term(value)); }
-    void push_unknown() { stack_.emplace_back(); }
+    [[nodiscard]] Term global(std::uint32_t index) const {
+        return constant_term(knowledge_.globals[index]);
+    }
+    [[nodiscard]] Term step() const {
+        return knowledge_.step ? constant_term(*knowledge_.step) : Term{};
+    }
+    [[nodiscard]] Term steps() const { return constant_term(knowledge_.steps); }
 
-    void unary(Opcode opcode) {
-        const Term x = pop();
+    static Term unary(Opcode opcode, const Term& x) {
         if (x.kind == ShapeKind::Constant) {
-            push_constant(arithmetic::apply(opcode, x.constant, 0.0F));
-        } else if (opcode == Opcode::Negate && x.kind == ShapeKind::Affine && !x.offset) {
-            Term term = x; // with an offset, a sum of +0 would have to become -0
-            term.lane.scale = -term.lane.scale;
-            term.scaled = true;
-            stack_.push_back(term);
-        } else {
-            push_unknown();
+            return constant_term(arithmetic::apply(opcode, x.constant, 0.0F));
         }
+        if (opcode == Opcode::Negate && x.kind == ShapeKind::Affine && !x.offset) {
+            Term term = x; // with an offset, a sum of +0 would have to become -0
+            term.affine.scale = -term.affine.scale;
+            term.scaled = true;
+            return term;
+        }
+        return {};
     }
 
-    void binary(Opcode opcode) {
-        const Term y = pop();
-        const Term x = pop();
+    Term binary(Opcode opcode, const Term& x, const Term& y) {
         if (x.kind == ShapeKind::Constant && y.kind == ShapeKind::Constant) {
-            push_constant(arithmetic::apply(opcode, x.constant, y.constant));
-        } else if (x.kind == ShapeKind::Affine && y.kind == ShapeKind::Constant) {
-            stack_.push_back(with_constant(opcode, x, y.constant, false));
-        } else if (x.kind == ShapeKind::Constant && y.kind == ShapeKind::Affine) {
-            stack_.push_back(with_constant(opcode, y, x.constant, true));
-        } else if (opcode == Opcode::And && x.kind == ShapeKind::Comparisons &&
-                   y.kind == ShapeKind::Comparisons &&
-                   x.first_comparison + x.comparison_count == y.first_comparison) {
+            return constant_term(arithmetic::apply(opcode, x.constant, y.constant));
+        }
+        if (x.kind == ShapeKind::Affine && y.kind == ShapeKind::Constant) {
+            return with_constant(opcode, x, y.constant, false);
+        }
+        if (x.kind == ShapeKind::Constant && y.kind == ShapeKind::Affine) {
+            return with_constant(opcode, y, x.constant, true);
+        }
+        if (opcode == Opcode::And && x.kind == ShapeKind::Comparisons &&
+            y.kind == ShapeKind::Comparisons &&
+            x.first_comparison + x.comparison_count == y.first_comparison) {
             Term term = x;
             term.comparison_count += y.comparison_count;
-            stack_.push_back(term);
-        } else {
-            push_unknown();
+            return term;
         }
+        return {};
     }
 
-    void range() {
-        stack_.pop_back();
-        stack_.back() = {};
-    }
-    void swap() { std::swap(stack_[stack_.size() - 1], stack_[stack_.size() - 2]); }
-
-    ValueShape take() {
-        const Term term = pop();
-        ValueShape shape;
-        shape.kind = term.kind;
-        shape.constant = term.constant;
-        shape.term = term.lane;
-        const auto begin =
+    bool take(const Term& term, const std::uint32_t* /*at*/) {
+        const auto first =
             comparisons_.begin() + static_cast<std::ptrdiff_t>(term.first_comparison);
-        shape.comparisons.assign(begin, begin + static_cast<std::ptrdiff_t>(term.comparison_count));
-        return shape;
+        shapes_.push_back({term.kind,
+                           term.constant,
+                           term.affine,
+                           {first, first + static_cast<std::ptrdiff_t>(term.comparison_count)}});
+        return true;
     }
 
 private:
-    Term pop() {
-        const Term term = stack_.back();
-        stack_.pop_back();
-        return term;
-    }
-
-    /// `lane opcode constant`, or `constant opcode lane` if swapped.
-    Term with_constant(Opcode opcode, const Term& lane, float constant, bool swapped) {
-        Term term = lane;
+    /// `x opcode constant`, or `constant opcode x` if swapped.
+    Term with_constant(Opcode opcode, const Term& x, float constant, bool swapped) {
+        Term term = x;
         if (!std::isfinite(constant)) {
             return {};
         }
         switch (opcode) {
         case Opcode::Multiply:
-            if (!lane.scaled && !lane.offset) {
-                term.lane.scale = constant;
+            if (!x.scaled && !x.offset) {
+                term.affine.scale = constant;
                 term.scaled = true;
                 return term;
             }
             return {};
         case Opcode::Divide:
-            if (!swapped && !lane.scaled && !lane.offset && has_exact_reciprocal(constant)) {
-                term.lane.scale = 1.0F / constant;
+            if (!swapped && !x.scaled && !x.offset && has_exact_reciprocal(constant)) {
+                term.affine.scale = 1.0F / constant;
                 term.scaled = true;
                 return term;
             }
             return {};
         case Opcode::Add:
-            if (!lane.offset) {
-                term.lane.offset = constant;
+            if (!x.offset) {
+                term.affine.offset = constant;
                 term.offset = true;
                 return term;
             }
             return {};
         case Opcode::Subtract:
-            if (!lane.offset) {
-                term.lane.scale = swapped ? -lane.lane.scale : lane.lane.scale;
-                term.lane.offset = swapped ? constant : -constant;
-                term.scaled = lane.scaled || swapped;
+            if (!x.offset) {
+                term.affine.scale = swapped ? -x.affine.scale : x.affine.scale;
+                term.affine.offset = swapped ? constant : -constant;
+                term.scaled = x.scaled || swapped;
                 term.offset = true;
                 return term;
             }
             return {};
         default:
-            return comparison(opcode, lane.lane, constant, swapped);
+            return comparison(opcode, x.affine, constant, swapped);
         }
     }
 
-    Term comparison(Opcode opcode, const AffineTerm& lane, float bound, bool swapped) {
+    Term comparison(Opcode opcode, const AffineTerm& affine, float bound, bool swapped) {
         std::uint32_t accepted = 0;
         switch (opcode) {
         case Opcode::Less:
@@ -177,7 +170,7 @@ private:
         term.kind = ShapeKind::Comparisons;
         term.first_comparison = comparisons_.size();
         term.comparison_count = 1;
-        comparisons_.push_back({lane, bound, accepted});
+        comparisons_.push_back({affine, bound, accepted});
         return term;
     }
 
@@ -188,8 +181,9 @@ private:
     }
 
     const ShapeKnowledge& knowledge_;
-    std::vector<Term> stack_;
+    std::vector<ValueShape>& shapes_;
     std::vector<Comparison> comparisons_;
+    std::uint32_t count_ = 0; // of instructions
 };
 
 } // namespace
@@ -197,71 +191,21 @@ private:
 std::vector<ValueShape>
 shapes_of(const Bytecode& bytecode, std::uint32_t first, const ShapeKnowledge& knowledge) {
     std::vector<ValueShape> shapes;
-    Shaper shaper(knowledge);
-    const std::uint32_t* at = bytecode.instructions.data() + first;
-    for (std::uint32_t count = 0; count < kMaxShapedInstructions; ++count, ++at) {
-        const auto opcode = static_cast<Opcode>(*at & 0xFF);
-        const std::uint32_t operand = *at >> 8;
-        switch (opcode) {
-        case Opcode::Literal:
-            shaper.push_constant(std::bit_cast<float>(*++at));
-            break;
-        case Opcode::Formal:
-            shaper.push_formal(operand);
-            break;
-        case Opcode::Global:
-            shaper.push_constant(knowledge.globals[operand]);
-            break;
-        case Opcode::Step:
-            if (knowledge.step) {
-                shaper.push_constant(*knowledge.step);
-            } else {
-                shaper.push_unknown();
-            }
-            break;
-        case Opcode::Steps:
-            shaper.push_constant(knowledge.steps);
-            break;
-        case Opcode::Swap:
-            shaper.swap();
-            break;
-        case Opcode::Range:
-            shaper.range();
-            break;
-        case Opcode::BranchDraw:
-            shaper.push_unknown();
-            break;
-        case Opcode::Emit:
-        case Opcode::Test:
-            shapes.push_back(shaper.take());
-            break;
-        case Opcode::End:
-            return shapes;
-        default:
-            if (info(opcode).pops == 2) {
-                shaper.binary(opcode);
-            } else {
-                shaper.unary(opcode);
-            }
-            break;
-        }
+    AffineDomain domain(knowledge, shapes);
+    std::vector<Term> stack(kMaxStack);
+    if (!interpret(bytecode.instructions.data() + first, domain, stack.data())) {
+        shapes.clear();
     }
-    return {};
+    return shapes;
 }
 
 bool contains(const Bytecode& bytecode, std::uint32_t first, Opcode opcode) {
-    for (const std::uint32_t* at = bytecode.instructions.data() + first;; ++at) {
-        const auto found = static_cast<Opcode>(*at & 0xFF);
-        if (found == opcode) {
+    for (const Instruction each : InstructionRange(bytecode.instructions, first)) {
+        if (each.opcode == opcode) {
             return true;
         }
-        if (found == Opcode::End) {
-            return false;
-        }
-        if (found == Opcode::Literal) {
-            ++at;
-        }
     }
+    return false;
 }
 
 bool is_drawn(const Bytecode& bytecode, const WordTemplate& successor) {
@@ -277,19 +221,12 @@ bool uses_formal_outside(const Bytecode& bytecode,
     if (first == kNone) {
         return false;
     }
-    for (const std::uint32_t* at = bytecode.instructions.data() + first;; ++at) {
-        const auto opcode = static_cast<Opcode>(*at & 0xFF);
-        const std::uint32_t operand = *at >> 8;
-        if (opcode == Opcode::Formal && (operand < begin || operand >= end)) {
+    for (const Instruction each : InstructionRange(bytecode.instructions, first)) {
+        if (each.opcode == Opcode::Formal && (each.operand < begin || each.operand >= end)) {
             return true;
         }
-        if (opcode == Opcode::End) {
-            return false;
-        }
-        if (opcode == Opcode::Literal) {
-            ++at;
-        }
     }
+    return false;
 }
 
 } // namespace lsys

@@ -1,5 +1,6 @@
 #include "runtime/derive/engine/start.h"
 
+#include "compiler/bytecode/instructions.h"
 #include "runtime/derive/engine/eval.h"
 
 namespace lsys {
@@ -66,10 +67,9 @@ std::optional<RuntimeError> axiom_parameters(const Bytecode& bytecode,
     }
     RuntimeError error = describe(bytecode, fault);
     std::uint32_t emitted = 0; // before the fault
-    for (std::uint32_t at = axiom.arguments; at < fault.instruction; ++at) {
-        const auto opcode = static_cast<Opcode>(bytecode.instructions[at] & 0xFF);
-        emitted += opcode == Opcode::Emit ? 1 : 0;
-        at += opcode == Opcode::Literal ? 1 : 0;
+    for (const Instruction each :
+         InstructionRange(bytecode.instructions, axiom.arguments, fault.instruction)) {
+        emitted += each.opcode == Opcode::Emit ? 1 : 0;
     }
     std::uint32_t stored = 0;
     for (std::uint32_t i = 0; i < axiom.codes.count; ++i) {

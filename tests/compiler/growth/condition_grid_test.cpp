@@ -1,32 +1,37 @@
 #include "compiler/growth/condition_grid.h"
-#include "tests/compiler/bytecode_builder.h"
+#include "tests/support/builder_text.h"
 
 #include <catch2/catch.hpp>
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace lsys::analysis {
 namespace {
-
-using test::apply;
-using test::Code32;
-using test::formal;
-using test::number;
 
 struct Laid {
     std::vector<std::uint32_t> instructions;
     std::vector<ConditionView> views;
 };
 
-/// Conditions one after the other, each ended by Test.
-Laid lay(const std::vector<Code32>& conditions, std::uint32_t formals) {
+/// Conditions of formals x and y one after the other, each ended by Test.
+Laid lay(const std::vector<std::string>& conditions) {
+    const test::NameTable names{{"x", 0}, {"y", 1}};
+    const test::NameTable globals{{"c", 0}};
+    std::uint32_t draws = 0;
+    bool uses_steps = false;
     Laid laid;
-    for (const Code32& condition : conditions) {
-        laid.views.push_back({static_cast<std::uint32_t>(laid.instructions.size()), 0, formals});
+    for (const std::string& text : conditions) {
+        const test::Instructions condition =
+            test::compile_expression(text, {names, globals, draws, uses_steps});
+        laid.views.push_back({static_cast<std::uint32_t>(laid.instructions.size()), 0});
         laid.instructions.insert(laid.instructions.end(), condition.begin(), condition.end());
         laid.instructions.push_back(encode(Opcode::Test, 0));
     }
@@ -38,8 +43,8 @@ std::optional<ConditionGrid> grid_of(const Laid& laid, std::uint32_t formals) {
     return make_condition_grid(laid.instructions, laid.views, unknown, {}, 10'000);
 }
 
-std::optional<ConditionGrid> grid_of(const Code32& condition, std::uint32_t formals) {
-    return grid_of(lay({condition}, formals), formals);
+std::optional<ConditionGrid> grid_of(const std::string& condition, std::uint32_t formals) {
+    return grid_of(lay({condition}), formals);
 }
 
 std::vector<float> lows(const GridAxis& axis) {
@@ -66,28 +71,23 @@ TEST_CASE("order indices number the finite values without gaps") {
 }
 
 TEST_CASE("a comparison cuts its parameter between neighbouring numbers") {
-    const auto less = grid_of(apply(Opcode::Less, formal(0), number(2)), 1);
+    const auto less = grid_of("x < 2", 1);
     REQUIRE(less);
     REQUIRE(less->axes.size() == 1);
     CHECK(lows(less->axes[0]) == std::vector<float>{kLowest, 2.0F});
 
-    const auto greater = grid_of(apply(Opcode::Greater, formal(0), number(2)), 1);
+    const auto greater = grid_of("x > 2", 1);
     REQUIRE(greater);
     CHECK(lows(greater->axes[0]) == std::vector<float>{kLowest, above(2.0F)});
 
-    const auto equal = grid_of(apply(Opcode::Equal, number(2), formal(0)), 1);
+    const auto equal = grid_of("2 == x", 1);
     REQUIRE(equal);
     CHECK(lows(equal->axes[0]) == std::vector<float>{kLowest, 2.0F, above(2.0F)});
     CHECK(equal->axes[0].cells[1].high == 2.0F);
 }
 
 TEST_CASE("monotone expressions are cut exactly where rounding changes them") {
-    // 0.1 * x - 1 >= 0
-    const Code32 chain =
-        apply(Opcode::GreaterEqual,
-              apply(Opcode::Subtract, apply(Opcode::Multiply, number(0.1F), formal(0)), number(1)),
-              number(0));
-    const auto grid = grid_of(chain, 1);
+    const auto grid = grid_of("0.1 * x - 1 >= 0", 1);
     REQUIRE(grid);
     REQUIRE(grid->axes[0].cells.size() == 2);
     const float cut = grid->axes[0].cells[1].low;
@@ -95,21 +95,18 @@ TEST_CASE("monotone expressions are cut exactly where rounding changes them") {
     const float before = number_at(order_index(cut) - 1);
     CHECK(0.1F * before - 1.0F < 0.0F);
 
-    const auto falling =
-        grid_of(apply(Opcode::Less, apply(Opcode::Subtract, number(3), formal(0)), number(1)), 1);
+    const auto falling = grid_of("3 - x < 1", 1);
     REQUIRE(falling);
     CHECK(3.0F - falling->axes[0].cells[1].low < 1.0F);
     CHECK(3.0F - falling->axes[0].cells[0].high >= 1.0F);
 }
 
 TEST_CASE("several parameters make a product, compared ones are tried in every order") {
-    const auto product = grid_of(apply(Opcode::And, apply(Opcode::Less, formal(0), number(2)),
-                                       apply(Opcode::Greater, formal(1), number(3))),
-                                 2);
+    const auto product = grid_of("x < 2 && y > 3", 2);
     REQUIRE(product);
     CHECK(product->point_count() == 4);
 
-    const auto compared = grid_of(apply(Opcode::Less, formal(0), formal(1)), 2);
+    const auto compared = grid_of("x < y", 2);
     REQUIRE(compared);
     CHECK(compared->axes[0].compared);
     bool less = false;
@@ -128,15 +125,51 @@ TEST_CASE("several parameters make a product, compared ones are tried in every o
 }
 
 TEST_CASE("conditions of other forms have no grid") {
-    CHECK(!grid_of(apply(Opcode::Less, apply(Opcode::Sin, formal(0)), number(0)), 1));
-    CHECK(!grid_of(apply(Opcode::Equal, apply(Opcode::Mod, formal(0), number(2)), number(0)), 1));
-    CHECK(!grid_of(apply(Opcode::Less, apply(Opcode::Add, formal(0), formal(1)), number(0)), 2));
-    CHECK(!grid_of(apply(Opcode::Less, formal(0), {encode(Opcode::Step, 0)}), 1));
-    CHECK(!grid_of(apply(Opcode::Less, formal(0), {encode(Opcode::Global, 0)}), 1));
+    CHECK(!grid_of("sin(x) < 0", 1));
+    CHECK(!grid_of("mod(x, 2) == 0", 1));
+    CHECK(!grid_of("x + y < 0", 2));
+    CHECK(!grid_of("x < step()", 1));
+    CHECK(!grid_of("x < c", 1));
+}
+
+TEST_CASE("a deeper right operand, computed first, makes the same cuts and values") {
+    const auto op = [](Opcode opcode, std::uint32_t operand = 0) {
+        return encode(opcode, operand);
+    };
+    const auto three = std::bit_cast<std::uint32_t>(3.0F);
+    // 3 - x * 3, or x * 3 - 3, with the left or the right operand first
+    const auto side = [&](bool swapped, bool falling) {
+        const test::Instructions constant{op(Opcode::Literal), three};
+        const test::Instructions product{op(Opcode::Formal), op(Opcode::Literal), three,
+                                         op(Opcode::Multiply)};
+        test::Instructions code = falling != swapped ? constant : product;
+        const test::Instructions& second = falling != swapped ? product : constant;
+        code.insert(code.end(), second.begin(), second.end());
+        if (swapped) {
+            code.push_back(op(Opcode::Swap));
+        }
+        code.push_back(op(Opcode::Subtract));
+        return code;
+    };
+    for (const bool falling : {false, true}) {
+        std::vector<std::vector<float>> cuts;
+        for (const bool swapped : {false, true}) {
+            Laid laid{side(swapped, falling), {{0, 0}}};
+            laid.instructions.insert(laid.instructions.end(), {op(Opcode::Test), op(Opcode::End)});
+            const std::vector<KnownValue> two{{2.0F, true}};
+            CHECK(Evaluator().run(laid.instructions, 0, {two, {}, {}}).value ==
+                  (falling ? -3.0F : 3.0F));
+            const auto grid = grid_of(laid, 1);
+            REQUIRE(grid);
+            cuts.push_back(lows(grid->axes.at(0)));
+        }
+        CHECK(cuts[0].size() == 3);
+        CHECK(cuts[0] == cuts[1]);
+    }
 }
 
 TEST_CASE("known parameters are constants") {
-    const Laid laid = lay({apply(Opcode::Less, formal(0), formal(1))}, 2);
+    const Laid laid = lay({"x < y"});
     const std::vector<KnownValue> values{{}, {5.0F, true}};
     const auto grid = make_condition_grid(laid.instructions, laid.views, values, {}, 100);
     REQUIRE(grid);
@@ -145,12 +178,12 @@ TEST_CASE("known parameters are constants") {
 }
 
 TEST_CASE("a grid that would be too large is not made") {
-    std::vector<Code32> conditions;
+    std::vector<std::string> conditions;
     for (int i = 0; i < 200; ++i) {
-        conditions.push_back(apply(Opcode::Equal, formal(0), number(static_cast<float>(i))));
-        conditions.push_back(apply(Opcode::Equal, formal(1), number(static_cast<float>(i))));
+        conditions.push_back("x == " + std::to_string(i));
+        conditions.push_back("y == " + std::to_string(i));
     }
-    CHECK(!grid_of(lay(conditions, 2), 2));
+    CHECK(!grid_of(lay(conditions), 2));
 }
 
 // --- every cell keeps the truth of every condition
@@ -160,51 +193,38 @@ struct Random {
     std::uint32_t operator()() { return static_cast<std::uint32_t>(engine()); }
 };
 
-Code32 random_side(Random& random, std::uint32_t formals) {
-    Code32 side = formal(random() % formals);
+std::string random_side(Random& random, std::uint32_t formals) {
+    std::string side = random() % formals == 0 ? "x" : "y";
     for (std::uint32_t i = random() % 3; i > 0; --i) {
-        const float constant = (static_cast<float>(random() % 17) - 8.0F) / 3.0F + 0.1F;
-        switch (random() % 7) {
-        case 0:
-            side = apply(Opcode::Add, side, number(constant));
-            break;
-        case 1:
-            side = apply(Opcode::Subtract, number(constant), side);
-            break;
-        case 2:
-            side = apply(Opcode::Multiply, side, number(constant));
-            break;
-        case 3:
-            side = apply(Opcode::Divide, side, number(constant));
-            break;
-        case 4:
-            side = apply(Opcode::Negate, side);
-            break;
-        case 5:
-            side = apply(Opcode::Floor, side);
-            break;
-        default:
-            side = apply(Opcode::Round, side);
-            break;
-        }
+        const std::string constant =
+            std::to_string((static_cast<float>(random() % 17) - 8.0F) / 3.0F + 0.1F);
+        const std::string all[]{"(" + side + ") + " + constant,
+                                constant + " - (" + side + ")",
+                                "(" + side + ") * " + constant,
+                                "(" + side + ") / " + constant,
+                                "-(" + side + ")",
+                                "floor(" + side + ")",
+                                "round(" + side + ")"};
+        side = all[random() % std::size(all)];
     }
     return side;
 }
 
-Code32 random_condition(Random& random, std::uint32_t formals, int depth) {
+std::string random_condition(Random& random, std::uint32_t formals, int depth) {
     if (depth > 0 && random() % 3 != 0) {
-        const Opcode opcode = random() % 2 == 0 ? Opcode::And : Opcode::Or;
-        Code32 condition = apply(opcode, random_condition(random, formals, depth - 1),
-                                 random_condition(random, formals, depth - 1));
-        return random() % 4 == 0 ? apply(Opcode::Not, condition) : condition;
+        const char* both = random() % 2 == 0 ? ") && (" : ") || (";
+        const std::string left = random_condition(random, formals, depth - 1);
+        const std::string condition =
+            "(" + left + both + random_condition(random, formals, depth - 1) + ")";
+        return random() % 4 == 0 ? "!(" + condition + ")" : condition;
     }
-    const auto comparison =
-        static_cast<Opcode>(static_cast<std::uint32_t>(Opcode::Less) + random() % 6);
+    const std::string comparison =
+        std::array{" < ", " <= ", " > ", " >= ", " == ", " != "}[random() % 6];
     if (formals > 1 && random() % 4 == 0) {
-        return apply(comparison, formal(0), formal(1));
+        return "x" + comparison + "y";
     }
-    return apply(comparison, random_side(random, formals),
-                 number(static_cast<float>(random() % 9) / 2.0F));
+    return random_side(random, formals) + comparison +
+           std::to_string(static_cast<float>(random() % 9) / 2.0F);
 }
 
 TEST_CASE("a condition has one truth in every cell, and in every order of compared parameters") {
@@ -213,7 +233,7 @@ TEST_CASE("a condition has one truth in every cell, and in every order of compar
     int grids = 0;
     for (int round = 0; round < 300; ++round) {
         const std::uint32_t formals = 1 + random() % 2;
-        const Laid laid = lay({random_condition(random, formals, 2)}, formals);
+        const Laid laid = lay({random_condition(random, formals, 2)});
         const std::optional<ConditionGrid> grid = grid_of(laid, formals);
         if (!grid) {
             continue;

@@ -1,5 +1,5 @@
 #include "compiler/growth/growth.h"
-#include "tests/compiler/bytecode_builder.h"
+#include "tests/support/bytecode_builder.h"
 
 #include <catch2/catch.hpp>
 
@@ -9,13 +9,25 @@
 namespace lsys {
 namespace {
 
-using test::apply;
 using test::BytecodeBuilder;
-using test::formal;
-using test::leaf;
-using test::number;
-using test::TestWord;
-using test::word;
+
+/// The bytecode of texts, in which F draws.
+Bytecode system(const std::string& axiom,
+                const std::vector<std::string>& productions,
+                RewritingMode rewriting = RewritingMode::Parallel) {
+    BytecodeBuilder builder;
+    builder.settings.rewriting = rewriting;
+    builder.fold = false;
+    builder.axiom(axiom);
+    for (const std::string& production : productions) {
+        builder.production("p : " + production);
+    }
+    Bytecode bytecode = builder.build();
+    for (BytecodeSymbol& symbol : bytecode.symbols) {
+        symbol.turtle = symbol.name == "F" ? TurtleOperation::Forward : TurtleOperation::Nothing;
+    }
+    return bytecode;
+}
 
 Count exactly(std::uint64_t value) {
     return {value, false, 0.0};
@@ -34,70 +46,29 @@ void check_counts(const Bytecode& code, const std::vector<std::uint64_t>& module
 }
 
 Bytecode koch() {
-    BytecodeBuilder builder;
-    builder.axiom(word("F"));
-    builder.rule("F", word("F + F - F - F + F"));
-    return builder.finish();
+    return system("F", {"F : * : F+F-F-F+F"});
 }
 
 Bytecode weed() {
-    BytecodeBuilder builder;
-    builder.axiom(word("X"));
-    builder.rule("X", word("F - [ [ X ] + X ] + F [ + F X ] - X"));
-    builder.rule("F", word("F F"));
-    return builder.finish();
+    return system("X", {"X : * : F-[[X]+X]+F[+F X]-X", "F : * : F F"});
 }
 
 /// W3: parameters that no condition reads.
 Bytecode ternary() {
-    const TestWord f2{{"F", {number(2)}}};
-    const auto turn = [](const char* name, float angle) {
-        return TestWord{{name, {number(angle)}}};
-    };
-    BytecodeBuilder builder;
-    builder.axiom(turn("!", 1.4F) + f2 + turn("/", 45) + word("A"));
-    const TestWord branch = word("[") + turn("&", 22.5F) + f2 + word("A ]");
-    builder.rule("A", turn("!", 1.4F) + f2 + branch + turn("/", 112.5F) + branch +
-                          turn("/", 157.5F) + branch);
-    builder.production({.predecessor = "F",
-                        .parameters = 1,
-                        .successor = {{"F", {apply(Opcode::Multiply, formal(0), number(1.1F))}}}});
-    builder.production({.predecessor = "!",
-                        .parameters = 1,
-                        .successor = {{"!", {apply(Opcode::Multiply, formal(0), number(1.4F))}}}});
-    return builder.finish();
+    return system("!(1.4)F(2)/(45)A",
+                  {"A : * : !(1.4)F(2)[&(22.5)F(2)A]/(112.5)[&(22.5)F(2)A]/(157.5)[&(22.5)F(2)A]",
+                   "F(x) : * : F(x * 1.1)", "!(x) : * : !(x * 1.4)"});
 }
 
 Bytecode bush() {
-    BytecodeBuilder builder;
-    builder.axiom(word("F"));
-    const auto add = [&](const char* successor, float weight) {
-        builder.production({.predecessor = "F", .weight = weight, .successor = word(successor)});
-    };
-    add("F [ + F ] F [ - F ] F", 0.33F);
-    add("F [ + F ] F", 0.33F);
-    add("F [ - F ] F", 0.34F);
-    return builder.finish();
+    return system("F",
+                  {"F : * ~ 0.33 : F[+F]F[-F]F", "F : * ~ 0.33 : F[+F]F", "F : * ~ 0.34 : F[-F]F"});
 }
 
-/// W5: A(x) grows while x > 0. Where `drawn`, the axiom's parameter is not known.
-Bytecode ageing(bool drawn) {
-    const TestWord f{{"F", {number(1)}}};
-    const TestWord next{{"A", {apply(Opcode::Subtract, formal(0), number(1))}}};
-    const auto side = [&](const char* name) {
-        return word("[") + TestWord{{name, {number(30)}}} + next + word("]");
-    };
-    BytecodeBuilder builder;
-    builder.axiom({{"A", {drawn ? test::range(11, 12) : number(12)}}});
-    builder.production({.predecessor = "A",
-                        .parameters = 1,
-                        .condition = apply(Opcode::Greater, formal(0), number(0)),
-                        .successor = f + side("+") + side("-") + next});
-    builder.production({.predecessor = "A",
-                        .parameters = 1,
-                        .condition = apply(Opcode::LessEqual, formal(0), number(0)),
-                        .successor = f});
-    return builder.finish();
+/// W5: A(x) grows while x > 0, from A(12) or from an `axiom` whose parameter is not known.
+Bytecode ageing(const std::string& axiom) {
+    return system(axiom, {"A(x) : x > 0 : F(1)[+(30)A(x - 1)][-(30)A(x - 1)]A(x - 1)",
+                          "A(x) : x <= 0 : F(1)"});
 }
 
 TEST_CASE("counts are written with commas, and as powers of two beyond 2^128") {
@@ -126,8 +97,8 @@ TEST_CASE("deterministic systems are counted exactly") {
 }
 
 TEST_CASE("conditions over known parameters are decided") {
-    check_counts(ageing(false), {1, 10, 37, 118, 361, 1'090, 3'277, 9'838, 29'521, 88'570, 265'717,
-                                 797'158, 2'391'481, 2'391'481});
+    check_counts(ageing("A(12)"), {1, 10, 37, 118, 361, 1'090, 3'277, 9'838, 29'521, 88'570,
+                                   265'717, 797'158, 2'391'481, 2'391'481});
 }
 
 TEST_CASE("parameters, segments and bytes are predicted with the modules") {
@@ -162,17 +133,12 @@ TEST_CASE("stochastic systems have bounds that are reached, and an expectation")
 }
 
 TEST_CASE("a stochastic system whose successors are equally long is exact") {
-    BytecodeBuilder builder;
-    builder.axiom(word("F"));
-    for (const char* successor : {"F + F", "F - F"}) {
-        builder.production({.predecessor = "F", .weight = 0.5F, .successor = word(successor)});
-    }
-    check_counts(builder.finish(), {1, 3, 7, 15, 31});
+    check_counts(system("F", {"F : * ~ 0.5 : F+F", "F : * ~ 0.5 : F-F"}), {1, 3, 7, 15, 31});
 }
 
 TEST_CASE(
     "parameters that are drawn leave bounds, without a copied module where conditions cover all") {
-    const GrowthPrediction prediction = predict_growth(ageing(true), 3);
+    const GrowthPrediction prediction = predict_growth(ageing("A({11, 12})"), 3);
     CHECK(!prediction.exact);
     CHECK(!prediction.has_expected);
     // Each A becomes 10 modules or one F, never stays.
@@ -183,55 +149,34 @@ TEST_CASE(
 }
 
 TEST_CASE("conditions with a gap may leave a module as it is") {
-    BytecodeBuilder builder;
-    builder.axiom({{"A", {test::range(0, 4)}}});
-    for (const Opcode comparison : {Opcode::Greater, Opcode::Less}) {
-        builder.production({.predecessor = "A",
-                            .parameters = 1,
-                            .condition = apply(comparison, formal(0), number(2)),
-                            .successor = word("B B B")});
-    }
-    const GrowthPrediction prediction = predict_growth(builder.finish(), 2);
+    const GrowthPrediction prediction =
+        predict_growth(system("A({0, 4})", {"A(x) : x > 2 : B B B", "A(x) : x < 2 : B B B"}), 2);
     CHECK(prediction.low[2].modules.value == 1);
     CHECK(prediction.high[2].modules.value == 3);
 }
 
 TEST_CASE("contexts may match or not") {
-    BytecodeBuilder builder;
-    builder.axiom(word("b a a"));
-    builder.production({.predecessor = "a", .successor = word("b"), .left = "b"});
-    builder.production({.predecessor = "b", .successor = word("a a")});
-    const GrowthPrediction prediction = predict_growth(builder.finish(), 1);
+    const GrowthPrediction prediction =
+        predict_growth(system("b a a", {"b < a : * : b", "b : * : a a"}), 1);
     CHECK(prediction.low[1].modules.value == 4);
     CHECK(prediction.high[1].modules.value == 4);
     CHECK(prediction.exact); // a stays or becomes b: one module either way
 }
 
 TEST_CASE("sequential rewriting makes a pass of each rule in turn") {
-    BytecodeBuilder builder;
-    builder.settings().rewriting = RewritingMode::Sequential;
-    builder.axiom(word("A"));
-    builder.rule("A", word("B B"));
-    builder.rule("B", word("A C A"));
-    // The pass of B reads what the pass of A wrote.
-    check_counts(builder.finish(), {1, 6, 26});
+    // The pass of B reads the word that the pass of A wrote.
+    check_counts(system("A", {"A : * : B B", "B : * : A C A"}, RewritingMode::Sequential),
+                 {1, 6, 26});
 }
 
 TEST_CASE("cyclic rewriting makes one pass a generation") {
-    BytecodeBuilder builder;
-    builder.settings().rewriting = RewritingMode::Cyclic;
-    builder.axiom(word("A"));
-    builder.rule("A", word("B B"));
-    builder.rule("B", word("A C A"));
-    check_counts(builder.finish(), {1, 2, 6, 10, 26});
+    check_counts(system("A", {"A : * : B B", "B : * : A C A"}, RewritingMode::Cyclic),
+                 {1, 2, 6, 10, 26});
 }
 
 TEST_CASE("predecessors of several modules match from never to as often as they fit") {
-    BytecodeBuilder builder;
-    builder.settings().rewriting = RewritingMode::Sequential;
-    builder.axiom(word("A B A B C"));
-    builder.rule("A B", word("A"));
-    const GrowthPrediction prediction = predict_growth(builder.finish(), 1);
+    const GrowthPrediction prediction =
+        predict_growth(system("A B A B C", {"A B : * : A"}, RewritingMode::Sequential), 1);
     // A B A B C -> A A C in truth.
     CHECK(prediction.low[1].modules.value <= 3);
     CHECK(prediction.high[1].modules.value >= 3);
@@ -239,36 +184,16 @@ TEST_CASE("predecessors of several modules match from never to as often as they 
 }
 
 TEST_CASE("conditions may depend on the generation") {
-    BytecodeBuilder builder;
-    builder.axiom(word("A"));
-    builder.production({.predecessor = "A",
-                        .condition = apply(Opcode::Less, leaf(Opcode::Step), number(3)),
-                        .successor = word("A B")});
-    check_counts(builder.finish(), {1, 2, 3, 4, 4, 4});
+    check_counts(system("A", {"A : step() < 3 : A B"}), {1, 2, 3, 4, 4, 4});
 }
 
 TEST_CASE("conditions may depend on the number of generations asked for") {
-    BytecodeBuilder builder;
-    builder.use_steps();
-    builder.axiom(word("A"));
-    builder.production({.predecessor = "A",
-                        .condition = apply(Opcode::Less, leaf(Opcode::Step),
-                                           apply(Opcode::Subtract, leaf(Opcode::Steps), number(1))),
-                        .successor = word("A B")});
-    check_counts(builder.finish(), {1, 2, 3, 3});
+    check_counts(system("A", {"A : step() < steps() - 1 : A B"}), {1, 2, 3, 3});
 }
 
 TEST_CASE("a word that stays is found") {
-    BytecodeBuilder builder;
-    builder.axiom({{"A", {number(3)}}});
-    builder.production(
-        {.predecessor = "A",
-         .parameters = 1,
-         .condition = apply(Opcode::Greater, formal(0), number(0)),
-         .successor =
-             TestWord{{"A", {apply(Opcode::Subtract, formal(0), number(1))}}} + word("B")});
-    const Bytecode code = builder.finish();
-    const GrowthPrediction prediction = predict_growth(code, 100'000'000);
+    const GrowthPrediction prediction =
+        predict_growth(system("A(3)", {"A(x) : x > 0 : A(x - 1) B"}), 100'000'000);
     CHECK(prediction.exact);
     REQUIRE(prediction.unchanged_from);
     CHECK(*prediction.unchanged_from == 3);
@@ -280,10 +205,7 @@ TEST_CASE("a word that stays is found") {
 }
 
 TEST_CASE("the last of very many generations is found by powers") {
-    BytecodeBuilder builder;
-    builder.axiom(word("A"));
-    builder.rule("A", word("A B"));
-    const GrowthPrediction line = predict_growth(builder.finish(), 4'294'967'294U);
+    const GrowthPrediction line = predict_growth(system("A", {"A : * : A B"}), 4'294'967'294U);
     REQUIRE(line.has_last);
     CHECK(to_text(line.last_low.modules) == "4,294,967,295");
     CHECK(to_text(line.last_high.modules) == "4,294,967,295");
@@ -294,15 +216,8 @@ TEST_CASE("the last of very many generations is found by powers") {
 }
 
 TEST_CASE("many generations of one condition are told apart up to a number, then bounded") {
-    BytecodeBuilder builder;
-    builder.axiom({{"A", {number(0)}}});
-    builder.production(
-        {.predecessor = "A",
-         .parameters = 1,
-         .condition = apply(Opcode::Less, formal(0), number(9'000)),
-         .successor = TestWord{{"A", {apply(Opcode::Add, formal(0), number(1))}}} + word("B")});
-    const Bytecode code = builder.finish();
-    const GrowthPrediction prediction = predict_growth(code, 9'500);
+    const GrowthPrediction prediction =
+        predict_growth(system("A(0)", {"A(x) : x < 9000 : A(x + 1) B"}), 9'500);
     CHECK(!prediction.exact);
     CHECK(prediction.low[4'000].modules.value == 4'001);
     CHECK(prediction.high[4'000].modules.value == 4'001);
@@ -333,11 +248,8 @@ TEST_CASE("the largest fitting generation is found with the production that grow
 }
 
 TEST_CASE("a limit that is reached after very many generations is found") {
-    BytecodeBuilder builder;
-    builder.axiom(word("A"));
-    builder.rule("A", word("A B"));
     const std::optional<GrowthLimit> limit =
-        find_growth_limit(builder.finish(), 4'294'967'294U, 3'000'000'000U);
+        find_growth_limit(system("A", {"A : * : A B"}), 4'294'967'294U, 3'000'000'000U);
     REQUIRE(limit);
     CHECK(limit->largest_fitting == 2'999'999'999U);
     CHECK(limit->at_next.modules.value == 3'000'000'001U);
@@ -345,10 +257,7 @@ TEST_CASE("a limit that is reached after very many generations is found") {
 }
 
 TEST_CASE("a bound that grows only perhaps is no limit") {
-    BytecodeBuilder builder;
-    builder.axiom(word("b a"));
-    builder.production({.predecessor = "a", .successor = word("a a"), .left = "b"});
-    CHECK(!find_growth_limit(builder.finish(), 1'000, 100));
+    CHECK(!find_growth_limit(system("b a", {"b < a : * : a a"}), 1'000, 100));
 }
 
 } // namespace

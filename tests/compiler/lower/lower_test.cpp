@@ -1,4 +1,5 @@
 #include "compiler/bytecode/disassemble.h"
+#include "compiler/bytecode/instructions.h"
 #include "compiler/bytecode/module_file.h"
 #include "compiler/bytecode/verify.h"
 #include "tests/compiler/compile_text.h"
@@ -23,11 +24,10 @@ std::vector<Code> codes_of(const Bytecode& b, const WordTemplate& word) {
     return {first, first + word.codes.count};
 }
 
-std::vector<Opcode> code_at(const Bytecode& b, std::uint32_t at) {
+std::vector<Opcode> code_at(const Bytecode& b, std::uint32_t first) {
     std::vector<Opcode> opcodes;
-    while (opcodes.empty() || opcodes.back() != Opcode::End) {
-        opcodes.push_back(static_cast<Opcode>(b.instructions[at] & 0xFF));
-        at += opcodes.back() == Opcode::Literal ? 2U : 1U;
+    for (const Instruction each : InstructionRange(b.instructions, first)) {
+        opcodes.push_back(each.opcode);
     }
     return opcodes;
 }
@@ -96,16 +96,11 @@ TEST_CASE("every value that can fail knows its place") {
     CHECK(place(p.condition) == "3:13");
     std::vector<std::string> emits;
     std::string range;
-    for (std::uint32_t at = p.successor.arguments;; ++at) {
-        const auto opcode = static_cast<Opcode>(b.instructions[at] & 0xFF);
-        if (opcode == Opcode::Emit) {
-            emits.push_back(place(at));
-        } else if (opcode == Opcode::Range) {
-            range = place(at);
-        } else if (opcode == Opcode::End) {
-            break;
-        } else if (opcode == Opcode::Literal) {
-            ++at;
+    for (const Instruction each : InstructionRange(b.instructions, p.successor.arguments)) {
+        if (each.opcode == Opcode::Emit) {
+            emits.push_back(place(each.at));
+        } else if (each.opcode == Opcode::Range) {
+            range = place(each.at);
         }
     }
     CHECK(emits == std::vector<std::string>{"3:28", "3:37"});

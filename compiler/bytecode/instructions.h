@@ -1,0 +1,79 @@
+// Reading instructions one by one; opcodes.def says how they are encoded.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+
+namespace lsys {
+
+[[nodiscard]] constexpr Opcode opcode_of(std::uint32_t instruction) {
+    return static_cast<Opcode>(instruction & 0xFFU);
+}
+[[nodiscard]] constexpr std::uint32_t operand_of(std::uint32_t instruction) {
+    return instruction >> 8;
+}
+/// Words of an instruction: 1, or 2 with a literal.
+[[nodiscard]] constexpr std::uint32_t instruction_length(Opcode opcode) {
+    return opcode == Opcode::Literal ? 2 : 1;
+}
+inline constexpr std::array<std::uint8_t, kOpcodeCount> kOpcodePops{
+#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, meaning) pops,
+#include "compiler/bytecode/opcodes.def"
+#undef LSYS_OPCODE
+};
+/// Values that an instruction takes from the stack. Precondition: opcode < kOpcodeCount.
+[[nodiscard]] constexpr std::uint8_t pops_of(Opcode opcode) {
+    return kOpcodePops[static_cast<std::size_t>(opcode)];
+}
+
+struct Instruction {
+    std::uint32_t at = 0; // index of its first word
+    Opcode opcode = Opcode::End;
+    std::uint32_t operand = 0;
+    float literal = 0.0F;
+};
+
+/// The instructions of verified code from word `first` up to `last`, or up to and with its End.
+class InstructionRange {
+public:
+    InstructionRange(std::span<const std::uint32_t> words,
+                     std::uint32_t first,
+                     std::uint32_t last = kNone)
+        : words_(words), first_(first), last_(last) {}
+
+    struct Sentinel {};
+    class Iterator {
+    public:
+        Iterator(const InstructionRange& range, std::uint32_t at) : range_(range), at_(at) {}
+        Instruction operator*() const {
+            const std::uint32_t word = range_.words_[at_];
+            const bool has_literal = opcode_of(word) == Opcode::Literal;
+            return {at_, opcode_of(word), operand_of(word),
+                    has_literal ? std::bit_cast<float>(range_.words_[at_ + 1]) : 0.0F};
+        }
+        Iterator& operator++() {
+            const Opcode opcode = opcode_of(range_.words_[at_]);
+            at_ = opcode == Opcode::End ? range_.last_ : at_ + instruction_length(opcode);
+            return *this;
+        }
+        bool operator==(Sentinel /*end*/) const { return at_ >= range_.last_; }
+
+    private:
+        const InstructionRange& range_;
+        std::uint32_t at_;
+    };
+    [[nodiscard]] Iterator begin() const { return {*this, first_}; }
+    [[nodiscard]] Sentinel end() const { return {}; }
+    [[nodiscard]] std::uint32_t first() const { return first_; }
+
+private:
+    std::span<const std::uint32_t> words_;
+    std::uint32_t first_;
+    std::uint32_t last_;
+};
+
+} // namespace lsys

@@ -1,0 +1,122 @@
+// The one interpreter of expressions: a stack machine over instructions whose values and arithmetic
+// are those of a Domain. With numbers it evaluates; with approximations of numbers (known or not,
+// constant or affine, monotone or not) it is abstract interpretation (Cousot and Cousot 1977),
+// which finds what an expression can yield before its inputs are known. A new opcode is a row of
+// opcodes.def and its arithmetic: a domain decides from the opcode, or knows nothing of its result.
+//
+// A Domain has a type Value and these functions; UnknownDomain has all of them.
+//   bool enter()                    before each instruction: whether to go on
+//   Value literal(float)            the leaves of an expression
+//   Value formal(i), global(i), step(), steps(), branch_draw(i)
+//   Value unary(opcode, x)          every opcode from Negate to Mod that takes one value, and
+//   Value binary(opcode, x, y)      every one that takes two
+//   bool range(x, y, i, at)         replace x by random range i of [x, y): whether to go on
+//   bool take(x, at)                Emit or Test took x: whether to go on
+// `at` points to the instruction.
+#pragma once
+
+#include "compiler/bytecode/instructions.h"
+
+#include <bit>
+#include <cstdint>
+#include <utility>
+
+namespace lsys {
+
+/// The domain in which nothing is known of any value; others derive from it.
+template <typename Unknown>
+struct UnknownDomain {
+    using Value = Unknown;
+
+    static bool enter() { return true; }
+    static Value literal(float /*value*/) { return {}; }
+    static Value formal(std::uint32_t /*index*/) { return {}; }
+    static Value global(std::uint32_t /*index*/) { return {}; }
+    static Value step() { return {}; }
+    static Value steps() { return {}; }
+    static Value branch_draw(std::uint32_t /*branch*/) { return {}; }
+    static Value unary(Opcode /*opcode*/, const Value& /*x*/) { return {}; }
+    static Value binary(Opcode /*opcode*/, const Value& /*x*/, const Value& /*y*/) { return {}; }
+    static bool
+    range(Value& x, const Value& /*y*/, std::uint32_t /*index*/, const std::uint32_t* /*at*/) {
+        x = {};
+        return true;
+    }
+    static bool take(const Value& /*x*/, const std::uint32_t* /*at*/) { return true; }
+};
+
+/// Runs the verified instructions at `at` up to End. Returns false if the domain stopped it.
+/// `stack` has room for kMaxStack values (verify.h).
+template <typename Domain>
+[[gnu::always_inline]] inline bool
+interpret(const std::uint32_t* at, Domain& domain, typename Domain::Value* stack) {
+    auto* top = stack; // one past the top
+    for (;; ++at) {
+        if (!domain.enter()) {
+            return false;
+        }
+        const Opcode opcode = opcode_of(*at);
+        const std::uint32_t operand = operand_of(*at);
+        switch (opcode) {
+        case Opcode::Literal:
+            *top++ = domain.literal(std::bit_cast<float>(*++at));
+            break;
+        case Opcode::Formal:
+            *top++ = domain.formal(operand);
+            break;
+        case Opcode::Global:
+            *top++ = domain.global(operand);
+            break;
+        case Opcode::Step:
+            *top++ = domain.step();
+            break;
+        case Opcode::Steps:
+            *top++ = domain.steps();
+            break;
+        // The commonest have cases of their own, where an inlined binary() is one operation.
+        case Opcode::Multiply:
+            --top;
+            top[-1] = domain.binary(Opcode::Multiply, top[-1], top[0]);
+            break;
+        case Opcode::Add:
+            --top;
+            top[-1] = domain.binary(Opcode::Add, top[-1], top[0]);
+            break;
+        case Opcode::Subtract:
+            --top;
+            top[-1] = domain.binary(Opcode::Subtract, top[-1], top[0]);
+            break;
+        case Opcode::Swap:
+            std::swap(top[-1], top[-2]);
+            break;
+        case Opcode::Range:
+            --top;
+            if (!domain.range(top[-1], top[0], operand, at)) {
+                return false;
+            }
+            break;
+        case Opcode::BranchDraw:
+            *top++ = domain.branch_draw(operand);
+            break;
+        case Opcode::Emit:
+        case Opcode::Test:
+            --top;
+            if (!domain.take(top[0], at)) {
+                return false;
+            }
+            break;
+        case Opcode::End:
+            return true;
+        default:
+            if (pops_of(opcode) == 2) {
+                --top;
+                top[-1] = domain.binary(opcode, top[-1], top[0]);
+            } else {
+                top[-1] = domain.unary(opcode, top[-1]);
+            }
+            break;
+        }
+    }
+}
+
+} // namespace lsys
