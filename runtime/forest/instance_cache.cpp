@@ -173,7 +173,7 @@ private:
         }
         add(place.sides);
         add(place.colour);
-        if (branch.id < options_.knows_up.size() && options_.knows_up[branch.id]) {
+        if (branch.id < options_.depends_on_vertical.size() && options_.depends_on_vertical[branch.id]) {
             // Rise of the heading and of the right axis.
             const glm::dvec3 heading = place.frame * glm::dvec3(0.0, 1.0, 0.0);
             const glm::dvec3 right = place.frame * glm::dvec3(1.0, 0.0, 0.0);

@@ -93,7 +93,7 @@ struct CacheOptions {
     /// Tolerance of values of one key, as a part of the first value of their kind; 0: equal values.
     float tolerance = 0.0F;
     /// By id: whether the drawing depends on the direction of up, which is then part of the key.
-    std::vector<bool> knows_up;
+    std::vector<bool> depends_on_vertical;
     std::uint32_t threads = 0;
     Limits limits;                               // of each word
     std::uint64_t max_bytes = ~std::uint64_t{0}; // of the skeleton

@@ -145,7 +145,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     CacheOptions cache = species.cache;
     cache.mesh_lengths = std::move(meshes.lengths);
     cache.generations = stage.generations;
-    cache.knows_up = system->depends_on_vertical;
+    cache.depends_on_vertical = system->depends_on_vertical;
     cache.threads = project.threads;
     cache.limits = project.limits;
     cache.max_bytes = project.limits.max_bytes;

@@ -87,7 +87,7 @@ ForestStage stage_of(const Kind& kind) {
     }
     CacheOptions options;
     options.generations = kind.generations;
-    options.knows_up = system->depends_on_vertical;
+    options.depends_on_vertical = system->depends_on_vertical;
     ForestStage stage;
     stage.generations = kind.generations;
     CacheOutcome outcome = make_instance_cache(system->bytecode, options);

@@ -49,7 +49,7 @@ bool add_stage(const std::string& grammar,
     stage.generations = generations;
     CacheOptions options;
     options.generations = generations;
-    options.knows_up = system->depends_on_vertical;
+    options.depends_on_vertical = system->depends_on_vertical;
     CacheOutcome outcome = make_instance_cache(system->bytecode, options);
     if (!outcome.ok()) {
         return complain("no heroes");

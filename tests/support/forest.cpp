@@ -43,7 +43,7 @@ plant(const std::string& grammar, std::uint32_t generations, float rho, CacheOpt
     Planted planted;
     planted.system = std::move(*system);
     options.generations = generations;
-    options.knows_up = planted.system.depends_on_vertical;
+    options.depends_on_vertical = planted.system.depends_on_vertical;
     CacheOutcome outcome = make_instance_cache(planted.system.bytecode, options);
     REQUIRE(outcome.ok());
     planted.cache = std::move(outcome.cache);
