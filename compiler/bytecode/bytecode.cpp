@@ -13,7 +13,7 @@ namespace lsys {
 namespace {
 
 constexpr std::array<OpcodeInfo, kOpcodeCount> kOpcodes{{
-#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, meaning)                          \
+#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, value, meaning)                   \
     {mnemonic, OperandKind::operand, pops, pushes, meaning},
 #include "compiler/bytecode/opcodes.def"
 #undef LSYS_OPCODE

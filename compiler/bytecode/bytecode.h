@@ -32,7 +32,7 @@
 namespace lsys {
 
 enum class Opcode : std::uint8_t {
-#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, meaning) identifier,
+#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, value, meaning) identifier,
 #include "compiler/bytecode/opcodes.def"
 #undef LSYS_OPCODE
 };
@@ -48,7 +48,7 @@ struct OpcodeInfo {
 template <>
 struct EnumCount<Opcode> {
     enum Enumerator : std::size_t {
-#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, meaning) identifier,
+#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, value, meaning) identifier,
 #include "compiler/bytecode/opcodes.def"
 #undef LSYS_OPCODE
         kCount
