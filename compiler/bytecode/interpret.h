@@ -1,8 +1,8 @@
 // The one interpreter of expressions: a stack machine over instructions whose values and arithmetic
-// are those of a Domain. With numbers it evaluates; with approximations of numbers (known or not,
-// constant or affine, monotone or not) it is abstract interpretation (Cousot and Cousot 1977),
-// which finds what an expression can yield before its inputs are known. A new opcode is a row of
-// opcodes.def and its arithmetic: a domain decides from the opcode, or knows nothing of its result.
+// are defined by a Domain. Numbers evaluate an expression. Approximations of numbers (known or not,
+// constant or affine, monotone or not) find properties of its result before its inputs are known:
+// abstract interpretation (Cousot and Cousot 1977). A new operation is a row of opcodes.def;
+// domains treat its result as unknown unless they have a case for it.
 //
 // A Domain has a type Value and these functions; UnknownDomain has all of them.
 //   bool enter()                    before each instruction: whether to go on

@@ -258,7 +258,7 @@ bool GridBuilder::add(const ConditionView& condition) {
 }
 
 /// A number of a cell that is easy to read: whole and near zero if possible.
-float friendly(std::int32_t first, std::int32_t last) {
+float readable_number(std::int32_t first, std::int32_t last) {
     if (first <= 0 && last >= 0) {
         return 0.0F;
     }
@@ -307,7 +307,7 @@ std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
             const auto cell = static_cast<std::uint32_t>(axis.cells.size());
             axis.cells.push_back({number_at(first), number_at(last)});
             if (!axis.compared) {
-                axis.samples.push_back({friendly(first, last), cell});
+                axis.samples.push_back({readable_number(first, last), cell});
             } else {
                 // Three numbers of a cell allow every order of up to three parameters.
                 const auto middle = static_cast<std::int32_t>((std::int64_t{first} + last) / 2);

@@ -59,7 +59,7 @@ void describe_settings(Stream& stream, Value& settings) {
     for (auto& component : tropism) {
         beside.real(component);
     }
-    beside.truth(has_seed); // a default: a derivation is told its seed
+    beside.truth(has_seed); // a default; every derivation has a seed of its own
     beside.number(seed);
     beside.real(spring);
     beside.real(density);
