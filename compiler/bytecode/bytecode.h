@@ -10,12 +10,12 @@
 //
 // Each table is filled in one order without gaps, so that nothing is shared and a walk over the
 // productions is a walk over the tables:
-//   constants       the arguments of folded[0], folded[1], ...
-//   patterns        per production its left context, predecessor and right context
-//   template_codes  the axiom, then the successor of each production
-//   instructions    each global, the arguments of the axiom, then per production its condition and
-//                   the arguments of its successor
-//   template_places the places of the modules of template_codes, or empty if they are not known
+//   constants       of folded[0], folded[1], ...
+//   patterns        of each production its left context, predecessor and right context
+//   template_codes  of the axiom, then of each production's successor
+//   instructions    of each global, of the axiom's arguments, then of each production its condition
+//                   and its successor's arguments
+//   template_places of the modules of template_codes, or empty: the places are unknown
 #pragma once
 
 #include "compiler/bytecode/settings.h"
@@ -81,11 +81,11 @@ struct EnumCount<TurtleOperation> {
 };
 inline constexpr std::uint32_t kTurtleOperationCount = kCountOf<TurtleOperation>;
 [[nodiscard]] std::string_view name_of(TurtleOperation operation);
-/// Parameters of a SaveBranch before the formals that its branch uses: 1 to take an instance, the
-/// age of the word that holds the branch, and the id of the branch.
+/// Parameters of a SaveBranch before the formals that its branch uses: whether to take an instance,
+/// the age of the word that holds it, its id.
 inline constexpr std::uint32_t kBranchArguments = 3;
 [[nodiscard]] bool draws(TurtleOperation operation);
-/// Whether the operation turns the turtle by an angle.
+/// Whether it turns the turtle by an angle.
 [[nodiscard]] bool turns(TurtleOperation operation);
 
 enum class SymbolId : std::uint32_t {};

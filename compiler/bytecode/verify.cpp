@@ -32,7 +32,7 @@ std::uint32_t number(SymbolId id) {
     return static_cast<std::uint32_t>(id);
 }
 
-/// The place of code, which decides its allowed instructions.
+/// Place of code, which decides what it may use.
 enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Successor };
 
 /// One walk over the tables in the order that bytecode.h promises. Every function returns false
@@ -400,7 +400,7 @@ private:
                     {.formals = formals, .draws = word.draw_count, .emits = word.parameter_count});
     }
 
-    /// Limits of the operands of a piece of code, and the number of values it must emit.
+    /// Limits of the operands of a piece of code, and the values it has to produce.
     struct CodeBounds {
         std::uint32_t formals = 0;
         std::uint32_t globals = kNone; // kNone: no limit

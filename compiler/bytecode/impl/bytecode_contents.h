@@ -7,10 +7,10 @@
 //   implied       a truth on which the word depends, computed from a field beside the word
 //   beside_word() the stream for fields on which no derived word depends: itself, or one that
 //                 ignores them
-// Structured bindings name every field of a struct, so that a new field does not compile before it
-// is named here. Hand it to the stream to have it written, read and digested, or to beside_word()
-// if it only decides drawing, printing or messages. A new field changes the format of .lsb files:
-// raise kModuleFileVersion.
+// Every struct is taken apart by a structured binding, so that a field added to it does not compile
+// before it has a name here. Hand it to the stream: then it is written, read and digested. Only a
+// field that decides drawing, printing or messages goes to beside_word(). Either way the format of
+// .lsb files changes: raise kModuleFileVersion.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -59,7 +59,7 @@ void describe_settings(Stream& stream, Value& settings) {
     for (auto& component : tropism) {
         beside.real(component);
     }
-    beside.truth(has_seed); // a default; every derivation has a seed of its own
+    beside.truth(has_seed); // a default: a derivation is told its seed
     beside.number(seed);
     beside.real(spring);
     beside.real(density);

@@ -11,7 +11,7 @@ namespace lsys {
 
 namespace {
 
-/// Whether a command has no purpose without a drawing.
+/// Commands that have a purpose only beside a drawing.
 bool prepares_drawing(TurtleOperation operation) {
     switch (operation) {
     case TurtleOperation::Move:
