@@ -16,9 +16,12 @@
 #pragma once
 
 #include "compiler/bytecode/instructions.h"
+#include "compiler/bytecode/verify.h"
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 namespace lsys {
@@ -45,8 +48,21 @@ struct UnknownDomain {
     static bool take(const Value& /*x*/, const std::uint32_t* /*at*/) { return true; }
 };
 
+/// Room for the stack of the verified code at `first`: little for short code, at most kMaxStack.
+[[nodiscard]] inline std::size_t stack_room(std::span<const std::uint32_t> words,
+                                            std::uint32_t first) {
+    std::size_t leaves = 0;
+    for (const Instruction each : InstructionRange(words, first)) {
+        leaves += pops_of(each.opcode) == 0 ? 1U : 0U;
+        if (leaves == kMaxStack) {
+            break;
+        }
+    }
+    return leaves;
+}
+
 /// Runs the verified instructions at `at` up to End. Returns false if the domain stopped it.
-/// `stack` has room for kMaxStack values (verify.h).
+/// `stack` has room for kMaxStack or stack_room() values.
 template <typename Domain>
 [[gnu::always_inline]] inline bool
 interpret(const std::uint32_t* at, Domain& domain, typename Domain::Value* stack) {

@@ -75,8 +75,7 @@ public:
     GridBuilder(std::span<const std::uint32_t> instructions,
                 std::span<const KnownValue> parameters,
                 const Surroundings& surroundings)
-        : instructions_(instructions), parameters_(parameters), surroundings_(surroundings),
-          stack_(kMaxStack) {}
+        : instructions_(instructions), parameters_(parameters), surroundings_(surroundings) {}
 
     /// Adds the cuts of a condition; false if it has another form.
     bool add(const ConditionView& condition);
@@ -105,7 +104,6 @@ private:
     std::span<const KnownValue> parameters_;
     const Surroundings& surroundings_;
     std::uint32_t first_formal_ = 0; // of the condition
-    std::vector<Node> stack_;
     bool has_grid_ = false;
     std::map<std::uint32_t, std::vector<std::int32_t>>
         cuts_; // by parameter: first indices of cells
@@ -253,7 +251,8 @@ Node GridBuilder::binary(Opcode opcode, const Node& x, const Node& y) {
 bool GridBuilder::add(const ConditionView& condition) {
     first_formal_ = condition.first_formal;
     has_grid_ = false;
-    interpret(instructions_.data() + condition.first_instruction, *this, stack_.data());
+    std::vector<Node> stack(stack_room(instructions_, condition.first_instruction));
+    interpret(instructions_.data() + condition.first_instruction, *this, stack.data());
     return has_grid_;
 }
 
