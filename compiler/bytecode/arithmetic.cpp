@@ -32,6 +32,11 @@ int quarter_turns(double angle) {
     return static_cast<int>(quarters < 0.0 ? quarters + 4.0 : quarters);
 }
 
+float no_arithmetic(Opcode opcode) {
+    LSYS_CHECK(is_arithmetic(opcode), static_cast<int>(opcode));
+    return 0.0F;
+}
+
 } // namespace
 
 float power(float x, float y) {
@@ -108,76 +113,13 @@ bool is_arithmetic(Opcode opcode) {
 
 float apply(Opcode opcode, float x, float y) {
     switch (opcode) {
-    case Opcode::Negate:
-        return -x;
-    case Opcode::Not:
-        return logical_not(x);
-    case Opcode::Power:
-        return power(x, y);
-    case Opcode::Multiply:
-        return x * y;
-    case Opcode::Divide:
-        return x / y;
-    case Opcode::Add:
-        return x + y;
-    case Opcode::Subtract:
-        return x - y;
-    case Opcode::Less:
-        return truth(x < y);
-    case Opcode::LessEqual:
-        return truth(x <= y);
-    case Opcode::Greater:
-        return truth(x > y);
-    case Opcode::GreaterEqual:
-        return truth(x >= y);
-    case Opcode::Equal:
-        return truth(x == y);
-    case Opcode::NotEqual:
-        return truth(x != y);
-    case Opcode::And:
-        return logical_and(x, y);
-    case Opcode::Or:
-        return logical_or(x, y);
-    case Opcode::Sin:
-        return sine(x);
-    case Opcode::Cos:
-        return cosine(x);
-    case Opcode::Tan:
-        return tangent(x);
-    case Opcode::Asin:
-        return arc_sine(x);
-    case Opcode::Acos:
-        return arc_cosine(x);
-    case Opcode::Atan:
-        return arc_tangent(x);
-    case Opcode::Atan2:
-        return arc_tangent2(x, y);
-    case Opcode::Sqrt:
-        return std::sqrt(x);
-    case Opcode::Exp:
-        return exponential(x);
-    case Opcode::Log:
-        return logarithm(x);
-    case Opcode::Abs:
-        return std::fabs(x);
-    case Opcode::Floor:
-        return std::floor(x);
-    case Opcode::Ceil:
-        return std::ceil(x);
-    case Opcode::Round:
-        return nearest(x);
-    case Opcode::Sign:
-        return sign(x);
-    case Opcode::Min:
-        return minimum(x, y);
-    case Opcode::Max:
-        return maximum(x, y);
-    case Opcode::Mod:
-        return remainder(x, y);
-    default:
-        LSYS_CHECK(is_arithmetic(opcode), static_cast<int>(opcode));
-        return x;
+#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, value, meaning)                   \
+    case Opcode::identifier:                                                                       \
+        return value;
+#include "compiler/bytecode/opcodes.def"
+#undef LSYS_OPCODE
     }
+    return no_arithmetic(opcode);
 }
 
 } // namespace lsys::arithmetic

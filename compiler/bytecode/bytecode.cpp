@@ -13,7 +13,7 @@ namespace lsys {
 namespace {
 
 constexpr std::array<OpcodeInfo, kOpcodeCount> kOpcodes{{
-#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, meaning)                          \
+#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, value, meaning)                   \
     {mnemonic, OperandKind::operand, pops, pushes, meaning},
 #include "compiler/bytecode/opcodes.def"
 #undef LSYS_OPCODE
@@ -100,7 +100,7 @@ ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index) {
     if (index - bytecode.axiom.codes.first < bytecode.axiom.codes.count) {
         return kNoProduction;
     }
-    // Of several productions that begin at one index only the last has a successor.
+    // Of several productions that begin there only the last has a successor with modules.
     const auto after = std::upper_bound(
         bytecode.productions.begin(), bytecode.productions.end(), index,
         [](std::uint32_t at, const BytecodeProduction& p) { return at < p.successor.codes.first; });

@@ -10,12 +10,12 @@
 //
 // Each table is filled in one order without gaps, so that nothing is shared and a walk over the
 // productions is a walk over the tables:
-//   constants       the arguments of folded[0], folded[1], ...
-//   patterns        per production its left context, predecessor and right context
-//   template_codes  the axiom, then the successor of each production
-//   instructions    each global, the arguments of the axiom, then per production its condition and
-//                   the arguments of its successor
-//   template_places the places of the modules of template_codes, or empty if they are not known
+//   constants       of folded[0], folded[1], ...
+//   patterns        of each production its left context, predecessor and right context
+//   template_codes  of the axiom, then of each production's successor
+//   instructions    of each global, of the axiom's arguments, then of each production its condition
+//                   and its successor's arguments
+//   template_places of the modules of template_codes, or empty: the places are unknown
 #pragma once
 
 #include "compiler/bytecode/settings.h"
@@ -33,7 +33,7 @@
 namespace lsys {
 
 enum class Opcode : std::uint8_t {
-#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, meaning) identifier,
+#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, value, meaning) identifier,
 #include "compiler/bytecode/opcodes.def"
 #undef LSYS_OPCODE
 };
@@ -49,7 +49,7 @@ struct OpcodeInfo {
 template <>
 struct EnumCount<Opcode> {
     enum Enumerator : std::size_t {
-#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, meaning) identifier,
+#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, value, meaning) identifier,
 #include "compiler/bytecode/opcodes.def"
 #undef LSYS_OPCODE
         kCount

@@ -21,7 +21,7 @@ namespace lsys {
     return opcode == Opcode::Literal ? 2 : 1;
 }
 inline constexpr std::array<std::uint8_t, kOpcodeCount> kOpcodePops{
-#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, meaning) pops,
+#define LSYS_OPCODE(identifier, mnemonic, operand, pops, pushes, value, meaning) pops,
 #include "compiler/bytecode/opcodes.def"
 #undef LSYS_OPCODE
 };

@@ -1,8 +1,8 @@
 // The one interpreter of expressions: a stack machine over instructions whose values and arithmetic
-// are those of a Domain. With numbers it evaluates; with approximations of numbers (known or not,
-// constant or affine, monotone or not) it is abstract interpretation (Cousot and Cousot 1977),
-// which finds what an expression can yield before its inputs are known. A new opcode is a row of
-// opcodes.def and its arithmetic: a domain decides from the opcode, or knows nothing of its result.
+// are defined by a Domain. Numbers evaluate an expression. Approximations of numbers (known or not,
+// constant or affine, monotone or not) find properties of its result before its inputs are known:
+// abstract interpretation (Cousot and Cousot 1977). A new operation is a row of opcodes.def;
+// domains treat its result as unknown unless they have a case for it.
 //
 // A Domain has a type Value and these functions; UnknownDomain has all of them.
 //   bool enter()                    before each instruction: whether to go on
@@ -16,9 +16,12 @@
 #pragma once
 
 #include "compiler/bytecode/instructions.h"
+#include "compiler/bytecode/verify.h"
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 namespace lsys {
@@ -45,8 +48,21 @@ struct UnknownDomain {
     static bool take(const Value& /*x*/, const std::uint32_t* /*at*/) { return true; }
 };
 
+/// Room for the stack of the verified code at `first`: little for short code, at most kMaxStack.
+[[nodiscard]] inline std::size_t stack_room(std::span<const std::uint32_t> words,
+                                            std::uint32_t first) {
+    std::size_t leaves = 0;
+    for (const Instruction each : InstructionRange(words, first)) {
+        leaves += pops_of(each.opcode) == 0 ? 1U : 0U;
+        if (leaves == kMaxStack) {
+            break;
+        }
+    }
+    return leaves;
+}
+
 /// Runs the verified instructions at `at` up to End. Returns false if the domain stopped it.
-/// `stack` has room for kMaxStack values (verify.h).
+/// `stack` has room for kMaxStack or stack_room() values.
 template <typename Domain>
 [[gnu::always_inline]] inline bool
 interpret(const std::uint32_t* at, Domain& domain, typename Domain::Value* stack) {

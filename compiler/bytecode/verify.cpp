@@ -398,7 +398,7 @@ private:
                     {.formals = formals, .draws = word.draw_count, .emits = word.parameter_count});
     }
 
-    /// Limits of the operands of a piece of code, and the number of values it must emit.
+    /// Limits of the operands of a piece of code, and the values it has to produce.
     struct CodeBounds {
         std::uint32_t formals = 0;
         std::uint32_t globals = kNone; // kNone: no limit

@@ -15,7 +15,7 @@ namespace lsys {
 /// expression.
 inline constexpr std::uint32_t kMaxStack = 256;
 
-/// The first problem found, or nothing.
+/// The first problem, or nothing.
 [[nodiscard]] std::optional<std::string> verify(const Bytecode& bytecode);
 
 } // namespace lsys

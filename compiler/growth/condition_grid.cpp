@@ -75,8 +75,7 @@ public:
     GridBuilder(std::span<const std::uint32_t> instructions,
                 std::span<const KnownValue> parameters,
                 const Surroundings& surroundings)
-        : instructions_(instructions), parameters_(parameters), surroundings_(surroundings),
-          stack_(kMaxStack) {}
+        : instructions_(instructions), parameters_(parameters), surroundings_(surroundings) {}
 
     /// Adds the cuts of a condition; false if it has another form.
     bool add(const ConditionView& condition);
@@ -105,7 +104,6 @@ private:
     std::span<const KnownValue> parameters_;
     const Surroundings& surroundings_;
     std::uint32_t first_formal_ = 0; // of the condition
-    std::vector<Node> stack_;
     bool has_grid_ = false;
     std::map<std::uint32_t, std::vector<std::int32_t>>
         cuts_; // by parameter: first indices of cells
@@ -253,12 +251,13 @@ Node GridBuilder::binary(Opcode opcode, const Node& x, const Node& y) {
 bool GridBuilder::add(const ConditionView& condition) {
     first_formal_ = condition.first_formal;
     has_grid_ = false;
-    interpret(instructions_.data() + condition.first_instruction, *this, stack_.data());
+    std::vector<Node> stack(stack_room(instructions_, condition.first_instruction));
+    interpret(instructions_.data() + condition.first_instruction, *this, stack.data());
     return has_grid_;
 }
 
 /// A number of a cell that is easy to read: whole and near zero if possible.
-float friendly(std::int32_t first, std::int32_t last) {
+float readable_number(std::int32_t first, std::int32_t last) {
     if (first <= 0 && last >= 0) {
         return 0.0F;
     }
@@ -307,7 +306,7 @@ std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
             const auto cell = static_cast<std::uint32_t>(axis.cells.size());
             axis.cells.push_back({number_at(first), number_at(last)});
             if (!axis.compared) {
-                axis.samples.push_back({friendly(first, last), cell});
+                axis.samples.push_back({readable_number(first, last), cell});
             } else {
                 // Three numbers of a cell allow every order of up to three parameters.
                 const auto middle = static_cast<std::int32_t>((std::int64_t{first} + last) / 2);

@@ -32,16 +32,16 @@ bool ProductionIndex::scan(std::uint32_t production,
     const PatternItem& head =
         bytecode_->patterns[bytecode_->productions[production].predecessor.first];
     const std::uint32_t count = bytecode_->symbol(head.symbol).parameter_count;
-    bool asks_step = false;
+    bool calls_step = false;
     for (const Instruction each : instructions) {
         if (each.opcode == Opcode::Formal && each.operand >= head.first_formal &&
             each.operand - head.first_formal < count) {
             visit(parameter_base_[static_cast<std::size_t>(head.symbol)] + each.operand -
                   head.first_formal);
         }
-        asks_step = asks_step || each.opcode == Opcode::Step;
+        calls_step = calls_step || each.opcode == Opcode::Step;
     }
-    return asks_step;
+    return calls_step;
 }
 
 void ProductionIndex::find_relevant() {

@@ -35,14 +35,14 @@ public:
     }
     [[nodiscard]] std::uint32_t relevant_count(SymbolId symbol) const;
     [[nodiscard]] bool any_relevant() const { return any_relevant_; }
-    /// Whether a condition or a relevant argument asks for step().
+    /// Whether a condition or a relevant argument calls step().
     [[nodiscard]] bool depends_on_age() const { return depends_on_age_; }
 
 private:
     void find_relevant();
     void find_age();
     /// Calls visit(parameter) for each formal of the predecessor that the instructions read.
-    /// Returns whether they ask for step().
+    /// Returns whether they call step().
     template <typename Visit>
     bool scan(std::uint32_t production, InstructionRange instructions, Visit&& visit) const;
 

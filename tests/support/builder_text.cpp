@@ -82,18 +82,14 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-const std::map<std::string, Opcode>& functions() {
-    static const std::map<std::string, Opcode> table = [] {
-        std::map<std::string, Opcode> all;
-        for (std::uint32_t i = 0; i < kOpcodeCount; ++i) {
-            const auto opcode = static_cast<Opcode>(i);
-            if (opcode >= Opcode::Sin && opcode <= Opcode::Mod) {
-                all.emplace(std::string(info(opcode).mnemonic), opcode);
-            }
+Opcode function_named(const std::string& name) {
+    for (auto opcode = Opcode::Sin; opcode <= Opcode::Mod;
+         opcode = static_cast<Opcode>(static_cast<std::uint8_t>(opcode) + 1)) {
+        if (info(opcode).mnemonic == name) {
+            return opcode;
         }
-        return all;
-    }();
-    return table;
+    }
+    mistake("unknown function", name);
 }
 
 /// Compiles one expression by precedence climbing; all-constant parts are computed at once.
@@ -201,7 +197,7 @@ private:
                 uses_steps_ = uses_steps_ || name == "steps";
                 code = {encode(name == "step" ? Opcode::Step : Opcode::Steps, 0)};
             } else {
-                const Opcode opcode = functions().at(name);
+                const Opcode opcode = function_named(name);
                 code = binary(reader, 0);
                 code = reader.take(",") ? apply(opcode, std::move(code), binary(reader, 0))
                                         : apply(opcode, std::move(code), {});

@@ -13,7 +13,7 @@ namespace lsys::analysis {
 
 /// sum += value * times
 inline void add_times(Count& sum, const Count& value, std::uint64_t times) {
-    constexpr int kRoom = 60; // bits of a value whose products by 64 bits do not overflow a sum
+    constexpr int kRoom = 60; // bits of a value whose product by 64 bits cannot overflow a sum
     if (!sum.exceeds && !value.exceeds && value.value.high == 0 && value.value.low >> kRoom == 0 &&
         sum.value.high >> 62 == 0) {
         sum.value = sum.value + full_product(value.value.low, times);

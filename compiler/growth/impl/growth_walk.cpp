@@ -20,7 +20,7 @@ Count count_of(std::uint64_t value) {
     return {value, false, 0.0};
 }
 
-/// A lower bound of a - b, not below 0; exact unless both are logarithms.
+/// a - b, at least 0. Logarithms hide small differences: 0 if b is one, a if only a is.
 Count subtract(const Count& a, const Count& b) {
     if (is_zero(b)) {
         return a;
@@ -195,7 +195,7 @@ Count GrowthWalk::max_matches(const SequenceRule& rule) const {
     return most;
 }
 
-/// Subtracts the modules of up to `matches` matches of a sequence.
+/// Lowers the lower bounds by the modules of `matches` matches, since there may be as many.
 void GrowthWalk::use_up(const SequenceRule& rule, const Count& matches) {
     if (is_zero(matches)) {
         return;

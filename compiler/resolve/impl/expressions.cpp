@@ -36,38 +36,16 @@ Opcode opcode_of(UnaryOperation operation) {
     return operation == UnaryOperation::Negate ? Opcode::Negate : Opcode::Not;
 }
 
-Opcode opcode_of(BinaryOperation operation) {
-    switch (operation) {
-    case BinaryOperation::Power:
-        return Opcode::Power;
-    case BinaryOperation::Multiply:
-        return Opcode::Multiply;
-    case BinaryOperation::Divide:
-        return Opcode::Divide;
-    case BinaryOperation::Add:
-        return Opcode::Add;
-    case BinaryOperation::Subtract:
-        return Opcode::Subtract;
-    case BinaryOperation::Less:
-        return Opcode::Less;
-    case BinaryOperation::LessEqual:
-        return Opcode::LessEqual;
-    case BinaryOperation::Greater:
-        return Opcode::Greater;
-    case BinaryOperation::GreaterEqual:
-        return Opcode::GreaterEqual;
-    case BinaryOperation::Equal:
-        return Opcode::Equal;
-    case BinaryOperation::NotEqual:
-        return Opcode::NotEqual;
-    case BinaryOperation::And:
-        return Opcode::And;
-    case BinaryOperation::Or:
-        return Opcode::Or;
-    }
-    LSYS_CHECK(false, static_cast<int>(operation));
-    return Opcode::Add;
+/// The enumerators of BinaryOperation have the order of the opcodes from Power to Or.
+constexpr Opcode opcode_of(BinaryOperation operation) {
+    return static_cast<Opcode>(static_cast<std::size_t>(Opcode::Power) +
+                               static_cast<std::size_t>(operation));
 }
+static_assert(opcode_of(BinaryOperation::Power) == Opcode::Power &&
+              opcode_of(BinaryOperation::Subtract) == Opcode::Subtract &&
+              opcode_of(BinaryOperation::Less) == Opcode::Less &&
+              opcode_of(BinaryOperation::NotEqual) == Opcode::NotEqual &&
+              opcode_of(BinaryOperation::Or) == Opcode::Or);
 
 bool in_production(ExpressionPlace place) {
     return place == ExpressionPlace::Condition || place == ExpressionPlace::Successor;

@@ -2,7 +2,6 @@
 
 #include "compiler/bytecode/arithmetic.h"
 #include "compiler/bytecode/interpret.h"
-#include "compiler/bytecode/verify.h"
 
 #include <cmath>
 
@@ -192,7 +191,7 @@ std::vector<ValueShape>
 shapes_of(const Bytecode& bytecode, std::uint32_t first, const ShapeKnowledge& knowledge) {
     std::vector<ValueShape> shapes;
     AffineDomain domain(knowledge, shapes);
-    std::vector<Term> stack(kMaxStack);
+    std::vector<Term> stack(stack_room(bytecode.instructions, first));
     if (!interpret(bytecode.instructions.data() + first, domain, stack.data())) {
         shapes.clear();
     }

@@ -1,5 +1,4 @@
 #include "compiler/bytecode/interpret.h"
-#include "compiler/bytecode/verify.h"
 #include "tests/support/builder_text.h"
 
 #include <catch2/catch.hpp>
@@ -101,6 +100,15 @@ TEST_CASE("a domain stops the walk before an instruction, at a range and at a ta
     CHECK_FALSE(run(range).finished);
     CHECK(run(range).taken.empty());
     CHECK_FALSE(run({encode(Opcode::Formal, 0), encode(Opcode::Test, 0)}).finished);
+}
+
+TEST_CASE("code needs room for its leaves, and never for more than a verified stack") {
+    CHECK(stack_room(compiled({"x * 2 - y / c"}), 0) == 5); // the end counts
+    std::string sum = "x";
+    for (std::uint32_t i = 0; i < 2 * kMaxStack; ++i) {
+        sum += " + x";
+    }
+    CHECK(stack_room(compiled({sum}), 0) == kMaxStack);
 }
 
 TEST_CASE("nothing is known of any value in the domain from which others derive") {

@@ -21,7 +21,7 @@ struct Laid {
     std::vector<ConditionView> views;
 };
 
-/// Conditions of formals x and y one after the other, each ended by Test.
+/// Conditions of formals x and y one after the other, each ended by Test and End.
 Laid lay(const std::vector<std::string>& conditions) {
     const test::NameTable names{{"x", 0}, {"y", 1}};
     const test::NameTable globals{{"c", 0}};
@@ -34,6 +34,7 @@ Laid lay(const std::vector<std::string>& conditions) {
         laid.views.push_back({static_cast<std::uint32_t>(laid.instructions.size()), 0});
         laid.instructions.insert(laid.instructions.end(), condition.begin(), condition.end());
         laid.instructions.push_back(encode(Opcode::Test, 0));
+        laid.instructions.push_back(encode(Opcode::End, 0));
     }
     return laid;
 }
