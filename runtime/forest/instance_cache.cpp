@@ -173,7 +173,8 @@ private:
         }
         add(place.sides);
         add(place.colour);
-        if (branch.id < options_.depends_on_vertical.size() && options_.depends_on_vertical[branch.id]) {
+        if (branch.id < options_.depends_on_vertical.size() &&
+            options_.depends_on_vertical[branch.id]) {
             // Rise of the heading and of the right axis.
             const glm::dvec3 heading = place.frame * glm::dvec3(0.0, 1.0, 0.0);
             const glm::dvec3 right = place.frame * glm::dvec3(1.0, 0.0, 0.0);
@@ -258,18 +259,11 @@ CacheOutcome record_heroes(const Bytecode& bytecode, const CacheOptions& options
             turtle.begin_again(derive.seed);
         }
         recorder.begin_hero(k, turtle.place(), turtle.drawn());
-        outcome.drawn = turtle.feed(derivation.word());
-        if (outcome.drawn == TurtleStatus::Ok) {
-            outcome.drawn = turtle.finish();
-        }
-        if (outcome.drawn == TurtleStatus::Ok) {
+        if (!turtle.feed(derivation.word()) && !turtle.finish()) {
             recorder.end_hero(turtle.drawn());
         }
+        outcome.drawn = turtle.end();
     }
-    if (outcome.drawn == TurtleStatus::NotInterpreted) {
-        outcome.drawing_error = turtle.error();
-    }
-    outcome.faults = turtle.faults();
     if (outcome.ok()) {
         recorder.finish();
         cache.heroes = options.heroes;
@@ -287,7 +281,7 @@ CacheOutcome make_instance_cache(const Bytecode& bytecode, const CacheOptions& o
     return catch_no_memory([&] { return record_heroes(bytecode, options); },
                            [] {
                                CacheOutcome outcome;
-                               outcome.drawn = TurtleStatus::OutOfMemory;
+                               outcome.drawn.stop = Stop::OutOfMemory;
                                return outcome;
                            });
 }

@@ -104,12 +104,10 @@ struct CacheOptions {
 struct CacheOutcome {
     InstanceCache cache; // empty unless ok()
     DerivationEnd derived;
-    TurtleStatus drawn = TurtleStatus::Ok;
-    RuntimeError drawing_error;                          // of TurtleStatus::NotInterpreted
-    std::uint32_t hero = 0;                              // the last one begun
-    std::array<TurtleFault, kTurtleFaultKinds> faults{}; // of all heroes
+    DrawingEnd drawn;       // with the faults of all heroes
+    std::uint32_t hero = 0; // the last one begun
 
-    [[nodiscard]] bool ok() const { return !derived.stop && drawn == TurtleStatus::Ok; }
+    [[nodiscard]] bool ok() const { return !derived.stop && !drawn.stop; }
 };
 
 /// Derives and draws the heroes. `bytecode` is of an instanced system

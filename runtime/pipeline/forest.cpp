@@ -151,8 +151,8 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     cache.max_bytes = project.limits.max_bytes;
     cache.cancelled = project.host.cancelled;
     CacheOutcome outcome = make_instance_cache(grammar.bytecode, cache);
-    if (const std::optional<Stop> stop = report_drawing(
-            outcome.derived, outcome.drawn, outcome.drawing_error, outcome.faults, grammar, step)) {
+    if (const std::optional<Stop> stop =
+            report_drawing(outcome.derived, outcome.drawn, grammar, step)) {
         return step.end(*stop);
     }
     stage.cache = std::move(outcome.cache);

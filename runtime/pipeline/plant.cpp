@@ -20,11 +20,8 @@ namespace lsys {
 namespace {
 
 /// Derives, then draws the last word.
-DerivationEnd draw_stored(const DeriveOptions& options,
-                          const Bytecode& bytecode,
-                          Turtle& turtle,
-                          TurtleStatus& drawn,
-                          Plant& plant) {
+DerivationEnd
+draw_stored(const DeriveOptions& options, const Bytecode& bytecode, Turtle& turtle, Plant& plant) {
     const Stopwatch deriving;
     Derivation derivation(bytecode, options);
     if (derivation.derive()) {
@@ -33,9 +30,8 @@ DerivationEnd draw_stored(const DeriveOptions& options,
     plant.modules = derivation.word().module_count();
     plant.derive_seconds = deriving.seconds();
     const Stopwatch drawing;
-    drawn = turtle.reserve(derivation.word());
-    if (drawn == TurtleStatus::Ok) {
-        drawn = turtle.feed(derivation.word());
+    if (!turtle.reserve(derivation.word())) {
+        static_cast<void>(turtle.feed(derivation.word()));
     }
     plant.draw_seconds = drawing.seconds();
     return {};
@@ -45,16 +41,14 @@ DerivationEnd draw_stored(const DeriveOptions& options,
 DerivationEnd draw_streamed(const DeriveOptions& options,
                             const Bytecode& bytecode,
                             Turtle& turtle,
-                            TurtleStatus& drawn,
                             Plant& plant) {
     const Stopwatch deriving;
     StreamOutcome outcome = derive_streamed(bytecode, options, [&](const StreamChunk& chunk) {
-        drawn = turtle.feed(chunk.codes, chunk.parameters, chunk.origins);
-        return drawn == TurtleStatus::Ok;
+        return !turtle.feed(chunk.codes, chunk.parameters, chunk.origins);
     });
     plant.modules = outcome.modules;
     plant.derive_seconds = deriving.seconds();
-    return drawn == TurtleStatus::Ok ? std::move(outcome.end) : DerivationEnd{};
+    return turtle.end().stop ? DerivationEnd{} : std::move(outcome.end);
 }
 
 } // namespace
@@ -124,16 +118,12 @@ Outcome<Plant> grow_plant(const PlantOptions& options, Grammar& grammar, const P
     turtle_options.seed = derive.seed;
     turtle_options.generations = derive.generations;
     Turtle turtle(bytecode, turtle_options);
-    TurtleStatus drawn = TurtleStatus::Ok;
-    const DerivationEnd derived = options.stream
-                                      ? draw_streamed(derive, bytecode, turtle, drawn, plant)
-                                      : draw_stored(derive, bytecode, turtle, drawn, plant);
-    if (!derived.stop && drawn == TurtleStatus::Ok) {
-        drawn = turtle.finish();
+    const DerivationEnd derived = options.stream ? draw_streamed(derive, bytecode, turtle, plant)
+                                                 : draw_stored(derive, bytecode, turtle, plant);
+    if (!derived.stop) {
+        static_cast<void>(turtle.finish());
     }
-    if (const std::optional<Stop> stop = report_drawing(
-            derived, drawn, drawn == TurtleStatus::NotInterpreted ? turtle.error() : RuntimeError{},
-            turtle.faults(), grammar, step)) {
+    if (const std::optional<Stop> stop = report_drawing(derived, turtle.end(), grammar, step)) {
         return step.end(*stop);
     }
     plant.skeleton = turtle.take_skeleton();

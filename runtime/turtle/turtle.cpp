@@ -9,10 +9,10 @@ namespace lsys {
 [[gnu::always_inline]] inline bool
 Turtle::State::quick_forward(const Action& action, const float* arguments, Pose& pose) {
     const float length = action.given > 0 ? arguments[0] : now.step;
-    Pose end = pose;
-    advance(end, static_cast<double>(length));
+    Pose tip = pose;
+    advance(tip, static_cast<double>(length));
     // Also false for what is not a number.
-    const bool fits = std::abs(end.x) + std::abs(end.y) + std::abs(end.z) <= kMaxFloat &&
+    const bool fits = std::abs(tip.x) + std::abs(tip.y) + std::abs(tip.z) <= kMaxFloat &&
                       now.width <= std::numeric_limits<float>::max() && length >= 0.0F;
     if (!fits || skeleton.segments.size() == skeleton.segments.capacity()) {
         return false;
@@ -22,7 +22,7 @@ Turtle::State::quick_forward(const Action& action, const float* arguments, Pose&
                 action.given > 1 ? arguments[1] : bytecode.settings.spring,
                 action.given > 2 ? arguments[2]
                                  : mass_of(static_cast<double>(length), now.width, tip_width));
-    pose = end;
+    pose = tip;
     return true;
 }
 
@@ -44,8 +44,9 @@ Turtle::State::quick_forward(const Action& action, const float* arguments, Pose&
 }
 
 template <bool kOrigins, typename C>
-TurtleStatus
-Turtle::State::run_some(std::span<const C> codes, const float*& parameters, const Origin* origins) {
+void Turtle::State::run_some(std::span<const C> codes,
+                             const float*& parameters,
+                             const Origin* origins) {
     const Action* const actions = table.by_code.data();
     const std::uint64_t first = position;
     const C* const begin = codes.data();
@@ -72,7 +73,7 @@ Turtle::State::run_some(std::span<const C> codes, const float*& parameters, cons
                 if (plain && !polygons.any() && quick_forward(action, arguments, pose)) {
                     if constexpr (kOrigins) {
                         if (!take_origin(origins[at - begin])) {
-                            return status;
+                            return;
                         }
                     }
                     continue;
@@ -105,24 +106,24 @@ Turtle::State::run_some(std::span<const C> codes, const float*& parameters, cons
             origin = origins[at - begin];
         }
         if (cut != 0 ? !skip(action) : !obey(action, arguments)) {
-            return status;
+            return;
         }
         if constexpr (kOrigins) {
             if (!take_origin(origin)) {
-                return status;
+                return;
             }
         }
         pose = now.pose;
     }
     now.pose = pose;
     position = first + codes.size();
-    return TurtleStatus::Ok;
 }
 
 /// Words that are texts. What a command draws is noticed one or more modules later.
 template <typename C>
-TurtleStatus
-Turtle::State::run_text(std::span<const C> codes, const float*& parameters, const Origin* origins) {
+void Turtle::State::run_text(std::span<const C> codes,
+                             const float*& parameters,
+                             const Origin* origins) {
     const std::uint64_t first = position;
     keeps_origins = origins != nullptr;
     for (std::size_t i = 0; i < codes.size(); ++i) {
@@ -135,25 +136,24 @@ Turtle::State::run_text(std::span<const C> codes, const float*& parameters, cons
         origin = here;
         if (!take_character(action, codes[i], arguments) ||
             (origins != nullptr && !take_origin(before))) {
-            return status;
+            return;
         }
     }
     position = first + codes.size();
-    return TurtleStatus::Ok;
 }
 
 template <typename C>
-TurtleStatus Turtle::State::run(std::span<const C> codes,
-                                std::span<const float> parameters,
-                                std::span<const Origin> origins) {
+std::optional<Stop> Turtle::State::run(std::span<const C> codes,
+                                       std::span<const float> parameters,
+                                       std::span<const Origin> origins) {
     LSYS_CHECK(origins.empty() || origins.size() == codes.size(), origins.size(), codes.size());
-    if (status != TurtleStatus::Ok) {
-        return status;
+    if (end.stop) {
+        return end.stop;
     }
     const float* next = parameters.data();
     while (!codes.empty()) {
         if (options.cancelled != nullptr && options.cancelled->load(std::memory_order_relaxed)) {
-            return status = TurtleStatus::Cancelled;
+            return end.stop = Stop::Cancelled;
         }
         const std::size_t count = std::min(codes.size(), kModulesBetweenLooks);
         if (table.reads_text) {
@@ -165,32 +165,30 @@ TurtleStatus Turtle::State::run(std::span<const C> codes,
             run_some<true>(codes.first(count), next, origins.data());
             origins = origins.subspan(count);
         }
-        if (status != TurtleStatus::Ok) {
-            return status;
+        if (end.stop) {
+            return end.stop;
         }
         codes = codes.subspan(count);
     }
-    return status;
+    return end.stop;
 }
 
 /// Draws what the modules are interpreted as.
 template <typename C>
-TurtleStatus Turtle::State::interpret(std::span<const C> codes,
-                                      std::span<const float> parameters,
-                                      std::span<const Origin> origins) {
-    if (status != TurtleStatus::Ok) {
-        return status;
+std::optional<Stop> Turtle::State::interpret(std::span<const C> codes,
+                                             std::span<const float> parameters,
+                                             std::span<const Origin> origins) {
+    if (end.stop) {
+        return end.stop;
     }
     if (!interpretation) {
         interpretation = Interpretation::make(
             bytecode, {options.seed, options.generations, options.max_bytes, options.cancelled},
             !origins.empty(),
             [this](std::span<const Code> some, std::span<const float> values,
-                   std::span<const Origin> from) {
-                return run(some, values, from) == TurtleStatus::Ok;
-            });
+                   std::span<const Origin> from) { return !run(some, values, from); });
     }
-    while (!codes.empty() && status == TurtleStatus::Ok) {
+    while (!codes.empty() && !end.stop) {
         const std::size_t count = std::min(codes.size(), kModulesBetweenLooks);
         piece.assign(codes.begin(), codes.begin() + static_cast<std::ptrdiff_t>(count));
         std::size_t stored = 0;
@@ -199,27 +197,27 @@ TurtleStatus Turtle::State::interpret(std::span<const C> codes,
         }
         const std::optional<Stop> stop = interpretation->feed(
             piece, parameters.first(stored), origins.empty() ? origins : origins.first(count));
-        if (stop && status == TurtleStatus::Ok) { // else the turtle has ended it
-            status = *stop == Stop::Limit         ? TurtleStatus::Limit
-                     : *stop == Stop::OutOfMemory ? TurtleStatus::OutOfMemory
-                     : *stop == Stop::Cancelled   ? TurtleStatus::Cancelled
-                                                  : TurtleStatus::NotInterpreted;
+        if (stop && !end.stop) { // else the turtle has ended it
+            end.stop = stop;
+            if (stop == Stop::Diagnosed) {
+                end.error = interpretation->error();
+            }
         }
         codes = codes.subspan(count);
         parameters = parameters.subspan(stored);
         origins = origins.empty() ? origins : origins.subspan(count);
     }
-    return status;
+    return end.stop;
 }
 
 Turtle::Turtle(const Bytecode& bytecode, TurtleOptions options)
     : state_(std::make_unique<State>(bytecode, std::move(options))) {}
 Turtle::~Turtle() = default;
 
-TurtleStatus Turtle::reserve(const Word& word) {
+std::optional<Stop> Turtle::reserve(const Word& word) {
     State& state = *state_;
     if (state.interprets) {
-        return TurtleStatus::Ok; // productions of #interpret decide how much is drawn
+        return std::nullopt; // productions of #interpret decide how much is drawn
     }
     std::uint64_t segments = 0;
     std::uint64_t objects = 0;
@@ -239,7 +237,7 @@ TurtleStatus Turtle::reserve(const Word& word) {
     const std::uint64_t bytes = segments * sizeof(Segment) + objects * sizeof(PlacedObject) +
                                 (origins ? (segments + objects) * sizeof(Origin) : 0);
     if (bytes > state.options.max_bytes) {
-        return state.status = TurtleStatus::Limit;
+        return state.end.stop = Stop::Limit;
     }
     try {
         state.skeleton.segments.reserve(std::min(segments, kMaxSkeletonItems));
@@ -249,34 +247,34 @@ TurtleStatus Turtle::reserve(const Word& word) {
             state.skeleton.object_origins.reserve(std::min(objects, kMaxSkeletonItems));
         }
     } catch (const std::bad_alloc&) {
-        return state.status = TurtleStatus::OutOfMemory;
+        return state.end.stop = Stop::OutOfMemory;
     }
-    return TurtleStatus::Ok;
+    return std::nullopt;
 }
 
-TurtleStatus Turtle::feed(const Word& word) {
+std::optional<Stop> Turtle::feed(const Word& word) {
     return word.visit(
         [&](auto codes) { return state_->take(codes, word.parameters(), word.origins()); });
 }
 
-TurtleStatus Turtle::feed(std::span<const Code> codes, std::span<const float> parameters) {
+std::optional<Stop> Turtle::feed(std::span<const Code> codes, std::span<const float> parameters) {
     return state_->take(codes, parameters, {});
 }
 
-TurtleStatus Turtle::feed(std::span<const Code> codes,
-                          std::span<const float> parameters,
-                          std::span<const Origin> origins) {
+std::optional<Stop> Turtle::feed(std::span<const Code> codes,
+                                 std::span<const float> parameters,
+                                 std::span<const Origin> origins) {
     return state_->take(codes, parameters, origins);
 }
 
-TurtleStatus Turtle::finish() {
+std::optional<Stop> Turtle::finish() {
     State& state = *state_;
-    if (state.status == TurtleStatus::Ok && state.pending.there && !state.pending.in_parameter) {
+    if (!state.end.stop && state.pending.there && !state.pending.in_parameter) {
         if (state.obey_pending() && state.keeps_origins) {
             static_cast<void>(state.take_origin(state.pending.origin));
         }
     }
-    if (state.status == TurtleStatus::Ok) {
+    if (!state.end.stop) {
         if (!state.stack.empty()) {
             state.note(TurtleFaultKind::UnclosedBranch);
         }
@@ -284,13 +282,13 @@ TurtleStatus Turtle::finish() {
             state.note(TurtleFaultKind::UnclosedPolygon);
         }
     }
-    return state.status;
+    return state.end.stop;
 }
 
 void Turtle::begin_again(std::uint64_t seed) {
     State& state = *state_;
     state.options.seed = seed;
-    LSYS_CHECK(state.status == TurtleStatus::Ok);
+    LSYS_CHECK(!state.end.stop);
     state.begin();
     state.stack.clear();
     state.watched.clear();
@@ -312,12 +310,8 @@ const Skeleton& Turtle::skeleton() const {
 Skeleton Turtle::take_skeleton() {
     return std::move(state_->skeleton);
 }
-const RuntimeError& Turtle::error() const {
-    LSYS_CHECK(state_->interpretation != nullptr);
-    return state_->interpretation->error();
-}
-const std::array<TurtleFault, kTurtleFaultKinds>& Turtle::faults() const {
-    return state_->faults;
+const DrawingEnd& Turtle::end() const {
+    return state_->end;
 }
 
 } // namespace lsys

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
+#include "grammar/base/outcome.h"
 #include "runtime/derive/derive.h"
 #include "runtime/derive/word.h"
 #include "runtime/turtle/skeleton.h"
@@ -16,6 +17,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,8 +48,12 @@ struct TurtleFault {
     Code code = 0;              // code of that module
 };
 
-/// NotInterpreted: a production of `#interpret` cannot be applied; error() names it.
-enum class TurtleStatus : std::uint8_t { Ok, Fault, Limit, OutOfMemory, Cancelled, NotInterpreted };
+/// Facts of a drawing for messages, whether it is complete or why it ended before its last module.
+struct DrawingEnd {
+    std::optional<Stop> stop;          // none: the drawing is complete, or may go on
+    std::optional<RuntimeError> error; // a production of `#interpret` that cannot be applied
+    std::array<TurtleFault, kTurtleFaultKinds> faults{};
+};
 
 /// Position and state of the turtle between two modules.
 struct TurtlePlace {
@@ -109,7 +115,8 @@ struct TurtleOptions {
 };
 
 /// Draws a word that comes in pieces: each module as what the productions of `#interpret` make of
-/// it. Positions of faults are those of the modules that are drawn.
+/// it. Positions of faults are those of the modules that are drawn. Functions that return a Stop
+/// return nothing when they are done; end() has the facts.
 class Turtle {
 public:
     /// `bytecode` outlives the turtle.
@@ -119,17 +126,17 @@ public:
     Turtle& operator=(const Turtle&) = delete;
 
     /// Makes room for what these codes will draw; without it, room is made as it is needed.
-    [[nodiscard]] TurtleStatus reserve(const Word& word);
-    /// The next modules of the word. After anything but Ok nothing more is to be fed. Where the
-    /// word keeps origins, or `origins` are those of the codes, what is drawn has its own; then
-    /// every piece has origins.
-    [[nodiscard]] TurtleStatus feed(const Word& word);
-    [[nodiscard]] TurtleStatus feed(std::span<const Code> codes, std::span<const float> parameters);
-    [[nodiscard]] TurtleStatus feed(std::span<const Code> codes,
-                                    std::span<const float> parameters,
-                                    std::span<const Origin> origins);
-    /// After the last module.
-    [[nodiscard]] TurtleStatus finish();
+    [[nodiscard]] std::optional<Stop> reserve(const Word& word);
+    /// Draws the next modules of the word; nothing after a Stop. With `origins` of the codes, or a
+    /// word that keeps them, the drawing has origins too; then every piece has them.
+    [[nodiscard]] std::optional<Stop> feed(const Word& word);
+    [[nodiscard]] std::optional<Stop> feed(std::span<const Code> codes,
+                                           std::span<const float> parameters);
+    [[nodiscard]] std::optional<Stop> feed(std::span<const Code> codes,
+                                           std::span<const float> parameters,
+                                           std::span<const Origin> origins);
+    /// Ends the word. The last call for it.
+    [[nodiscard]] std::optional<Stop> finish();
     /// The next word, of a derivation with that seed, begins as the first one did, beside what is
     /// drawn. After finish().
     void begin_again(std::uint64_t seed);
@@ -138,9 +145,7 @@ public:
 
     [[nodiscard]] const Skeleton& skeleton() const;
     [[nodiscard]] Skeleton take_skeleton();
-    [[nodiscard]] const std::array<TurtleFault, kTurtleFaultKinds>& faults() const;
-    /// After NotInterpreted.
-    [[nodiscard]] const RuntimeError& error() const;
+    [[nodiscard]] const DrawingEnd& end() const;
 
 private:
     struct State;

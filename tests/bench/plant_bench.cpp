@@ -85,8 +85,7 @@ void measure_plant(const Plant& plant) {
     }
     const auto draw = [&] {
         Turtle turtle(bytecode, {});
-        if (turtle.reserve(derivation.word()) != TurtleStatus::Ok ||
-            turtle.feed(derivation.word()) != TurtleStatus::Ok) {
+        if (turtle.reserve(derivation.word()) || turtle.feed(derivation.word())) {
             fail("a plant cannot be drawn");
         }
         return turtle.take_skeleton();

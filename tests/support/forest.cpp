@@ -65,8 +65,8 @@ Skeleton plain_plant(const std::string& grammar, std::uint32_t generations, std:
     drawing.seed = seed;
     drawing.generations = generations;
     Turtle turtle(*compiled.outcome.bytecode, drawing);
-    REQUIRE(turtle.feed(derivation.word()) == TurtleStatus::Ok);
-    REQUIRE(turtle.finish() == TurtleStatus::Ok);
+    REQUIRE(turtle.feed(derivation.word()) == std::nullopt);
+    REQUIRE(turtle.finish() == std::nullopt);
     return turtle.take_skeleton();
 }
 

@@ -9,9 +9,7 @@
 namespace lsys {
 
 std::optional<Stop> report_drawing(const DerivationEnd& derived,
-                                   TurtleStatus drawn,
-                                   const RuntimeError& drawing_error,
-                                   const std::array<TurtleFault, kTurtleFaultKinds>& faults,
+                                   const DrawingEnd& drawn,
                                    const Grammar& grammar,
                                    Step& step) {
     const Limits& limits = step.project().limits;
@@ -21,34 +19,22 @@ std::optional<Stop> report_drawing(const DerivationEnd& derived,
         }
         return derived.stop;
     }
-    if (drawn == TurtleStatus::NotInterpreted) {
-        step.diagnose(runtime_diagnostic(drawing_error, grammar.bytecode, !grammar.is_module_file),
+    if (drawn.error) {
+        step.diagnose(runtime_diagnostic(*drawn.error, grammar.bytecode, !grammar.is_module_file),
                       grammar.sources);
         return Stop::Diagnosed;
     }
     Diagnostics diagnostics;
-    for (Diagnostic& diagnostic : turtle_diagnostics(faults, grammar.bytecode)) {
+    for (Diagnostic& diagnostic : turtle_diagnostics(drawn.faults, grammar.bytecode)) {
         diagnostics.add(std::move(diagnostic));
     }
-    if (drawn == TurtleStatus::Limit) {
+    if (drawn.stop == Stop::Limit) {
         diagnostics.add(plant_limit_diagnostic("the skeleton", limits.max_bytes));
-    } else if (drawn == TurtleStatus::OutOfMemory) {
+    } else if (drawn.stop == Stop::OutOfMemory) {
         diagnostics.add(no_memory_diagnostic("the skeleton"));
     }
     const bool ok = step.diagnose(std::move(diagnostics), grammar.sources);
-    switch (drawn) {
-    case TurtleStatus::Limit:
-        return Stop::Limit;
-    case TurtleStatus::OutOfMemory:
-        return Stop::OutOfMemory;
-    case TurtleStatus::Cancelled:
-        return Stop::Cancelled;
-    case TurtleStatus::Ok:
-    case TurtleStatus::Fault:
-    case TurtleStatus::NotInterpreted:
-        break;
-    }
-    return ok ? std::nullopt : std::optional(Stop::Diagnosed);
+    return drawn.stop || ok ? drawn.stop : Stop::Diagnosed;
 }
 
 } // namespace lsys

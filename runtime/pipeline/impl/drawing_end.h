@@ -7,19 +7,15 @@
 #include "runtime/pipeline/step.h"
 #include "runtime/turtle/turtle.h"
 
-#include <array>
 #include <optional>
 
 namespace lsys {
 
-/// Adds the diagnostics of a derivation and of its drawing to `step`. `drawing_error`: the error of
-/// TurtleStatus::NotInterpreted. Returns why the step has to end, or nothing.
-[[nodiscard]] std::optional<Stop>
-report_drawing(const DerivationEnd& derived,
-               TurtleStatus drawn,
-               const RuntimeError& drawing_error,
-               const std::array<TurtleFault, kTurtleFaultKinds>& faults,
-               const Grammar& grammar,
-               Step& step);
+/// Adds the diagnostics of a derivation and of its drawing to `step`. Returns why the step has to
+/// end, or nothing.
+[[nodiscard]] std::optional<Stop> report_drawing(const DerivationEnd& derived,
+                                                 const DrawingEnd& drawn,
+                                                 const Grammar& grammar,
+                                                 Step& step);
 
 } // namespace lsys

@@ -4,7 +4,7 @@
 namespace lsys {
 
 void Turtle::State::note(TurtleFaultKind kind) {
-    TurtleFault& known = faults[static_cast<std::size_t>(kind)];
+    TurtleFault& known = end.faults[static_cast<std::size_t>(kind)];
     if (known.count++ == 0) {
         known.position = position;
         known.code = code;
@@ -107,12 +107,12 @@ bool Turtle::State::place(const Action& action, const float* arguments) {
 bool Turtle::State::save() {
     const std::uint64_t bytes = skeleton.byte_count() + stack.size() * 2 * sizeof(TurtleState);
     if (stack.size() == stack.capacity() && bytes > options.max_bytes) {
-        return stop(TurtleStatus::Limit);
+        return stop(Stop::Limit);
     }
     try {
         stack.push_back(now);
     } catch (const std::bad_alloc&) {
-        return stop(TurtleStatus::OutOfMemory);
+        return stop(Stop::OutOfMemory);
     }
     return true;
 }
@@ -201,10 +201,10 @@ void Turtle::State::close_polygon() {
             skeleton.corners.insert(skeleton.corners.end(), corners.begin(), corners.end());
             skeleton.polygons.push_back(polygon);
         } catch (const std::bad_alloc&) {
-            stop(TurtleStatus::OutOfMemory);
+            stop(Stop::OutOfMemory);
         }
         if (skeleton.byte_count() > options.max_bytes) {
-            stop(TurtleStatus::Limit);
+            stop(Stop::Limit);
         }
     }
     polygons.close();
@@ -398,7 +398,7 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
         return true;
     case TurtleOperation::PolygonEnd:
         close_polygon();
-        return status == TurtleStatus::Ok;
+        return !end.stop;
     case TurtleOperation::Cut:
         cut = 1;
         return true;

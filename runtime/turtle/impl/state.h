@@ -93,29 +93,27 @@ struct Turtle::State {
     }
 
     template <typename C>
-    TurtleStatus run(std::span<const C> codes,
-                     std::span<const float> parameters,
-                     std::span<const Origin> origins);
+    std::optional<Stop> run(std::span<const C> codes,
+                            std::span<const float> parameters,
+                            std::span<const Origin> origins);
     template <typename C>
-    TurtleStatus interpret(std::span<const C> codes,
-                           std::span<const float> parameters,
-                           std::span<const Origin> origins);
+    std::optional<Stop> interpret(std::span<const C> codes,
+                                  std::span<const float> parameters,
+                                  std::span<const Origin> origins);
     template <typename C>
-    TurtleStatus take(std::span<const C> codes,
-                      std::span<const float> parameters,
-                      std::span<const Origin> origins) {
+    std::optional<Stop> take(std::span<const C> codes,
+                             std::span<const float> parameters,
+                             std::span<const Origin> origins) {
         return interprets ? interpret(codes, parameters, origins) : run(codes, parameters, origins);
     }
     template <bool kOrigins, typename C>
-    TurtleStatus
-    run_some(std::span<const C> codes, const float*& parameters, const Origin* origins);
+    void run_some(std::span<const C> codes, const float*& parameters, const Origin* origins);
     template <typename C>
-    TurtleStatus
-    run_text(std::span<const C> codes, const float*& parameters, const Origin* origins);
+    void run_text(std::span<const C> codes, const float*& parameters, const Origin* origins);
     bool take_character(const Action& action, Code character, const float* arguments);
     bool obey_pending();
     bool take_origin(const Origin& origin);
-    /// False: the drawing has ended as `status`.
+    /// False: the drawing has ended as `end.stop`.
     bool obey(const Action& action, const float* arguments);
     bool forward(const Action& action, const float* arguments, float part);
     bool tapered(const Action& action, const float* arguments);
@@ -149,13 +147,13 @@ struct Turtle::State {
     void add_colour(float number, double sign);
 
     void note(TurtleFaultKind kind);
-    bool stop(TurtleStatus why) {
-        status = why;
+    bool stop(Stop why) {
+        end.stop = why;
         return false;
     }
     bool fault(TurtleFaultKind kind) {
         note(kind);
-        return stop(TurtleStatus::Fault);
+        return stop(Stop::Diagnosed);
     }
     /// Makes room in `items` for one more; false: the drawing has ended.
     template <typename Items>
@@ -174,13 +172,12 @@ struct Turtle::State {
     std::vector<TurtleState> stack;
     std::vector<std::size_t> watched; // sizes of the stack within the branches a watcher sees
     OpenPolygons polygons;
-    std::array<TurtleFault, kTurtleFaultKinds> faults{};
+    DrawingEnd end;
     std::uint64_t position = 0; // number of the module at hand
     Code code = 0;              // its code
     Origin origin;              // its origin, where origins are known
     Origin polygon_origin;      // origin of the `{` of the polygon closed last
     std::uint64_t cut = 0;      // open brackets within a part that is cut off, and 1
-    TurtleStatus status = TurtleStatus::Ok;
     bool interprets = false;
     std::unique_ptr<Interpretation> interpretation; // made with the first piece
     std::vector<Code> piece;                        // codes of a narrower word, widened
@@ -209,12 +206,12 @@ bool Turtle::State::has_room(Items& items) {
         std::min<std::uint64_t>(std::max(kFirst, items.size() * 2), kMaxSkeletonItems);
     const std::uint64_t item = sizeof(typename Items::value_type);
     if (skeleton.byte_count() + (room - items.size()) * item > options.max_bytes) {
-        return stop(TurtleStatus::Limit);
+        return stop(Stop::Limit);
     }
     try {
         items.reserve(room);
     } catch (const std::bad_alloc&) {
-        return stop(TurtleStatus::OutOfMemory);
+        return stop(Stop::OutOfMemory);
     }
     return true;
 }

@@ -195,10 +195,10 @@ TEST_CASE("what is drawn has the origin of its module") {
     Turtle turtle(bytecode, {});
     const bool reserves = GENERATE(false, true);
     if (reserves) {
-        REQUIRE(turtle.reserve(derivation.word()) == TurtleStatus::Ok);
+        REQUIRE(turtle.reserve(derivation.word()) == std::nullopt);
     }
-    REQUIRE(turtle.feed(derivation.word()) == TurtleStatus::Ok);
-    REQUIRE(turtle.finish() == TurtleStatus::Ok);
+    REQUIRE(turtle.feed(derivation.word()) == std::nullopt);
+    REQUIRE(turtle.finish() == std::nullopt);
     const Skeleton stored = turtle.take_skeleton();
     REQUIRE(stored.segment_origins.size() == stored.segments.size());
     REQUIRE(stored.object_origins.size() == stored.objects.size());
@@ -227,7 +227,7 @@ TEST_CASE("what is drawn has the origin of its module") {
     Turtle pieces(bytecode, {});
     const StreamOutcome outcome =
         derive_streamed(bytecode, with_origins(2), [&](const StreamChunk& chunk) {
-            return pieces.feed(chunk.codes, chunk.parameters, chunk.origins) == TurtleStatus::Ok;
+            return !pieces.feed(chunk.codes, chunk.parameters, chunk.origins);
         });
     REQUIRE(outcome.end.stop == std::nullopt);
     const Skeleton streamed = pieces.take_skeleton();
@@ -243,7 +243,7 @@ TEST_CASE("a skeleton without origins takes no room for them") {
     REQUIRE(derivation.start() == std::nullopt);
     REQUIRE(derivation.run_to(2) == std::nullopt);
     Turtle turtle(bytecode, {});
-    REQUIRE(turtle.feed(derivation.word()) == TurtleStatus::Ok);
+    REQUIRE(turtle.feed(derivation.word()) == std::nullopt);
     CHECK_FALSE(turtle.skeleton().segments.empty());
     CHECK(turtle.skeleton().segment_origins.empty());
     CHECK(turtle.skeleton().object_origins.empty());
@@ -261,9 +261,9 @@ TEST_CASE("origins of a skeleton count towards its limit") {
     TurtleOptions options;
     options.max_bytes = 16'384 * (sizeof(Segment) + sizeof(Origin));
     Turtle enough(drawn, options);
-    CHECK(enough.reserve(derivation.word()) == TurtleStatus::Ok);
-    CHECK(enough.feed(derivation.word()) == TurtleStatus::Ok);
+    CHECK(enough.reserve(derivation.word()) == std::nullopt);
+    CHECK(enough.feed(derivation.word()) == std::nullopt);
     --options.max_bytes;
     Turtle short_of_one(drawn, options);
-    CHECK(short_of_one.reserve(derivation.word()) == TurtleStatus::Limit);
+    CHECK(short_of_one.reserve(derivation.word()) == Stop::Limit);
 }
