@@ -67,7 +67,7 @@ struct FormatTraits {
 using ByteSink = std::function<bool(std::string_view)>;
 
 /// Joints of a skin that move, at most: glTF counts joints in 16 bits, and joint 0 stands still.
-inline constexpr std::uint32_t kMostJoints = 65'535;
+inline constexpr std::uint32_t kMaxJoints = 65'535;
 
 /// Subject of a file in messages.
 enum class ExportSubject : std::uint8_t { Plant, Forest };
@@ -94,7 +94,7 @@ struct ExportInfo {
 
 /// Writes one file to `sink`. Indices of the mesh must be below its number of vertices. Without its
 /// value no byte was written, unless the outcome is Cancelled (by the sink) or OutOfMemory. Failed:
-/// nothing to draw, or more than the format can hold. Limit: more than kMostJoints.
+/// nothing to draw, or more than the format can hold. Limit: more than kMaxJoints.
 Outcome<Done> export_mesh(const Mesh& mesh,
                           const Skeleton& skeleton,
                           ExportFormat format,
