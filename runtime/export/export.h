@@ -63,11 +63,11 @@ struct FormatTraits {
 [[nodiscard]] std::string format_names(std::string_view conjunction,
                                        const std::function<bool(const FormatTraits&)>& is_listed);
 
-/// Takes the next bytes; false stops the export.
+/// Takes the next bytes; returns false to stop the export.
 using ByteSink = std::function<bool(std::string_view)>;
 
 /// Joints of a skin that move, at most: glTF counts joints in 16 bits, and joint 0 stands still.
-inline constexpr std::uint32_t kMostJoints = 65'535;
+inline constexpr std::uint32_t kMaxJoints = 65'535;
 
 /// Subject of a file in messages.
 enum class ExportSubject : std::uint8_t { Plant, Forest };
@@ -80,7 +80,7 @@ struct ExportInfo {
     std::uint32_t generations = 0;
     std::string generator; // the program and its version
     std::string mtl_name;  // the file of write_mtl() beside an OBJ; empty: none
-    /// Begin of the names of pictures beside the file; empty: no pictures, materials are plain
+    /// Prefix of the names of pictures beside the file; empty: no pictures, materials are plain
     /// colours.
     std::string picture_prefix;
     bool textures = true;      // pictures for textured materials, where the format has pictures
@@ -92,9 +92,9 @@ struct ExportInfo {
     const PlantAnimation* animation = nullptr;
 };
 
-/// Writes one file to `sink`. Indices of the mesh must be below its number of vertices. Without its
-/// value no byte was written, unless the outcome is Cancelled (by the sink) or OutOfMemory. Failed:
-/// nothing to draw, or more than the format can hold. Limit: more than kMostJoints.
+/// Writes one file to `sink`. Precondition: indices of the mesh are below its number of vertices.
+/// Stops before the first byte: Failed, nothing to draw or more than the format can hold; Limit,
+/// more than kMaxJoints. Stops at any byte: Cancelled, by the sink; OutOfMemory.
 Outcome<void> export_mesh(const Mesh& mesh,
                           const Skeleton& skeleton,
                           ExportFormat format,

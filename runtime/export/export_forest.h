@@ -26,7 +26,7 @@ enum class ForestForm : std::uint8_t {
     Expanded,  // a node for each branch instance; for FormatTraits::expands_forest
 };
 /// Branch instances of ForestForm::Expanded, at most. Each takes about 200 bytes of the file.
-inline constexpr std::uint64_t kMostForestNodes = 1'000'000;
+inline constexpr std::uint64_t kMaxForestNodes = 1'000'000;
 
 struct ForestExportInfo {
     std::string name;      // of the scene
@@ -44,7 +44,7 @@ struct ForestExportInfo {
 /// takes 8 bytes a tree, 24 bytes for each pair of a cell and an instance that stands there, 16
 /// bytes for each pair of 512 trees of a cell and an instance that stands in them, and
 /// ForestExportInfo::window_bytes. Precondition: trees' species have meshes. Stops as
-/// export_mesh(); Limit: Expanded, more than kMostForestNodes.
+/// export_mesh(); Limit: Expanded, more than kMaxForestNodes.
 Outcome<void> export_forest(const ForestScene& scene,
                             ExportFormat format,
                             ForestForm form,

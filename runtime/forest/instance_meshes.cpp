@@ -13,7 +13,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max() - 1;
+constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max() - 1;
 constexpr std::uint64_t kInstancesOfPiece = 256;
 
 /// Slots that a tree can contain.
@@ -197,7 +197,7 @@ private:
 InstanceMeshStatus
 list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceMeshes& meshes) {
     Mesh& mesh = meshes.mesh;
-    if (mesh.indices.size() / 3 > kMost) {
+    if (mesh.indices.size() / 3 > kMax) {
         return InstanceMeshStatus::TooManyVertices;
     }
     const ListWriter lists(cache, mesh);
@@ -239,7 +239,7 @@ list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceM
         }
     }
     meshes.first_part.push_back(static_cast<std::uint32_t>(parts.size()));
-    if (parts.size() > kMost) {
+    if (parts.size() > kMax) {
         return InstanceMeshStatus::TooManyVertices;
     }
     const std::uint64_t vertex_bytes = mesh.byte_count() - mesh.indices.byte_count();
@@ -266,7 +266,7 @@ InstanceMeshStatus build(const InstanceCache& cache,
     }
     const Skeleton& heroes = cache.skeleton;
     if (std::uint64_t{heroes.segments.size()} + heroes.objects.size() + heroes.polygons.size() >
-        kMost) {
+        kMax) {
         return InstanceMeshStatus::TooManyVertices;
     }
     options.segments = true;

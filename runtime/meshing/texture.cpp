@@ -167,7 +167,7 @@ Texture paint_bark() {
 /// Half the width of the leaf in the picture, 0 to 1: the outline of the mesh with rounded corners
 /// and a margin, so that mostly the mesh ends the leaf.
 float leaf_half(float distance) {
-    constexpr float kGreatest = 0.25F;
+    constexpr float kMax = 0.25F;
     constexpr float kMargin = 0.04F;
     constexpr int kSamples = 4;
     float sum = 0.0F;
@@ -175,7 +175,7 @@ float leaf_half(float distance) {
         sum += leaf_half_width(
             std::clamp(distance + 0.05F * static_cast<float>(i) / kSamples, 0.0F, 1.0F));
     }
-    return sum / (2 * kSamples + 1) / kGreatest + kMargin;
+    return sum / (2 * kSamples + 1) / kMax + kMargin;
 }
 
 Texture paint_leaf() {

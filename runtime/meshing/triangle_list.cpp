@@ -10,11 +10,11 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kMostSides = 255;
+constexpr std::uint32_t kMaxPatchSides = 255;
 // Indices of a unit of a patch: one band, or the whole of any other shape.
-constexpr std::size_t kMostOfUnit = std::size_t{6} * kMostSides;
-constexpr std::uint32_t kMostBands = 1U << 20; // at once
-constexpr std::uint32_t kMostOfBlock = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t kMaxOfUnit = std::size_t{6} * kMaxPatchSides;
+constexpr std::uint32_t kMaxBands = 1U << 20; // at once
+constexpr std::uint32_t kMaxOfBlock = std::numeric_limits<std::uint32_t>::max();
 
 } // namespace
 
@@ -22,7 +22,7 @@ constexpr std::uint32_t kMostOfBlock = std::numeric_limits<std::uint32_t>::max()
 struct TriangleList::Pattern {
     std::uint32_t sides = 0;
     bool seam = false;
-    std::array<std::uint32_t, kMostOfUnit> offsets;
+    std::array<std::uint32_t, kMaxOfUnit> offsets;
 
     void set(std::uint32_t new_sides, bool new_seam) {
         if (sides == new_sides && seam == new_seam) {
@@ -103,7 +103,7 @@ void TriangleList::read_patches(const Block& block,
     auto patch = std::upper_bound(
         block.patches.begin(), block.patches.end(), first,
         [](std::uint64_t index, const Patch& candidate) { return index < candidate.end; });
-    std::array<std::uint32_t, kMostOfUnit> part;
+    std::array<std::uint32_t, kMaxOfUnit> part;
     for (; !to.empty(); ++patch) {
         const std::uint64_t begin = patch == block.patches.begin() ? 0 : std::prev(patch)->end;
         const bool bands = patch->shape == Shape::Bands;
@@ -215,7 +215,7 @@ void TriangleList::append(TriangleList list, std::uint32_t first_vertex) {
 
 void TriangleList::append_patch(Patch patch, std::uint32_t indices) {
     if (blocks_.empty() || blocks_.back().patches.empty() ||
-        indices > kMostOfBlock - blocks_.back().patches.back().end) {
+        indices > kMaxOfBlock - blocks_.back().patches.back().end) {
         blocks_.push_back({.begin = size_, .patches = {}, .listed = {}});
     }
     std::vector<Patch>& patches = blocks_.back().patches;
@@ -225,7 +225,8 @@ void TriangleList::append_patch(Patch patch, std::uint32_t indices) {
 }
 
 void TriangleList::append_bands(const RingCorners& low, std::uint32_t bands) {
-    LSYS_CHECK(low.sides > 0 && low.sides <= kMostSides && bands <= kMostBands, low.sides, bands);
+    LSYS_CHECK(low.sides > 0 && low.sides <= kMaxPatchSides && bands <= kMaxBands, low.sides,
+               bands);
     if (bands == 0) {
         return;
     }
@@ -234,7 +235,7 @@ void TriangleList::append_bands(const RingCorners& low, std::uint32_t bands) {
     if (!blocks_.empty() && !blocks_.back().patches.empty()) {
         Patch& patch = blocks_.back().patches.back();
         if (patch.shape == Shape::Bands && patch.second == low.first && patch.sides == low.sides &&
-            patch.seam == low.seam && indices <= kMostOfBlock - patch.end) { // continues the patch
+            patch.seam == low.seam && indices <= kMaxOfBlock - patch.end) { // continues the patch
             patch.second = behind;
             patch.end += indices;
             size_ += indices;
@@ -249,8 +250,8 @@ void TriangleList::append_bands(const RingCorners& low, std::uint32_t bands) {
 }
 
 void TriangleList::append_uneven_band(const RingCorners& low, const RingCorners& high) {
-    LSYS_CHECK(std::max(low.sides, high.sides) <= kMostSides && low.seam == high.seam, low.sides,
-               high.sides);
+    LSYS_CHECK(std::max(low.sides, high.sides) <= kMaxPatchSides && low.seam == high.seam,
+               low.sides, high.sides);
     append_patch({.first = low.first,
                   .second = high.first,
                   .shape = Shape::UnevenBand,
@@ -264,7 +265,7 @@ void TriangleList::append_fan(const RingCorners& ring,
                               std::uint32_t point,
                               bool each_its_own,
                               bool upwards) {
-    LSYS_CHECK(ring.sides > 0 && ring.sides <= kMostSides, ring.sides);
+    LSYS_CHECK(ring.sides > 0 && ring.sides <= kMaxPatchSides, ring.sides);
     append_patch({.first = ring.first,
                   .second = point,
                   .shape = Shape::Fan,

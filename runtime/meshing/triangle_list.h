@@ -102,11 +102,11 @@ private:
 /// Calls visit(first, indices) with as many at a time as a cache holds, in order.
 template <typename Visit>
 void for_each_chunk(const TriangleList& list, const Visit& visit) {
-    constexpr std::uint64_t kMost = 24576;
-    std::vector<std::uint32_t> chunk(std::min(kMost, list.size()));
-    for (std::uint64_t first = 0; first < list.size(); first += kMost) {
+    constexpr std::uint64_t kMax = 24576;
+    std::vector<std::uint32_t> chunk(std::min(kMax, list.size()));
+    for (std::uint64_t first = 0; first < list.size(); first += kMax) {
         const std::span<std::uint32_t> part =
-            std::span(chunk).first(std::min(kMost, list.size() - first));
+            std::span(chunk).first(std::min(kMax, list.size() - first));
         list.read(first, part);
         visit(first, std::span<const std::uint32_t>(part));
     }

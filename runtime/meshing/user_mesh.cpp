@@ -177,8 +177,8 @@ private:
         if (count <= items.capacity()) {
             return true;
         }
-        constexpr std::size_t kLeast = 32;
-        const std::size_t room = std::max({count, 2 * items.capacity(), kLeast});
+        constexpr std::size_t kMin = 32;
+        const std::size_t room = std::max({count, 2 * items.capacity(), kMin});
         if (!has_memory(room * sizeof(T))) {
             return false;
         }

@@ -44,8 +44,8 @@ constexpr double kDragCoefficient = 1.1; // of long cylinders and of plates, abo
 constexpr int kTrials = 12;
 constexpr double kTrialShare = 0.25;
 constexpr double kRounding = 1e-12;
-constexpr double kLeastDoubt = 1e-3; // about the true stiffness in settle(), where there is any
-constexpr double kRestStep = 1e3;    // s, of rounds of settle(): inertia does not matter
+constexpr double kMinDoubt = 1e-3; // about the true stiffness in settle(), where there is any
+constexpr double kRestStep = 1e3;  // s, of rounds of settle(): inertia does not matter
 
 float finite_or(float value, float other) {
     return std::isfinite(value) ? value : other;
@@ -203,8 +203,8 @@ bool PlantPhysics::settle(double tolerance, std::uint32_t max_rounds) {
         if (made.turn <= tolerance && made.share == 1.0) {
             return true;
         }
-        doubt = made.share == 1.0 ? (doubt > kLeastDoubt ? doubt * 0.25 : 0.0)
-                                  : std::clamp(doubt * 8.0, kLeastDoubt, 1.0);
+        doubt = made.share == 1.0 ? (doubt > kMinDoubt ? doubt * 0.25 : 0.0)
+                                  : std::clamp(doubt * 8.0, kMinDoubt, 1.0);
         long_step.exactness = 1.0 - doubt;
     }
     return false;

@@ -321,7 +321,7 @@ TEST_CASE("a forest that cannot be written is refused before a byte is") {
     }
     Wood many;
     many.add_species("#set names letters; #w : F; #p : F : * : F;", 1);
-    many.add_trees(kMostForestNodes + 1);
+    many.add_trees(kMaxForestNodes + 1);
     const Exported nodes = exported(many.scene(), ExportFormat::Glb, ForestForm::Expanded);
     CHECK(nodes.stop == Stop::Limit);
     CHECK(nodes.error == "the expanded forest does not fit into 1,000,000 branches");

@@ -101,14 +101,14 @@ void ForestDocument::put_data(const GltfSink& write) const {
 namespace {
 
 Outcome<void> write(const ForestExportJob& job, bool binary, PieceWriter& out) {
-    if (job.form == ForestForm::Expanded && job.plan.branches() > kMostForestNodes) {
+    if (job.form == ForestForm::Expanded && job.plan.branches() > kMaxForestNodes) {
         return {Stop::Limit, messages_of(plant_limit_diagnostic(
                                  "the expanded forest",
-                                 fmt::format("{} branches", grouped_digits(kMostForestNodes)),
+                                 fmt::format("{} branches", grouped_digits(kMaxForestNodes)),
                                  "without --expand, branches are instances"))};
     }
     const ForestDocument document(job.scene, job.plan, job.form, job.info);
-    if (document.data_bytes() > kMostGltfBytes) {
+    if (document.data_bytes() > kMaxGltfBytes) {
         return too_large_for_format(ExportSubject::Forest);
     }
     const GltfFile file{binary, [&document](JsonWriter& json) { document.put_members(json); },

@@ -189,13 +189,13 @@ private:
 Outcome<void> write_forest_usda(const ForestExportJob& job, PieceWriter& out) {
     const ForestPlan& plan = job.plan;
     // Integers of USD are signed.
-    constexpr std::uint64_t kMost = 0x7FFFFFFF;
+    constexpr std::uint64_t kMax = 0x7FFFFFFF;
     for (const ForestKind& kind : plan.kinds()) {
-        if (kind.meshes->mesh.positions.size() > kMost) {
+        if (kind.meshes->mesh.positions.size() > kMax) {
             return too_large_for_format(ExportSubject::Forest);
         }
     }
-    if (plan.branches() > kMost) {
+    if (plan.branches() > kMax) {
         return too_large_for_format(ExportSubject::Forest);
     }
     UsdaForest(job.scene, plan, job.info, out).write();

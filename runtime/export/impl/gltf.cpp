@@ -141,7 +141,7 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
         if (!skin) {
             return {Stop::Limit,
                     messages_of(plant_limit_diagnostic(
-                        "the skin", fmt::format("{} joints", grouped_digits(kMostJoints)),
+                        "the skin", fmt::format("{} joints", grouped_digits(kMaxJoints)),
                         "ask for fewer generations with `-n`, or for a numbered series in "
                         "another format, which is any but glTF: `-o tree.ply`"))};
         }
@@ -151,7 +151,7 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
     const Pictures pictures = find_pictures(job.mesh, ExportPictures::Inside, info);
     const GltfData data =
         plan_gltf_data(job.mesh, motion, encode_pictures(pictures.list, info.threads));
-    if (data.bytes > kMostGltfBytes) {
+    if (data.bytes > kMaxGltfBytes) {
         return too_large_for_format(info.subject);
     }
     // Formatted once for both passes of a GLB: the nodes of many joints are long.

@@ -193,7 +193,7 @@ bool put_gltf_file(const GltfFile& file, PieceWriter& out) {
     json_bytes += padding;
     constexpr std::uint64_t kHeaders = 12 + 8 + 8;
     const std::uint64_t total = kHeaders + json_bytes + file.data_bytes;
-    if (total > kMostGltfBytes) {
+    if (total > kMaxGltfBytes) {
         return false;
     }
     constexpr std::uint32_t kMagic = 0x46546C67;     // "glTF"

@@ -18,7 +18,7 @@
 
 namespace lsys {
 
-inline constexpr std::uint64_t kMostGltfBytes = 0xFFFFFFFFu; // of a GLB, and of any buffer
+inline constexpr std::uint64_t kMaxGltfBytes = 0xFFFFFFFFu; // of a GLB, and of any buffer
 
 // Component types of accessors.
 inline constexpr int kGltfByte = 5121; // all unsigned
@@ -68,7 +68,7 @@ struct GltfFile {
     /// Writes the members of the document but `buffers`. Called twice for GLB, which begins with
     /// the size of its document.
     std::function<void(JsonWriter&)> put_members;
-    std::uint64_t data_bytes = 0; // of the buffer: a multiple of 4, at most kMostGltfBytes
+    std::uint64_t data_bytes = 0; // of the buffer: a multiple of 4, at most kMaxGltfBytes
     std::function<void(const GltfSink&)> put_data;
 };
 /// Returns false where a GLB would be too large; nothing is written then.

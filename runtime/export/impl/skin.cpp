@@ -90,7 +90,7 @@ make_skin(const Mesh& mesh, const Skeleton& skeleton, const PlantAnimation& anim
             }
         }
     }
-    if (std::count(used.begin(), used.end(), true) > std::ptrdiff_t{kMostJoints}) {
+    if (std::count(used.begin(), used.end(), true) > std::ptrdiff_t{kMaxJoints}) {
         return std::nullopt;
     }
     Skin skin;

@@ -28,7 +28,7 @@ struct Skin {
 
 /// A segment shares the joint of its parent if that moves it to its place in all frames, within
 /// 1e-5 of the size of the plant and 1e-4 radians. Joints without vertices are left out. Returns
-/// nothing if there are more than kMostJoints.
+/// nothing if there are more than kMaxJoints.
 [[nodiscard]] std::optional<Skin>
 make_skin(const Mesh& mesh, const Skeleton& skeleton, const PlantAnimation& animation);
 

@@ -11,7 +11,7 @@ namespace lsys {
 namespace {
 
 // Joints that one edge may replace: keeps the search linear.
-constexpr std::size_t kMostLeftOut = 32;
+constexpr std::size_t kMaxLeftOut = 32;
 
 /// Whether the edge from joint `first` to joint `last` may replace the joints between.
 bool stands_for(const LargeVector<Joint>& joints,
@@ -58,7 +58,7 @@ void leave_out_joints(LargeVector<Joint>& joints, LargeVector<Joint>& spare, flo
     while (first + 1 < joints.size()) {
         spare.push_back(joints[first]);
         std::size_t last = first + 1;
-        while (last + 1 < joints.size() && last + 1 - first <= kMostLeftOut &&
+        while (last + 1 < joints.size() && last + 1 - first <= kMaxLeftOut &&
                stands_for(joints, first, last + 1, tolerance)) {
             ++last;
         }

@@ -20,16 +20,16 @@ constexpr float kNoRadius = 1e-8F;
 constexpr float kRadiusOfSide = 4e-7F;
 // Least radius of a ring as a part of its surroundings, so that its triangles have an area.
 constexpr float kThinnest = 1e-9F;
-constexpr float kLeastRadius = 1e-36F;
-constexpr float kGreatestRadius = 1e36F;
-constexpr std::uint32_t kMostLevels = 8;
+constexpr float kMinRadius = 1e-36F;
+constexpr float kMaxRadius = 1e36F;
+constexpr std::uint32_t kMaxLevels = 8;
 // Part of the parent's inner radius that the hidden ring of a branch may fill.
 constexpr float kHidden = 0.9F;
 constexpr float kThickestBranch = 1.5F; // in radii of the parent; above, the base is closed
 constexpr float kCollarSlope = 0.13F;
-constexpr float kLeastSine = 0.5F;      // of the angle of a branch, for the length of its collar
-constexpr float kMostOfEdge = 0.7F;     // for a collar
-constexpr float kMostParts = 16.0F;     // of an edge, cut for noise
+constexpr float kMinSine = 0.5F;        // of the angle of a branch, for the length of its collar
+constexpr float kMaxOfEdge = 0.7F;      // for a collar
+constexpr float kMaxParts = 16.0F;      // of an edge, cut for noise
 constexpr std::size_t kExtraJoints = 2; // of a run: a collar and the tip
 
 float greatest_coordinate(const glm::vec3& v) {
@@ -39,11 +39,10 @@ float greatest_coordinate(const glm::vec3& v) {
 /// The radius that can be drawn around `centre`; 0 if none can.
 float drawn_radius(float radius, const glm::vec3& centre, std::uint32_t sides) {
     const float far = greatest_coordinate(centre);
-    if (!(radius > std::max(kNoRadius * far, kLeastRadius))) {
+    if (!(radius > std::max(kNoRadius * far, kMinRadius))) {
         return 0.0F;
     }
-    return std::min(std::max(radius, kRadiusOfSide * static_cast<float>(sides) * far),
-                    kGreatestRadius);
+    return std::min(std::max(radius, kRadiusOfSide * static_cast<float>(sides) * far), kMaxRadius);
 }
 
 bool thick_beside(float radius, const Joint& before, float length) {
@@ -77,7 +76,7 @@ void prefetch(const Segment& segment) {
 
 AxisReader::AxisReader(const Skeleton& skeleton, const Axes& axes, const MeshOptions& options)
     : skeleton_(skeleton), axes_(axes), options_(options) {
-    const std::uint32_t level = std::min(options.level, kMostLevels);
+    const std::uint32_t level = std::min(options.level, kMaxLevels);
     if (options.deviation > 0.0F) {
         counts_.emplace(options.deviation);
     }
@@ -174,7 +173,7 @@ bool AxisReader::read(Run& run) {
     attached_ = false;
     if (options_.level > 0) {
         const float tolerance =
-            std::min(0.05F * static_cast<float>(1U << std::min(options_.level, kMostLevels)), 0.5F);
+            std::min(0.05F * static_cast<float>(1U << std::min(options_.level, kMaxLevels)), 0.5F);
         leave_out_joints(joints_, spare_, tolerance);
     }
     if (options_.bark_noise > 0.0F) {
@@ -289,15 +288,15 @@ bool AxisReader::begins_in_parent(Run& run) {
 void AxisReader::add_collar(const Segment& parent, float parent_radius) {
     Joint& base = joints_[0];
     const float cosine = glm::dot(heading(parent.frame), base.heading);
-    const float sine = std::sqrt(std::max(1.0F - cosine * cosine, kLeastSine * kLeastSine));
+    const float sine = std::sqrt(std::max(1.0F - cosine * cosine, kMinSine * kMinSine));
     const float reach = parent_radius / sine + 1.5F * base.radius;
-    if (!(reach < kMostOfEdge * base.length) || base.radius == 0.0F ||
+    if (!(reach < kMaxOfEdge * base.length) || base.radius == 0.0F ||
         coincide(base.centre, base.centre + reach * base.heading, base.radius)) {
         return;
     }
     if (counts_ && !(options_.bark_noise > 0.0F)) {
         // Sides of the longest collar, so that they do not change when the plant bends.
-        const float longest = parent_radius / kLeastSine + 1.5F * base.radius;
+        const float longest = parent_radius / kMinSine + 1.5F * base.radius;
         const float widest = std::max(joints_[1].radius - base.radius, 0.0F);
         flare_ = {base.radius + kCollarSlope * longest,
                   base.radius + widest * std::min(longest / base.length, 1.0F)};
@@ -318,9 +317,9 @@ void AxisReader::subdivide() {
         const Joint& from = joints_[i];
         const Joint& to = joints_[i + 1];
         const float thickness = std::max(from.radius, to.radius) *
-                                static_cast<float>(1U << std::min(options_.level, kMostLevels));
+                                static_cast<float>(1U << std::min(options_.level, kMaxLevels));
         const float parts =
-            std::clamp(std::ceil(from.length / (2.0F * thickness)), 1.0F, kMostParts);
+            std::clamp(std::ceil(from.length / (2.0F * thickness)), 1.0F, kMaxParts);
         const float piece = from.length / parts;
         for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(parts); ++k) {
             Joint joint = from;
@@ -350,8 +349,7 @@ void AxisReader::fit_sides() {
         const bool flares = i < flare_.size() && flare_[i] > 0.0F;
         const std::uint32_t sides =
             counts_->at(flares ? flare_[i] : joint.radius, most_sides_[joint.sides]);
-        joint.radius =
-            std::min(joint.radius * counts_->widening(joint.sides, sides), kGreatestRadius);
+        joint.radius = std::min(joint.radius * counts_->widening(joint.sides, sides), kMaxRadius);
         joint.sides = static_cast<std::uint8_t>(sides);
     }
     // A pointed end has the sides of the ring beside it.
@@ -376,7 +374,7 @@ void AxisReader::set_rings() {
         if (joint.radius > 0.0F) {
             const float around = std::max(std::max(before.length, joint.length),
                                           std::max(before.radius, after.radius));
-            joint.radius = std::max(joint.radius, std::min(kThinnest * around, kGreatestRadius));
+            joint.radius = std::max(joint.radius, std::min(kThinnest * around, kMaxRadius));
         }
     }
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kColumns = 5;         // lattice points around the tube
 constexpr double kRowsPerCircumference = 2.5; // bark is longer than wide
-constexpr double kMostRows = 1e15;            // above, doubles have no fractions left
+constexpr double kMaxRows = 1e15;             // above, doubles have no fractions left
 
 /// A number from -1 to 1 for each point of the lattice.
 float lattice_value(std::uint64_t row, std::uint32_t column, std::uint32_t seed) {
@@ -36,7 +36,7 @@ BarkNoise::BarkNoise(float circumference, std::uint32_t seed)
     : rows_per_length_(kRowsPerCircumference / static_cast<double>(circumference)), seed_(seed) {}
 
 NoiseSample BarkNoise::at(float turn, double arc) const {
-    const double rows = std::clamp(arc * rows_per_length_, 0.0, kMostRows);
+    const double rows = std::clamp(arc * rows_per_length_, 0.0, kMaxRows);
     const float columns = turn * static_cast<float>(kColumns);
     const double row = std::floor(rows);
     const float column = std::floor(columns);

@@ -16,7 +16,7 @@ namespace lsys {
 namespace {
 
 // Least part of the smaller radius of the greater one.
-constexpr float kLeastTaper = 0.05F;
+constexpr float kMinTaper = 0.05F;
 // A single child continues its parent if it bends by less than 60 degrees.
 constexpr float kStraight = 0.5F;
 // Below this cosine, no side of a joint faces a child.
@@ -95,7 +95,7 @@ private:
     };
     /// Half sides of the box of a segment.
     [[nodiscard]] Widths widths(const Segment& segment) const {
-        const float least = kLeastTaper * std::max(segment.base_radius, segment.tip_radius);
+        const float least = kMinTaper * std::max(segment.base_radius, segment.tip_radius);
         return {width_ * std::max(segment.base_radius, least),
                 width_ * std::max(segment.tip_radius, least)};
     }
@@ -210,7 +210,7 @@ private:
         std::vector<std::uint32_t>* side = nullptr;
         for (std::size_t i = 0; i < kSides; ++i) {
             const float facing = glm::dot(direction, joint.sides[i].normal);
-            if (facing > best && wanted[i].size() < kMostOnSide) {
+            if (facing > best && wanted[i].size() < kMaxOnSide) {
                 best = facing;
                 side = &wanted[i];
             }

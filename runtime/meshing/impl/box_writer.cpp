@@ -159,7 +159,7 @@ void BoxWriter::cut_tiles(const Tile& tile, std::span<const glm::vec2> places) {
     upper.first += lower.count;
     upper.count -= lower.count;
     upper.low[axis] = middle;
-    // At most two levels, since at most kMostOnSide segments grow here.
+    // At most two levels, since at most kMaxOnSide segments grow here.
     cut_tiles(lower, places);
     cut_tiles(upper, places);
 }

@@ -12,7 +12,7 @@
 
 namespace lsys {
 
-inline constexpr std::size_t kMostOnSide = 4; // children of a side of a joint, at most
+inline constexpr std::size_t kMaxOnSide = 4; // children of a side of a joint, at most
 
 /// An open square that a segment grows out of, seen from outside: its corners lie at (right, up) =
 /// (+, +), (-, +), (-, -), (+, -). Between two corners there may be a vertex of a neighbour.

@@ -24,8 +24,8 @@ namespace {
 // unsmoothed box has the cross-section's area.
 constexpr float kSmoothedWidth = 1.075F;
 constexpr float kBoxWidth = 0.886F;
-constexpr std::uint64_t kMostCorners = std::uint64_t{1} << 31;
-constexpr std::uint64_t kMostSegments = 100'000'000;
+constexpr std::uint64_t kMaxCorners = std::uint64_t{1} << 31;
+constexpr std::uint64_t kMaxSegments = 100'000'000;
 constexpr std::uint64_t kVerticesOfPiece = 1U << 14;
 
 /// Triangles of the faces, by part.
@@ -171,12 +171,12 @@ void append_boxes(const Skeleton& skeleton, const MeshOptions& options, MeshBuil
     const std::uint32_t steps =
         options.subdivisions > options.level ? options.subdivisions - options.level : 0;
     PolygonMesh boxes;
-    if (skeleton.segments.size() <= kMostSegments) {
+    if (skeleton.segments.size() <= kMaxSegments) {
         boxes = make_boxes(skeleton, steps > 0 ? kSmoothedWidth : kBoxWidth);
     }
     const MeshCounts counts = refined_counts(boxes, steps);
     MeshBlock block;
-    if (skeleton.segments.size() > kMostSegments || counts.corners >= kMostCorners) {
+    if (skeleton.segments.size() > kMaxSegments || counts.corners >= kMaxCorners) {
         // Beyond any limit of vertices.
         (void)builder.place_parts({}, ~std::uint64_t{0}, block);
         return;

@@ -19,8 +19,8 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kSegmentsOfPiece = 4096;
-constexpr std::uint32_t kMostLevels = 8;
-constexpr float kGreatestRadius = 1e18F;
+constexpr std::uint32_t kMaxLevels = 8;
+constexpr float kMaxRadius = 1e18F;
 
 /// The cone of a segment: rings of `sides` corners, or points.
 struct Cone {
@@ -44,7 +44,7 @@ Cone cone_of(const Segment& segment, const MeshOptions& options) {
     const std::uint32_t whole =
         usable_sides(options.sides != 0 ? options.sides : std::uint32_t{segment.sides});
     Cone cone;
-    cone.sides = std::max(whole >> std::min(options.level, kMostLevels), kMinSides);
+    cone.sides = std::max(whole >> std::min(options.level, kMaxLevels), kMinSides);
     // Smaller radii are points in floats.
     const glm::vec3 end = tip(segment);
     float far = 0.0F;
@@ -53,7 +53,7 @@ Cone cone_of(const Segment& segment, const MeshOptions& options) {
     }
     const auto drawn = [&](float radius) {
         const float least = std::max(4e-7F * static_cast<float>(cone.sides) * far, 1e-18F);
-        return radius > least ? std::min(radius, kGreatestRadius) : 0.0F;
+        return radius > least ? std::min(radius, kMaxRadius) : 0.0F;
     };
     cone.base_radius = drawn(segment.base_radius);
     cone.tip_radius = drawn(segment.tip_radius);

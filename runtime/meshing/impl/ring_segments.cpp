@@ -19,7 +19,7 @@ namespace {
 
 // Joints between the bases of two consecutive segments, at most: two edges of a collar, each cut
 // for noise into at most sixteen.
-constexpr std::size_t kMostBetween = 32;
+constexpr std::size_t kMaxBetween = 32;
 constexpr std::uint32_t kUnknown = kNoSegment;
 
 /// Squared distance of a point from a segment's axis.
@@ -95,7 +95,7 @@ private:
         std::uint32_t end = 0;
         for (std::uint32_t k = 1; k < chain_.size() && known + 1 < last; ++k) {
             const glm::vec3& base = skeleton_.segments[chain_[k]].base;
-            const std::size_t stop = std::min(last, known + 2 + kMostBetween);
+            const std::size_t stop = std::min(last, known + 2 + kMaxBetween);
             for (std::size_t j = known + 1; j < stop; ++j) {
                 if (joints[j].centre == base) {
                     places_[j] = k;

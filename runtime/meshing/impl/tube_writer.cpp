@@ -13,7 +13,7 @@ namespace lsys {
 
 namespace {
 
-constexpr float kGreatestSlope = 8.0F;
+constexpr float kMaxSlope = 8.0F;
 constexpr std::uint32_t kStepsToDrift = 16; // edges after which a frame is made orthogonal again
 constexpr float kSpread = 0.2F;             // of the rings of one bend, in radii
 constexpr float kBluntHeight = 0.35F;
@@ -68,7 +68,7 @@ float slope_of(const Run& run, std::size_t i) {
     }
     const float length = (i == 0 ? 0.0F : run.joints[low].length) + run.joints[i].length;
     const float slope = rise / length;
-    return std::min(std::max(slope, -kGreatestSlope), kGreatestSlope); // without branches
+    return std::min(std::max(slope, -kMaxSlope), kMaxSlope); // without branches
 }
 
 } // namespace

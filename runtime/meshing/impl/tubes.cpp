@@ -19,10 +19,10 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kPieces = 64;
-constexpr std::uint64_t kLeastOfPiece = 4096; // segments
-constexpr std::uint64_t kMostOfPiece = std::uint64_t{1} << 17;
-constexpr std::uint64_t kMostLists = std::uint64_t{1} << 20; // of pieces and colours
-constexpr std::size_t kJointsOfSegment = 2;                  // about, with ends and collars
+constexpr std::uint64_t kMinOfPiece = 4096; // segments
+constexpr std::uint64_t kMaxOfPiece = std::uint64_t{1} << 17;
+constexpr std::uint64_t kMaxLists = std::uint64_t{1} << 20; // of pieces and colours
+constexpr std::size_t kJointsOfSegment = 2;                 // about, with ends and collars
 constexpr std::size_t kJointsOfPart = 2048;
 constexpr std::size_t kLong = 4 * kJointsOfPart; // a run that is written in parts
 static_assert(kLong <= 0xFFFF);
@@ -62,8 +62,8 @@ struct Piece {
 
 std::vector<Piece> make_pieces(std::uint64_t segments, std::size_t colours) {
     const std::uint64_t most =
-        std::max<std::uint64_t>(kMostLists / std::max<std::size_t>(colours, 1), 1);
-    const std::uint64_t size = std::max(std::clamp(segments / kPieces, kLeastOfPiece, kMostOfPiece),
+        std::max<std::uint64_t>(kMaxLists / std::max<std::size_t>(colours, 1), 1);
+    const std::uint64_t size = std::max(std::clamp(segments / kPieces, kMinOfPiece, kMaxOfPiece),
                                         (segments + most - 1) / most);
     std::vector<Piece> pieces;
     for (std::uint64_t begin = 0; begin < segments; begin += size) {

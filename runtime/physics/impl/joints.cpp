@@ -23,8 +23,8 @@ namespace lsys {
 
 namespace {
 
-constexpr double kLeastInertia = 1e-13;        // of the trace: bound of rounding
-constexpr double kMostTurn = std::numbers::pi; // in a step: faster motion cannot be represented
+constexpr double kMinInertia = 1e-13;         // of the trace: bound of rounding
+constexpr double kMaxTurn = std::numbers::pi; // in a step: faster motion cannot be represented
 
 /// Quadratic forms of a body and of its joint.
 struct Own {
@@ -69,13 +69,13 @@ Own own_forms(const Body& body,
     const glm::dvec3& w = motion.spin;
     const glm::dvec3 arm_velocity = glm::cross(w, centre);
     const glm::dvec3 angular = inertia * w;
-    const double share = share_of_pull(w, h);
+    const double share = centrifugal_factor(w, h);
 
     glm::dvec3 force = body.mass * forces.gravity;
     double hold = 0.0;
     Own own;
     if (forces.drag > 0.0) {
-        hold = hold_of_wind(body, turn, motion.velocity + arm_velocity, forces);
+        hold = wind_drag(body, turn, motion.velocity + arm_velocity, forces);
         own.wind = hold * forces.wind;
         force += own.wind;
     }
@@ -140,7 +140,7 @@ void eliminate(const Own& own,
     const double hooke = h * h * body.spring;
     const glm::dvec3& bend = motion.bend;
     Symmetric inertia = own.spin_spin;
-    inertia.add_diagonal(kLeastInertia * std::max(inertia.trace(), 0.0));
+    inertia.add_diagonal(kMinInertia * std::max(inertia.trace(), 0.0));
     Symmetric joint;
     joint.add_diagonal(h * forces.damping + hooke);
     Rows twist; // the joint's coupling is joint + twist
@@ -231,8 +231,8 @@ void solve_spins(PlantBodies& plant, const Forces& forces, Workers& workers) {
             const double turn = forces.step * glm::length(solution.spin);
             if (!std::isfinite(turn)) {
                 solution.spin = parent_spin;
-            } else if (turn > kMostTurn) {
-                solution.spin *= kMostTurn / turn;
+            } else if (turn > kMaxTurn) {
+                solution.spin *= kMaxTurn / turn;
             }
         }
     });

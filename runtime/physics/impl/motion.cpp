@@ -7,10 +7,10 @@
 
 namespace lsys {
 
-double hold_of_wind(const Body& body,
-                    const glm::dquat& turn,
-                    const glm::dvec3& velocity,
-                    const Forces& forces) {
+double wind_drag(const Body& body,
+                 const glm::dquat& turn,
+                 const glm::dvec3& velocity,
+                 const Forces& forces) {
     const glm::dvec3 flow = forces.wind - velocity;
     const double speed = glm::length(flow);
     if (!(speed > 0.0)) {
@@ -49,8 +49,8 @@ void move_body(PlantBodies& plant,
         const glm::dvec3 around = glm::cross(parent.spin, offset);
         shift = plant.next_poses[body.parent].shift + (offset - body.offset);
         motion.velocity = parent.velocity + around;
-        motion.pull =
-            parent.pull + share_of_pull(parent.spin, forces.step) * glm::cross(parent.spin, around);
+        motion.pull = parent.pull + centrifugal_factor(parent.spin, forces.step) *
+                                        glm::cross(parent.spin, around);
         motion.bend = vector_of(turn * glm::conjugate(parent_turn));
     }
     plant.next_poses[b] = {turn, shift};
@@ -69,7 +69,7 @@ void move_body(PlantBodies& plant,
         const BodyPose& before = plant.poses[b];
         const glm::dvec3 moved = shift - before.shift + centre - before.turn * body.centre;
         sum.work +=
-            hold_of_wind(body, turn, velocity, forces) * glm::dot(forces.wind - velocity, moved);
+            wind_drag(body, turn, velocity, forces) * glm::dot(forces.wind - velocity, moved);
     }
     sum.turn = std::max(sum.turn, glm::length(way));
 }

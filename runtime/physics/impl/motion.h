@@ -72,10 +72,10 @@ struct PlantBodies {
 };
 
 /// Drag coefficient of a body whose centre moves at `velocity`: N s/m.
-[[nodiscard]] double hold_of_wind(const Body& body,
-                                  const glm::dquat& turn,
-                                  const glm::dvec3& velocity,
-                                  const Forces& forces);
+[[nodiscard]] double wind_drag(const Body& body,
+                               const glm::dquat& turn,
+                               const glm::dvec3& velocity,
+                               const Forces& forces);
 
 /// Solution::spin of all bodies: the velocities at the end of an implicit step, if the plant kept
 /// its shape. Spoils Motion's velocity.
@@ -96,7 +96,7 @@ struct Energies {
 void scale_velocities(PlantBodies& plant, double factor, Workers& workers);
 
 /// Factor of accelerations v^2 / r, which falls to 0 where a body turns too far in a step for them.
-[[nodiscard]] inline double share_of_pull(const glm::dvec3& spin, double step) {
+[[nodiscard]] inline double centrifugal_factor(const glm::dvec3& spin, double step) {
     return 1.0 / (1.0 + step * step * glm::dot(spin, spin));
 }
 

@@ -97,16 +97,16 @@ struct Symmetric {
 /// The inverse of a positive definite matrix by L D L^T. A pivot that rounding has made too small
 /// is raised, so that the result is always positive definite. `a` has a positive trace.
 [[nodiscard]] inline Symmetric inverse(const Symmetric& a) {
-    constexpr double kLeastPivot = 1e-15; // of the trace
+    constexpr double kMinPivot = 1e-15; // of the trace
     const double scale = 1.0 / a.trace();
     const Symmetric s = scaled(a, scale);
-    const double d0 = std::max(s.xx, kLeastPivot);
+    const double d0 = std::max(s.xx, kMinPivot);
     const double l10 = s.xy / d0;
     const double l20 = s.xz / d0;
-    const double d1 = std::max(s.yy - l10 * s.xy, kLeastPivot);
+    const double d1 = std::max(s.yy - l10 * s.xy, kMinPivot);
     const double e21 = s.yz - l20 * s.xy;
     const double l21 = e21 / d1;
-    const double d2 = std::max(s.zz - l20 * s.xz - l21 * e21, kLeastPivot);
+    const double d2 = std::max(s.zz - l20 * s.xz - l21 * e21, kMinPivot);
     const double m20 = l10 * l21 - l20; // of the inverse of L
     const double i0 = scale / d0;
     const double i1 = scale / d1;

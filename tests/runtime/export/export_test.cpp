@@ -4,7 +4,10 @@
 #include "tests/support/meshes.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 #include <vector>
@@ -90,6 +93,17 @@ TEST_CASE("every format is found by its own name alone") {
     }
     CHECK_FALSE(traits_of(ExportFormat::Svg).uses_mesh);
     CHECK(traits_of(ExportFormat::Obj).uses_mesh);
+}
+
+TEST_CASE("the README has the row of every format") {
+    std::ifstream file(LSYS_SOURCE_DIR "/runtime/export/README.md");
+    const std::string readme{std::istreambuf_iterator<char>(file), {}};
+    for (const ExportFormat format : export_formats()) {
+        const FormatTraits& traits = traits_of(format);
+        CAPTURE(traits.name);
+        CHECK(readme.find(fmt::format("| `{}` | {} |", traits.name, traits.content)) !=
+              std::string::npos);
+    }
 }
 
 TEST_CASE("names of formats are listed in words") {

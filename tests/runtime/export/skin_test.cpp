@@ -223,7 +223,7 @@ TEST_CASE("rotations of a joint are of unit length and do not change sides") {
 }
 
 TEST_CASE("a skin has 65,535 joints that move, and no more") {
-    for (const std::uint32_t count : {kMostJoints, kMostJoints + 1}) {
+    for (const std::uint32_t count : {kMaxJoints, kMaxJoints + 1}) {
         Skeleton plant;
         for (std::uint32_t i = 0; i < count; ++i) {
             Segment segment = rod(0.5F, 0.1F, 1.0F, 1.0F);
@@ -250,7 +250,7 @@ TEST_CASE("a skin has 65,535 joints that move, and no more") {
                 bytes += piece.size();
                 return true;
             });
-        const bool fits = count == kMostJoints;
+        const bool fits = count == kMaxJoints;
         CHECK(outcome.ok() == fits);
         if (!fits) {
             REQUIRE(outcome.stop() == Stop::Limit);
