@@ -49,7 +49,7 @@ std::string stats_text(const ViewOptions& options,
     drawn["impostors"] = frame.far_trees;
     drawn["in_cells"] = frame.clustered_trees;
     drawn["blended"] = frame.blended_trees;
-    drawn["behind_ground"] = frame.hidden_trees;
+    drawn["behind_ground"] = frame.occluded_trees;
     stats["cells_drawn"] = frame.clusters;
     stats["branches_drawn"] = frame.drawn_branches;
     stats["trees_expanded"] = frame.expanded_trees;

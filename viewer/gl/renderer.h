@@ -82,8 +82,8 @@ struct ForestFrameStats {
     std::uint64_t far_trees = 0;                             // drawn as impostors
     std::uint64_t clustered_trees = 0;                       // drawn in clusters
     std::uint64_t clusters = 0;
-    std::uint64_t blended_trees = 0; // in two LOD bands
-    std::uint64_t hidden_trees = 0;  // in the frustum, occluded by the ground
+    std::uint64_t blended_trees = 0;  // in two LOD bands
+    std::uint64_t occluded_trees = 0; // in the frustum, occluded by the ground
     std::uint64_t drawn_branches = 0;
     std::uint32_t expanded_trees = 0;
     std::uint32_t waiting_trees = 0;

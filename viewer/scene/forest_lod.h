@@ -111,7 +111,7 @@ struct DrawLists {
     std::uint64_t far_trees = 0;                             // trees in `trees` without branches
     std::uint64_t clustered_trees = 0; // trees of `clusters`, without those in `trees`
     std::uint64_t blended = 0;         // trees drawn in two bands
-    std::uint64_t hidden = 0;          // trees occluded by the ground
+    std::uint64_t occluded = 0;        // trees occluded by the ground
     std::uint64_t triangles = 0;       // of branches
     std::uint32_t expanded = 0;        // trees expanded into branches for this picture
     std::uint32_t waiting = 0;         // near trees without branches yet, drawn as impostors
@@ -208,7 +208,7 @@ private:
     [[nodiscard]] float sway_of(const LodTree& tree) const; // m
     /// Bounding box of its impostor as seen from `eye`.
     [[nodiscard]] Bounds impostor_box(const LodTree& tree, const glm::vec3& eye) const;
-    [[nodiscard]] bool is_behind_ground(const Bounds& box, float sway) const;
+    [[nodiscard]] bool is_occluded(const Bounds& box, float sway) const;
     /// Grows a sphere around a part of a tree by the wind.
     [[nodiscard]] Sphere swaying(const Sphere& sphere, const LodTree& tree) const;
     /// Appends the visible branches of a tree to visible_branches_.

@@ -64,7 +64,7 @@ ForestLod::select(const Frustum& frustum, const LodOptions& options, GroundHoriz
     lists_.far_trees = 0;
     lists_.clustered_trees = 0;
     lists_.blended = 0;
-    lists_.hidden = 0;
+    lists_.occluded = 0;
     lists_.triangles = 0;
     lists_.expanded = 0;
     lists_.waiting = 0;
@@ -86,9 +86,8 @@ ForestLod::select(const Frustum& frustum, const LodOptions& options, GroundHoriz
     std::sort(visible_cells_.begin(), visible_cells_.end());
     for (const auto& [distance, c] : visible_cells_) {
         const ForestCell& cell = cells_[c];
-        if (is_behind_ground({cell.low, cell.high, false},
-                             sway_within(cell.low, cell.high, sway_))) {
-            lists_.hidden += cell.count;
+        if (is_occluded({cell.low, cell.high, false}, sway_within(cell.low, cell.high, sway_))) {
+            lists_.occluded += cell.count;
             continue;
         }
         visit_cell(c, distance, frustum, options);
@@ -133,8 +132,8 @@ Bounds ForestLod::impostor_box(const LodTree& tree, const glm::vec3& eye) const 
     return {sphere.centre - half, sphere.centre + half, false};
 }
 
-bool ForestLod::is_behind_ground(const Bounds& box, float sway) const {
-    return ground_ != nullptr && ground_->hides(box.low - sway, box.high + sway);
+bool ForestLod::is_occluded(const Bounds& box, float sway) const {
+    return ground_ != nullptr && ground_->occludes(box.low - sway, box.high + sway);
 }
 
 void ForestLod::visit_cell(std::uint32_t index,
@@ -177,8 +176,8 @@ void ForestLod::visit_tree(std::uint32_t number,
             candidates_.push_back({number, pixels});
         }
     } else if (frustum.intersects(swaying(impostor, tree))) {
-        if (is_behind_ground(impostor_box(tree, frustum.eye), sway_of(tree))) {
-            ++lists_.hidden;
+        if (is_occluded(impostor_box(tree, frustum.eye), sway_of(tree))) {
+            ++lists_.occluded;
             return;
         }
         far_.push_back({number, {0.0F, weight}});

@@ -81,7 +81,7 @@ const std::vector<float>& GroundHorizon::slopes_of(std::uint32_t index) {
     return sector.slopes;
 }
 
-bool GroundHorizon::hides(const glm::vec3& low, const glm::vec3& high) {
+bool GroundHorizon::occludes(const glm::vec3& low, const glm::vec3& high) {
     if (ground_ == nullptr || steps_ == 0) {
         return false;
     }

@@ -17,7 +17,7 @@ public:
     /// Prepares for the eye that `ground` was selected for; discards earlier results.
     void set_viewpoint(const TerrainLod& ground, const glm::vec3& eye);
     /// Whether the ground occludes a whole box, m.
-    [[nodiscard]] bool hides(const glm::vec3& low, const glm::vec3& high);
+    [[nodiscard]] bool occludes(const glm::vec3& low, const glm::vec3& high);
 
 private:
     static constexpr std::uint32_t kDirections = 512;

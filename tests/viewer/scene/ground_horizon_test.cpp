@@ -67,7 +67,7 @@ TEST_CASE("what the ground hides cannot be seen") {
         horizon.set_viewpoint(ground, eye);
         for (int i = 0; i < 300; ++i) {
             const Box box = box_on(terrain, draws, eye);
-            if (!horizon.hides(box.low, box.high)) {
+            if (!horizon.occludes(box.low, box.high)) {
                 ++seen;
                 continue;
             }
@@ -91,7 +91,7 @@ TEST_CASE("level ground hides nothing, and from below there is none") {
     const Terrain flat = Terrain::flat({0.0, 0.0, 1000.0, 1000.0}).value();
     TerrainLod level(flat, kReach);
     GroundHorizon horizon;
-    CHECK_FALSE(horizon.hides({10.0F, -1.0F, 10.0F}, {20.0F, 5.0F, 20.0F}));
+    CHECK_FALSE(horizon.occludes({10.0F, -1.0F, 10.0F}, {20.0F, 5.0F, 20.0F}));
     std::mt19937 draws(5);
     const auto look = [&](TerrainLod& ground, const glm::vec3& eye) {
         ground.select(make_frustum({eye, eye + glm::vec3(1.0F, 0.0F, 0.0F), 60.0F}, 64, 36));
@@ -101,7 +101,7 @@ TEST_CASE("level ground hides nothing, and from below there is none") {
     look(level, eye);
     for (int i = 0; i < 300; ++i) {
         const Box box = box_on(flat, draws, eye);
-        REQUIRE_FALSE(horizon.hides(box.low, box.high + glm::vec3(0.0F, 0.1F, 0.0F)));
+        REQUIRE_FALSE(horizon.occludes(box.low, box.high + glm::vec3(0.0F, 0.1F, 0.0F)));
     }
     const Terrain terrain = hills(1000.0F);
     TerrainLod ground(terrain, kReach);
@@ -109,7 +109,7 @@ TEST_CASE("level ground hides nothing, and from below there is none") {
     look(ground, below);
     for (int i = 0; i < 300; ++i) {
         const Box box = box_on(terrain, draws, below);
-        REQUIRE_FALSE(horizon.hides(box.low, box.high));
+        REQUIRE_FALSE(horizon.occludes(box.low, box.high));
     }
 }
 
@@ -129,8 +129,8 @@ TEST_CASE("trees behind the ground are left out, and no others") {
         horizon.set_viewpoint(ground, eye);
         const DrawLists all = lod.select(frustum, wood_lod());
         const DrawLists& some = lod.select(frustum, wood_lod(), &horizon);
-        CHECK(all.hidden == 0);
-        hidden += some.hidden;
+        CHECK(all.occluded == 0);
+        hidden += some.occluded;
         std::set<std::uint32_t> left;
         const auto collect = [&](const DrawLists& lists, const auto& take) {
             for (const DrawEntry& tree : lists.trees) {

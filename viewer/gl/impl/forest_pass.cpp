@@ -264,7 +264,7 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     stats.trees_of_level = lists_->trees_of_level;
     stats.far_trees = lists_->far_trees;
     stats.blended_trees = lists_->blended;
-    stats.hidden_trees = lists_->hidden;
+    stats.occluded_trees = lists_->occluded;
     stats.clustered_trees = lists_->clustered_trees;
     stats.clusters = lists_->clusters.size();
     stats.drawn_branches = lists_->branches.size();
