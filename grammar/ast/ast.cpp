@@ -21,13 +21,13 @@ const char* spelling(BinaryOperation operation) {
 
 namespace {
 
-/// One past the name that begins at `begin` of a text, with its back quotes.
+/// The end of the name at `begin` of a text, with its back quotes.
 std::uint32_t name_end(std::string_view text, std::uint32_t begin, std::string_view name) {
     const std::size_t quotes = text.substr(begin).starts_with('`') && name != "`" ? 2 : 0;
     return static_cast<std::uint32_t>(std::min(begin + name.size() + quotes, text.size()));
 }
 
-/// The entry of the name at a place, or null.
+/// The entry of the name at a place; null if there is none.
 const WrittenName*
 find_written(std::span<const WrittenName> names, FileId file, std::uint32_t begin) {
     const auto found = std::lower_bound(names.begin(), names.end(), WrittenName{file, begin, 0});
@@ -53,7 +53,7 @@ ModuleCursor::ModuleCursor(const Ast& ast,
                            ModuleList list)
     : ast_(&ast), names_(&names), sources_(&sources), file_(list.span.file), index_(list.first),
       end_(list.first + list.count), call_(0) {
-    // The first call of a module at or after index_.
+    // The first call at or after index_.
     std::size_t low = 0;
     std::size_t high = list.count == 0 ? 0 : ast.calls.size();
     while (low < high) {

@@ -1,8 +1,7 @@
-// The syntax tree of a grammar as it was written: what the parser makes and the checks read.
-// Nodes lie in vectors and refer to each other by typed ids; children come before their parents, so
-// a pass over a vector is a pass from the leaves up and nothing recurses. Included files stand in
-// place: `statements` is the order in which an author would read everything. After errors the tree
-// is partial; what it holds is well-formed.
+// Ast: the syntax tree of a grammar, made by the parser and read by the resolver.
+// Nodes lie in vectors and refer to each other by typed ids. Children precede their parents, so a
+// pass over a vector visits leaves first and needs no recursion. Statements of included files stand
+// in the place of the #include. After errors the tree is partial, but well-formed.
 #pragma once
 
 #include "grammar/base/chunked_vector.h"
@@ -27,13 +26,13 @@ inline constexpr ExpressionId kNoExpression{0xFFFFFFFFu};
 
 enum class ExpressionKind : std::uint8_t {
     Number,   // value
-    Name,     // name: a constant or a formal
+    Name,     // name: a constant or a formal parameter
     Unary,    // operation, left
     Binary,   // operation, left, right
-    Range,    // {left, right}; range_number is set by the front end
+    Range,    // {left, right}
     Call,     // name, arguments: function call
-    Grouping, // (left): parentheses as written, for the formatter and for "a < b < c"
-    Error,    // stands for what did not parse; stays quiet in every later check
+    Grouping, // (left): parentheses as written
+    Error,    // in place of a syntax error; later checks do not report it
 };
 
 enum class UnaryOperation : std::uint8_t { Negate, Not };
@@ -53,11 +52,11 @@ enum class BinaryOperation : std::uint8_t {
     Or,
 };
 
-/// As written: `<=`, `&&`, ...
+/// The operator as written: `<=`, `&&`, ...
 [[nodiscard]] const char* spelling(UnaryOperation operation);
 [[nodiscard]] const char* spelling(BinaryOperation operation);
 
-/// A range of ids in one of the Ast's list vectors.
+/// A range of indices of a list vector of the Ast.
 struct ListRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
@@ -67,7 +66,7 @@ struct Expression {
     ExpressionKind kind = ExpressionKind::Error;
     std::uint8_t operation = 0; // UnaryOperation or BinaryOperation
     FileId file = kNoFile;
-    std::uint32_t begin = 0; // bytes of the whole expression
+    std::uint32_t begin = 0; // bytes of the expression
     std::uint32_t end = 0;
     union {
         float value;       // Number
@@ -89,8 +88,7 @@ struct Expression {
 // --------------------------------------------------------------------------------------------
 // modules
 
-/// A module as it stands in a list. It takes eight bytes, since an axiom may have a hundred
-/// million.
+/// A module of a list, in eight bytes: an axiom may have a hundred million.
 class ModuleNode {
 public:
     ModuleNode() = default;
@@ -98,36 +96,35 @@ public:
         : begin(begin_offset), name_and_call_(static_cast<std::uint32_t>(name)) {}
 
     [[nodiscard]] NameId name() const { return static_cast<NameId>(name_and_call_ & ~kCallBit); }
-    /// Whether a `(` follows.
+    /// Whether a `(` follows the name.
     [[nodiscard]] bool has_call() const { return (name_and_call_ & kCallBit) != 0; }
     void set_call() { name_and_call_ |= kCallBit; }
-    /// The name's number, or a number beyond those of all names for a module with a call: one
-    /// comparison tells long words' bare modules from the others.
+    /// The id of the name; beyond all ids for a module with a `(`, so that one comparison finds the
+    /// modules without.
     [[nodiscard]] std::uint32_t bare_name() const { return name_and_call_; }
 
     std::uint32_t begin = 0; // first byte of the name, or of its back quote
 
 private:
-    static constexpr std::uint32_t kCallBit = 0x80000000u; // names are below
+    static constexpr std::uint32_t kCallBit = 0x80000000u; // ids of names are smaller
     std::uint32_t name_and_call_ = 0;
 };
 static_assert(sizeof(ModuleNode) == 8);
 
-/// The parenthesis after a module: `(expr, ...)`.
+/// The parentheses after a module: `(expr, ...)`.
 struct CallNode {
-    std::uint32_t module = 0;   // index in Ast::modules; calls are in that order
+    std::uint32_t module = 0;   // index in Ast::modules; calls ascend by it
     std::uint32_t name_end = 0; // one past the name
     std::uint32_t open = 0;     // the `(`
     std::uint32_t end = 0;      // one past the `)`
-    ListRange arguments;        // in Ast::expression_lists; `()` has none
+    ListRange arguments;        // in Ast::expression_lists; empty for `()`
 };
 
-/// Modules [first, first + count) of Ast::modules, all of one file.
+/// Modules [first, first + count) of Ast::modules, all in one file.
 struct ModuleList {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
-    SourceSpan
-        span; // from the first module's name to the end of the last; empty where it would begin
+    SourceSpan span; // of all modules; of an empty list its place
 };
 
 /// A module of a list, unpacked.
@@ -135,7 +132,7 @@ struct ModuleView {
     NameId name = kNoName;
     SourceSpan name_span;  // with the back quotes, if any
     SourceSpan span;       // with the arguments
-    bool is_whole = false; // no row of names: in back quotes, or spelt otherwise in its file
+    bool is_whole = false; // in back quotes, or spelt otherwise in its file
     bool has_parentheses = false;
     ListRange arguments;
 };
@@ -156,11 +153,10 @@ enum class StatementKind : std::uint8_t {
     Production,  // #NAME : ... ; #decompose NAME : ... ; #interpret NAME : ... ;
 };
 
-/// `index` is the place in the vector of that kind.
 struct Statement {
     StatementKind kind{};
-    std::uint32_t index = 0;
-    SourceSpan span; // from `#` to one past `;`
+    std::uint32_t index = 0; // in the vector of its kind
+    SourceSpan span;         // from `#` to one past `;`
 };
 
 struct GenerationsNode {
@@ -183,30 +179,29 @@ struct ParamNode {
 };
 
 struct ModuleDeclarationNode {
-    ModuleList modules; // one or more in a row as written; the checks want one
+    ModuleList modules; // as written; the resolver requires one
 };
 
 struct ObjectNode {
     SourceSpan keyword_span; // `#object` or `#include`
-    ModuleList name;         // one module, without parentheses if written right
+    ModuleList name;         // as written; the resolver requires one module without parentheses
     SourceSpan object_span;
     bool is_file = false; // "leaf.obj"
-    std::string object;   // SPHERE, or the file's name
+    std::string object;   // SPHERE, or a file name
 };
 
 struct IncludeNode {
     SourceSpan path_span;  // with the quotes
     std::string path;      // as written
-    FileId file = kNoFile; // what it names, once read
+    FileId file = kNoFile; // once read
 };
 
-/// One word or number after the key of a #set.
+/// A word or number after the key of a #set.
 struct SetValue {
     SourceSpan span;
-    bool is_word = false; // an identifier: a mode, a profile, or a constant
+    bool is_word = false; // a mode, a profile or a constant
     NameId word = kNoName;
-    ExpressionId value =
-        kNoExpression; // numbers: a literal or a negated literal, or any expression
+    ExpressionId value = kNoExpression; // if not a word
 };
 
 struct SetNode {
@@ -217,7 +212,7 @@ struct SetNode {
 
 struct IgnoreNode {
     ModuleList modules;
-    bool considers = false; // `#consider`: all others are ignored
+    bool considers = false; // `#consider`: all other modules are ignored
     SourceSpan keyword_span;
 };
 
@@ -225,7 +220,7 @@ struct AxiomNode {
     ModuleList modules;
 };
 
-/// `*`, `expr`, `~ p`, `expr ~ p`, `* ~ p`; `*` is a condition of kNoExpression.
+/// `*`, `expr`, `~ p`, `expr ~ p` or `* ~ p`; the condition of `*` is kNoExpression.
 struct ConditionNode {
     ExpressionId condition = kNoExpression;
     ExpressionId probability = kNoExpression;
@@ -248,14 +243,14 @@ struct ProductionNode {
     ModuleList successor;
 };
 
-/// A file of the compilation in the order it was met; the first is the root.
+/// A file of the compilation; the first is the root.
 struct AstFile {
     FileId file = kNoFile;
-    SourceSpan included_at; // the path in the #include; of kNoFile for the root
+    SourceSpan included_at; // the path in the #include; kNoFile for the root
 };
 
-/// The bytes of a module's name that its file spells otherwise: with typographic characters, or as
-/// another dialect does.
+/// The place of a module name that its file spells otherwise: with typographic characters, or in
+/// another dialect.
 struct WrittenName {
     FileId file = kNoFile;
     std::uint32_t begin = 0;
@@ -264,8 +259,8 @@ struct WrittenName {
     friend auto operator<=>(const WrittenName&, const WrittenName&) = default;
 };
 
-/// The bytes of the name of a module that begins at `begin` of a file, with its back quotes. Among
-/// `written_names` (ascending), or as the file's text reads.
+/// The span, with back quotes, of the name of the module at `begin` of a file: an entry of
+/// `written_names` (ascending), or as long as in the text of the file.
 [[nodiscard]] SourceSpan module_name_span(const SourceMap& sources,
                                           FileId file,
                                           std::uint32_t begin,
@@ -297,8 +292,7 @@ struct Ast {
     /// Ascending.
     std::vector<WrittenName> written_names;
 
-    /// Statements that failed to parse were left out; later checks keep quiet about what may be
-    /// missing.
+    /// Statements with syntax errors are missing; later checks do not report missing definitions.
     bool incomplete = false;
 
     [[nodiscard]] const Expression& expression(ExpressionId id) const {
@@ -306,19 +300,19 @@ struct Ast {
     }
 };
 
-/// Walks a module list in order; amortised constant time a module.
+/// Walks a module list in order, in amortised constant time per module.
 class ModuleCursor {
 public:
     ModuleCursor(const Ast& ast, const Names& names, const SourceMap& sources, ModuleList list);
     [[nodiscard]] bool done() const { return index_ == end_; }
-    /// The module at the cursor; precondition: not done().
+    /// The current module. Precondition: !done().
     [[nodiscard]] ModuleView view() const;
     void next();
-    /// The module at the cursor, as an index of Ast::modules.
+    /// Index of the current module in Ast::modules.
     [[nodiscard]] std::uint32_t index() const { return index_; }
-    /// Its name.
+    /// Name of the current module.
     [[nodiscard]] NameId name() const;
-    /// Moves on to `index`; no module on the way there has a `(`.
+    /// Advances to `index`. Precondition: no module before it has a `(`.
     void skip_bare(std::uint32_t index) { index_ = index; }
 
 private:
@@ -328,7 +322,7 @@ private:
     FileId file_;
     std::uint32_t index_;
     std::uint32_t end_;
-    std::size_t call_; // the first call whose module is not before index_
+    std::size_t call_; // the first call at or after index_
 };
 
 } // namespace lsys

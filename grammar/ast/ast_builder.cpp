@@ -279,8 +279,8 @@ void AstBuilder::recover() {
     arguments_.clear();
 }
 
-/// Whether ids of 32 bits can count the nodes of one more statement; else reports it. A file has
-/// less than 2^31 bytes, and so has a statement less than 2^31 nodes of each kind.
+/// Whether 32-bit ids suffice for one more statement, which has less than 2^31 nodes of each kind;
+/// reports if not.
 bool AstBuilder::has_room(SourceSpan span) {
     constexpr std::size_t kMostNodes = std::size_t{1} << 31;
     const std::size_t most =
@@ -362,7 +362,7 @@ void AstBuilder::rollback() {
 
 SourceSpan AstBuilder::name_without_hash(SourceSpan label) const {
     if (scanned_.translation != nullptr) {
-        return label; // of the original, where no `#` stands before it
+        return label; // in the original there is no `#`
     }
     const std::string_view text = sources_.text(label);
     if (text.starts_with('#')) {

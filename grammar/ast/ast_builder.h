@@ -1,8 +1,7 @@
-// Builds the Ast of one file, node by node, as the parser asks. It knows what nodes look like and
-// nothing of tokens; the mistakes it reports are those that only show when nodes are put together
-// (depth of brackets, chained comparisons, ranges that are not two values).
-// finish_statement() keeps the nodes of a statement or rolls them back, so the Ast holds whole
-// statements.
+// AstBuilder: builds the Ast of one file, one node per call of the parser. It knows nodes, not
+// tokens, and reports the mistakes that show only in complete nodes (depth of brackets, chained
+// comparisons, ranges without two values). finish_statement() keeps the nodes of a statement or
+// rolls them back, so the Ast holds whole statements.
 #pragma once
 
 #include "grammar/ast/ast.h"
@@ -18,7 +17,7 @@
 
 namespace lsys {
 
-/// How deep parentheses and brackets may nest.
+/// Maximum nesting of parentheses and brackets.
 inline constexpr std::uint32_t kMaxNesting = 10'000;
 
 /// Bytes [begin, end) of the scanned text.
@@ -27,11 +26,11 @@ struct TextRange {
     std::uint32_t end = 0;
 };
 
-/// `#set names`: what a module name is.
+/// The form of module names, by `#set names`.
 enum class ModuleNames : std::uint8_t {
     Words,
-    Letters,    // every letter is a module
-    Characters, // and so is every character of a text in back quotes
+    Letters,    // each letter is a module
+    Characters, // each letter, and each character of a text in back quotes, is a module
 };
 
 class AstBuilder {
@@ -43,43 +42,43 @@ public:
 
     NameId intern(std::string_view name) { return names_.intern(name); }
 
-    // --- expressions; spans are of the file
+    // --- expressions
     ExpressionId number(float value, SourceSpan span);
     ExpressionId name(NameId name, SourceSpan span);
     ExpressionId unary(UnaryOperation operation, ExpressionId operand, SourceSpan span);
     ExpressionId
     binary(BinaryOperation operation, ExpressionId left, ExpressionId right, SourceSpan span);
     ExpressionId grouping(ExpressionId inner, SourceSpan span);
-    /// `{...}` around the last `count` arguments.
+    /// `{...}` of the last `count` arguments.
     ExpressionId range(std::uint32_t count, SourceSpan span);
-    /// A function called with the last `count` arguments.
+    /// A function call with the last `count` arguments.
     ExpressionId call(NameId function, std::uint32_t count, SourceSpan span);
     ExpressionId negated(float value, SourceSpan number, SourceSpan span);
     ExpressionId error(SourceSpan span);
 
-    /// Arguments are collected until range(), call() or module_arguments() takes them.
+    /// Adds an argument for the next range(), call() or module_arguments(); returns the new count.
     std::uint32_t argument(std::uint32_t count_before, ExpressionId value);
-    /// Forgets the last `count` arguments.
+    /// Removes the last `count` arguments.
     void drop_arguments(std::uint32_t count);
 
     // --- module lists
     [[nodiscard]] ModuleList empty_modules(SourceSpan where);
-    /// Appends all names of `run`, which holds names, blanks and arguments that are plain numbers.
+    /// Appends the modules of `run`: names, blanks and arguments that are plain numbers.
     [[nodiscard]] ModuleList modules(ModuleList list, TextRange run);
-    /// Appends one module of any name, as one in back quotes.
+    /// Appends one module with any name, for example one in back quotes.
     [[nodiscard]] ModuleList quoted_module(ModuleList list, NameId name, SourceSpan span);
-    /// Appends the characters of a text in back quotes, each a module. Two texts side by side have
-    /// a back quote between them.
+    /// Appends each character of a text in back quotes as a module. Between two adjacent texts
+    /// stands a back quote as a module.
     [[nodiscard]] ModuleList quoted_text(ModuleList list, TextRange quoted);
-    /// Gives the last module of `list`, which ends with its name, the last `count` arguments;
-    /// `parentheses` goes from `(` to `)`. Reports a second pair, and one behind no module.
+    /// Gives the last `count` arguments to the last module of `list`; `parentheses` is the span
+    /// from `(` to `)`. Reports a second pair and one without module.
     [[nodiscard]] ModuleList
     module_arguments(ModuleList list, std::uint32_t count, SourceSpan parentheses);
 
     // --- statements
     void generations(ExpressionId value);
     void define(NameId name, SourceSpan name_span, ExpressionId value);
-    /// The last `bound_count` arguments are the bounds, which should be two.
+    /// The bounds are the last `bound_count` arguments; reports another count than two.
     void param(NameId name,
                SourceSpan name_span,
                ExpressionId value,
@@ -99,7 +98,7 @@ public:
     void right_context(SourceSpan greater, ModuleList right);
     void condition(ExpressionId condition);
     void probability(SourceSpan tilde, ExpressionId probability);
-    /// `label` may begin with the `#`.
+    /// `label` may include the `#`.
     void production_front(NameId name,
                           SourceSpan label,
                           SourceSpan condition,
@@ -118,12 +117,12 @@ public:
     void set_watermark();
 
 private:
-    /// The last name of the module list at hand: whose parameters a parenthesis behind it holds.
+    /// State of the last name of the current module list, for parentheses after it.
     enum class LastName : std::uint8_t {
         None,  // a reported character that is no module
-        Empty, // a text without characters
+        Empty, // an empty text in back quotes
         Bare,
-        Called, // has its parameters
+        Called, // with parameters
     };
     /// Sizes of the Ast without the current statement, to which a rollback returns.
     struct Watermark {
@@ -160,23 +159,23 @@ private:
     Names& names_;
     Diagnostics& diagnostics_;
     ModuleNames module_names_ = ModuleNames::Words;
-    std::uint32_t text_end_ = 0; // of the last text in back quotes, in the scanned text
+    std::uint32_t text_end_ = 0; // end of the last text in back quotes, in the scanned text
 
-    std::array<NameId, 128> single_; // names of one character, once met
+    std::array<NameId, 128> single_; // names of one character so far
     struct CachedWord {
         std::uint64_t key = 0;
         NameId name = kNoName;
     };
-    std::vector<CachedWord> words_; // names of up to eight characters, lately met
+    std::vector<CachedWord> words_; // recent names of up to eight characters
 
     std::vector<ExpressionId> arguments_;
-    std::uint32_t open_brackets_ = 0; // `[` of the module list at hand
+    std::uint32_t open_brackets_ = 0; // `[` of the current module list
     LastName last_name_ = LastName::None;
-    SourceSpan list_place_;     // of a translation: the last in the file of the statement's modules
+    SourceSpan list_place_;     // of a translation: last place of the current list in its file
     bool is_discarded_ = false; // the current statement
     bool has_node_ = false;
     Statement statement_;
-    ProductionNode production_; // parts as they come
+    ProductionNode production_; // parts so far
     Watermark watermark_;
 };
 

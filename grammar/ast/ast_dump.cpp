@@ -158,11 +158,11 @@ private:
 
     void name(NameId id) { out_ += id == kNoName ? std::string_view("?") : names_.text(id); }
 
-    /// Iterative: a sum may have a million terms.
+    /// Without recursion: a sum may have a million terms.
     void expression(ExpressionId root) {
         struct Step {
             ExpressionId expression;
-            const char* text; // written instead, if not null
+            const char* text; // written instead of the expression if not null
         };
         std::vector<Step> steps{{root, nullptr}};
         const auto later = [&](ExpressionId id) { steps.push_back({id, nullptr}); };

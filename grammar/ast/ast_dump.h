@@ -1,5 +1,5 @@
-// The text form of an Ast: `lsc dump --stage ast`. One statement a line, modules as written,
-// operations before their operands so that their nesting shows.
+// The text form of an Ast, for `lsc dump --stage ast`: one statement per line, modules as written,
+// expressions in prefix notation.
 #pragma once
 
 #include "grammar/ast/ast.h"

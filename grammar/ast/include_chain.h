@@ -1,5 +1,5 @@
-// The files that are being parsed, from the root to the innermost #include, and those that were
-// read before: decides whether one more may be entered.
+// IncludeChain: the files from the root to the innermost #include, and all files read so far.
+// Decides whether one more file may be included.
 #pragma once
 
 #include "grammar/ast/parse_context.h"
@@ -13,21 +13,22 @@
 namespace lsys {
 
 inline constexpr std::uint32_t kMaxIncludeDepth = 32;
-/// Files may include others twice; 32 levels of that are four thousand million files.
+/// Bounds files that include others twice, which doubles their number at each level.
 inline constexpr std::uint32_t kMaxInclusions = 65'536;
 
-/// `path` without `.` and `..` where that needs no file system.
+/// `path` without `.` and `..`, as far as possible without the file system.
 [[nodiscard]] std::string normalised_path(std::string_view path);
-/// `path` as seen from the folder of `including`.
+/// `path` relative to the folder of `including`.
 [[nodiscard]] std::string path_beside(std::string_view including, std::string_view path);
 
 class IncludeChain {
 public:
     IncludeChain(const ParseContext& context, FileId root);
 
-    /// Loads the file that `path_span` names and makes it the innermost; reports why not and
-    /// returns kNoFile where it cannot.
+    /// Loads the file at `path_span` and makes it the innermost; reports a failure and returns
+    /// kNoFile.
     [[nodiscard]] FileId enter(std::string_view path, SourceSpan path_span);
+    /// Ends the innermost file.
     void leave();
 
 private:

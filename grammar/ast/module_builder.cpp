@@ -1,5 +1,5 @@
-// The part of AstBuilder that makes module lists. An axiom may have a hundred million modules, so
-// this is the one hot loop of the front end: a run of names comes as one token and is split here.
+// The module lists of AstBuilder. A run of names is one token and is split here: the hot loop of
+// the front end, since an axiom may have a hundred million modules.
 #include "grammar/ast/ast_builder.h"
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
@@ -48,8 +48,8 @@ ModuleList AstBuilder::empty_modules(SourceSpan where) {
     return {static_cast<std::uint32_t>(ast_.modules.size()), 0, where};
 }
 
-/// The span, or that of what came before where it is of another file: the modules of a statement
-/// are kept with offsets alone. Only parts of a translation can be of several files.
+/// The span, or the last one in the list's file if it is in another file: modules store offsets
+/// without files. Only statements of a translation can span files.
 SourceSpan AstBuilder::place_in_list(SourceSpan span) {
     if (scanned_.translation == nullptr) {
         return span;
@@ -66,7 +66,7 @@ void AstBuilder::extend_list(ModuleList& list, SourceSpan span) {
     list.count = static_cast<std::uint32_t>(ast_.modules.size()) - list.first;
 }
 
-/// `text`: the name in the scanned text, with its back quotes.
+/// `text`: the place of the name in the scanned text, with its back quotes.
 void AstBuilder::push_module(NameId name, TextRange text) {
     if (scanned_.translation != nullptr || scanned_.map != nullptr) {
         push_with_place(name, place_in_list(scanned_.span(text.begin, text.end)));
@@ -76,7 +76,7 @@ void AstBuilder::push_module(NameId name, TextRange text) {
     last_name_ = LastName::Bare;
 }
 
-/// Keeps where the name ends, if its file does not tell.
+/// Appends a module; stores the end of its name if the text of the file does not give it.
 void AstBuilder::push_with_place(NameId name, SourceSpan span) {
     ast_.modules.push_back({name, span.begin});
     const std::string_view text = names_.text(name);
@@ -183,7 +183,7 @@ ModuleList AstBuilder::quoted_module(ModuleList list, NameId name, SourceSpan sp
     return list;
 }
 
-/// `character`: one, which stands for what is at `text`.
+/// Appends one character, which stands for the bytes of `text`.
 void AstBuilder::push_character(std::string_view character, TextRange text) {
     if (character.size() > 1) {
         push_module(names_.intern(character), text);
@@ -233,7 +233,7 @@ AstBuilder::module_arguments(ModuleList list, std::uint32_t count, SourceSpan pa
     return list;
 }
 
-/// Whether the last module of the list takes `parentheses`. Sets CallNode::module.
+/// Whether the last module of the list takes `parentheses`; sets CallNode::module.
 bool AstBuilder::begin_call(SourceSpan parentheses, CallNode& call) {
     switch (last_name_) {
     case LastName::None:
@@ -261,12 +261,12 @@ bool AstBuilder::begin_call(SourceSpan parentheses, CallNode& call) {
     return true;
 }
 
-/// Reads `(1, 2.5, -3)` from `open` on for the last module; returns where it ends. The scanner has
-/// matched it.
+/// Reads `(1, 2.5, -3)` at `open` for the last module; returns its end. Precondition: the scanner
+/// has matched it.
 std::uint32_t AstBuilder::read_plain_arguments(std::uint32_t open, std::uint32_t name_end) {
     const std::string_view text = scanned_.text;
     CallNode call;
-    if (!begin_call({}, call)) { // of a name that was no module
+    if (!begin_call({}, call)) { // after a reported character
         return static_cast<std::uint32_t>(text.find(')', open)) + 1;
     }
     call.name_end = place_in_list(scanned_.span(name_end, name_end)).end;
@@ -319,7 +319,7 @@ void AstBuilder::count_bracket(char bracket, SourceSpan span) {
     }
 }
 
-/// `//` at `slashes` with words behind it is likely to be meant as a comment.
+/// Reports `//` before words, which is likely to be meant as a comment.
 void AstBuilder::check_stray_comment(std::uint32_t slashes) {
     constexpr std::size_t kEnough = 80;
     const std::string_view rest = scanned_.text.substr(slashes + 2, kEnough);

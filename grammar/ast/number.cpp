@@ -12,8 +12,8 @@ namespace lsys {
 
 namespace {
 
-/// Whether the value of `text` is 1 or more; only its order of magnitude counts, because it is
-/// asked of values that binary32 cannot hold.
+/// Whether the value of `text` is at least 1, by its order of magnitude. Precondition: the value is
+/// outside the range of binary32.
 bool is_large(std::string_view text) {
     std::int64_t magnitude = 0; // of the first digit that is not 0
     bool seen_point = false;

@@ -1,5 +1,5 @@
-// Number literals: text to binary32, rounded once. Used by the scanner and by the AST builder,
-// which reads plain arguments by itself.
+// Number literals: text to binary32, correctly rounded. Used by the scanner and, for plain
+// arguments, by AstBuilder.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace lsys {
 enum class LiteralRange : std::uint8_t {
     Normal,
     Overflow,  // larger than every binary32 value
-    Underflow, // not 0 as written, but subnormal or 0 as a binary32 value
+    Underflow, // not 0, but subnormal or 0 in binary32
 };
 
 struct Literal {
@@ -21,7 +21,7 @@ struct Literal {
 /// Precondition: `text` is a number of the language: digits with an optional point and exponent.
 [[nodiscard]] Literal read_literal(std::string_view text);
 
-/// Length of the longest number at the start of `text`; 0 if there is none.
+/// Length of the longest number at the begin of `text`; 0 if there is none.
 [[nodiscard]] std::size_t literal_length(std::string_view text);
 
 } // namespace lsys

@@ -1,5 +1,5 @@
-// The inputs and outputs that every front end shares. Front ends read no files themselves: the host
-// supplies included files through FileLoader.
+// Inputs and outputs of every front end. Front ends read no files; the host supplies included files
+// through FileLoader.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -14,10 +14,10 @@
 
 namespace lsys {
 
-/// The bytes of a file by path; its Error is shown at the #include.
+/// Returns the bytes of the file at a path; its Error is reported at the #include.
 using FileLoader = std::function<Result<std::string>(const std::string& path)>;
 
-/// What one parse works with; all outlive it.
+/// Inputs and outputs of one parse; all outlive it.
 struct ParseContext {
     SourceMap& sources;
     Names& names;
@@ -25,8 +25,8 @@ struct ParseContext {
     const FileLoader& load;
     /// Reproduce the bugs of the dialect's original program.
     bool bug_compatible = false;
-    std::string_view system{}; // the one to read, of a file that holds several
-    /// Collects the place of every statement, of those with errors too; may be null.
+    std::string_view system{}; // to read from a file with several
+    /// Receives the spans of all statements, also of those with errors; may be null.
     std::vector<SourceSpan>* statements = nullptr;
 };
 

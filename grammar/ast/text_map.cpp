@@ -18,7 +18,7 @@ void TextMap::finish() {
 /// The number of edits whose replacement ends at or before `offset`.
 std::size_t TextMap::edits_ending_by(std::uint32_t offset) const {
     const auto ends_by = [&](std::size_t index) { return edits_[index].text_end <= offset; };
-    // A few steps from the last answer, else a bisection.
+    // A few steps from the last result, else a bisection.
     for (int step = 0; step < 4; ++step) {
         if (hint_ > 0 && !ends_by(hint_ - 1)) {
             --hint_;
@@ -53,7 +53,7 @@ std::uint32_t TextMap::source_end(std::uint32_t offset) const {
     if (offset == 0) {
         return 0;
     }
-    // Past the character before: exact outside of replacements, the whole replacement inside one.
+    // The end of the character before: exact outside of replacements, their end inside.
     const std::uint32_t last = offset - 1;
     const std::size_t before = edits_ending_by(last);
     const std::uint32_t source =

@@ -1,6 +1,6 @@
-// The text that a front end scans, and where it stands in the file. Typographic characters are
-// replaced before the scan (and reported then), so that all later stages read the file as if plain
-// ones had been written; a TextMap leads from offsets of that text back to offsets of the file.
+// The scanned text of a file and the map to the file. Typographic characters are reported and
+// replaced before the scan, so that later stages read ASCII; a TextMap maps offsets of the scanned
+// text to offsets of the file.
 #pragma once
 
 #include "grammar/ast/translation.h"
@@ -13,22 +13,22 @@
 
 namespace lsys {
 
-/// Built from the front to the back: keep() and replace() in the order of the file.
+/// A text with replacements and its map to the source. Replacements are added in order.
 class TextMap {
 public:
     explicit TextMap(std::string_view source) : source_(source) {}
 
-    /// The bytes [begin, end) of the source are read as `replacement`. Precondition: begin is not
-    /// before the end of the last replacement.
+    /// Replaces the bytes [begin, end) of the source. Precondition: `begin` is not before the end
+    /// of the last replacement.
     void replace(std::uint32_t begin, std::uint32_t end, std::string_view replacement);
-    /// Takes over what is left of the source.
+    /// Appends the rest of the source.
     void finish();
 
     [[nodiscard]] const std::string& text() const { return text_; }
     [[nodiscard]] bool empty() const { return edits_.empty(); }
-    /// Where the character at `offset` of text() begins in the source.
+    /// Begin in the source of the character at `offset` of text().
     [[nodiscard]] std::uint32_t source_begin(std::uint32_t offset) const;
-    /// Where the character that ends at `offset` of text() ends in the source.
+    /// End in the source of the character that ends at `offset` of text().
     [[nodiscard]] std::uint32_t source_end(std::uint32_t offset) const;
 
 private:
@@ -41,19 +41,17 @@ private:
 
     std::string_view source_;
     std::string text_;
-    std::uint32_t consumed_ = 0; // of source_
+    std::uint32_t consumed_ = 0; // bytes of source_
     ChunkedVector<Edit> edits_;
-    mutable std::size_t hint_ = 0; // the last answer; questions come in ascending order, nearly
+    mutable std::size_t hint_ = 0; // the last result: queries nearly ascend
 };
 
-/// A file as it is scanned. Offsets of scanned text become places of the file here and nowhere
-/// else.
+/// The scanned text of a file; the only place where its offsets become places of the file.
 struct ScannedText {
     FileId file = kNoFile;
-    std::string_view text;        // what is scanned
-    const TextMap* map = nullptr; // null where the text is the file's own
-    // Of a file of another dialect: where the scanned text comes from; then there is no map.
-    const Translation* translation = nullptr;
+    std::string_view text;
+    const TextMap* map = nullptr;             // null if the text is the file's own
+    const Translation* translation = nullptr; // of a file of another dialect, instead of a map
 
     [[nodiscard]] std::uint32_t source_begin(std::uint32_t offset) const {
         if (translation != nullptr) {

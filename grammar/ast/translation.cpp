@@ -75,7 +75,7 @@ std::vector<FileId> Translation::files() const {
     return files;
 }
 
-/// The part that the byte at `offset` is of; the last one for what lies behind it.
+/// The part with the byte at `offset`; the last part beyond the end.
 const Translation::Part& Translation::part_at(std::uint32_t offset) const {
     LSYS_CHECK(!parts_.empty());
     if (hint_ >= parts_.size()) {
@@ -108,7 +108,7 @@ SourceSpan Translation::origin(std::uint32_t begin, std::uint32_t end) const {
     if (first.verbatim) {
         span.begin = std::min(span.end - (first.end - std::min(begin, first.end)), span.end);
     }
-    if (begin >= end) { // where something is missing: just behind what comes before
+    if (begin >= end) { // an empty span: at the end of the byte before
         if (begin != 0) {
             const SourceSpan before = origin(begin - 1, begin);
             return {before.file, before.end, before.end};
@@ -122,7 +122,7 @@ SourceSpan Translation::origin(std::uint32_t begin, std::uint32_t end) const {
     }
     const std::uint32_t to =
         last.verbatim ? last.span.end - (last.end - std::min(end, last.end)) : last.span.end;
-    // Parts of a statement may stand in another order in the original.
+    // Parts of a statement may have another order in the original.
     return {span.file, std::min(span.begin, to), std::max(span.begin, to)};
 }
 

@@ -1,6 +1,5 @@
-// ChunkedVector<T>: an append-only sequence in blocks of fixed size. It never moves what it holds
-// and never needs twice its memory while it grows, which is what a file of a hundred million
-// modules asks for.
+// ChunkedVector<T>: an append-only sequence in blocks of fixed size. Growing moves no element and
+// needs no second copy of them: files may have a hundred million modules.
 #pragma once
 
 #include "grammar/base/contract.h"
@@ -77,14 +76,14 @@ public:
     [[nodiscard]] iterator end() { return {this, size_}; }
     [[nodiscard]] const_iterator begin() const { return {this, 0}; }
     [[nodiscard]] const_iterator end() const { return {this, size_}; }
-    /// The elements from `index` to the end of their block, at most `count`: what a long walk goes
-    /// by. Precondition: index < size() and count is not 0.
+    /// The elements from `index` to the end of their block, at most `count`, for fast loops.
+    /// Precondition: index < size() and count is not 0.
     [[nodiscard]] std::span<const T> row(std::size_t index, std::size_t count) const {
         LSYS_CHECK(index < size_, index, size_);
         const std::size_t at = index % kBlock;
         return {blocks_[index / kBlock].get() + at, std::min({count, size_ - index, kBlock - at})};
     }
-    /// Appends up to `count` elements that lie in one row, for the caller to set.
+    /// Appends up to `count` contiguous elements, for the caller to set.
     [[nodiscard]] std::span<T> extend(std::size_t count) {
         if (size_ / kBlock == blocks_.size()) {
             blocks_.push_back(std::make_unique<T[]>(kBlock));
@@ -95,12 +94,12 @@ public:
         size_ += made;
         return {first, made};
     }
-    /// Forgets all elements from `size` on.
+    /// Removes all elements from `size` on.
     void truncate(std::size_t size) {
         LSYS_CHECK(size <= size_, size, size_);
         size_ = size;
     }
-    /// Gives back memory of elements before `index`, which are not looked at any more.
+    /// Frees the memory of elements before `index`, which may not be read afterwards.
     void release_before(std::size_t index) {
         for (; (released_ + 1) * kBlock <= index && released_ < blocks_.size(); ++released_) {
             blocks_[released_].reset();

@@ -1,6 +1,6 @@
-// Checks of our own promises, never of an author's input.
-// LSYS_CHECK is always on and ends the process with the place and the values that broke it;
-// LSYS_DCHECK is for costly checks and exists in debug builds only.
+// Assertions about this program, never about an author's input.
+// LSYS_CHECK is always on: a failure prints the place and the values and ends the process.
+// LSYS_DCHECK is for costly checks, in debug builds only.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Enums and structs that know how many enumerators and fields they have, so that no table, range
-// check or file version depends on a number kept by hand.
+// Enums and structs with their numbers of enumerators and fields as constants, for tables, range
+// checks and file versions.
 //
 //   LSYS_COUNTED_ENUM(Mode, Parallel, Sequential);   enum class Mode : std::uint8_t { ... };
 //   kCountOf<Mode>                                   2
@@ -13,14 +13,14 @@
 
 namespace lsys {
 
-/// Has a constant kCount for every counted enum.
+/// The constant kCount of each counted enum.
 template <typename Enum>
 struct EnumCount;
 
 template <typename Enum>
 inline constexpr std::size_t kCountOf = EnumCount<Enum>::kCount;
 
-/// Defines an enum of bytes whose enumerators begin at 0 without gaps. Use it in namespace lsys.
+/// Defines an enum of bytes with enumerators from 0 without gaps. Use it in namespace lsys.
 #define LSYS_COUNTED_ENUM(name, ...)                                                               \
     enum class name : std::uint8_t { __VA_ARGS__ };                                                \
     template <>                                                                                    \
@@ -33,7 +33,7 @@ template <typename Enum>
     return static_cast<std::size_t>(value) < kCountOf<Enum>;
 }
 
-/// All enumerators, in order.
+/// All enumerators in order.
 template <typename Enum>
 [[nodiscard]] constexpr std::array<Enum, kCountOf<Enum>> enumerators_of() {
     std::array<Enum, kCountOf<Enum>> all{};
@@ -69,7 +69,7 @@ constexpr std::size_t count_fields() {
 
 } // namespace impl
 
-/// The number of fields of an aggregate whose fields are no C arrays.
+/// The number of fields of an aggregate without C arrays.
 template <typename Struct>
 inline constexpr std::size_t kFieldCount = impl::count_fields<Struct, 0>();
 

@@ -17,8 +17,8 @@ constexpr DiagnosticInfo kInfos[] = {
 #undef LSYS_DIAGNOSTIC
 };
 
-/// Damerau-Levenshtein distance (adjacent transpositions), letter case counting as half a step; the
-/// result is in half steps.
+/// Damerau-Levenshtein distance with adjacent transpositions, in half steps: a difference of letter
+/// case is one half step.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before(b.size() + 1);
     std::vector<std::size_t> previous(b.size() + 1);
@@ -177,7 +177,7 @@ void Diagnostics::promote_warnings() {
 
 std::optional<std::string_view> nearest_name(std::string_view wanted,
                                              const std::vector<std::string_view>& candidates) {
-    // A third of the letters may be wrong; of a one-letter name only its case.
+    // A third of the letters may differ; in a name of one letter only its case.
     const std::size_t limit =
         wanted.size() == 1 ? 1 : 2 * std::max<std::size_t>(1, wanted.size() / 3);
     std::optional<std::string_view> best;

@@ -1,7 +1,7 @@
-// Hash functions: the one place of multipliers and shifts. None of them is for security. Where a
-// result reaches a file, a picture or a printed number, its constants may not change: checksums of
-// .lsb and state files (combine, combine_bytes, finish), bark and leaf textures, the places of
-// trees, the noise of the ground, printed digests of forests and pictures.
+// Hash functions, none of them for security. Their constants are part of files, pictures and
+// printed numbers and must not change: checksums of .lsb and state files (combine, combine_bytes,
+// finish), bark and leaf textures, positions of trees, ground noise, digests of forests and
+// pictures.
 #pragma once
 
 #include <bit>
@@ -12,12 +12,12 @@
 
 namespace lsys {
 
-/// 2^64 over the golden ratio, made odd, and a prime near 2^32 over it: multiples of consecutive
-/// numbers are spread evenly (Knuth, The Art of Computer Programming 3, 6.4).
+/// 2^64 divided by the golden ratio, made odd, and a prime near 2^32 divided by it: multiples of
+/// consecutive numbers are spread evenly (Knuth, The Art of Computer Programming 3, 6.4).
 inline constexpr std::uint64_t kGoldenRatio64 = 0x9E3779B97F4A7C15;
 inline constexpr std::uint32_t kGoldenRatio32 = 0x9E3779B1;
 
-/// Fibonacci hashing: the upper bits of the result depend on all bits of the number.
+/// Fibonacci hashing: the upper bits depend on all bits of the number.
 [[nodiscard]] constexpr std::uint64_t golden_multiple(std::uint64_t number) {
     return number * kGoldenRatio64;
 }
@@ -25,7 +25,7 @@ inline constexpr std::uint32_t kGoldenRatio32 = 0x9E3779B1;
     return number * kGoldenRatio32;
 }
 
-/// The step of most finalizers. A bijection for an odd factor.
+/// The step of most finalizers; a bijection for an odd factor.
 template <typename T>
 [[nodiscard]] constexpr T xorshift_multiply(T bits, unsigned shift, T factor) {
     return (bits ^ bits >> shift) * factor;
@@ -38,13 +38,13 @@ template <typename T>
     return bits ^ bits >> 33;
 }
 
-/// Adds a word to a hash. A bijection of the state for a given word and of the word for a given
-/// state, so that two sequences that differ in one word never collide.
+/// Adds a word to a hash: a bijection of the state for a given word, and of the word for a given
+/// state. Sequences that differ in one word never collide.
 [[nodiscard]] constexpr std::uint64_t combine(std::uint64_t state, std::uint64_t word) {
     state = golden_multiple(state ^ word);
     return state ^ state >> 29;
 }
-/// Adds the number of bytes and the bytes, eight at a time, the first as the lowest.
+/// Adds the number of bytes, then the bytes as little-endian words of eight.
 [[nodiscard]] inline std::uint64_t combine_bytes(std::uint64_t state, std::string_view bytes) {
     const auto word_of = [](const char* at, std::size_t count) {
         std::uint64_t word = 0;
@@ -63,7 +63,7 @@ template <typename T>
     }
     return bytes.empty() ? state : combine(state, word_of(bytes.data(), bytes.size()));
 }
-/// Spreads the last words that were combined over all bits.
+/// Spreads the last combined words over all bits.
 [[nodiscard]] constexpr std::uint64_t finish(std::uint64_t state) {
     state = golden_multiple(state ^ state >> 32);
     return state ^ state >> 32;
@@ -80,13 +80,13 @@ template <typename Bytes>
     return hash;
 }
 
-/// "lowbias32" of Wellons (https://nullprogram.com/blog/2018/07/31/).
+/// lowbias32 (Wellons, https://nullprogram.com/blog/2018/07/31/).
 [[nodiscard]] constexpr std::uint32_t lowbias32(std::uint32_t bits) {
     bits = xorshift_multiply(bits, 16, 0x7FEB352DU);
     bits = xorshift_multiply(bits, 15, 0x846CA68BU);
     return bits ^ bits >> 16;
 }
-/// 32 bits that look random for the coordinates of a point of a lattice, in one of many layers.
+/// Hash of the coordinates of a lattice point, in one of many layers.
 [[nodiscard]] constexpr std::uint32_t mix_lattice(std::uint32_t coordinates) {
     coordinates = xorshift_multiply(coordinates, 15, 0x2C1B3C6DU);
     coordinates = xorshift_multiply(coordinates, 12, 0x297A2D39U);
@@ -100,7 +100,7 @@ lattice32(std::uint32_t x, std::uint32_t y, std::uint32_t layer) {
     return mix_lattice(golden_multiple(x) ^ y * 0x85EBCA77U ^ (layer + 1) * 0xC2B2AE3DU);
 }
 
-/// The upper 24 bits as a number from 0 to below 1.
+/// The upper 24 bits as a number in [0, 1).
 [[nodiscard]] constexpr float unit_float(std::uint32_t bits) {
     return static_cast<float>(bits >> 8) / 16777216.0F;
 }

@@ -1,6 +1,6 @@
-// Outcome<T>: a value, or why there is none; in both cases the messages on the way. Every step of
-// the pipeline returns one: an author's mistakes, the environment, a limit or the user may end it.
-// Result<T> is for a single failure of the environment without diagnostics.
+// Outcome<T>: a value or the reason for its absence, with the messages of the step. Returned by
+// every step of the pipeline, which may end by mistakes of the author, the environment, a limit or
+// the user. Result<T> is for a single failure of the environment without diagnostics.
 #pragma once
 
 #include "grammar/base/contract.h"
@@ -17,43 +17,43 @@
 
 namespace lsys {
 
-/// Why a step ended without its value.
+/// The reason why a step has no value.
 enum class Stop : std::uint8_t {
-    Diagnosed,   // mistakes of the author, in the diagnostics
-    Failed,      // the environment: a missing file, an option that does not fit
-    Limit,       // a limit of Limits, in the diagnostics
-    OutOfMemory, // the system gave no more memory
+    Diagnosed,   // mistakes of the author; see the diagnostics
+    Failed,      // the environment: a missing file, an unsuitable option
+    Limit,       // a limit of Limits; see the diagnostics
+    OutOfMemory, // a failed allocation
     Cancelled,   // by the host
 };
 
-/// One message of a step. Programs render it: as text, as JSON, in a window.
+/// One message of a step, rendered by programs as text, as JSON or in a window.
 struct Message {
     enum class Kind : std::uint8_t {
         Diagnostics, // with places in `sources`
         Error,       // of the environment
-        Help,        // belongs to the error before it
+        Help,        // for the error before it
         Info,        // about the result
-        Detail,      // about the work, for users who asked for more
+        Detail,      // about the work, for verbose output
     };
     Kind kind = Kind::Diagnostics;
     std::string text; // of all kinds but Diagnostics
     Diagnostics diagnostics;
-    std::shared_ptr<const SourceMap> sources; // of Diagnostics; null: no diagnostic has a place
+    std::shared_ptr<const SourceMap> sources; // of Diagnostics; null if none has a place
 };
 
-/// Messages of a step in the order in which they arose.
+/// Messages of a step in order.
 class Messages {
 public:
     void add_error(std::string text) { add(Message::Kind::Error, std::move(text)); }
     void add_help(std::string text) { add(Message::Kind::Help, std::move(text)); }
     void add_info(std::string text) { add(Message::Kind::Info, std::move(text)); }
     void add_detail(std::string text) { add(Message::Kind::Detail, std::move(text)); }
-    /// Adds diagnostics sorted by place, unless there are none.
+    /// Adds diagnostics, sorted by place; nothing if there are none.
     void add(Diagnostics diagnostics, std::shared_ptr<const SourceMap> sources);
     void append(Messages other);
 
     [[nodiscard]] const std::vector<Message>& all() const { return all_; }
-    /// Whether any diagnostic is an error, or any message is one.
+    /// Whether a message or a diagnostic is an error.
     [[nodiscard]] bool has_errors() const;
 
 private:

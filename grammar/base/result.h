@@ -1,6 +1,5 @@
-// Result<T>: a value, or the failure of the environment (a missing file, a full disk, a damaged
-// module file, a file beyond the memory that the run may use). Mistakes of a grammar's author are
-// Diagnostics, not Results.
+// Result<T>: a value or a failure of the environment (a missing file, a full disk, a damaged module
+// file, a file larger than the memory limit). Mistakes of authors are Diagnostics.
 #pragma once
 
 #include "grammar/base/contract.h"
@@ -15,11 +14,11 @@ namespace lsys {
 
 enum class ErrorKind : std::uint8_t {
     Environment,
-    Limit, // more memory would be needed than the run may use
+    Limit, // of memory
 };
 
-/// What failed, in words for the user: lower case, no final stop, with the file's name where one is
-/// concerned.
+/// A failure in words for the user: lower case, no final stop, with the name of the file if there
+/// is one.
 struct Error {
     std::string message;
     ErrorKind kind = ErrorKind::Environment;

@@ -16,7 +16,7 @@ SourceSpan join(SourceSpan first, SourceSpan last) {
     if (last.file == kNoFile) {
         return first;
     }
-    if (first.file != last.file) { // of a text that includes another
+    if (first.file != last.file) { // a text with an included file
         return first;
     }
     return {first.file, std::min(first.begin, last.begin), std::max(first.end, last.end)};
@@ -49,10 +49,10 @@ void SourceFile::find_lines() {
 
 namespace {
 
-/// Bytes of a line after which its next column is remembered.
+/// Bytes between two checkpoints of a line.
 constexpr std::uint32_t kStride = 4096;
 
-/// Moves on by one character.
+/// Advances by one character.
 void step_over(std::string_view text, std::uint32_t& offset) {
     const bool ascii = static_cast<unsigned char>(text[offset]) < 0x80;
     offset += ascii ? 1 : decode_utf8(text.substr(offset)).length;

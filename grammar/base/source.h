@@ -1,6 +1,6 @@
-// Source text and places in it. A SourceMap owns every file of one compilation; all stages speak of
-// places as SourceSpan: a file and two byte offsets. Lines, columns, tabs and the width of
-// characters are worked out only where a message is rendered.
+// Source text and places in it. A SourceMap owns the files of a compilation; all stages name places
+// as SourceSpan, a file and two byte offsets. Only the renderer computes lines, columns, tabs and
+// widths of characters.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace lsys {
 enum class FileId : std::uint32_t {};
 inline constexpr FileId kNoFile{0xFFFFFFFFu};
 
-/// Bytes [begin, end) of a file. Empty spans are allowed and stand between two characters.
+/// Bytes [begin, end) of a file. An empty span is a place between two characters.
 struct SourceSpan {
     FileId file = kNoFile;
     std::uint32_t begin = 0;
@@ -23,18 +23,17 @@ struct SourceSpan {
     friend bool operator==(const SourceSpan&, const SourceSpan&) = default;
 };
 
-/// From the start of `first` to the end of `last`; `first` alone where they are of two files.
+/// The span that covers both; `first` if they are in different files.
 [[nodiscard]] SourceSpan join(SourceSpan first, SourceSpan last);
 
-/// A line and a column as a reader counts them: from 1, a column being one Unicode code point
-/// (a byte that is not part of valid UTF-8 counts as one).
+/// A line and a column, both from 1. A column is one Unicode code point, or one byte that is not
+/// valid UTF-8.
 struct LineColumn {
     std::uint32_t line = 1;
     std::uint32_t column = 1;
 };
 
-/// One file's name and bytes, never changed after creation. A byte order mark is not part of the
-/// text.
+/// The path and text of a file, immutable. A byte order mark is not part of the text.
 class SourceFile {
 public:
     SourceFile(std::string path, std::string bytes);
@@ -52,8 +51,7 @@ public:
     [[nodiscard]] std::uint32_t line_begin(std::uint32_t line) const;
 
 private:
-    /// A column within a long line, so that finding a place in it costs no more than in a short
-    /// one.
+    /// A known column within a long line, from which the columns after it are counted.
     struct Checkpoint {
         std::uint32_t offset = 0;
         std::uint32_t column = 1;
@@ -68,10 +66,10 @@ private:
     std::vector<Checkpoint> checkpoints_; // ascending
 };
 
-/// The largest file that offsets can address.
+/// Maximum size of a file: offsets have 32 bits.
 inline constexpr std::uint64_t kMaxSourceBytes = (std::uint64_t{1} << 31) - 16;
 
-/// Owns the files of a compilation; references stay valid as files are added.
+/// The files of a compilation. References stay valid when files are added.
 class SourceMap {
 public:
     /// Precondition: bytes.size() <= kMaxSourceBytes.

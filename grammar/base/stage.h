@@ -1,4 +1,4 @@
-// Stages of a derivation, to which productions belong.
+// The stage of a derivation that applies a production.
 #pragma once
 
 #include "grammar/base/counted_enum.h"
@@ -8,8 +8,8 @@ namespace lsys {
 /// When a production is applied.
 LSYS_COUNTED_ENUM(Stage,
                   Rewrite,   // in a generation
-                  Decompose, // after a generation, and to the axiom, again and again
-                  Interpret  // when the word is drawn; the word stays what it is
+                  Decompose, // after each generation and to the axiom, until nothing matches
+                  Interpret  // when the word is drawn, which does not change it
 );
 /// `#decompose`, `#interpret`; empty for Rewrite.
 [[nodiscard]] constexpr const char* keyword_of(Stage stage) {

@@ -1,5 +1,5 @@
-// Code points of UTF-8 text, one at a time. Text comes from an author's file and may hold anything;
-// a byte that is not part of a valid sequence is a character of its own.
+// Code points of UTF-8 text, one at a time. The text may be any bytes; a byte that is not part of a
+// valid sequence counts as one character.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 namespace lsys {
 
 struct CodePoint {
-    char32_t value = 0;       // U+FFFD where it is not valid
+    char32_t value = 0;       // U+FFFD if invalid
     std::uint32_t length = 1; // bytes
     bool valid = false;
 };

@@ -21,10 +21,10 @@ void parse_text(const NormalizedText& normalized,
     const lsys_grammar::Scanning scanning(session);
     lsys_grammar::Parser parser(session, scanning.scanner());
     const int failed = parser.parse();
-    LSYS_CHECK(failed == 0); // every error is recovered from
+    LSYS_CHECK(failed == 0); // the parser recovers from every error
 }
 
-/// Parses one file to its end; its includes are parsed within.
+/// Parses one file and its included files.
 void parse_file(FileId file, const ParseContext& context, Ast& ast, IncludeChain& includes) {
     parse_text(normalize_source(file, context), context, ast, includes);
 }
@@ -74,7 +74,7 @@ void ParseSession::end_statement(SourceSpan span, bool whole) {
         return;
     }
     const std::uint32_t index = ast_.statements.back().index;
-    // By value: the vector grows while the file is parsed.
+    // A copy: the vector grows during the parse of the file.
     const IncludeNode node = ast_.includes[index];
     const FileId file = includes->enter(node.path, node.path_span);
     if (file == kNoFile) {

@@ -8,11 +8,11 @@
 
 namespace lsys {
 
-/// Parses the .lsys file `root` and, in place, the files it includes. Always yields an Ast; after
-/// errors it holds the statements that parsed.
+/// Parses the .lsys file `root` and its included files in place. After errors the Ast holds the
+/// statements without syntax errors.
 [[nodiscard]] Ast parse_lsys(FileId root, const ParseContext& context);
 
-/// Parses the text of a translation as if it stood in the original, where all places are shown.
+/// Parses the text of a translation; all places are in the original.
 [[nodiscard]] Ast parse_translation(const Translation& translation, const ParseContext& context);
 
 } // namespace lsys

@@ -1,7 +1,7 @@
-/* The tokens of .lsys files. Positions are byte offsets of the scanned text: where the match lies in Flex's
-   own copy. A run of module names, blanks and plain arguments, `F+F [ +(30) A`, is one token, because an
-   axiom may have a hundred million modules. No pattern that may be long contains NUL, which Flex matches
-   by going back to the start of the token. What is done about mistakes is in repairs.cpp. */
+/* The tokens of .lsys files. Positions are byte offsets of the scanned text, of which Flex has a copy. A run of
+   module names, blanks and plain arguments, `F+F [ +(30) A`, is one token, because an axiom may have a hundred
+   million modules. No long pattern contains NUL, at which Flex rescans the token from its start. Mistakes are
+   handled in impl/statement_tokens, module_tokens, expression_tokens and statement_ends. */
 
 %option reentrant noyywrap nounput noinput nodefault never-interactive batch
 %option 8bit full ecs
@@ -39,14 +39,14 @@
         scan.after_operator();                                                                     \
         return Token(Parser::token::TOK_##kind, span);                                                          \
     } while (false)
-/* Passes over a comment and goes on as now. */
+/* Skips a comment and returns to the current start condition. */
 #define BEGIN_COMMENT(condition)                                                                   \
     do {                                                                                           \
         scan.comment_begin = scan.begin;                                                           \
         scan.comment_return = YY_START;                                                            \
         BEGIN(condition);                                                                          \
     } while (false)
-/* Two values side by side: an operator or comma is supplied first. */
+/* Inserts an operator or comma between two adjacent values. */
 #define BEGIN_VALUE()                                                                              \
     do {                                                                                           \
         if (scan.value_before) {                                                                   \
@@ -116,7 +116,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
     if (scan.inserting != Insertion::None) {
         return insert_token(session);
     }
-    /* The start condition follows the part of the statement, which changes only where a token is returned. */
+    /* The start condition depends on the part of the statement, which changes only when a token is returned. */
     BEGIN(start_condition(scan));
 %}
 
@@ -303,7 +303,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           return Token(Parser::token::TOK_NAMES, {scan.begin, scan.end}, span);
                         }
   {RUN}"*"              {
-                          /* A comment may begin here; the run does not reach into it. */
+                          /* The run ends before a comment. */
                           SHORTEN(run_before_star(TEXT));
                           const SourceSpan span = session.token();
                           return Token(Parser::token::TOK_NAMES, {scan.begin, scan.end}, span);

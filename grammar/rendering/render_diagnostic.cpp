@@ -13,7 +13,7 @@ namespace lsys {
 
 namespace {
 
-/// Other places that a frame shows at most; JSON has them all.
+/// Maximum number of labels in a frame; JSON has them all.
 constexpr std::size_t kMaxLabels = 8;
 
 void append_place(SourceSpan span, const SourceMap& sources, std::string& out) {
@@ -50,7 +50,7 @@ void append_head(const Diagnostic& diagnostic,
     out += "]\n";
 }
 
-/// `note: text` in the colour of its kind, without a line end.
+/// Appends `note: text` in the colour of the kind, without a line end.
 void append_remark(std::string_view kind,
                    std::string_view colour,
                    std::string_view text,
@@ -140,7 +140,8 @@ std::string describe_rest(const std::array<std::uint64_t, 3>& counts) {
     return text;
 }
 
-/// The indices of what is shown: as many errors as fit, then warnings, then notes; in their order.
+/// Indices of the diagnostics to print: errors first, then warnings, then notes, at most `room`; in
+/// their order.
 std::vector<std::size_t> choose_shown(const std::vector<Diagnostic>& all, std::size_t room) {
     std::vector<std::size_t> shown;
     for (const Severity severity : {Severity::Error, Severity::Warning, Severity::Note}) {

@@ -1,5 +1,5 @@
-// Diagnostics as text: the frame for people, one line for editors, JSON lines for tools. The only
-// place where lines, columns, tab stops and the width of characters matter.
+// Diagnostics as text: frames for people, lines for editors, JSON for tools. The only code that
+// knows lines, columns, tab stops and widths of characters.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -13,22 +13,22 @@ namespace lsys {
 enum class MessageFormat : std::uint8_t {
     Human, // head line, source frame with carets, labels, notes, help
     Short, // file:line:col: severity: text [code]
-    Json,  // one object a line
+    Json,  // one object per line
 };
 
 struct RenderOptions {
     MessageFormat format = MessageFormat::Human;
     bool colour = false;
-    std::uint32_t max_shown = 50; // of one run; a last line says how many more there are
+    std::uint32_t max_shown = 50; // a last line counts the rest
 };
 
-/// One diagnostic, with a line end.
+/// Appends one diagnostic with a line end.
 void render(const Diagnostic& diagnostic,
             const SourceMap& sources,
             const RenderOptions& options,
             std::string& out);
 
-/// All of them as they stand (sort them first), at most max_shown, then how many more.
+/// Appends the first max_shown diagnostics, which should be sorted, and the number of the others.
 void render_all(const Diagnostics& diagnostics,
                 const SourceMap& sources,
                 const RenderOptions& options,

@@ -1,4 +1,5 @@
 #include "grammar/format/format.h"
+#include "grammar/lsys/parse.h"
 #include "runtime/cli/commands.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/program/files.h"
@@ -21,15 +22,40 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What became of one file.
+/// The translation of one system.
 struct Imported {
     std::string text; // .lsys
     Dialect dialect = Dialect::Lsys;
     std::uint64_t warnings = 0;
 };
 
-/// Compiles as every other command does, so that it says the same. Fine: the text derives what the
-/// file derives.
+/// A .lsys text with `#n = generations;` in place of its own `#n`, or at its begin.
+std::string with_generations(std::string text, std::uint32_t generations) {
+    SourceMap sources;
+    Names names;
+    Diagnostics diagnostics;
+    const FileLoader load = [](const std::string& path) -> Result<std::string> {
+        return Error{fmt::format("`{}` is not read here", path)};
+    };
+    const FileId file = sources.add("translation", text);
+    const Ast ast = parse_lsys(file, {sources, names, diagnostics, load});
+    const std::string statement = fmt::format("#n = {};", generations);
+    const auto own =
+        std::find_if(ast.statements.begin(), ast.statements.end(),
+                     [](const Statement& each) { return each.kind == StatementKind::Generations; });
+    if (own == ast.statements.end()) {
+        return statement + '\n' + text;
+    }
+    return text.replace(own->span.begin, own->span.end - own->span.begin, statement);
+}
+
+/// Whether a grammar can hold the number: its numbers are binary32.
+bool is_exact(std::uint32_t generations) {
+    return static_cast<double>(static_cast<float>(generations)) == static_cast<double>(generations);
+}
+
+/// Translates one system and reports its diagnostics, as every command that compiles does. After Ok
+/// the text derives the same word as the file.
 ExitStatus import_text(const std::string& path,
                        GrammarText text,
                        const GrammarOptions& options,
@@ -51,11 +77,15 @@ ExitStatus import_text(const std::string& path,
     const ExitStatus status = console.show(made.diagnostics, *made.grammar.sources);
     imported.warnings = made.diagnostics.count(Severity::Warning);
     if (status == ExitStatus::Ok) {
+        std::string translation = std::move(made.grammar.translation);
+        if (options.generations) {
+            translation = with_generations(std::move(translation), *options.generations);
+        }
         imported.text = fmt::format(
             "// Imported from `{}`, {}{}.\n{}", fs::path(shown_path(path)).filename().string(),
             row_of(imported.dialect).title,
             options.system.empty() ? std::string() : fmt::format(": {}", options.system),
-            format_text(made.grammar.translation));
+            format_text(translation));
     }
     return status;
 }
@@ -278,6 +308,12 @@ ExitStatus run_import(const ImportCommand& command, const Console& console) {
     if (command.file.empty() == command.folder.empty()) {
         return report_error(Error{command.file.empty() ? "FILE is missing, or --all FOLDER"
                                                        : "FILE and --all do not go together"},
+                            console);
+    }
+    if (command.grammar.generations && !is_exact(*command.grammar.generations)) {
+        return report_error(Error{fmt::format("a grammar cannot hold the number {}: its numbers "
+                                              "are binary32",
+                                              *command.grammar.generations)},
                             console);
     }
     if (!command.folder.empty()) {

@@ -31,21 +31,21 @@ void add_message_options(CLI::App& app, MessageOptions& options) {
 
 void add_check(CLI::App& app, CheckCommand& command) {
     app.add_option("FILE", command.files, "Grammars; `-` is standard input")->required();
-    app.add_flag("--fix", command.fix,
-                 "Apply every repair that is certain to FILE, and to files that it includes from "
-                 "its own folder or below");
+    app.add_flag(
+        "--fix", command.fix,
+        "Apply all certain repairs to FILE and to files included from its folder or below");
     add_grammar(app, command.grammar, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
-    app.footer(
-        "A repair is certain where nothing else can have been meant and its statement is\n"
-        "right afterwards. Others are shown as help.\n"
-        "--fix leaves a file that lies outside the folder of FILE as it is, symbolic links "
-        "resolved, unless\nit is named here too; of a grammar and what it includes all files are "
-        "written or none.\n"
-        "Exit status: 0 no errors, 1 errors in a grammar, 2 a file or the command line, 3 a "
-        "limit.\n"
-        "Example: lsc check --fix tree.lsys");
+    app.footer("A repair is certain if no other is plausible and its statement is correct "
+               "afterwards; other\n"
+               "repairs are shown as help. --fix changes no file outside the folder of FILE "
+               "(symbolic links\n"
+               "resolved) that is not named too. Of a grammar and its included files all are "
+               "written or none.\n"
+               "Exit status: 0 no errors, 1 errors in a grammar, 2 file or command line error, 3 "
+               "limit reached.\n"
+               "Example: lsc check --fix tree.lsys");
 }
 
 void add_compile(CLI::App& app, CompileCommand& command) {
@@ -57,14 +57,14 @@ void add_compile(CLI::App& app, CompileCommand& command) {
     add_seed(app, command.seed);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
-    app.footer("-n and --seed take the place of #n and `#set seed` in what is written.\n"
+    app.footer("-n and --seed replace #n and `#set seed` in the output.\n"
                "Example: lsc compile tree.lsys -o tree.lsb");
 }
 
 void add_dump(CLI::App& app, DumpCommand& command) {
     app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
         ->required();
-    app.add_option("-o,--output", command.output, "Where to write (default standard output)")
+    app.add_option("-o,--output", command.output, "Output file (default standard output)")
         ->type_name("FILE");
     add_choice<DumpStage>(
         app, "--stage", command.stage,
@@ -76,34 +76,30 @@ void add_dump(CLI::App& app, DumpCommand& command) {
          {"word", DumpStage::Word},
          {"skeleton", DumpStage::Skeleton},
          {"mesh", DumpStage::Mesh}},
-        "What is written: what a step of the compiler made, the derived word, what "
-        "the turtle draws for it, or the triangles of that (default word)");
+        "Output of a compiler stage, the derived word, its skeleton or its mesh (default word)");
     add_parsed(app, "--rho", command.rho, fraction,
-               "With --stage instanced: the probability that a branch is taken from recorded "
-               "ones (default 0.6)")
+               "For --stage instanced: probability that a branch is an instance (default 0.6)")
         ->type_name("P");
-    app.add_flag("--all", command.all, "One generation a line, 0 first");
+    app.add_flag("--all", command.all, "Print every generation, one per line");
     app.add_flag("--count", command.count,
-                 "The number of modules instead of the modules; where the growth matrix tells "
-                 "it, nothing is derived");
+                 "Print the number of modules, from the growth matrix where possible");
     app.add_flag("--stream", command.stream,
                  "Derive without storing the word (no contexts, parallel rewriting only)");
-    app.add_flag(
-        "--origins", command.origins,
-        "Say of each module, one a line, or of each part of the skeleton: which production "
-        "or the axiom wrote it, where that stands, and in which generation");
+    app.add_flag("--origins", command.origins,
+                 "Print the origin of each module or part of the skeleton: production or axiom, "
+                 "place, generation");
     add_mesh(app, command.mesh);
     add_grammar(app, command.grammar, command.run);
     add_seed(app, command.seed);
     add_run_limits(app, command.run);
     add_parsed(app, "--steps", command.steps, whole(0, kMaxGenerations),
-               "Make only K of the generations in this run")
+               "Derive only K generations in this run")
         ->type_name("K")
         ->group("Saved states");
-    app.add_option("--save-state", command.save_state, "Write where the derivation stands")
+    app.add_option("--save-state", command.save_state, "Save the state of the derivation")
         ->type_name("FILE")
         ->group("Saved states");
-    app.add_option("--from", command.from, "Go on from a saved state")
+    app.add_option("--from", command.from, "Continue from a saved state")
         ->type_name("FILE")
         ->group("Saved states");
     add_message_options(app, command.messages);
@@ -118,8 +114,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
 void add_export(CLI::App& app, ExportCommand& command) {
     app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
         ->required();
-    app.add_option("-o,--output", command.output,
-                   "The file, whose name tells the format; `-` is standard output")
+    app.add_option("-o,--output", command.output, "Output file; `-` is standard output")
         ->required()
         ->type_name("FILE");
     std::vector<std::pair<std::string, std::optional<ExportFormat>>> formats;
@@ -127,35 +122,34 @@ void add_export(CLI::App& app, ExportCommand& command) {
         formats.emplace_back(traits_of(format).name, format);
     }
     add_choice(app, "--format", command.format, std::move(formats),
-               "The format (default by the name of the file)");
+               "Format (default: by the extension of the output)");
     app.add_flag("--stream", command.stream,
                  "Draw without storing the word (no contexts, parallel rewriting only)");
     app.add_flag("--stats", command.stats,
-                 "Print segments, sizes, vertices, triangles, bytes and the time of each stage; "
-                 "with --message-format json as one JSON object");
+                 "Print counts, sizes and times; with --message-format json as one JSON object");
     add_mesh(app, command.mesh);
     const auto gravity = [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); };
     add_parsed(app, "--gravity", command.gravity, gravity,
-               "Let the plant bend under its weight, in m/s2 (on Earth 9.81)")
+               "Bend the plant under its weight, in m/s2 (9.81 on Earth)")
         ->type_name("G")
         ->group("Physics");
     add_parsed(app, "--wind", command.wind, parse_wind,
-               "Let it bend in wind, in m/s; GUST is the part of it that comes and goes")
+               "Bend the plant in wind, in m/s; GUST is the fraction that varies")
         ->type_name("X,Y,Z[,GUST]")
         ->group("Physics");
     app.add_flag("--settle", command.settle,
-                 "Start from where it comes to rest; without --frames that is what is written")
+                 "Start at rest; without --frames, export the plant at rest")
         ->group("Physics");
     constexpr std::uint64_t kMaxFrames = 1'000'000;
     const std::string frames =
-        fmt::format("The plant at N moments: {} hold them as one animation, of other formats "
-                    "there is a numbered file for each: tree.0001.ply, tree.0002.ply, ...",
+        fmt::format("Number of frames: one animation in {}, else numbered files tree.0001.ply, "
+                    "tree.0002.ply, ...",
                     format_names("and", [](const FormatTraits& format) { return format.motion; }));
     add_parsed(app, "--frames", command.frames, whole(1, kMaxFrames), frames.c_str())
         ->type_name("N")
         ->group("Physics");
     const auto rate = [](const std::string& text) { return parse_number(text, 0.1F, 1000.0F); };
-    add_parsed(app, "--fps", command.frames_per_second, rate, "Frames a second (default 24)")
+    add_parsed(app, "--fps", command.frames_per_second, rate, "Frames per second (default 24)")
         ->type_name("F")
         ->group("Physics");
     add_grammar(app, command.grammar, command.run);
@@ -163,55 +157,54 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_run_limits(app, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
-    app.footer(
-        "Metres, +Y up. The file is complete or absent. OBJ gets a .mtl beside it, OBJ and USDA "
-        "get "
-        "pictures\nof bark and leaves, as tree.bark.png; standard output gets neither. SVG is the "
-        "drawing in the plane\nof X and Y. A skin has at most 65,535 joints that move.\n"
-        "Examples: lsc export tree.lsys -o tree.glb\n"
-        "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 48 --fps 24");
+    app.footer("Units are metres, +Y is up. The output is complete or absent. OBJ writes a .mtl "
+               "file beside it, OBJ\n"
+               "and USDA write bark and leaf textures (tree.bark.png); none of these with standard "
+               "output. SVG is\n"
+               "the projection to the XY plane. A skin has at most 65,535 moving joints.\n"
+               "Examples: lsc export tree.lsys -o tree.glb\n"
+               "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 48 --fps 24");
 }
 
 void add_forest(CLI::App& app, ForestCommand& command) {
-    app.add_option("FILE", command.files, "A scene (.toml), or grammars, one for each species")
+    app.add_option("FILE", command.files, "A scene (.toml), or one grammar per species")
         ->required();
     const auto has_instances = [](const FormatTraits& format) {
         return format.write_forest != nullptr;
     };
     app.add_option("-o,--output", command.output,
-                   fmt::format("The file, whose name tells the format: {} with instances, json "
-                               "statistics; with --bake also {}",
+                   fmt::format("Output file: {} with instances, json statistics; with --bake also "
+                               "{}",
                                format_names("or", has_instances),
                                format_names("or",
                                             [&](const FormatTraits& format) {
                                                 return format.uses_mesh && !has_instances(format);
                                             })))
         ->type_name("FILE");
-    app.add_flag("--check", command.check, "Read the scene and its grammars, write nothing");
+    app.add_flag("--check", command.check, "Check the scene and its grammars, write nothing");
     app.add_flag("--stats", command.stats,
-                 "Print trees, branches, how many trees differ, and what the caches hold");
+                 "Print counts of trees, distinct trees, branches and cached instances");
     app.add_flag("--expand", command.expand,
-                 "glTF without EXT_mesh_gpu_instancing: a node for each branch");
-    app.add_flag("--bake", command.bake, "One mesh of all triangles");
+                 "glTF without EXT_mesh_gpu_instancing: one node per branch");
+    app.add_flag("--bake", command.bake, "Write all triangles as one mesh");
     add_parsed(
         app, "--cell", command.cell,
         [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); },
-        "Side of the squares of ground whose trees are instanced together; 0: all are "
-        "(default 100)")
+        "Side of the ground cells whose trees share one instance node; 0: one cell (default 100)")
         ->type_name("METRES");
     add_scene_overrides(app, command.overrides, "--size");
     constexpr std::uint64_t kMostFrames = 10'000;
     add_parsed(app, "--frames", command.frames, whole(0, kMostFrames),
-               "Write the forest of domination so many times while it grows, as a numbered series")
+               "Write N stages of a growing domination forest as numbered files")
         ->type_name("N")
         ->group("Placement");
     add_parsed(app, "--sides", command.mesh.sides, whole(kMinSides, kMaxSides),
-               "Sides of every cross-section, instead of the grammar's")
+               "Sides of each cross-section (default: the grammar's)")
         ->type_name("N")
         ->group("Mesh");
     constexpr std::uint64_t kMaxLevel = 8;
     add_parsed(app, "--level", command.mesh.level, whole(0, kMaxLevel),
-               "Level of detail, 0 the finest (default 0)")
+               "Level of detail, 0 is the finest (default 0)")
         ->type_name("K")
         ->group("Mesh");
     add_parsed(app, "--droop", command.mesh.droop, fraction,
@@ -223,31 +216,30 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     add_run_limits(app, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
-    app.footer("Options take the place of what the scene says; -n, -D and the options of instances "
-               "are for every\nspecies. samples/scenes shows scenes.\n"
-               "Examples: lsc forest wood.toml -o wood.glb\n"
-               "          lsc forest oak.lsys birch.lsys --count 10000 --size 500 -o wood.glb\n"
-               "          lsc forest wood.toml --stats\n"
-               "          lsc forest pine.lsys --placement jittered --spacing 4 --tile 0,1,100 -o "
-               "tile.glb");
+    app.footer(
+        "Options override the scene; -n, -D and the options of instances apply to every species.\n"
+        "samples/scenes has example scenes.\n"
+        "Examples: lsc forest wood.toml -o wood.glb\n"
+        "          lsc forest oak.lsys birch.lsys --count 10000 --size 500 -o wood.glb\n"
+        "          lsc forest wood.toml --stats\n"
+        "          lsc forest pine.lsys --placement jittered --spacing 4 --tile 0,1,100 -o "
+        "tile.glb");
 }
 
 void add_import(CLI::App& app, ImportCommand& command) {
     app.add_option("FILE", command.file, "A grammar of another dialect; `-` is standard input");
-    app.add_option("--all", command.folder, "Import every grammar of a folder instead")
-        ->type_name("FOLDER");
+    app.add_option("--all", command.folder, "Import all grammars of a folder")->type_name("FOLDER");
     app.add_option("-o,--output", command.output,
-                   "The .lsys file, or the folder for --all or for each system of a file that "
-                   "holds several; `-` is standard output (default: standard output; with --all "
-                   "beside the originals)")
+                   "Output file, or a folder for --all and for all systems of FILE; `-` is "
+                   "standard output (default: standard output; with --all beside the originals)")
         ->type_name("FILE");
     app.add_flag("-f,--force", command.force,
-                 "Replace files in a folder that are there already; without it they stay, with "
-                 "exit status 2");
+                 "Replace existing files of the output folder; otherwise they stay and the exit "
+                 "status is 2");
     add_grammar(app, command.grammar, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
-    app.footer("What is written derives the same word.\n"
+    app.footer("The output derives the same word as the input; -n becomes its #n.\n"
                "Example: lsc import tree.l -o tree.lsys");
 }
 
@@ -257,29 +249,28 @@ void add_stats(CLI::App& app, StatsCommand& command) {
     add_grammar(app, command.grammar, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
-    app.footer(
-        "Predicts the size of every generation without deriving; where a grammar decomposes or "
-        "cuts off,\nwords are derived and counted. With --message-format json the table is "
-        "JSON too.\nExample: lsc stats -n 12 tree.lsys");
+    app.footer("Sizes are predicted from the growth matrix; grammars with `#decompose` or `%` are "
+               "derived and\n"
+               "counted. With --message-format json the table is JSON.\n"
+               "Example: lsc stats -n 12 tree.lsys");
 }
 
 void add_format(CLI::App& app, FormatCommand& command) {
-    app.add_option("FILE", command.files,
-                   "Grammars; `-` reads standard input, writes standard "
-                   "output")
+    app.add_option("FILE", command.files, "Grammars; `-` formats standard input to standard output")
         ->required();
     app.add_flag("--check", command.check,
-                 "Change nothing; name the files that are not formatted, with exit status 1");
+                 "Write nothing; list unformatted files and exit with status 1");
     add_dialect(app, command.dialect);
     add_message_options(app, command.messages);
-    app.footer(
-        "Statements of one kind get columns, long lines are broken; comments, line ends between "
-        "modules\nand the meaning stay. Example: lsc fmt --check *.lsys");
+    app.footer("Aligns statements of a kind in columns and breaks long lines; keeps comments, the "
+               "line ends\n"
+               "between modules and the meaning.\n"
+               "Example: lsc fmt --check *.lsys");
 }
 
 void add_explain(CLI::App& app, ExplainCommand& command) {
     app.add_option("CODE", command.code,
-                   "What stands in brackets at the end of a message; without it, all are listed");
+                   "Code in brackets at the end of a message (default: list all codes)");
     add_message_options(app, command.messages);
     app.footer("Example: lsc explain look-alike");
 }
@@ -318,12 +309,11 @@ std::optional<UsageError> unknown_command(std::span<const std::string> arguments
 } // namespace
 
 CommandLine parse_command_line(std::span<const std::string> arguments) {
-    CLI::App app("Compiles and derives L-systems: grammars of plants, curves and other growing "
-                 "things.",
+    CLI::App app("Compiles, derives and exports L-systems, the grammars of plants and curves.",
                  "lsc");
     app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
     app.require_subcommand(1);
-    app.footer("`lsc COMMAND --help` says more of each.");
+    app.footer("`lsc COMMAND --help` lists the options of a command.");
     // Only the command that runs gets its options.
     const std::string first = arguments.empty() ? std::string() : arguments.front();
     CommandLine parsed = UsageError{"no command is given", kListHint};
@@ -334,14 +324,14 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
             add_options(added, parsed.emplace<Command>());
         }
     };
-    add("check", "Check grammars, and mend what is certain", add_check);
-    add("compile", "Compile a grammar to a .lsb file", add_compile);
-    add("dump", "Derive a word and print it", add_dump);
-    add("export", "Write one plant as a 3D file or a drawing", add_export);
-    add("forest", "Grow a forest of distinct plants from a few, and write it", add_forest);
-    add("import", "Make a .lsys file of a grammar of another dialect", add_import);
-    add("stats", "Predict the size of every generation", add_stats);
-    add("fmt", "Lay out grammars in the common style", add_format);
+    add("check", "Report mistakes in grammars, and repair them", add_check);
+    add("compile", "Compile a grammar to bytecode (.lsb)", add_compile);
+    add("dump", "Print the derived word or a stage of the compiler", add_dump);
+    add("export", "Export one plant as a 3D model or a drawing", add_export);
+    add("forest", "Generate a forest of instanced plants", add_forest);
+    add("import", "Convert a grammar of another program to .lsys", add_import);
+    add("stats", "Predict the size of each generation", add_stats);
+    add("fmt", "Format grammars", add_format);
     add("explain", "Explain a diagnostic, with examples", add_explain);
 
     if (std::optional<UsageError> usage = unknown_command(arguments, app)) {

@@ -50,38 +50,38 @@ void add_placement(CLI::App& app, SceneOverrides& overrides, const char* size) {
          {"uniform-cells", PlacementMethod::UniformCells},
          {"poisson-cells", PlacementMethod::PoissonCells},
          {"density-cells", PlacementMethod::DensityCells}},
-        "How trees are placed (default uniform); the last four make tiles that fit")
+        "Placement method (default uniform); the last four make seamless tiles")
         ->group(group);
-    add_parsed(app, "--count", overrides.count, whole(0, kMaxTrees),
-               "Trees of uniform placement, or plants of the first year of domination "
-               "(default 1000)")
+    add_parsed(
+        app, "--count", overrides.count, whole(0, kMaxTrees),
+        "Trees of uniform placement, or plants in the first year of domination (default 1000)")
         ->type_name("N")
         ->group(group);
     add_parsed(app, size, overrides.size, metres(1e-3F),
-               "Side of the ground, a square from the origin on (default 100)")
+               "Side of the square ground, which begins at the origin (default 100)")
         ->type_name("METRES")
         ->group(group);
-    add_parsed(app, "--spacing", overrides.spacing, metres(1e-3F),
-               "Distance of trees: of the grid for jittered, the least for poisson-disk and "
-               "poisson-cells")
+    add_parsed(
+        app, "--spacing", overrides.spacing, metres(1e-3F),
+        "Distance between trees: grid step of jittered, minimum of poisson-disk and poisson-cells")
         ->type_name("METRES")
         ->group(group);
     add_parsed(
         app, "--density", overrides.density,
         [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); },
-        "Trees a square metre; where the density map is white")
+        "Trees per square metre where the density map is white")
         ->type_name("D")
         ->group(group);
-    app.add_option("--density-map", overrides.density_map, "A grey PNG that spans the ground")
+    app.add_option("--density-map", overrides.density_map,
+                   "Grey PNG of the density over the ground")
         ->type_name("FILE")
         ->group(group);
     add_parsed(app, "--years", overrides.years, whole(0, kMaxYears),
-               "Years that a forest of domination grows")
+               "Years of growth of a domination forest")
         ->type_name("N")
         ->group(group);
     add_parsed(app, "--tile", overrides.tile, parse_tile,
-               "One tile of an unbounded forest, a square of SIZE metres; neighbours fit, "
-               "wherever they are made")
+               "One tile of an unbounded forest, SIZE metres wide; adjacent tiles match")
         ->type_name("COLUMN,ROW,SIZE")
         ->group(group);
 }
@@ -89,20 +89,20 @@ void add_placement(CLI::App& app, SceneOverrides& overrides, const char* size) {
 void add_cache(CLI::App& app, SceneOverrides& overrides) {
     const char* const group = "Instances";
     add_parsed(app, "--heroes", overrides.heroes, whole(1, kMaxHeroes),
-               "Plants of each species that are derived whole (default 10)")
+               "Plants of each species derived in full (default 10)")
         ->type_name("H")
         ->group(group);
     add_parsed(app, "--rho", overrides.rho, fraction,
-               "Probability that a branch is taken from recorded ones (default 0.6)")
+               "Probability that a branch is an instance (default 0.6)")
         ->type_name("P")
         ->group(group);
     add_parsed(app, "--cache-cap", overrides.cache_cap,
                whole(0, std::numeric_limits<std::uint32_t>::max()),
-               "The most branches kept for one key; 0: all (default 0)")
+               "Maximum number of branches per key; 0: no limit (default 0)")
         ->type_name("N")
         ->group(group);
     add_parsed(app, "--instance-tolerance", overrides.tolerance, fraction,
-               "Part by which values of one key may differ (default 0: not at all)")
+               "Relative difference of values that share a key (default 0)")
         ->type_name("T")
         ->group(group);
 }
@@ -112,7 +112,7 @@ void add_cache(CLI::App& app, SceneOverrides& overrides) {
 void add_scene_overrides(CLI::App& app, SceneOverrides& overrides, const char* size) {
     add_parsed(app, "--key", overrides.key,
                whole(0, static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())),
-               "What the forest is made from: the same key, the same forest (default 0)")
+               "Key of the forest: equal keys give equal forests (default 0)")
         ->type_name("K");
     add_placement(app, overrides, size);
     add_cache(app, overrides);

@@ -7,8 +7,8 @@ namespace lsys {
 
 namespace {
 
-/// Calls visit(offset, character) for what is neither comment nor in back quotes, from `at` to the
-/// end of the statement, or until visit() returns false.
+/// Calls visit(offset, character) for characters outside of comments and back quotes, from `at` to
+/// the end of the statement or until visit() returns false.
 template <typename Visit>
 void for_each_significant(std::string_view text, std::size_t at, Visit&& visit) {
     const std::size_t end = std::min<std::size_t>(text.size(), at + kMaxBracketSearch);
@@ -49,7 +49,7 @@ std::optional<std::uint32_t> unmatched_parenthesis(std::string_view text, std::u
 std::optional<std::uint32_t>
 unmatched_branch(std::string_view text, std::uint32_t begin, std::uint32_t at) {
     std::vector<std::uint32_t> open;
-    std::uint32_t later = 0; // open `[` behind `at`
+    std::uint32_t later = 0; // open `[` after `at`
     for_each_significant(text, begin, [&](std::uint32_t offset, char c) {
         if (c == '[' && offset < at) {
             open.push_back(offset);
@@ -62,7 +62,7 @@ unmatched_branch(std::string_view text, std::uint32_t begin, std::uint32_t at) {
                 open.pop_back();
             }
         } else if (c == ']' && !open.empty()) {
-            open.erase(open.begin()); // an outer one: the innermost was closed at `at`
+            open.erase(open.begin()); // an outer one: the `)` at `at` closes the innermost
         }
         return true;
     });

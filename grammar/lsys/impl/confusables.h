@@ -10,13 +10,13 @@ namespace lsys {
 struct Confusable {
     char32_t character = 0;
     std::string_view ascii; // the replacement; may be empty
-    std::string_view name;  // "minus sign"; empty for letters of other alphabets
+    std::string_view name;  // for messages: "minus sign"
 };
 
-/// Nullptr if `character` is none. Full-width forms are in the table as if written out.
+/// Null if `character` is not a confusable. Covers all full-width forms of ASCII.
 [[nodiscard]] const Confusable* find_confusable(char32_t character);
 
-/// Whether `character` is likely to be a letter, so that a word goes on with it.
+/// Whether `character` is likely to be a letter.
 [[nodiscard]] bool is_letter_beyond_ascii(char32_t character);
 
 /// "U+2212".

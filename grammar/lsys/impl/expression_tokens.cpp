@@ -14,14 +14,14 @@ namespace lsys::lsys_grammar {
 
 namespace {
 
-/// `1_000`: digits in groups, as other languages allow them.
+/// Whether the text has digit groups as in other languages: `1_000`.
 bool has_digit_groups(std::string_view text) {
     const std::size_t group = text.find('_');
     return group != std::string_view::npos && group > 0 && group + 1 < text.size() &&
            is_digit(text[group - 1]) && is_digit(text[group + 1]);
 }
 
-/// Whether all groups have three digits, but for the first, which has no more.
+/// Whether all digit groups have three digits, the first one at most three.
 bool has_groups_of_three(std::string_view text) {
     std::size_t digit_count = 0;
     bool is_first = true;
@@ -85,7 +85,7 @@ std::size_t number_before_name(std::string_view text) {
         name.find('.') != std::string_view::npos) {
         return 0;
     }
-    // Not `1e`, `1f`, `1e5F`, `0x10`: those are numbers of other languages.
+    // Not `1e`, `1f`, `1e5F`, `0x10`, which are numbers of other languages.
     const bool is_suffix = name == "f" || name == "F" || name == "e" || name == "E";
     const bool is_hexadecimal =
         text.substr(0, length) == "0" && (name[0] == 'x' || name[0] == 'X') && name.size() > 1;
@@ -96,7 +96,7 @@ std::size_t number_before_name(std::string_view text) {
 
 namespace {
 
-/// The word that ends at `end`, if it is one of a conditional expression of other languages.
+/// The word that ends at `end` if it is `if`, `then` or `else`.
 std::optional<TextRange> conditional_word(std::string_view text, std::uint32_t end) {
     std::uint32_t begin = end;
     while (begin > 0 && is_word_character(text[begin - 1])) {
@@ -117,8 +117,8 @@ void report_conditional(ParseSession& session, TextRange word) {
     }
 }
 
-/// Whether only a comma can be missing between two values. Where more than one blank is left, an
-/// operator may have stood between two, and where the value is the same, it may stand there twice.
+/// Whether the fix must be a comma between two values. Several blanks may be the place of a lost
+/// operator, and equal values may be a repetition.
 bool lacks_comma(std::string_view text,
                  std::uint32_t before_end,
                  std::uint32_t begin,
@@ -167,7 +167,7 @@ Token between_values(ParseSession& session) {
         Diagnostic& diagnostic = session.report(DiagnosticCode::MissingOperator, place,
                                                 "two values without an operator between them");
         if (adjacent) {
-            // `2x` and `2(x + 1)` are products; elsewhere any operator may be missing.
+            // `2x` and `2(x + 1)` are products; other pairs may lack any operator.
             const bool is_product = !had_name && is_number_end(text[scan.last_end - 1]) &&
                                     !is_digit(text[scan.begin]) && text[scan.begin] != '{';
             add_fix(diagnostic, "a product is written with `*`", place, "*", is_product);
@@ -205,7 +205,7 @@ bool begins_bounds(const ScanState& scan) {
 
 namespace {
 
-/// A `)` or `}` that closes nothing, or that stands for the `)` of the innermost `(`.
+/// Reports a `)` or `}` that closes nothing, or a `}` in place of the `)` of the innermost `(`.
 void report_closing(ParseSession& session, char character, bool is_doubled, bool for_parenthesis) {
     const bool is_brace = character == '}';
     const auto code = is_brace ? DiagnosticCode::BadRange : DiagnosticCode::ExtraParenthesis;
@@ -253,7 +253,7 @@ std::optional<Token> closing(ParseSession& session, char character) {
                : kind == OpenBracket::Kind::Module ? Token(Parser::token::TOK_CLOSE, span)
                                                    : Token(Parser::token::TOK_RPAREN, span);
     }
-    // A bracket of the other kind was opened later and is closed first.
+    // An inner bracket of the other kind must be closed first.
     const OpenBracket& inner = scan.open.back();
     const SourceSpan place = session.supplied();
     if (session.wants(DiagnosticCode::UnclosedParenthesis)) {

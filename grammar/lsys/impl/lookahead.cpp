@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 13> kSpellings{
     "",    "n",      "define",   "param",     "module",    "object", "include",
     "set", "ignore", "consider", "decompose", "interpret", "w"};
 
-/// What other programs, or hasty fingers, write for a keyword.
+/// A name of a keyword in other programs, or a common typing mistake.
 struct Synonym {
     std::string_view word;
     Keyword keyword;
@@ -154,7 +154,7 @@ std::optional<Keyword> suggest_keyword(std::string_view word) {
     if (word.size() < 2) {
         return std::nullopt;
     }
-    // One-letter keywords are near to every short word.
+    // Without keywords of one letter, which are near to every short word.
     std::vector<std::string_view> candidates;
     for (const std::string_view candidate : kSpellings) {
         if (candidate.size() > 1) {

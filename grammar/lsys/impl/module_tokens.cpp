@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kLongestQuotedName = 16;
 
-/// Symbols of other programs, and what this language writes for them.
+/// A symbol of other programs and its replacement in this language.
 struct ForeignSymbol {
     char symbol;
     std::string_view meaning;
@@ -44,12 +44,12 @@ constexpr std::array<ForeignSymbol, 9> kForeignSymbols{{
      "the angle"},
 }};
 
-/// Whether another search of the text for brackets may be made.
+/// Whether one more bracket search is allowed; counts it.
 bool may_search(ParseSession& session) {
     return session.scan.bracket_searches++ < kMaxBracketSearches;
 }
 
-/// A `)` that closes nothing. Its `(` is missing somewhere before it, or a `[` stands for it.
+/// Reports a `)` without `(`, for which a `[` may stand.
 void report_missing_open(ParseSession& session,
                          std::uint32_t at,
                          std::optional<std::uint32_t> branch) {
@@ -77,8 +77,7 @@ void report_missing_open(ParseSession& session,
     add_fix(diagnostic, "close the branch with `]`", place, "]", false);
 }
 
-/// For what cannot stand among modules: whether it is an argument whose `(` is missing. Reports
-/// that.
+/// Whether the current character is an argument without its `(`; reports it.
 bool is_argument_without_open(ParseSession& session) {
     const ScanState& scan = session.scan;
     if (!may_search(session)) {

@@ -1,5 +1,5 @@
-// What the scanner does with characters that are no modules of the language but stand in a module
-// list, with back quotes, and with quoted file names.
+// Tokens of module lists: foreign symbols, back quotes; also quoted file names, control characters
+// and comments.
 #pragma once
 
 #include "grammar/lsys/impl/parse_session.h"
@@ -10,36 +10,36 @@
 
 namespace lsys::lsys_grammar {
 
-/// How a character that is no module is read on.
+/// The treatment of a character that is not a module.
 enum class Stray : std::uint8_t {
     Skip,
-    Module, // as if it stood in back quotes; a `)` as `]`
-    Range,  // the text up to `}` is skipped: a random range outside of parentheses
-    Colon,  // a `:` is supplied before it, and the condition begins
-    Lost,   // the statement is dropped
+    Module, // as if in back quotes; a `)` as `]`
+    Range,  // skip a random range outside of parentheses, up to `}`
+    Colon,  // insert a `:` before it; the condition begins
+    Lost,   // skip the statement
 };
 /// Reports a number or one of `@ * ~ = ? ,` in a module list.
 Stray stray_in_modules(ParseSession& session, std::string_view text);
 
-/// The match at hand as the module `name`, as if that stood in back quotes.
+/// The current match as the module `name`, as if in back quotes.
 Token read_as_module(ParseSession& session, std::string_view name);
 void report_foreign_symbol(ParseSession& session, char symbol);
-/// Reports one or more `)` that close nothing.
+/// Reports one or more `)` without `(`.
 Stray extra_parenthesis(ParseSession& session);
-/// Whether the `;` at hand is a module of other programs, `;(0.9)`; reported.
+/// Whether the current `;` is a module of another program, `;(0.9)`; reports it.
 bool is_colour_symbol(ParseSession& session);
 
-/// Reports what is no character of a text whose characters are modules; `text` has the quotes.
+/// Reports control characters in a text whose characters are modules; `text` includes the quotes.
 void check_quoted_text(ParseSession& session, std::string_view text);
-/// The name in back quotes; `text` has the quotes.
+/// The name in back quotes; `text` includes the quotes.
 NameId quoted_name(ParseSession& session, std::string_view text, SourceSpan span);
 void report_unclosed_back_quote(ParseSession& session);
 Token unclosed_quote(ParseSession& session);
 
-/// `text` is a run and a `*`: the length of the run, which does not reach into a comment.
+/// Length of the run in `text`, a run and a `*`: without the `/` of a comment.
 [[nodiscard]] int run_before_star(std::string_view text);
 
-/// Control characters in a row are one mistake, and read as a blank.
+/// Reports control characters, once per sequence, and reads them as a blank.
 void control_characters(ParseSession& session);
 void report_unclosed_comment(ParseSession& session);
 void keep_comment(ParseSession& session);

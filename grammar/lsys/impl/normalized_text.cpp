@@ -22,7 +22,7 @@ struct Validity {
     bool has_beyond_ascii = false; // and valid
 };
 
-/// Reports each run of bytes that are not UTF-8, and puts blanks in their place into `repaired`.
+/// Reports each run of invalid UTF-8 and replaces it by blanks in `repaired`.
 Validity
 check_utf8(FileId file, std::string_view text, Diagnostics& diagnostics, std::string& repaired) {
     Validity validity;
@@ -58,7 +58,7 @@ check_utf8(FileId file, std::string_view text, Diagnostics& diagnostics, std::st
     return validity;
 }
 
-/// What the passes over the text before the parse do not share with it.
+/// Names, diagnostics and tree of a pass before the parse, all discarded.
 struct Scratch {
     explicit Scratch(const ParseContext& other)
         : context{other.sources, names, diagnostics, other.load} {}
@@ -69,7 +69,7 @@ struct Scratch {
     Ast ast;
 };
 
-/// Scans the text to its end, as the parse will, and appends the characters that the scanner meets.
+/// Scans the text as the parse does and appends the characters beyond ASCII that the scanner meets.
 void find_strays(const ScannedText& scanned,
                  const ParseContext& context,
                  std::vector<StrayCharacter>& strays) {
@@ -83,7 +83,7 @@ void find_strays(const ScannedText& scanned,
     }
 }
 
-/// Every character beyond ASCII, wherever it stands.
+/// All characters beyond ASCII.
 std::vector<StrayCharacter> all_beyond_ascii(std::string_view text) {
     std::vector<StrayCharacter> strays;
     for (std::size_t at = 0; at < text.size();) {
@@ -96,7 +96,7 @@ std::vector<StrayCharacter> all_beyond_ascii(std::string_view text) {
     return strays;
 }
 
-/// Makes the text and the map of `normalized` from its valid text, in which `strays` are replaced.
+/// Makes the text and the map of `normalized` from valid UTF-8 with `strays` replaced.
 void replace_strays(std::string_view valid,
                     const std::vector<StrayCharacter>& strays,
                     Diagnostics* diagnostics,
@@ -107,14 +107,13 @@ void replace_strays(std::string_view valid,
     normalized.scanned.map = normalized.map.get();
 }
 
-/// Replaces what the scanner cannot read, until a scan of the very text that the parse will scan
-/// meets nothing beyond ASCII. A replacement may change how what follows is scanned, so one scan is
-/// not enough. The parser's scan of that text takes the same steps, since nothing but the text
-/// decides them, and so meets nothing either.
+/// Replaces the characters beyond ASCII that the scanner meets, until a scan of the normalized text
+/// meets none: a replacement may change the scan of the text after it. The scan depends on the text
+/// alone, so the parse meets none either.
 void normalize_source(const ParseContext& context,
                       Diagnostics& diagnostics,
                       NormalizedText& normalized) {
-    constexpr int kMostScans = 8; // more are needed by no text but one made for it
+    constexpr int kMostScans = 8; // only malicious texts need more
     const std::string_view valid = normalized.scanned.text;
     std::vector<StrayCharacter> strays;
     for (int scan = 1;; ++scan) {
@@ -144,7 +143,7 @@ void normalize_source(const ParseContext& context,
     }
 }
 
-/// What the first `#set names` of the text says.
+/// The form of module names by the first `#set names` of the text.
 ModuleNames names_of(const ScannedText& scanned, const ParseContext& context) {
     using Kind = lsys_grammar::Parser::symbol_kind;
     if (scanned.text.find("letters") == std::string_view::npos &&
@@ -215,8 +214,8 @@ void note_stray(ParseSession& session, std::uint32_t begin, bool in_quotes) {
     session.strays->push_back({session.scanned.source_begin(begin), in_quotes});
 }
 
-/// The quote that closes a name which began with a curly one may be curly too. `after`: where the
-/// name begins in the text, and at `buffer` in the scanner's copy.
+/// Records the closing quote of a file name with a curly opening quote if it is curly too. The name
+/// begins at `after` in the text and at `buffer` in the scanner's copy.
 void close_quotes(ParseSession& session, std::uint32_t after, char* buffer) {
     const std::string_view text = session.scanned.text;
     for (std::uint32_t at = after;
@@ -231,7 +230,7 @@ void close_quotes(ParseSession& session, std::uint32_t after, char* buffer) {
     }
 }
 
-/// A translation is plain text but in back quotes.
+/// Reports a character beyond ASCII in a translation, outside of back quotes.
 void report_stray_character(ParseSession& session) {
     if (session.wants(DiagnosticCode::UnknownCharacter)) {
         const std::string_view text = session.match_text();
@@ -240,7 +239,7 @@ void report_stray_character(ParseSession& session) {
     }
 }
 
-/// A module of another dialect that the text of .lsys cannot name, since it is read as another one.
+/// Reports a module of another dialect whose character .lsys would normalize.
 void report_foreign_confusable(ParseSession& session,
                                SourceSpan place,
                                char32_t character,

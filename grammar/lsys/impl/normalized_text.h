@@ -1,6 +1,5 @@
-// What stands before the parse of a file: bytes that are no UTF-8 and typographic characters are
-// reported, and the text is made in which plain characters stand for them. Comments and file names
-// stay as they are.
+// The step before the parse of a file: reports invalid UTF-8 and typographic characters, and makes
+// the normalized text with ASCII in their place. Comments and file names do not change.
 #pragma once
 
 #include "grammar/ast/text_map.h"
@@ -11,30 +10,31 @@
 
 namespace lsys {
 
-/// What a file is scanned as. `own` and `map` are what `scanned` refers to.
+/// The text for the scan of a file. `scanned` refers to `own` and `map`.
 struct NormalizedText {
     std::unique_ptr<std::string> own;
     std::unique_ptr<TextMap> map;
     ScannedText scanned;
-    /// What the first `#set names` of the file says.
+    /// By the first `#set names` of the file.
     ModuleNames names = ModuleNames::Words;
 };
 
-/// Reports to the context's diagnostics. The result holds views of the file's text. No scan of it
-/// meets a character beyond ASCII but in comments, file names and back quotes.
+/// Normalizes a file; reports to the diagnostics of `context`. The result refers to the text of the
+/// file and has characters beyond ASCII only in comments, file names and back quotes.
 [[nodiscard]] NormalizedText normalize_source(FileId file, const ParseContext& context);
 
-/// Of a translation, which is plain already.
+/// The text of a translation, which is ASCII already outside of back quotes.
 [[nodiscard]] NormalizedText normalize_source(const Translation& translation,
                                               const ParseContext& context);
 
 namespace lsys_grammar {
 
-/// The scanner has met a character beyond ASCII. Before the parse it is noted, and what is meant is
-/// written over the end of it; returns where the scan goes on.
+/// Handles a character beyond ASCII in the scanner. Before the parse it is recorded, and its
+/// normalized form overwrites the end of its bytes; returns the bytes to skip. In the parse it is
+/// reported.
 int normalize_character(ParseSession& session, char* character, int length);
-/// Notes the confusables of the name in back quotes at hand, which the scan then passes over. In a
-/// translation they are errors: its text would be read as another one.
+/// Records the confusables of the current name in back quotes. In a translation they are errors,
+/// because the .lsys text would be read as a different one.
 void normalize_quoted(ParseSession& session, std::string_view text);
 
 } // namespace lsys_grammar

@@ -10,7 +10,7 @@ namespace lsys {
 
 namespace {
 
-/// Whether `c` goes on with a character of several bytes.
+/// Whether `c` is a continuation byte of UTF-8.
 bool is_continuation(char c) {
     return (static_cast<unsigned char>(c) & 0xC0u) == 0x80;
 }
@@ -25,7 +25,7 @@ std::string normalized_form(char32_t point) {
 }
 
 void Normalizer::replace_all(std::span<const StrayCharacter> strays) {
-    // The text of a letter is less than twice as long, and offsets have 32 bits.
+    // The replacement of a letter is less than twice as long, and offsets have 32 bits.
     const bool may_grow = text_.size() <= kMaxSourceBytes / 2;
     for (const StrayCharacter& stray : strays) {
         const CodePoint point = decode_utf8(text_.substr(stray.begin));

@@ -1,4 +1,5 @@
-// Reads the characters beyond ASCII of one file: each becomes what its author most likely meant.
+// Normalizer: replaces characters beyond ASCII of a file by the text that the author most likely
+// meant.
 #pragma once
 
 #include "grammar/ast/text_map.h"
@@ -12,7 +13,7 @@
 
 namespace lsys {
 
-/// A character beyond ASCII that stands where only ASCII has a meaning.
+/// A character beyond ASCII in a place where only ASCII has a meaning.
 struct StrayCharacter {
     std::uint32_t begin = 0; // of the source
     bool in_quotes = false;  // back quotes: only confusables are replaced
@@ -20,21 +21,21 @@ struct StrayCharacter {
     friend auto operator<=>(const StrayCharacter&, const StrayCharacter&) = default;
 };
 
-/// The text that stands for `point`: a confusable's plain text, a part of a name for a letter, else
-/// a blank. Begins with the only character that the scanner reads of it at once.
+/// The replacement of `point`: the ASCII of a confusable, a part of a name for a letter, else a
+/// blank.
 [[nodiscard]] std::string normalized_form(char32_t point);
 
 class Normalizer {
 public:
-    /// Without diagnostics nothing is reported.
+    /// `diagnostics` may be null.
     Normalizer(FileId file, std::string_view text, TextMap& map, Diagnostics* diagnostics)
         : file_(file), text_(text), map_(map), diagnostics_(diagnostics) {}
 
-    /// Replaces valid characters, in the order of the file and none twice, and ends the map.
+    /// Replaces the characters, which ascend without duplicates, and completes the map.
     void replace_all(std::span<const StrayCharacter> strays);
 
 private:
-    /// Confusables that stand side by side are one mistake.
+    /// Adjacent confusables, reported as one mistake.
     struct Group {
         std::uint32_t begin = 0;
         std::uint32_t end = 0;

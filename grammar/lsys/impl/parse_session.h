@@ -1,5 +1,5 @@
-// One parse of one .lsys file: what the scanner, the parser and their reports share. Included files
-// have sessions of their own, and all build the same Ast.
+// ParseSession: the state shared by scanner, parser and reports during the parse of one .lsys file.
+// Each included file has its own session; all build the same Ast.
 #pragma once
 
 #include "grammar/ast/ast_builder.h"
@@ -35,38 +35,38 @@ public:
     const ScannedText scanned;
     AstBuilder builder;
     ScanState scan;
-    IncludeChain* includes; // null where files are not to be read
+    IncludeChain* includes; // null: included files are not read
 
-    bool silent = false; // the scan is for its tokens only: nothing is reported
-    std::vector<TextRange>* comments = nullptr;    // collects them, if it is set
-    std::vector<StrayCharacter>* strays = nullptr; // the same; set in scans before the parse
-    // Of the statement and the last token, for reports. The parser sets them too, so no token may
-    // depend on them: a scan without the parser reads the same tokens.
-    bool failed = false;         // a syntax error was reported: no more reports in this statement
-    bool token_supplied = false; // nobody wrote the token
+    bool silent = false;                           // reports nothing
+    std::vector<TextRange>* comments = nullptr;    // receives comments; may be null
+    std::vector<StrayCharacter>* strays = nullptr; // receives characters; null during the parse
+    // Set by the parser too, so no token may depend on them: scans without a parser yield the same
+    // tokens.
+    bool failed = false;         // the statement has a syntax error and gets no further reports
+    bool token_supplied = false; // the last token was inserted
 
-    /// The match at hand.
+    /// The current match.
     [[nodiscard]] SourceSpan match() const { return scanned.span(scan.begin, scan.end); }
     [[nodiscard]] std::string_view match_text() const {
         return scanned.text.substr(scan.begin, scan.end - scan.begin);
     }
-    /// The match at hand becomes a token.
+    /// Makes the current match a token; returns its span.
     SourceSpan token() {
         scan.last_end = scan.end;
         scan.part_empty = false;
         return match();
     }
-    /// A token that the author did not write, after the last one.
+    /// The span of an inserted token, after the last token.
     [[nodiscard]] SourceSpan supplied() const { return scanned.after(scan.last_end); }
 
-    /// Whether a report of a syntax error would be read: none in a statement that has failed.
+    /// Whether syntax errors are reported: not after the first one of a statement.
     [[nodiscard]] bool wants_reports() const { return !silent && !failed; }
-    /// The same for one of `code`; counts it if it is one too many to be stored.
+    /// Whether to compose a syntax error of `code`; counts it if the list is full.
     [[nodiscard]] bool wants(DiagnosticCode code) {
         return wants_reports() && context.diagnostics.admits(code);
     }
 
-    /// Reports the match at hand.
+    /// Reports the current match.
     Diagnostic& report(DiagnosticCode code, std::string message) {
         return report(code, match(), std::move(message));
     }
@@ -75,10 +75,9 @@ public:
     }
 
     // --- for the parser
-    /// Keeps the statement unless `whole` is false or a part of it was lost; reads an included
-    /// file.
+    /// Ends a statement: keeps it if it is `whole` and not discarded; parses an included file.
     void end_statement(SourceSpan span, bool whole);
-    /// The parser has recovered within the statement.
+    /// Continues within a statement after an error.
     void recover() {
         builder.recover();
         failed = false;

@@ -1,10 +1,9 @@
-// What the scanner of .lsys files remembers between tokens: where in which statement it stands. The
-// same character is an operator in one part of a statement and a module in another, so the scanner
-// follows the parts by its own tokens; the parser never switches it. It also keeps three promises
-// that make the parser's recovery safe: parentheses inside a statement are balanced, a condition is
-// followed by `:`, and a statement ends with `;`. Where the author forgot one, the scanner reports
-// it and supplies it (token insertion). Nothing here depends on the parser, or on whether anything
-// is reported: scans of one text make the same tokens, with a parser or without.
+// The state of the .lsys scanner between tokens: its place in the statement. A character is an
+// operator in one part of a statement and a module in another, so the scanner follows the parts by
+// its own tokens; the parser never switches it. For safe recovery the scanner guarantees three
+// things to the parser: parentheses in a statement are balanced, a `:` follows a condition, and a
+// `;` ends a statement. It reports missing ones and inserts them (token insertion). Nothing depends
+// on the parser or on reports: every scan of a text yields the same tokens.
 #pragma once
 
 #include "grammar/ast/ast_builder.h"
@@ -50,9 +49,9 @@ enum class Part : std::uint8_t {
 /// Why the scanner inserts tokens before it goes on.
 enum class Insertion : std::uint8_t {
     None,
-    Colon,         // a `:` was read inside parentheses
-    Semicolon,     // a `;` was read
-    NextStatement, // a `#name` was read, a `;` is missing
+    Colon,         // a `:` inside parentheses
+    Semicolon,     // a `;`
+    NextStatement, // a `#name` without `;` before it
     EndOfFile,
 };
 
@@ -60,34 +59,33 @@ struct OpenBracket {
     enum class Kind : std::uint8_t { Module, Call, Group, Brace };
     Kind kind = Kind::Group;
     std::uint32_t begin = 0; // of the scanned text
-    std::uint32_t chain = 0; // of the level around it
+    std::uint32_t chain = 0; // of the enclosing level
 };
 
 struct ScanState {
-    // The match at hand, as offsets of the scanned text.
+    // The current match, as offsets of the scanned text.
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
     std::uint32_t last_end = 0; // of the last token
 
     Keyword keyword = Keyword::Label;
     Part part = Part::Between;
-    Part ended_part = Part::Between; // the last part of the statement that a `;` has ended
-    bool statement_open = false;     // `#word` was read, its `;` was not
-    bool part_empty = true;          // no token of the part was read
-    bool skipping = false;           // everything up to `;` is dropped
+    Part ended_part = Part::Between; // last part of the last complete statement
+    bool statement_open = false;     // between `#word` and `;`
+    bool part_empty = true;          // the part has no token yet
+    bool skipping = false;           // to the `;` of the statement
     bool semicolon_supplied = false;
     bool value_before = false; // the last token ends a value
     bool name_before = false;  // the last token is a name in an expression
     std::uint32_t statement_begin = 0;
     std::optional<std::uint32_t> colons; // of the statement, once counted
-    std::size_t first_diagnostic = 0;    // of the statement, as a number of the sink's
+    std::size_t first_diagnostic = 0;    // of the statement, as an index of the diagnostics
     std::uint32_t part_begin = 0;
     std::uint32_t comment_begin = 0;
-    std::uint32_t next_statement = 0; // where a supplied `;` was found missing
+    std::uint32_t next_statement = 0; // where a missing `;` was noticed
     int comment_return = 0;           // start condition
 
-    // Inside expressions. Operators that wait for what is to their right (unary, `^`) nest as deep
-    // as parentheses do.
+    // Inside expressions. Right-associative operators (unary, `^`) count as nesting.
     std::vector<OpenBracket> open;
     std::uint32_t open_braces = 0;
     std::uint32_t chain = 0;
@@ -110,7 +108,7 @@ struct ScanState {
         depth -= chain;
         chain = 0;
     }
-    /// A token that ends no value: an operator, a comma.
+    /// Notes an operator or a comma, which does not end a value.
     void after_operator() {
         end_chain();
         value_before = false;

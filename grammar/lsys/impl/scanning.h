@@ -1,5 +1,4 @@
-// One pass of the scanner over a session's text. The parser and whoever wants the tokens alone draw
-// them from here.
+// Scanning: one pass of the scanner over the text of a session, with a parser or without.
 #pragma once
 
 #include "grammar/lsys/impl/parse_session.h"
@@ -7,12 +6,12 @@
 
 namespace lsys::lsys_grammar {
 
-/// The next token; END again and again after the last.
+/// The next token; END after the last one.
 Token next_token(ParseSession& session, void* scanner);
 
 class Scanning {
 public:
-    /// Precondition: the session outlives this.
+    /// `session` outlives it.
     explicit Scanning(ParseSession& session);
     ~Scanning();
     Scanning(const Scanning&) = delete;

@@ -11,8 +11,8 @@ namespace lsys::lsys_grammar {
 
 namespace {
 
-/// Texts larger than this are not searched for words, nor statements longer than the second for
-/// comments; their repairs are offered.
+/// Maximum sizes of texts searched for words and of statements searched for comments; beyond them
+/// repairs are offers.
 constexpr std::size_t kMaxSearchedText = std::size_t{1} << 17;
 constexpr std::size_t kMaxSearchedStatement = 4096;
 constexpr std::size_t kMaxWords = 16;
@@ -26,7 +26,7 @@ std::size_t line_end(std::string_view text, std::size_t at) {
     return end > at && text[end - 1] == '\r' ? end - 1 : end;
 }
 
-/// Whether `word` stands in `text` outside of [begin, end) and of what `//` begins on its line.
+/// Whether `word` occurs in `text` outside of [begin, end) and of `//` comments.
 bool occurs_elsewhere(std::string_view text,
                       std::string_view word,
                       std::size_t begin,
@@ -49,12 +49,12 @@ bool occurs_elsewhere(std::string_view text,
     return false;
 }
 
-/// Whether a word of `text`[begin, end) can be no module: it stands nowhere else.
+/// Whether a word of `text`[begin, end) occurs nowhere else, and so is not a module.
 bool has_foreign_word(std::string_view text, std::size_t begin, std::size_t end, bool letters) {
     if (text.size() > kMaxSearchedText) {
         return false;
     }
-    // Where letters are modules, a short row of them may be meant as such.
+    // If letters are modules, a short sequence may be meant as modules.
     const std::size_t shortest = letters ? 3 : 2;
     std::size_t word_count = 0;
     for (std::size_t at = begin; at < end && word_count < kMaxWords;) {
@@ -77,8 +77,8 @@ bool has_foreign_word(std::string_view text, std::size_t begin, std::size_t end,
     return false;
 }
 
-/// The `//` among the modules [begin, end) that may begin comments: with a blank before them, and a
-/// blank or, where words are modules, a letter behind them.
+/// The `//` among the modules [begin, end) that may begin comments: after a blank, and before a
+/// blank or, if words are modules, a letter.
 std::vector<std::uint32_t>
 likely_comments(std::string_view text, std::uint32_t begin, std::uint32_t end, bool letters) {
     std::vector<std::uint32_t> found;
@@ -111,7 +111,7 @@ bool is_number_part(char c) {
     return is_digit(c) || c == '.';
 }
 
-/// What follows `at` behind blanks, comments, lines of comments and line ends.
+/// The first offset at or after `at` outside of blanks, line ends and comments.
 std::size_t after_comments(std::string_view text, std::size_t at) {
     while (at < text.size()) {
         if (is_blank(text[at]) || text[at] == '\n') {
@@ -128,8 +128,8 @@ std::size_t after_comments(std::string_view text, std::size_t at) {
     return at;
 }
 
-/// Whether the statement may end before the `//` at hand, and the next one or the end of the file
-/// follows the comment.
+/// Whether the statement may end before the current `//`, and the next statement or the end of the
+/// file follows the comment.
 bool lacks_only_semicolon(const ParseSession& session) {
     const ScanState& scan = session.scan;
     const bool is_whole = scan.part == Part::Value
@@ -157,7 +157,7 @@ std::optional<LikelyComment> comment_behind_modules(std::string_view text,
     if (comments.empty() || line_end(text, comments.back()) < end) {
         return std::nullopt;
     }
-    // Lines that are nothing but comments belong to the comment before them.
+    // Comment lines belong to the comment before them.
     std::size_t first = comments.size() - 1;
     while (first > 0 && is_first_on_line(text, comments[first])) {
         const std::size_t previous_end = line_end(text, comments[first - 1]);

@@ -60,8 +60,7 @@ void open_statement(ParseSession& session, Keyword keyword) {
     scan.depth = 0;
 }
 
-/// The `:` from the statement's begin to its end. Counted once: a statement may have any number of
-/// mistakes that ask for it.
+/// The number of `:` of the statement, counted once per statement.
 std::uint32_t colons_of_statement(ParseSession& session) {
     ScanState& scan = session.scan;
     if (!scan.colons) {
@@ -77,11 +76,11 @@ Token begin_parts(ParseSession& session, std::string_view word, char next) {
     return keyword_token(session, word, span);
 }
 
-/// `#word`, which is neither a keyword nor followed by `:`.
+/// The `#word` that is neither a keyword nor followed by `:`.
 Token unknown_statement(ParseSession& session, std::string_view word, char next) {
     ScanState& scan = session.scan;
     if (colons_of_statement(session) >= 2) {
-        return begin_parts(session, word, next); // a production; missing_opening() will tell
+        return begin_parts(session, word, next); // a production; missing_opening() reports
     }
     const std::optional<Keyword> meant = suggest_keyword(word);
     if (session.wants(DiagnosticCode::UnknownStatement)) {
@@ -105,7 +104,7 @@ Token unknown_statement(ParseSession& session, std::string_view word, char next)
     return begin_parts(session, spelling(*meant), next);
 }
 
-/// `#axiom : ...;` has a `:` like a production, but only one.
+/// Whether the statement is an axiom under another name: `#axiom : ...;` has only one `:`.
 bool is_axiom_by_another_name(ParseSession& session, std::string_view word) {
     return is_synonym(word, Keyword::Axiom) && colons_of_statement(session) == 1;
 }
@@ -181,12 +180,12 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
                              keyword == Keyword::Decompose || keyword == Keyword::Interpret;
     const bool is_statement = !word.empty() && (next == ':' || takes_words ||
                                                 (keyword == Keyword::Generations && next == '='));
-    const bool after_statement = // that a `;` has ended on this line
+    const bool after_statement = // on its line, after its `;`
         scan.part == Part::Between && scan.last_end != 0 &&
         text.substr(scan.last_end, scan.begin - scan.last_end).find('\n') == std::string_view::npos;
     const bool after_modules =
         after_statement && (scan.keyword == Keyword::Label || scan.keyword == Keyword::Axiom);
-    // What follows a statement may belong to it: then its `;` is wrong, and so are its fixes.
+    // A text after a statement may belong to it; then its `;` and its fixes are wrong.
     if (is_statement || !after_statement) {
         scan.first_diagnostic = session.context.diagnostics.all().size();
     }
@@ -225,7 +224,7 @@ void after_opening_colon(ParseSession& session) {
 
 namespace {
 
-/// Whether a `:` is due next.
+/// Whether a `:` must be next.
 bool opens_with_colon(const ScanState& scan) {
     return scan.keyword == Keyword::Axiom || scan.keyword == Keyword::Ignore ||
            scan.keyword == Keyword::Consider || scan.keyword == Keyword::Label ||
@@ -273,7 +272,7 @@ std::optional<Token> missing_opening(ParseSession& session) {
             session.report(code, place, "`" + sign + "` is missing after `" + shown(written) + "`");
         add_fix(diagnostic, "add `" + sign + "`", place, " " + sign, true);
     }
-    scan.end = scan.begin; // what follows is still to be read
+    scan.end = scan.begin; // reads the match again
     if (wants_equals) {
         scan.enter(Part::Value);
         return Token(Parser::token::TOK_ASSIGN, place).as_supplied();
@@ -361,7 +360,7 @@ std::optional<Token> semicolon(ParseSession& session) {
         const SourceSpan span = session.match();
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::StraySemicolon, span, "this `;` ends no statement");
-        // It may be that of a statement which another `;` has ended too early.
+        // It may belong to a statement that another `;` has ended too early.
         add_fix(diagnostic, "remove it", span, "", session.wants_reports());
     }
     return std::nullopt;
@@ -395,8 +394,8 @@ void report_unclosed(ParseSession& session) {
     }
 }
 
-/// Whether the predecessor of the production at hand is one module without contexts: then no `:` is
-/// missing within it.
+/// Whether the predecessor of the current production is one module without contexts, and so lacks
+/// no `:`.
 bool has_plain_head(const ParseSession& session) {
     const std::string_view text = session.scanned.text;
     const std::size_t first = text.find(':', session.scan.statement_begin);
@@ -410,7 +409,7 @@ bool has_plain_head(const ParseSession& session) {
     return at != std::string_view::npos && (text[at] == ':' || text[at] == '~');
 }
 
-/// The production ends, but its successor, or more, has not come.
+/// Reports the end of a production before its successor.
 void report_missing_parts(ParseSession& session) {
     const ScanState& scan = session.scan;
     if (!session.wants(DiagnosticCode::MissingColon)) {
@@ -494,7 +493,7 @@ Token insert_token(ParseSession& session) {
         return Token(Parser::token::TOK_COLON, session.supplied()).as_supplied();
     }
     if (scan.part == Part::Head) {
-        scan.enter(Part::Successor); // nothing of it will come
+        scan.enter(Part::Successor); // which is empty
         return Token(Parser::token::TOK_YYerror, session.supplied()).as_supplied();
     }
     if (scan.statement_open) {
@@ -538,7 +537,7 @@ bool lacks_colon(ParseSession& session, std::string_view inserted) {
                            inserted.empty() ? "the production lacks a `:` before this, or earlier"
                                             : "the production lacks a `:` before this");
         if (!inserted.empty()) {
-            // A condition before the `~` may be read as a part of the head.
+            // A condition before the `~` may be part of the head.
             add_fix(diagnostic, "add `:`", {place.file, place.begin, place.begin},
                     std::string(inserted),
                     session.scanned.text[scan.begin] == '*' || has_plain_head(session));

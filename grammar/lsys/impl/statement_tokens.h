@@ -1,6 +1,5 @@
-// What the scanner does where statements and their parts begin and end, right or wrong: the
-// author's mistakes are reported here, and what is missing is supplied, so that the parser sees
-// whole statements.
+// Tokens at the begin and end of statements and their parts. Mistakes are reported and missing
+// tokens inserted, so that the parser gets complete statements.
 #pragma once
 
 #include "grammar/lsys/impl/parse_session.h"
@@ -11,39 +10,38 @@
 
 namespace lsys::lsys_grammar {
 
-/// Whether the `# word` at hand begins a comment, as `#` does in other languages; reported.
+/// Whether the current `# word` begins a comment, as in other languages; reports it.
 bool is_hash_comment(ParseSession& session, std::string_view text);
 /// `#word`, between statements.
 Token start_statement(ParseSession& session, std::string_view text);
-/// A word or, if `word` is empty, any other character where a `#` should stand.
+/// A word, or another character if `word` is empty, in place of a `#`.
 Token start_without_hash(ParseSession& session, std::string_view word);
 
-/// After `#word`: a `:`, a `=` or `,`, and what stands there instead of them (nothing if neither is
-/// due).
+/// After `#word`: enters the part after the `:`; the token of a `=` or `,`; the missing sign before
+/// any other character (nothing if none is required).
 void after_opening_colon(ParseSession& session);
 Token opening_sign(ParseSession& session);
 std::optional<Token> missing_opening(ParseSession& session);
-/// A `=` or `:` after the name in `#define NAME = 3;`: reported, to be skipped.
+/// Whether the current `=` or `:` is superfluous, as in `#define NAME = 3;`; reports it.
 bool is_needless_sign(ParseSession& session);
 
-/// A `:` directly behind another one, where the statement has one too many: reported, to be
-/// skipped.
+/// Whether the current `:` repeats the one before it in a statement with too many; reports it.
 bool is_doubled_colon(ParseSession& session);
 Token colon_after_modules(ParseSession& session);
 Token colon_in_expression(ParseSession& session);
-/// Nothing for a `;` between statements.
+/// The current `;`; nothing for a reported one between statements.
 std::optional<Token> semicolon(ParseSession& session);
 
-/// Begins to supply the tokens that the statement lacks before `kind` takes effect; returns the
-/// first. `written`: the `:` or `;` at hand, if there is one.
+/// Begins the insertion of the tokens that are missing before the event `kind`; returns the first.
+/// `written`: the span of the current `:` or `;`, if any.
 Token begin_insertion(ParseSession& session, Insertion kind, SourceSpan written);
-/// The next token of an insertion that has begun, at last the written one.
+/// The next token of the insertion, at the end the written one.
 Token insert_token(ParseSession& session);
 
-/// Drops the rest of the statement.
+/// Discards the statement and skips its rest.
 Token lose_statement(ParseSession& session);
-/// Whether the production at hand has too few `:`. Reports that at the match at hand, once, and
-/// with the fix if there is one.
+/// Whether the current production has too few `:`. Reports it at the current match, with `inserted`
+/// as the fix unless it is empty.
 bool lacks_colon(ParseSession& session, std::string_view inserted);
 
 } // namespace lsys::lsys_grammar

@@ -15,7 +15,7 @@ namespace {
 
 using Kind = Parser::symbol_kind;
 
-/// The token that cannot stand, and what is known about its place.
+/// The unexpected token and its place.
 struct Unexpected {
     Parser::symbol_kind_type token;
     SourceSpan place;
@@ -122,7 +122,7 @@ void report_expected(ParseSession& session, const Unexpected& error) {
     }
 }
 
-/// `[` or another module where a value is due: the `(` before was never closed.
+/// Reports `[` or another module in place of a value: the `(` before it is never closed.
 bool report_modules_in_parentheses(ParseSession& session, const Unexpected& error) {
     const ScanState& scan = session.scan;
     if (error.token != Kind::S_OTHER || scan.open.empty() ||
@@ -166,7 +166,7 @@ bool report_unary_plus(ParseSession& session, const Unexpected& error) {
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::SyntaxError, error.place, "expected a value, found `+`");
-        // Before a blank it is more likely an operator whose first operand is missing.
+        // Before a blank it is more likely an operator without its first operand.
         const std::string_view text = session.scanned.text;
         const bool is_sign =
             session.scan.end < text.size() &&
@@ -202,7 +202,7 @@ void report_unexpected_token(ParseSession& session,
                              std::span<const Parser::symbol_kind_type> expected) {
     ScanState& scan = session.scan;
     const bool is_supplied = session.token_supplied;
-    // What was supplied has been reported already, but for a `;`, of which nobody knows yet.
+    // Inserted tokens have been reported already, except for a `;`.
     if (session.wants_reports() && (!is_supplied || token == Kind::S_SEMICOLON)) {
         const Part part = scan.statement_open ? scan.part : scan.ended_part;
         const std::string_view text = is_supplied ? std::string_view{} : session.match_text();

@@ -1,4 +1,4 @@
-// Turns the parser's "this token cannot stand here" into a message in the words of the language.
+// Syntax errors of the parser as messages in the terms of the language.
 #pragma once
 
 #include "grammar/lsys/impl/parse_session.h"
@@ -8,7 +8,7 @@
 
 namespace lsys::lsys_grammar {
 
-/// `expected` are all tokens that could stand at `place` instead of `token`.
+/// `expected`: all tokens allowed at `place` instead of `token`.
 void report_unexpected_token(ParseSession& session,
                              Parser::symbol_kind_type token,
                              SourceSpan place,

@@ -1,4 +1,4 @@
-// A token as the scanner makes it and the parser takes it.
+// A token, made by the scanner and read by the parser.
 #pragma once
 
 #include "lsys/parser.h"
@@ -15,13 +15,13 @@ struct Token {
     }
     Token(Kind token, float number, SourceSpan span) : Token(token, span) { value.number = number; }
 
-    /// The same, of a token that nobody wrote.
+    /// The token, marked as inserted.
     [[nodiscard]] Token as_supplied() const {
         Token token = *this;
         token.supplied = true;
         return token;
     }
-    /// The parser numbers tokens and symbols alike.
+    /// The symbol of the token; the parser uses one numbering for both.
     [[nodiscard]] Parser::symbol_kind_type kind() const {
         return static_cast<Parser::symbol_kind_type>(type);
     }
@@ -29,7 +29,7 @@ struct Token {
     Kind type;
     TokenValue value;
     SourceSpan location;
-    bool supplied = false; // by the scanner, which has reported it
+    bool supplied = false; // inserted and reported by the scanner
 };
 
 } // namespace lsys::lsys_grammar

@@ -1,5 +1,5 @@
-// What tokens and symbols of the parser carry. A plain struct: the parser moves a value for every
-// step it makes, and copying bytes is all that this may cost.
+// The semantic value of tokens and symbols: a trivially copyable struct, because the parser moves
+// one in every step.
 #pragma once
 
 #include "grammar/ast/ast_builder.h"
@@ -10,7 +10,7 @@ namespace lsys::lsys_grammar {
 
 struct TokenValue {
     ModuleList modules;
-    TextRange names; // a run of them
+    TextRange names; // a run of names
     union {
         NameId name;
         float number;

@@ -9,13 +9,12 @@ namespace {
 
 constexpr std::uint32_t kTabStop = 4;
 constexpr std::string_view kEllipsis = "...";
-/// Characters before the focus that are shown of a line that is cut on its left.
+/// Characters before the focus in an excerpt that is cut on its left.
 constexpr std::size_t kLead = 50;
-/// Bounds the work where a line is full of characters without width.
+/// Bounds the work for lines full of characters without width.
 constexpr std::size_t kMaxCharacters = std::size_t{8} * kMaxColumns;
 
-/// Characters that a terminal does not show or that change the order of others (Unicode category Cf
-/// and the C1 controls).
+/// Characters that terminals hide or that reorder others (Unicode category Cf, C1 controls).
 bool is_invisible(char32_t value) {
     return (value >= 0x80 && value < 0xA0) || value == 0xAD ||
            (value >= 0x200B && value <= 0x200F) || (value >= 0x2028 && value <= 0x202E) ||
@@ -29,7 +28,7 @@ void append_hexadecimal(char32_t value, int digits, std::string& out) {
     }
 }
 
-/// Appends one character as it is shown and returns its width; a tab is not known here.
+/// Appends one character in visible form and returns its width. Precondition: no tab.
 std::uint32_t append_character(CodePoint character, std::string_view bytes, std::string& out) {
     if (!character.valid) {
         append_utf8(0xFFFD, out);
@@ -51,7 +50,7 @@ std::uint32_t append_character(CodePoint character, std::string_view bytes, std:
     return display_width(character.value);
 }
 
-/// Lays out `line` from byte `begin` on, until it or the columns end.
+/// Lays out `line` from byte `begin` to its end or the last column.
 Excerpt lay_out(LineText line, std::size_t begin) {
     Excerpt excerpt;
     excerpt.begin = begin;
@@ -87,7 +86,7 @@ Excerpt lay_out(LineText line, std::size_t begin) {
     return excerpt;
 }
 
-/// The byte where a character begins that lies `count` characters before byte `at`.
+/// The first byte of the character `count` characters before byte `at`.
 std::size_t step_back(std::string_view text, std::size_t at, std::size_t count) {
     while (count > 0 && at > 0) {
         std::size_t begin = at - 1;

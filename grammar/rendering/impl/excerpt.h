@@ -1,6 +1,6 @@
-// A part of a source line as a terminal shows it: tabs expanded, what is invisible spelt out, and
-// the column of every byte known. Made for the frames of messages; its size is bounded however long
-// the line is.
+// A part of a source line as a terminal shows it: tabs expanded, invisible characters spelt out,
+// with the column of each byte. For the frames of messages; bounded in size for lines of any
+// length.
 #pragma once
 
 #include "grammar/base/utf8.h"
@@ -12,37 +12,37 @@
 
 namespace lsys::rendering {
 
-/// Columns of a source line that a frame shows at most.
+/// Maximum columns of a source line in a frame.
 inline constexpr std::uint32_t kMaxColumns = 120;
 
 struct Excerpt {
-    /// Where a character stands: its first byte within the line, and its first column from 0.
+    /// The place of a character: its first byte within the line and its first column, from 0.
     struct Stop {
         std::size_t offset = 0;
         std::uint32_t column = 0;
     };
 
-    std::string text;        // what is printed
-    std::vector<Stop> stops; // ascending; the last is the end of what is shown
-    std::size_t begin = 0;   // bytes of the line that are shown
-    std::size_t end = 0;
+    std::string text;        // for printing
+    std::vector<Stop> stops; // ascending; the last is the end of the excerpt
+    std::size_t begin = 0;   // first byte within the line
+    std::size_t end = 0;     // one past the last byte
 
-    /// The column of byte `offset` of the line, or of the nearest byte that is shown.
+    /// The column of byte `offset` of the line, or of the nearest byte of the excerpt.
     [[nodiscard]] std::uint32_t column(std::size_t offset) const;
 };
 
-/// A line, or the part of one, that an excerpt is cut from. `more_before` and `more_after` say that
-/// the real line goes on beyond `text`.
+/// A line or a part of one. `more_before` and `more_after`: whether the line continues beyond
+/// `text`.
 struct LineText {
     std::string_view text;
     bool more_before = false;
     bool more_after = false;
 };
 
-/// The part of `line` around byte `focus`, whole where it fits.
+/// The part of `line` around byte `focus`; the whole line if it fits.
 [[nodiscard]] Excerpt make_excerpt(LineText line, std::size_t focus);
 
-/// Appends `text` with control characters, invisible characters and invalid bytes made visible.
+/// Appends `text` with control characters, invisible characters and invalid bytes escaped.
 void append_visible(std::string_view text, std::string& out);
 
 } // namespace lsys::rendering

@@ -9,7 +9,7 @@ namespace lsys::rendering {
 
 namespace {
 
-/// Gutter of a line; number 0 leaves it blank.
+/// Appends the gutter of a line; blank for number 0.
 void append_gutter(std::uint32_t number, const Palette& colours, std::string& out) {
     constexpr std::size_t kWidth = 3;
     const std::string digits = number == 0 ? std::string() : std::to_string(number);
@@ -37,8 +37,8 @@ struct Columns {
     std::uint32_t last = 0; // one past
 };
 
-/// The columns of bytes [begin, end) of the excerpt's line: at least one, and over the letter that
-/// a combining character belongs to.
+/// The columns of bytes [begin, end) of the excerpt's line, at least one. For a combining character
+/// the column of its base letter.
 Columns columns_of(const Excerpt& excerpt, std::size_t begin, std::size_t end) {
     Columns columns{excerpt.column(begin), excerpt.column(end)};
     if (columns.last <= columns.first) {
@@ -64,7 +64,7 @@ void append_marks(Columns columns, const Mark& mark, const Palette& colours, std
     out += '\n';
 }
 
-/// A span without the line ends it closes with: a mark stands under characters.
+/// The span without trailing line ends, which cannot be marked.
 SourceSpan trim_line_ends(SourceSpan span, std::string_view text) {
     while (span.end > span.begin && (text[span.end - 1] == '\n' || text[span.end - 1] == '\r')) {
         --span.end;
@@ -154,19 +154,19 @@ namespace {
 
 constexpr std::size_t kMaxPreviewEdits = 64;
 constexpr std::uint32_t kMaxPreviewLines = 6;
-/// Bytes around and between edits that a preview looks at; more than an excerpt can show.
+/// Bytes around and between edits that a preview reads; more than an excerpt shows.
 constexpr std::size_t kReach = std::size_t{4} * kMaxColumns;
 
-/// Edits whose lines touch, so that they are shown as one piece of text.
+/// The text after edits of adjoining lines.
 struct Preview {
     std::string text;
-    std::vector<std::pair<std::size_t, std::size_t>> added; // bytes of `text` that are new
+    std::vector<std::pair<std::size_t, std::size_t>> added; // new bytes of `text`
     std::vector<char> characters;                           // `+` or `~` under each of them
     bool more_before = false;
     bool more_after = false;
 };
 
-/// The first edits of a fix, by place.
+/// The first edits of a fix in order of place.
 std::vector<const Edit*> first_edits(const Fix& fix) {
     std::vector<const Edit*> edits;
     edits.reserve(fix.edits.size());
@@ -183,7 +183,7 @@ std::vector<const Edit*> first_edits(const Fix& fix) {
     return edits;
 }
 
-/// The text of edits [first, last) with the rest of their lines. They lie near each other.
+/// The text of edits [first, last) with the rest of their lines.
 Preview make_preview(const std::vector<const Edit*>& edits,
                      std::size_t first,
                      std::size_t last,
@@ -218,8 +218,7 @@ Preview make_preview(const std::vector<const Edit*>& edits,
     return preview;
 }
 
-/// Appends the lines of a preview, of which the first is line `number` of the file; returns how
-/// many.
+/// Appends the lines of a preview, the first as line `number`; returns their number.
 std::uint32_t append_preview(const Preview& preview,
                              std::uint32_t number,
                              const Palette& colours,
@@ -290,7 +289,7 @@ void append_fix(const Fix& fix,
         };
         bool cut = false;
         while (last < edits.size() && joins(*edits[last])) {
-            // Further edits of a very long line lie outside what the excerpt shows.
+            // Further edits of a very long line lie outside the excerpt.
             cut = cut || edits[last]->span.begin - edits[first]->span.begin > kReach;
             last_line = file.line_column(edits[last]->span.end).line;
             ++last;

@@ -1,5 +1,5 @@
-// The frame of a message: source lines with a gutter of line numbers and marks under what is meant.
-// Made by render_diagnostic.cpp for people; nothing else reads it.
+// The frame of a message: source lines with line numbers and marks under the spans. Used by
+// render_diagnostic.cpp.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -11,7 +11,7 @@
 
 namespace lsys::rendering {
 
-/// What switches colours on and off; all empty without colour.
+/// Escape sequences that switch colours; all empty without colour.
 struct Palette {
     std::string_view error;
     std::string_view warning;
@@ -24,23 +24,23 @@ struct Palette {
 [[nodiscard]] const Palette& palette(bool colour);
 [[nodiscard]] std::string_view colour_of(Severity severity, const Palette& colours);
 
-/// A place that is marked in a frame.
+/// A marked place of a frame.
 struct Mark {
     SourceSpan span;
     char character = '^';
-    std::string_view text; // stands after the marks; may be empty
+    std::string_view text; // after the marks; may be empty
     std::string_view colour;
 };
 
-/// Appends the lines of `primary`, marked. Of `others` it marks those that lie in its first line as
-/// far as that is shown, and returns the rest.
+/// Appends the lines of `primary` with marks, and the marks of those `others` that lie in the shown
+/// part of its first line; returns the others.
 [[nodiscard]] std::vector<Mark> append_frame(const Mark& primary,
                                              const std::vector<Mark>& others,
                                              const SourceFile& file,
                                              const Palette& colours,
                                              std::string& out);
 
-/// Appends the lines as they would read after `fix`, with what is new marked.
+/// Appends the lines after `fix`, with marks under the new text.
 void append_fix(const Fix& fix, const SourceMap& sources, const Palette& colours, std::string& out);
 
 } // namespace lsys::rendering

@@ -1,5 +1,5 @@
-// A diagnostic as a JSON object, for editors and other tools. Byte offsets are those of the file on
-// disk, a byte order mark included, so that edits can be applied to it as it is.
+// A diagnostic as a JSON object, for editors and other tools. Byte offsets are of the file on disk,
+// byte order mark included, so that edits apply to it directly.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -13,7 +13,7 @@ namespace lsys::rendering {
 /// Appends one line.
 void append_json(const Diagnostic& diagnostic, const SourceMap& sources, std::string& out);
 
-/// Appends one line that says how many more there are.
+/// Appends one line with the numbers of the diagnostics left out.
 void append_json_rest(std::uint64_t errors,
                       std::uint64_t warnings,
                       std::uint64_t notes,
