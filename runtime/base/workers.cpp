@@ -157,17 +157,16 @@ void Workers::for_each(std::uint64_t pieces, const std::function<void(std::uint6
     // same time.
     std::atomic<std::uint64_t> next{0};
     std::atomic<bool> has_memory{true};
+    const auto take_pieces = [&] {
+        for (std::uint64_t i = next.fetch_add(1); i < pieces; i = next.fetch_add(1)) {
+            piece(i);
+        }
+        return true;
+    };
     team_->run([&] {
-        has_memory =
-            catch_no_memory(
-                [&] {
-                    for (std::uint64_t i = next.fetch_add(1); i < pieces; i = next.fetch_add(1)) {
-                        piece(i);
-                    }
-                    return true;
-                },
-                [] { return false; }) &&
-            has_memory;
+        if (!catch_no_memory(take_pieces, [] { return false; })) {
+            has_memory = false;
+        }
     });
     if (!has_memory) {
         throw std::bad_alloc();

@@ -59,8 +59,8 @@ struct DeriveOptions {
 /// Why a derivation ended before its last word, as facts for messages.
 struct DerivationEnd {
     std::optional<Stop> stop; // none: the derivation is complete, or may go on
-    RuntimeError error;       // of Stop::Diagnosed
-    LimitReport limit;        // of Stop::Limit and Stop::OutOfMemory
+    RuntimeError error;       // for Stop::Diagnosed
+    LimitReport limit;        // for Stop::Limit and Stop::OutOfMemory
 };
 
 /// One derivation in progress. Holds a reference to the bytecode, which outlives it. Functions that

@@ -24,19 +24,19 @@ struct AffineTerm {
     return own[term.input] * term.scale + term.offset;
 }
 
-/// A term compared with a constant.
+/// An affine term compared with a constant.
 struct Comparison {
     static constexpr std::uint32_t kLess = 1;
     static constexpr std::uint32_t kEqual = 2;
     static constexpr std::uint32_t kGreater = 4;
 
-    AffineTerm term;
+    AffineTerm affine;
     float bound = 0.0F; // a number
     std::uint32_t accepted = 0;
 };
 
 [[nodiscard]] inline bool holds(const Comparison& comparison, const float* own) {
-    const float value = value_of(comparison.term, own);
+    const float value = value_of(comparison.affine, own);
     const std::uint32_t order = value < comparison.bound    ? Comparison::kLess
                                 : value == comparison.bound ? Comparison::kEqual
                                                             : Comparison::kGreater;
@@ -59,7 +59,7 @@ enum class ShapeKind : std::uint8_t { Constant, Affine, Comparisons, Other };
 struct ValueShape {
     ShapeKind kind = ShapeKind::Other;
     float constant = 0.0F;               // Constant; may be infinite or not a number
-    AffineTerm term;                     // Affine
+    AffineTerm affine;                   // Affine
     std::vector<Comparison> comparisons; // all must hold
 };
 
