@@ -124,17 +124,7 @@ struct Derivation::State {
         if (!word.resize(count, parameters.size())) {
             return DeriveStatus::OutOfMemory;
         }
-        switch (word.code_width()) {
-        case 1:
-            copy_axiom_codes(bytecode, word.codes<std::uint8_t>().data());
-            break;
-        case 2:
-            copy_axiom_codes(bytecode, word.codes<std::uint16_t>().data());
-            break;
-        default:
-            copy_axiom_codes(bytecode, word.codes<std::uint32_t>().data());
-            break;
-        }
+        word.visit([this](auto codes) { copy_axiom_codes(bytecode, codes.data()); });
         std::copy(parameters.begin(), parameters.end(), word.parameters().begin());
         if (word.keeps_origins()) {
             copy_axiom_origins(bytecode, word.origins().data());
@@ -234,26 +224,16 @@ struct Derivation::State {
         return DeriveStatus::Ok;
     }
 
-    template <typename C>
-    [[nodiscard]] std::optional<RuntimeError> undecomposed_typed(const Word& in,
-                                                                 const PassKeys& keys) {
-        const WordView<C> view{in.codes<C>().data(), in.parameters().data(), in.module_count(), 0,
-                               nullptr};
-        Chooser<C> chooser(*decompose_plan, keys, view, nullptr);
-        const std::optional<ModulePlace> place = find_match(*decompose_plan, chooser, view);
-        return place ? std::optional(too_deep(*decompose_plan, chooser, keys, view, *place))
-                     : std::nullopt;
-    }
-    /// That a module can still be decomposed, as an error.
+    /// The error that a module can still be decomposed, if there is such a module.
     [[nodiscard]] std::optional<RuntimeError> undecomposed(const Word& in, const PassKeys& keys) {
-        switch (in.code_width()) {
-        case 1:
-            return undecomposed_typed<std::uint8_t>(in, keys);
-        case 2:
-            return undecomposed_typed<std::uint16_t>(in, keys);
-        default:
-            return undecomposed_typed<std::uint32_t>(in, keys);
-        }
+        return visit_view(in, [&](const auto& view) -> std::optional<RuntimeError> {
+            Chooser chooser(*decompose_plan, keys, view, nullptr);
+            const std::optional<ModulePlace> place = find_match(*decompose_plan, chooser, view);
+            if (!place) {
+                return std::nullopt;
+            }
+            return too_deep(*decompose_plan, chooser, keys, view, *place);
+        });
     }
 
     /// Passes of #decompose over a word of age `of`, until nothing matches.
@@ -318,12 +298,6 @@ struct Derivation::State {
         }
         return status;
     }
-
-    template <typename C>
-    [[nodiscard]] std::optional<std::uint64_t> unmatched_close() const {
-        BracketCounter counter(bytecode);
-        return counter.feed(word.codes<C>().data(), word.module_count());
-    }
 };
 
 Derivation::Derivation(const Bytecode& bytecode, DeriveOptions options)
@@ -375,18 +349,9 @@ DeriveStatus Derivation::derive() {
 
 DeriveStatus Derivation::check_brackets() {
     State& state = *state_;
-    std::optional<std::uint64_t> found;
-    switch (state.word.code_width()) {
-    case 1:
-        found = state.unmatched_close<std::uint8_t>();
-        break;
-    case 2:
-        found = state.unmatched_close<std::uint16_t>();
-        break;
-    default:
-        found = state.unmatched_close<std::uint32_t>();
-        break;
-    }
+    BracketCounter counter(state.bytecode);
+    const std::optional<std::uint64_t> found =
+        state.word.visit([&](auto codes) { return counter.feed(codes.data(), codes.size()); });
     return found ? state.fail(unmatched_bracket(state.bytecode, state.word.code(*found), *found,
                                                 state.age))
                  : DeriveStatus::Ok;

@@ -115,19 +115,6 @@ private:
     RuntimeError error_;
 };
 
-template <typename C>
-std::unique_ptr<Interpretation> make_typed(std::unique_ptr<const Prepared> prepared,
-                                           std::unique_ptr<const Plan> plan,
-                                           bool origins,
-                                           Interpretation::Sink sink) {
-    if (plan->record_width() == 1) {
-        return std::make_unique<Interpreter<C, std::uint8_t>>(std::move(prepared), std::move(plan),
-                                                              origins, std::move(sink));
-    }
-    return std::make_unique<Interpreter<C, std::uint32_t>>(std::move(prepared), std::move(plan),
-                                                           origins, std::move(sink));
-}
-
 } // namespace
 
 std::unique_ptr<Interpretation> Interpretation::make(const Bytecode& bytecode,
@@ -146,17 +133,13 @@ std::unique_ptr<Interpretation> Interpretation::make(const Bytecode& bytecode,
         PlanInputs{prepared->globals.data(), inputs.seed, static_cast<float>(inputs.generations)},
         true, Stage::Interpret);
     plan->prepare(inputs.generations);
-    switch (plan->code_width()) {
-    case 1:
-        return make_typed<std::uint8_t>(std::move(prepared), std::move(plan), origins,
-                                        std::move(sink));
-    case 2:
-        return make_typed<std::uint16_t>(std::move(prepared), std::move(plan), origins,
-                                         std::move(sink));
-    default:
-        return make_typed<std::uint32_t>(std::move(prepared), std::move(plan), origins,
-                                         std::move(sink));
-    }
+    return visit_code_type(plan->code_width(), [&](auto code) {
+        const std::uint32_t record_width = plan->record_width();
+        return visit_record_type(record_width, [&](auto record) -> std::unique_ptr<Interpretation> {
+            return std::make_unique<Interpreter<decltype(code), decltype(record)>>(
+                std::move(prepared), std::move(plan), origins, std::move(sink));
+        });
+    });
 }
 
 } // namespace lsys

@@ -15,10 +15,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <string>
 
 namespace lsys {
@@ -50,28 +52,6 @@ std::string_view bytes_of(std::span<const T> values) {
     return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
 }
 
-std::string_view code_bytes(const Word& word) {
-    switch (word.code_width()) {
-    case 1:
-        return bytes_of(word.codes<std::uint8_t>());
-    case 2:
-        return bytes_of(word.codes<std::uint16_t>());
-    default:
-        return bytes_of(word.codes<std::uint32_t>());
-    }
-}
-
-char* code_data(Word& word) {
-    switch (word.code_width()) {
-    case 1:
-        return reinterpret_cast<char*>(word.codes<std::uint8_t>().data());
-    case 2:
-        return reinterpret_cast<char*>(word.codes<std::uint16_t>().data());
-    default:
-        return reinterpret_cast<char*>(word.codes<std::uint32_t>().data());
-    }
-}
-
 std::uint64_t
 combined_checksum(std::string_view header, std::string_view codes, std::string_view parameters) {
     const std::array<std::uint64_t, 3> parts{checksum(header), checksum(codes),
@@ -79,25 +59,22 @@ combined_checksum(std::string_view header, std::string_view codes, std::string_v
     return checksum(bytes_of(std::span<const std::uint64_t>(parts)));
 }
 
-/// Whether every code exists and the parameters are as many as they store, and finite.
-template <typename C>
-bool holds_word_of(const Bytecode& bytecode, const Word& word) {
-    std::uint64_t stored = 0;
-    for (const C code : word.codes<C>()) {
-        if (code >= bytecode.code_count()) {
-            return false;
-        }
-        stored += bytecode.stored_parameters(code);
-    }
-    if (stored != word.parameter_count()) {
-        return false;
-    }
-    for (const float value : word.parameters()) {
-        if (!std::isfinite(value)) {
-            return false;
-        }
-    }
-    return true;
+/// Whether every code exists, the codes store as many parameters as there are, and all are finite.
+bool fits(const Bytecode& bytecode, const Word& word) {
+    const std::optional<std::uint64_t> stored =
+        word.visit([&](auto codes) -> std::optional<std::uint64_t> {
+            std::uint64_t sum = 0;
+            for (const auto code : codes) {
+                if (code >= bytecode.code_count()) {
+                    return std::nullopt;
+                }
+                sum += bytecode.stored_parameters(code);
+            }
+            return sum;
+        });
+    return stored == word.parameter_count() &&
+           std::all_of(word.parameters().begin(), word.parameters().end(),
+                       [](float value) { return std::isfinite(value); });
 }
 
 Error other_version(std::string_view what, std::uint32_t version, std::uint32_t own) {
@@ -105,17 +82,6 @@ Error other_version(std::string_view what, std::uint32_t version, std::uint32_t 
     return {fmt::format(
         "the saved state was made by {} lsc ({} is version {}, this one reads {}){}",
         newer ? "a newer" : "an older", what, version, own, newer ? "" : ": derive it again")};
-}
-
-bool fits(const Bytecode& bytecode, const Word& word) {
-    switch (word.code_width()) {
-    case 1:
-        return holds_word_of<std::uint8_t>(bytecode, word);
-    case 2:
-        return holds_word_of<std::uint16_t>(bytecode, word);
-    default:
-        return holds_word_of<std::uint32_t>(bytecode, word);
-    }
 }
 
 } // namespace
@@ -141,7 +107,7 @@ bool write_state(const StateHeader& header,
     put(at, word.parameter_count());
     put(at, std::uint64_t{word.code_width()});
     const std::string_view head_bytes(head.data(), head.size());
-    const std::string_view codes = code_bytes(word);
+    const std::string_view codes = bytes_of(word.code_bytes());
     const std::string_view parameters = bytes_of(word.parameters());
     std::array<char, kChecksumBytes> tail{};
     at = tail.data();
@@ -206,7 +172,7 @@ Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode) 
     if (!state.word.resize(modules, parameters)) {
         return Error{"there is not enough memory for the saved word"};
     }
-    std::memcpy(code_data(state.word), codes.data(), code_size);
+    std::memcpy(state.word.code_bytes().data(), codes.data(), code_size);
     std::memcpy(state.word.parameters().data(), values.data(), parameter_size);
     if (!fits(bytecode, state.word)) {
         return Error{"the saved state is damaged: the program has no such word"};

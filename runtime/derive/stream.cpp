@@ -116,18 +116,6 @@ private:
     StreamOutcome outcome_;
 };
 
-template <typename C>
-StreamOutcome stream(const Bytecode& bytecode,
-                     const LevelSteps& steps,
-                     const DeriveOptions& options,
-                     const StreamConsumer& consumer,
-                     const std::vector<float>& axiom) {
-    const bool narrow = steps.rewriting->record_width() == 1 &&
-                        (steps.passes == nullptr || steps.passes->record_width() == 1);
-    return narrow ? Streamer<C, std::uint8_t>(bytecode, steps, options, consumer).run(axiom)
-                  : Streamer<C, std::uint32_t>(bytecode, steps, options, consumer).run(axiom);
-}
-
 } // namespace
 
 std::optional<std::string> why_not_streamable(const Bytecode& bytecode) {
@@ -174,14 +162,14 @@ StreamOutcome derive_streamed(const Bytecode& bytecode,
         steps.checked = depth.checked;
         steps.first_pass_draw = kFirstDecomposeDraw;
     }
-    switch (plan.code_width()) {
-    case 1:
-        return stream<std::uint8_t>(bytecode, steps, options, consumer, axiom);
-    case 2:
-        return stream<std::uint16_t>(bytecode, steps, options, consumer, axiom);
-    default:
-        return stream<std::uint32_t>(bytecode, steps, options, consumer, axiom);
-    }
+    const std::uint32_t record_width =
+        std::max(plan.record_width(), decomposing ? decomposing->record_width() : 1);
+    return visit_code_type(plan.code_width(), [&](auto code) {
+        return visit_record_type(record_width, [&](auto record) {
+            return Streamer<decltype(code), decltype(record)>(bytecode, steps, options, consumer)
+                .run(axiom);
+        });
+    });
 }
 
 } // namespace lsys

@@ -223,17 +223,11 @@ bool WordPrinter::print(const Word& word, const Sink& flush) {
 bool WordPrinter::print_modules(const Word& word, const Sink& flush) {
     after_identifier_ = false;
     const float* const parameters = word.parameters().data();
-    switch (word.code_width()) {
-    case 1:
-        if (!letters_.empty()) {
-            return write_letters(word.codes<std::uint8_t>(), flush);
-        }
-        return write(word.codes<std::uint8_t>().data(), word.module_count(), parameters, flush);
-    case 2:
-        return write(word.codes<std::uint16_t>().data(), word.module_count(), parameters, flush);
-    default:
-        return write(word.codes<std::uint32_t>().data(), word.module_count(), parameters, flush);
+    if (!letters_.empty() && word.code_width() == 1) {
+        return write_letters(word.codes<std::uint8_t>(), flush);
     }
+    return word.visit(
+        [&](auto codes) { return write(codes.data(), codes.size(), parameters, flush); });
 }
 
 } // namespace lsys

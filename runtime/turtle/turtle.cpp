@@ -257,17 +257,7 @@ TurtleStatus Turtle::reserve(const Word& word) {
             }
         }
     };
-    switch (word.code_width()) {
-    case 1:
-        count(word.codes<std::uint8_t>());
-        break;
-    case 2:
-        count(word.codes<std::uint16_t>());
-        break;
-    default:
-        count(word.codes<std::uint32_t>());
-        break;
-    }
+    word.visit(count);
     const bool origins = word.keeps_origins();
     const std::uint64_t bytes = segments * sizeof(Segment) + objects * sizeof(PlacedObject) +
                                 (origins ? (segments + objects) * sizeof(Origin) : 0);
@@ -288,14 +278,8 @@ TurtleStatus Turtle::reserve(const Word& word) {
 }
 
 TurtleStatus Turtle::feed(const Word& word) {
-    switch (word.code_width()) {
-    case 1:
-        return state_->take(word.codes<std::uint8_t>(), word.parameters(), word.origins());
-    case 2:
-        return state_->take(word.codes<std::uint16_t>(), word.parameters(), word.origins());
-    default:
-        return state_->take(word.codes<std::uint32_t>(), word.parameters(), word.origins());
-    }
+    return word.visit(
+        [&](auto codes) { return state_->take(codes, word.parameters(), word.origins()); });
 }
 
 TurtleStatus Turtle::feed(std::span<const Code> codes, std::span<const float> parameters) {

@@ -109,8 +109,4 @@ private:
     std::vector<std::uint32_t> matching_;
 };
 
-extern template class Chooser<std::uint8_t>;
-extern template class Chooser<std::uint16_t>;
-extern template class Chooser<std::uint32_t>;
-
 } // namespace lsys

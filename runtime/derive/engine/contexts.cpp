@@ -45,20 +45,13 @@ std::uint64_t ContextTables::held_bytes_after(const Word& word) const {
 }
 
 bool ContextTables::prepare(const Plan& plan, const Word& word) {
-    switch (word.code_width()) {
-    case 1:
-        return prepare_typed<std::uint8_t>(plan, word);
-    case 2:
-        return prepare_typed<std::uint16_t>(plan, word);
-    default:
-        return prepare_typed<std::uint32_t>(plan, word);
-    }
+    return word.visit([&](auto codes) { return build(plan, codes); });
 }
 
 template <typename C>
-bool ContextTables::prepare_typed(const Plan& plan, const Word& word) {
-    const C* const codes = word.codes<C>().data();
-    count_ = word.module_count();
+bool ContextTables::build(const Plan& plan, std::span<const C> word) {
+    const C* const codes = word.data();
+    count_ = word.size();
     needs_offsets_ = plan.reads_contexts() && plan.has_parameters();
     plain_ = !has_structure_ || is_plain(codes);
     if (!plain_) {
@@ -164,7 +157,7 @@ void ContextTables::build_right(const C* codes) {
 
 template <typename C>
 void ContextTables::build_offsets(const C* codes, const Plan& plan) {
-    auto* const offsets = reinterpret_cast<std::uint64_t*>(offsets_.data());
+    auto* const offsets = offsets_.as<std::uint64_t>();
     const std::vector<Row>& rows = plan.rows();
     std::uint64_t stored = 0;
     for (std::uint64_t i = 0; i < count_; ++i) {

@@ -10,6 +10,7 @@
 #include "runtime/derive/word.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace lsys {
@@ -33,16 +34,16 @@ public:
     }
     [[nodiscard]] std::uint64_t get(std::uint64_t at) const {
         if (wide_) {
-            return reinterpret_cast<const std::uint64_t*>(arena_.data())[at];
+            return arena_.as<std::uint64_t>()[at];
         }
-        const std::uint32_t index = reinterpret_cast<const std::uint32_t*>(arena_.data())[at];
+        const std::uint32_t index = arena_.as<std::uint32_t>()[at];
         return index == 0xFFFFFFFFu ? kNowhere : index;
     }
     void set(std::uint64_t at, std::uint64_t index) {
         if (wide_) {
-            reinterpret_cast<std::uint64_t*>(arena_.data())[at] = index;
+            arena_.as<std::uint64_t>()[at] = index;
         } else {
-            reinterpret_cast<std::uint32_t*>(arena_.data())[at] = static_cast<std::uint32_t>(index);
+            arena_.as<std::uint32_t>()[at] = static_cast<std::uint32_t>(index);
         }
     }
     [[nodiscard]] std::uint64_t held_bytes() const { return arena_.used(); }
@@ -83,14 +84,12 @@ public:
     /// `index`. Only where a formal of a context is used.
     static constexpr std::uint64_t kOffsetStride = 64;
     [[nodiscard]] std::uint64_t offset_before(std::uint64_t index) const {
-        return reinterpret_cast<const std::uint64_t*>(offsets_.data())[index / kOffsetStride];
+        return offsets_.as<std::uint64_t>()[index / kOffsetStride];
     }
 
 private:
     template <typename C>
     [[nodiscard]] bool is_plain(const C* codes) const;
-    template <typename C>
-    void build(const C* codes);
     template <typename C>
     void build_left(const C* codes);
     template <typename C>
@@ -98,7 +97,7 @@ private:
     template <typename C>
     void build_offsets(const C* codes, const Plan& plan);
     template <typename C>
-    [[nodiscard]] bool prepare_typed(const Plan& plan, const Word& word);
+    [[nodiscard]] bool build(const Plan& plan, std::span<const C> word);
 
     std::vector<Sight> sights_; // by code
     IndexTable left_;           // by module

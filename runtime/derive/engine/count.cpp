@@ -1,5 +1,7 @@
 #include "runtime/derive/engine/count.h"
 
+#include "runtime/derive/engine/instantiate.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -151,12 +153,7 @@ CountResult count_marked(const Plan& plan,
                                              const CountRequest&, R*);                             \
     template CountResult count_marked<C, R>(const Plan&, Chooser<C>&, const Marks&,                \
                                             const WordView<C>&, ModulePlace, std::uint64_t, R*);
-LSYS_COUNT(std::uint8_t, std::uint8_t)
-LSYS_COUNT(std::uint8_t, std::uint32_t)
-LSYS_COUNT(std::uint16_t, std::uint8_t)
-LSYS_COUNT(std::uint16_t, std::uint32_t)
-LSYS_COUNT(std::uint32_t, std::uint8_t)
-LSYS_COUNT(std::uint32_t, std::uint32_t)
+LSYS_FOR_CODES_AND_RECORDS(LSYS_COUNT)
 #undef LSYS_COUNT
 
 } // namespace lsys

@@ -1,5 +1,6 @@
 #include "runtime/derive/engine/faults.h"
 
+#include "runtime/derive/engine/instantiate.h"
 #include "runtime/derive/engine/write.h"
 
 #include <vector>
@@ -88,9 +89,7 @@ std::optional<RuntimeError> find_fault(const Plan& plan,
     template std::optional<RuntimeError> find_fault<C>(const Plan&, const PassKeys&,               \
                                                        const WordView<C>&, const ContextTables*,   \
                                                        ModulePlace, std::uint64_t);
-LSYS_FIND_FAULT(std::uint8_t)
-LSYS_FIND_FAULT(std::uint16_t)
-LSYS_FIND_FAULT(std::uint32_t)
+LSYS_FOR_CODES(LSYS_FIND_FAULT)
 #undef LSYS_FIND_FAULT
 
 } // namespace lsys

@@ -3,6 +3,7 @@
 #include "grammar/base/contract.h"
 #include "runtime/derive/engine/count.h"
 #include "runtime/derive/engine/faults.h"
+#include "runtime/derive/engine/instantiate.h"
 #include "runtime/derive/engine/remains.h"
 #include "runtime/derive/engine/write.h"
 
@@ -249,11 +250,8 @@ bool Levels<C, R>::add_level() {
     return true;
 }
 
-template class Levels<std::uint8_t, std::uint8_t>;
-template class Levels<std::uint8_t, std::uint32_t>;
-template class Levels<std::uint16_t, std::uint8_t>;
-template class Levels<std::uint16_t, std::uint32_t>;
-template class Levels<std::uint32_t, std::uint8_t>;
-template class Levels<std::uint32_t, std::uint32_t>;
+#define LSYS_LEVELS(C, R) template class Levels<C, R>;
+LSYS_FOR_CODES_AND_RECORDS(LSYS_LEVELS)
+#undef LSYS_LEVELS
 
 } // namespace lsys

@@ -130,11 +130,4 @@ private:
     RuntimeError error_;
 };
 
-extern template class Levels<std::uint8_t, std::uint8_t>;
-extern template class Levels<std::uint8_t, std::uint32_t>;
-extern template class Levels<std::uint16_t, std::uint8_t>;
-extern template class Levels<std::uint16_t, std::uint32_t>;
-extern template class Levels<std::uint32_t, std::uint8_t>;
-extern template class Levels<std::uint32_t, std::uint32_t>;
-
 } // namespace lsys

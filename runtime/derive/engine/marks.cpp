@@ -1,5 +1,7 @@
 #include "runtime/derive/engine/marks.h"
 
+#include "runtime/derive/engine/instantiate.h"
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -217,9 +219,7 @@ std::uint64_t Marks::fill(const C* codes,
 #define LSYS_MARKS(C)                                                                              \
     template std::uint64_t Marks::fill<C>(const C*, std::uint64_t, std::uint64_t, std::size_t,     \
                                           MarkBits*) const;
-LSYS_MARKS(std::uint8_t)
-LSYS_MARKS(std::uint16_t)
-LSYS_MARKS(std::uint32_t)
+LSYS_FOR_CODES(LSYS_MARKS)
 #undef LSYS_MARKS
 
 } // namespace lsys

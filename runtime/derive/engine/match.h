@@ -7,7 +7,7 @@
 #include "runtime/derive/origin.h"
 
 #include <cstdint>
-#include <span>
+#include <type_traits>
 #include <vector>
 
 namespace lsys {
@@ -22,6 +22,16 @@ struct WordView {
     std::uint64_t first_position = 0;
     const Origin* origins = nullptr; // of each module, where they are kept
 };
+
+/// Calls visit with the WordView of a whole word.
+template <typename Visit>
+decltype(auto) visit_view(const Word& word, Visit&& visit) {
+    return word.visit([&](auto codes) {
+        using C = std::remove_const_t<typename decltype(codes)::element_type>;
+        return visit(WordView<C>{codes.data(), word.parameters().data(), word.module_count(), 0,
+                                 word.keeps_origins() ? word.origins().data() : nullptr});
+    });
+}
 
 /// A module of a WordView, with the number of parameters stored before it.
 struct ModulePlace {
@@ -72,9 +82,5 @@ private:
     std::vector<std::uint64_t> branches_; // gaps after the branches that the pattern is inside
     std::vector<float> formals_;
 };
-
-extern template class Matcher<std::uint8_t>;
-extern template class Matcher<std::uint16_t>;
-extern template class Matcher<std::uint32_t>;
 
 } // namespace lsys

@@ -1,5 +1,7 @@
 #include "runtime/derive/engine/origins.h"
 
+#include "runtime/derive/engine/instantiate.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -111,12 +113,7 @@ void copy_axiom_origins(const Bytecode& bytecode, Origin* out) {
 #define LSYS_TRACE(C, R)                                                                           \
     template Origin* trace_origins<C, R>(const Plan&, const WordView<C>&, const OriginRequest&,    \
                                          const R*, Origin*);
-LSYS_TRACE(std::uint8_t, std::uint8_t)
-LSYS_TRACE(std::uint8_t, std::uint32_t)
-LSYS_TRACE(std::uint16_t, std::uint8_t)
-LSYS_TRACE(std::uint16_t, std::uint32_t)
-LSYS_TRACE(std::uint32_t, std::uint8_t)
-LSYS_TRACE(std::uint32_t, std::uint32_t)
+LSYS_FOR_CODES_AND_RECORDS(LSYS_TRACE)
 #undef LSYS_TRACE
 
 } // namespace lsys

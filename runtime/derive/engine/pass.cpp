@@ -36,12 +36,6 @@ constexpr std::uint64_t kProgressStride = std::uint64_t{1} << 24;
 constexpr std::uint64_t kMarkedOfFixed = 8;
 constexpr std::uint64_t kMarkedOfDynamic = 2;
 
-template <typename C>
-WordView<C> view(const Word& word) {
-    return {word.codes<C>().data(), word.parameters().data(), word.module_count(), 0,
-            word.keeps_origins() ? word.origins().data() : nullptr};
-}
-
 } // namespace
 
 Passes::Passes(const Plan& plan, const DeriveOptions& options)
@@ -68,14 +62,7 @@ void Passes::report_progress(std::uint32_t generation, std::uint64_t modules) {
 }
 
 bool Passes::concerns(const Word& word) const {
-    switch (word.code_width()) {
-    case 1:
-        return may_rewrite(plan_, view<std::uint8_t>(word));
-    case 2:
-        return may_rewrite(plan_, view<std::uint16_t>(word));
-    default:
-        return may_rewrite(plan_, view<std::uint32_t>(word));
-    }
+    return visit_view(word, [this](const auto& view) { return may_rewrite(plan_, view); });
 }
 
 DeriveStatus
@@ -85,20 +72,11 @@ Passes::run(const Word& in, Word& out, const PassKeys& keys, std::uint64_t other
     limit_ = {};
     limit_.generation = keys.generation;
     limit_.modules = in.module_count();
-    switch (in.code_width()) {
-    case 1:
-        return run_typed<std::uint8_t>(in, out, keys);
-    case 2:
-        return run_typed<std::uint16_t>(in, out, keys);
-    default:
-        return run_typed<std::uint32_t>(in, out, keys);
-    }
-}
-
-template <typename C>
-DeriveStatus Passes::run_typed(const Word& in, Word& out, const PassKeys& keys) {
-    return plan_.record_width() == 1 ? run_recorded<C, std::uint8_t>(in, out, keys)
-                                     : run_recorded<C, std::uint32_t>(in, out, keys);
+    return visit_view(in, [&]<typename C>(const WordView<C>& view) {
+        return visit_record_type(plan_.record_width(), [&](auto record) {
+            return run_typed<C, decltype(record)>(view, in, out, keys);
+        });
+    });
 }
 
 DeriveStatus Passes::no_memory(const Word& in, std::uint64_t bytes) {
@@ -111,8 +89,8 @@ DeriveStatus Passes::no_memory(const Word& in, std::uint64_t bytes) {
 }
 
 template <typename C, typename R>
-DeriveStatus Passes::run_recorded(const Word& in, Word& out, const PassKeys& keys) {
-    const WordView<C> word = view<C>(in);
+DeriveStatus
+Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const PassKeys& keys) {
     modules_ = 0;
     parameters_ = 0;
     const bool dynamic = !plan_.all_fixed();

@@ -50,10 +50,9 @@ private:
         std::uint64_t fault_index = 0;
     };
 
-    template <typename C>
-    [[nodiscard]] DeriveStatus run_typed(const Word& in, Word& out, const PassKeys& keys);
     template <typename C, typename R>
-    [[nodiscard]] DeriveStatus run_recorded(const Word& in, Word& out, const PassKeys& keys);
+    [[nodiscard]] DeriveStatus
+    run_typed(const WordView<C>& word, const Word& in, Word& out, const PassKeys& keys);
     template <typename C>
     void cut(const WordView<C>& word);
     template <typename C>
@@ -84,7 +83,7 @@ private:
     void report_progress(std::uint32_t generation, std::uint64_t modules);
     template <typename R>
     [[nodiscard]] R* records_at(std::uint64_t index) {
-        return reinterpret_cast<R*>(records_.data()) + index;
+        return records_.as<R>() + index;
     }
 
     const Plan& plan_;

@@ -14,21 +14,8 @@ namespace {
 
 /// Appends a code at the word's width.
 void append_code(Code code, std::uint32_t width, std::vector<std::byte>& pool) {
-    const auto append = [&pool](auto narrow) {
-        const auto bytes = std::bit_cast<std::array<std::byte, sizeof narrow>>(narrow);
-        pool.insert(pool.end(), bytes.begin(), bytes.end());
-    };
-    switch (width) {
-    case 1:
-        append(static_cast<std::uint8_t>(code));
-        break;
-    case 2:
-        append(static_cast<std::uint16_t>(code));
-        break;
-    default:
-        append(code);
-        break;
-    }
+    const auto bytes = std::bit_cast<std::array<std::byte, sizeof code>>(code); // little-endian
+    pool.insert(pool.end(), bytes.begin(), bytes.begin() + width);
 }
 
 /// Programs of more codes are rewritten without folding templates.

@@ -119,6 +119,12 @@ struct TestList {
     std::uint32_t room = 0;
 };
 
+/// Calls visit(R{}) with the unsigned integer type R of a record of `width` bytes, 1 or 4.
+template <typename Visit>
+decltype(auto) visit_record_type(std::uint32_t width, Visit&& visit) {
+    return width == 1 ? visit(std::uint8_t{}) : visit(std::uint32_t{});
+}
+
 /// What a derivation fixes for all its generations.
 struct PlanInputs {
     const float* globals = nullptr;

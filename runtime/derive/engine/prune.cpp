@@ -1,6 +1,7 @@
 #include "runtime/derive/engine/prune.h"
 
-#include <cstddef>
+#include <algorithm>
+#include <span>
 
 namespace lsys {
 
@@ -21,26 +22,11 @@ Pruner::Pruner(const Bytecode& bytecode) {
 namespace {
 
 template <typename C>
-PrunedSize size_typed(Pruner& pruner, const Word& word) {
-    const C* const codes = word.codes<C>().data();
-    if (!pruner.concerns(codes, word.module_count())) {
-        return {word.module_count(), word.parameter_count()};
-    }
-    PrunedSize size;
-    pruner.each_kept(codes, word.module_count(), [&](std::uint64_t i, std::uint64_t) {
-        ++size.modules;
-        size.parameters += pruner.stored(codes[i]);
-    });
-    return size;
-}
-
-template <typename C>
-void write_typed(Pruner& pruner, const Word& word, Word& out) {
-    const C* const codes = word.codes<C>().data();
+void write_typed(Pruner& pruner, std::span<const C> codes, const Word& word, Word& out) {
     C* to_code = out.codes<C>().data();
     float* to_parameter = out.parameters().data();
     Origin* to_origin = out.keeps_origins() ? out.origins().data() : nullptr;
-    pruner.each_kept(codes, word.module_count(), [&](std::uint64_t i, std::uint64_t parameter) {
+    pruner.each_kept(codes.data(), codes.size(), [&](std::uint64_t i, std::uint64_t parameter) {
         *to_code++ = codes[i];
         const float* const from = word.parameters().data() + parameter;
         to_parameter = std::copy(from, from + pruner.stored(codes[i]), to_parameter);
@@ -54,29 +40,22 @@ void write_typed(Pruner& pruner, const Word& word, Word& out) {
 
 PrunedSize pruned_size(Pruner& pruner, const Word& word) {
     pruner.begin_again();
-    switch (word.code_width()) {
-    case 1:
-        return size_typed<std::uint8_t>(pruner, word);
-    case 2:
-        return size_typed<std::uint16_t>(pruner, word);
-    default:
-        return size_typed<std::uint32_t>(pruner, word);
-    }
+    return word.visit([&](auto codes) {
+        if (!pruner.concerns(codes.data(), codes.size())) {
+            return PrunedSize{word.module_count(), word.parameter_count()};
+        }
+        PrunedSize size;
+        pruner.each_kept(codes.data(), codes.size(), [&](std::uint64_t i, std::uint64_t) {
+            ++size.modules;
+            size.parameters += pruner.stored(codes[i]);
+        });
+        return size;
+    });
 }
 
 void write_pruned(Pruner& pruner, const Word& word, Word& out) {
     pruner.begin_again();
-    switch (word.code_width()) {
-    case 1:
-        write_typed<std::uint8_t>(pruner, word, out);
-        break;
-    case 2:
-        write_typed<std::uint16_t>(pruner, word, out);
-        break;
-    default:
-        write_typed<std::uint32_t>(pruner, word, out);
-        break;
-    }
+    word.visit([&](auto codes) { write_typed(pruner, codes, word, out); });
 }
 
 } // namespace lsys

@@ -1,5 +1,6 @@
 #include "runtime/derive/engine/write.h"
 
+#include "runtime/derive/engine/instantiate.h"
 #include "runtime/derive/engine/origins.h"
 
 #include <algorithm>
@@ -389,19 +390,12 @@ bool evaluate_entry(const Plan& plan,
 #define LSYS_WRITE(C, R)                                                                           \
     template bool write_modules<C, R>(const Plan&, const PassKeys&, Matcher<C>&,                   \
                                       const WordView<C>&, WriteRequest<C>&, const R*);
-LSYS_WRITE(std::uint8_t, std::uint8_t)
-LSYS_WRITE(std::uint8_t, std::uint32_t)
-LSYS_WRITE(std::uint16_t, std::uint8_t)
-LSYS_WRITE(std::uint16_t, std::uint32_t)
-LSYS_WRITE(std::uint32_t, std::uint8_t)
-LSYS_WRITE(std::uint32_t, std::uint32_t)
+LSYS_FOR_CODES_AND_RECORDS(LSYS_WRITE)
 #undef LSYS_WRITE
 #define LSYS_EVALUATE(C)                                                                           \
     template bool evaluate_entry<C>(const Plan&, const PassKeys&, Matcher<C>&, std::uint64_t,      \
                                     ModulePlace, const Entry&, float*, EvalFault&);
-LSYS_EVALUATE(std::uint8_t)
-LSYS_EVALUATE(std::uint16_t)
-LSYS_EVALUATE(std::uint32_t)
+LSYS_FOR_CODES(LSYS_EVALUATE)
 #undef LSYS_EVALUATE
 
 } // namespace lsys

@@ -1,4 +1,4 @@
-// Arenas, words and their text.
+// Words and their text.
 #include "runtime/base/random.h"
 #include "runtime/derive/word.h"
 #include "runtime/derive/word_text.h"
@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <utility>
@@ -15,27 +16,6 @@
 using namespace lsys;
 using test::BytecodeBuilder;
 using test::derived;
-
-TEST_CASE("an arena grows, keeps its room and can be given back") {
-    Arena arena;
-    CHECK(arena.capacity() == 0);
-    REQUIRE(arena.reserve(100));
-    std::byte* const small = arena.data();
-    small[99] = std::byte{7};
-    REQUIRE(arena.reserve(1000));
-    CHECK(arena.data() == small);
-    CHECK(arena.used() == 1000);
-    REQUIRE(arena.reserve(std::size_t{8} << 20));
-    arena.data()[(std::size_t{8} << 20) - 1] = std::byte{1};
-    CHECK(reinterpret_cast<std::uintptr_t>(arena.data()) % (std::size_t{2} << 20) == 0);
-    Arena other = std::move(arena);
-    CHECK(arena.data() == nullptr);
-    CHECK(other.used() == std::size_t{8} << 20);
-    other = Arena();
-    CHECK(other.capacity() == 0);
-    CHECK_FALSE(other.reserve(std::numeric_limits<std::size_t>::max()));
-    CHECK(other.data() == nullptr);
-}
 
 TEST_CASE("a word knows its sizes") {
     Word word(2);
@@ -49,6 +29,22 @@ TEST_CASE("a word knows its sizes") {
     CHECK(word.module_count() == 0);
     CHECK(word.held_bytes_after(std::numeric_limits<std::uint64_t>::max(), 5) ==
           std::numeric_limits<std::uint64_t>::max());
+}
+
+TEST_CASE("a word shows its codes at their width") {
+    for (const std::uint32_t width : {1U, 2U, 4U}) {
+        Word word(width);
+        REQUIRE(word.resize(3, 0));
+        word.visit([](auto codes) { std::fill(codes.begin(), codes.end(), 200); });
+        const std::size_t bytes = std::as_const(word).visit([](auto codes) {
+            CHECK(codes.size() == 3);
+            CHECK(codes[2] == 200);
+            return codes.size_bytes();
+        });
+        CHECK(bytes == 3 * width);
+        CHECK(word.code_bytes().size() == bytes);
+        CHECK(word.code(1) == 200);
+    }
 }
 
 TEST_CASE("a word as text") {

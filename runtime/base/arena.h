@@ -1,0 +1,50 @@
+// Arena: anonymous memory, mapped from the system, that grows without keeping its contents and is
+// never initialised. Holds the words of a derivation and the tables beside them.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+
+namespace lsys {
+
+/// Move only. Reserves more addresses than asked for, so that a word that grows a little per
+/// generation stays in place; pages that are never written cost nothing.
+class Arena {
+public:
+    Arena() = default;
+    ~Arena();
+    Arena(Arena&& other) noexcept;
+    Arena& operator=(Arena&& other) noexcept;
+    Arena(const Arena&) = delete;
+    Arena& operator=(const Arena&) = delete;
+
+    /// Makes room for at least `bytes`; the contents are lost if the arena grows. Returns false if
+    /// the system has no memory.
+    [[nodiscard]] bool reserve(std::size_t bytes);
+    void release();
+    /// The memory as an array of T, an implicit-lifetime type: the bytes were written as T, or are
+    /// about to be. Mapped memory is aligned for any T.
+    template <typename T>
+    [[nodiscard]] T* as() {
+        static_assert(std::is_trivially_copyable_v<T>);
+        return reinterpret_cast<T*>(data_);
+    }
+    template <typename T>
+    [[nodiscard]] const T* as() const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        return reinterpret_cast<const T*>(data_);
+    }
+    [[nodiscard]] std::size_t capacity() const { return capacity_; }
+    /// The largest number of bytes ever reserved: an upper bound of the memory in use.
+    [[nodiscard]] std::size_t used() const { return used_; }
+
+private:
+    void advise();
+
+    std::byte* data_ = nullptr;
+    std::size_t capacity_ = 0;
+    std::size_t used_ = 0;
+    std::size_t advised_ = 0; // bytes from data_ on, for which huge pages were asked
+};
+
+} // namespace lsys
