@@ -1,6 +1,10 @@
 #include "runtime/base/workers.h"
 
+#include "runtime/base/memory_border.h"
+
 #include <algorithm>
+#include <atomic>
+#include <new>
 
 #if LSYS_THREADS
 #include <condition_variable>
@@ -152,11 +156,21 @@ void Workers::for_each(std::uint64_t pieces, const std::function<void(std::uint6
     // Each thread takes the next piece until none is left, so that neighbours are done at about the
     // same time.
     std::atomic<std::uint64_t> next{0};
-    team_->run([&] {
+    std::atomic<bool> has_memory{true};
+    const auto take_pieces = [&] {
         for (std::uint64_t i = next.fetch_add(1); i < pieces; i = next.fetch_add(1)) {
             piece(i);
         }
+        return true;
+    };
+    team_->run([&] {
+        if (!catch_no_memory(take_pieces, [] { return false; })) {
+            has_memory = false;
+        }
     });
+    if (!has_memory) {
+        throw std::bad_alloc();
+    }
 }
 
 } // namespace lsys

@@ -2,11 +2,9 @@
 // which piece never shows in a result.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <new>
 
 namespace lsys {
 
@@ -26,8 +24,10 @@ public:
     void start();
     /// Calls `piece` for 0 ... pieces - 1, begun in that order, and returns when all are done. With
     /// one worker or one piece, on the calling thread. Uses fewer threads where the system gives
-    /// fewer than asked for. `piece` throws nothing; it may wait for a piece of a lower number,
-    /// which has been begun, and for no other.
+    /// fewer than asked for. A piece may wait for a piece of a lower number, which has been begun,
+    /// and for no other. A piece that no other waits for may throw std::bad_alloc or
+    /// std::length_error; for_each() then throws either when all threads have ended, and some
+    /// pieces may not have run.
     void for_each(std::uint64_t pieces, const std::function<void(std::uint64_t)>& piece);
 
 private:
@@ -36,22 +36,5 @@ private:
     std::uint32_t count_;
     std::unique_ptr<Team> team_; // null until started
 };
-
-/// Workers::for_each() for pieces that may run out of memory: throws std::bad_alloc where one did,
-/// once all are done.
-template <typename Visit>
-void for_each_piece(Workers& workers, std::uint64_t pieces, const Visit& visit) {
-    std::atomic<bool> no_memory{false};
-    workers.for_each(pieces, [&](std::uint64_t i) {
-        try {
-            visit(i);
-        } catch (const std::bad_alloc&) {
-            no_memory = true;
-        }
-    });
-    if (no_memory) {
-        throw std::bad_alloc();
-    }
-}
 
 } // namespace lsys

@@ -137,17 +137,16 @@ ExitStatus count_words(const StatsCommand& command,
     options.limits = {command.run.limits.max_modules, half_of_memory()};
     options.cancelled = console.io().interrupted;
     Derivation derivation(bytecode, options);
-    DeriveStatus status = derivation.start();
-    while (status == DeriveStatus::Ok) {
+    std::optional<Stop> stop = derivation.start();
+    while (!stop) {
         growth.low.push_back(size_of(bytecode, derivation.word()));
         growth.high.push_back(growth.low.back());
         if (derivation.age() == generations) {
             break;
         }
-        status = derivation.step();
+        stop = derivation.step();
     }
-    return report_derivation(status, derivation.error(), derivation.limit(), options.limits,
-                             grammar, console);
+    return report_derivation(derivation.end(), options.limits, grammar, console);
 }
 
 /// As a JSON number where it is one exactly, else as text.

@@ -16,20 +16,18 @@ ExitStatus show_diagnostic(Diagnostic diagnostic,
     return status;
 }
 
-ExitStatus report_derivation(DeriveStatus status,
-                             const RuntimeError& error,
-                             const LimitReport& limit,
+ExitStatus report_derivation(const DerivationEnd& end,
                              const Limits& limits,
                              const Grammar& grammar,
                              const Console& console) {
-    if (status == DeriveStatus::Ok) {
+    if (!end.stop) {
         return ExitStatus::Ok;
     }
-    if (status == DeriveStatus::Cancelled) {
+    if (end.stop == Stop::Cancelled) {
         return ExitStatus::Interrupted;
     }
-    return show_diagnostic(derivation_diagnostic(status, error, limit, limits, grammar),
-                           status_of(stop_of(status)), grammar, console);
+    return show_diagnostic(derivation_diagnostic(end, limits, grammar), status_of(*end.stop),
+                           grammar, console);
 }
 
 } // namespace lsys::lsc

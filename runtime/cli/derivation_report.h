@@ -13,10 +13,8 @@ ExitStatus show_diagnostic(Diagnostic diagnostic,
                            const Grammar& grammar,
                            const Console& console);
 
-/// The exit status of a derivation that ended as `status`, after its message.
-[[nodiscard]] ExitStatus report_derivation(DeriveStatus status,
-                                           const RuntimeError& error,
-                                           const LimitReport& limit,
+/// Shows the message of a derivation that a Stop ended; returns its exit status.
+[[nodiscard]] ExitStatus report_derivation(const DerivationEnd& end,
                                            const Limits& limits,
                                            const Grammar& grammar,
                                            const Console& console);

@@ -140,25 +140,25 @@ ExitStatus derive(Derivation& derivation,
                   const Grammar& grammar,
                   const Console& console,
                   const OnGeneration& on_generation) {
-    DeriveStatus status = DeriveStatus::Ok;
+    std::optional<Stop> stop;
     if (command.from.empty()) {
-        status = derivation.start();
+        stop = derivation.start();
     } else {
         Result<SavedState> state = read_saved(plan, command.from, grammar.bytecode);
         if (!state) {
             return report_error(state.error(), console);
         }
-        status = derivation.resume(std::move(state.value().word), state.value().header.age);
+        stop = derivation.resume(std::move(state.value().word), state.value().header.age);
     }
-    while (status == DeriveStatus::Ok) {
+    while (!stop) {
         console.detail(fmt::format("generation {}: {} modules, {} bytes", derivation.age(),
                                    derivation.word().module_count(),
                                    derivation.word().byte_count()));
         const bool is_last = derivation.age() == plan.last_age;
         // A word in the middle of a derivation may still find its brackets.
         if (is_last && derivation.age() == plan.derive.generations) {
-            status = derivation.check_brackets();
-            if (status != DeriveStatus::Ok) {
+            stop = derivation.check_brackets();
+            if (stop) {
                 break;
             }
         }
@@ -168,10 +168,9 @@ ExitStatus derive(Derivation& derivation,
         if (is_last) {
             return ExitStatus::Ok;
         }
-        status = derivation.step();
+        stop = derivation.step();
     }
-    return report_derivation(status, derivation.error(), derivation.limit(), plan.derive.limits,
-                             grammar, console);
+    return report_derivation(derivation.end(), plan.derive.limits, grammar, console);
 }
 
 Result<Done> save_state(const Plan& plan,
@@ -269,8 +268,7 @@ ExitStatus stream(const Plan& plan,
                   const StreamConsumer& consumer,
                   StreamOutcome& outcome) {
     outcome = derive_streamed(grammar.bytecode, plan.derive, consumer);
-    return report_derivation(outcome.status, outcome.error, outcome.limit, plan.derive.limits,
-                             grammar, console);
+    return report_derivation(outcome.end, plan.derive.limits, grammar, console);
 }
 
 ExitStatus dump_streamed(const DumpCommand& command,
@@ -347,9 +345,9 @@ std::optional<ExitStatus> print_predicted_counts(const DumpCommand& command,
         return std::nullopt;
     }
     Derivation derivation(grammar.bytecode, plan.derive);
+    static_cast<void>(derivation.start());
     const ExitStatus status =
-        report_derivation(derivation.start(), derivation.error(), derivation.limit(),
-                          plan.derive.limits, grammar, console);
+        report_derivation(derivation.end(), plan.derive.limits, grammar, console);
     if (status != ExitStatus::Ok) {
         return status;
     }

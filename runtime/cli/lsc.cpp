@@ -1,11 +1,10 @@
 #include "runtime/cli/lsc.h"
 
+#include "runtime/base/memory_border.h"
 #include "runtime/cli/command_line.h"
 #include "runtime/cli/commands.h"
 
-#include <new>
 #include <ostream>
-#include <stdexcept>
 #include <variant>
 
 namespace lsys::lsc {
@@ -63,17 +62,14 @@ int out_of_memory(const Io& io) {
 } // namespace
 
 int run(std::span<const std::string> arguments, const Io& io) {
-    try {
+    const auto run_line = [&] {
         const ExitStatus status = std::visit(Dispatch{io}, parse_command_line(arguments));
         const bool interrupted =
             io.interrupted != nullptr && io.interrupted->load(std::memory_order_relaxed);
         io.err << (interrupted ? "lsc: interrupted\n" : "") << std::flush;
         return static_cast<int>(interrupted ? ExitStatus::Interrupted : status);
-    } catch (const std::bad_alloc&) {
-        return out_of_memory(io);
-    } catch (const std::length_error&) { // what a string or vector throws when it cannot be so long
-        return out_of_memory(io);
-    }
+    };
+    return catch_no_memory(run_line, [&] { return out_of_memory(io); });
 }
 
 } // namespace lsys::lsc

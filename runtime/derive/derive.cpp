@@ -1,6 +1,7 @@
 #include "runtime/derive/derive.h"
 
 #include "grammar/base/contract.h"
+#include "runtime/base/memory_border.h"
 #include "runtime/derive/engine/brackets.h"
 #include "runtime/derive/engine/chains.h"
 #include "runtime/derive/engine/origins.h"
@@ -36,16 +37,20 @@ struct Derivation::State {
     StageDepth depth; // of decomposition
     std::uint32_t rules = 0;
     std::uint32_t age = 0;
-    RuntimeError error;
-    LimitReport limit;
+    DerivationEnd end;
 
-    [[nodiscard]] DeriveStatus fail(RuntimeError with) {
-        error = std::move(with);
-        return DeriveStatus::Error;
+    [[nodiscard]] std::optional<Stop> fail(RuntimeError with) {
+        end.error = std::move(with);
+        return Stop::Diagnosed;
+    }
+
+    /// Notes a word after `word` that may not fit: its modules and all bytes held with it.
+    void report_limit(LimitKind kind, std::uint64_t modules, std::uint64_t bytes) {
+        end.limit = {kind, age, word.module_count(), modules, bytes};
     }
 
     /// Draws the globals and prepares the plan, which depends on them.
-    [[nodiscard]] DeriveStatus begin() {
+    [[nodiscard]] std::optional<Stop> begin() {
         std::optional<RuntimeError> wrong = draw_globals(bytecode, options.seed, globals);
         if (wrong) {
             return fail(std::move(*wrong));
@@ -60,7 +65,7 @@ struct Derivation::State {
             decompose_plan.emplace(bytecode, inputs, true, Stage::Decompose);
             decompose_passes.emplace(*decompose_plan, options);
         }
-        return DeriveStatus::Ok;
+        return std::nullopt;
     }
 
     /// Either all words keep origins or none does. False: no memory.
@@ -76,30 +81,26 @@ struct Derivation::State {
     }
 
     /// The word of a saved derivation in place of the axiom.
-    [[nodiscard]] DeriveStatus take_over(Word saved, std::uint32_t saved_age) {
+    [[nodiscard]] std::optional<Stop> take_over(Word saved, std::uint32_t saved_age) {
         const bool knows = saved.keeps_origins();
         word = std::move(saved);
         age = saved_age;
-        limit = {};
-        limit.kind = LimitKind::Memory;
-        limit.generation = age;
-        limit.modules = word.module_count();
-        limit.predicted_modules = word.module_count();
-        limit.predicted_bytes =
-            word.held_bytes() + (options.origins ? word.module_count() * sizeof(Origin) : 0);
-        if (options.origins && limit.predicted_bytes > options.limits.max_bytes) {
-            return DeriveStatus::Limit;
+        report_limit(LimitKind::Memory, word.module_count(),
+                     word.held_bytes() +
+                         (options.origins ? word.module_count() * sizeof(Origin) : 0));
+        if (options.origins && end.limit.predicted_bytes > options.limits.max_bytes) {
+            return Stop::Limit;
         }
         if (!agree_on_origins()) {
-            return DeriveStatus::OutOfMemory;
+            return Stop::OutOfMemory;
         }
         if (!knows) {
             std::fill(word.origins().begin(), word.origins().end(), Origin{kNone, age});
         }
-        return DeriveStatus::Ok;
+        return std::nullopt;
     }
 
-    [[nodiscard]] DeriveStatus make_axiom() {
+    [[nodiscard]] std::optional<Stop> make_axiom() {
         std::vector<float> parameters;
         std::optional<RuntimeError> wrong =
             axiom_parameters(bytecode, options.seed, globals, parameters);
@@ -107,29 +108,28 @@ struct Derivation::State {
             return fail(std::move(*wrong));
         }
         if (!agree_on_origins()) {
-            return DeriveStatus::OutOfMemory;
+            return Stop::OutOfMemory;
         }
         const std::uint64_t count = bytecode.axiom.codes.count;
-        limit = {};
-        limit.predicted_modules = count;
-        limit.predicted_bytes =
-            plan->held_bytes() + word.held_bytes_after(count, parameters.size());
+        report_limit(LimitKind::Modules, count,
+                     plan->held_bytes() + word.held_bytes_after(count, parameters.size()));
+        end.limit.modules = 0;
         if (count > options.limits.max_modules) {
-            return DeriveStatus::Limit;
+            return Stop::Limit;
         }
-        limit.kind = LimitKind::Memory;
-        if (limit.predicted_bytes > options.limits.max_bytes) {
-            return DeriveStatus::Limit;
+        end.limit.kind = LimitKind::Memory;
+        if (end.limit.predicted_bytes > options.limits.max_bytes) {
+            return Stop::Limit;
         }
         if (!word.resize(count, parameters.size())) {
-            return DeriveStatus::OutOfMemory;
+            return Stop::OutOfMemory;
         }
         word.visit([this](auto codes) { copy_axiom_codes(bytecode, codes.data()); });
         std::copy(parameters.begin(), parameters.end(), word.parameters().begin());
         if (word.keeps_origins()) {
             copy_axiom_origins(bytecode, word.origins().data());
         }
-        return DeriveStatus::Ok;
+        return std::nullopt;
     }
 
     /// Where the next pass writes; then `current` is told.
@@ -142,43 +142,42 @@ struct Derivation::State {
     }
 
     /// One pass over `current`, which becomes what is written; `word` stays what it is.
-    [[nodiscard]] DeriveStatus pass(Passes& by, const PassKeys& keys, const Word*& current) {
+    [[nodiscard]] std::optional<Stop> pass(Passes& by, const PassKeys& keys, const Word*& current) {
         Word& out = room_beside(current);
         const Word& other = current == &word ? spare : word;
         const std::uint64_t plans =
             plan->held_bytes() + (decompose_plan ? decompose_plan->held_bytes() : 0);
-        const DeriveStatus status = by.run(*current, out, keys, plans + other.held_bytes());
-        if (status == DeriveStatus::Error) {
-            error = by.error();
-        } else if (status == DeriveStatus::Limit || status == DeriveStatus::OutOfMemory) {
-            limit = by.limit();
-            limit.modules = word.module_count();
-        }
-        if (status == DeriveStatus::Ok) {
+        const std::optional<Stop> stop = by.run(*current, out, keys, plans + other.held_bytes());
+        if (stop == Stop::Diagnosed) {
+            end.error = by.error();
+        } else if (stop == Stop::Limit || stop == Stop::OutOfMemory) {
+            end.limit = by.limit();
+            end.limit.modules = word.module_count();
+        } else if (!stop) {
             take(out, current);
         }
-        return status;
+        return stop;
     }
 
-    [[nodiscard]] DeriveStatus rewrite(std::uint64_t first_draw, const Word*& current) {
+    [[nodiscard]] std::optional<Stop> rewrite(std::uint64_t first_draw, const Word*& current) {
         return pass(*passes, {options.seed, age, first_draw}, current);
     }
 
     /// A pass of each rule in turn.
-    [[nodiscard]] DeriveStatus rewrite_sequentially(const Word*& current) {
-        DeriveStatus status = DeriveStatus::Ok;
-        for (std::uint32_t rule = 0; rule < rules && status == DeriveStatus::Ok; ++rule) {
+    [[nodiscard]] std::optional<Stop> rewrite_sequentially(const Word*& current) {
+        std::optional<Stop> stop;
+        for (std::uint32_t rule = 0; rule < rules && !stop; ++rule) {
             plan->select_rule(rule);
             if (passes->concerns(*current)) {
-                status = rewrite(kDrawsOfPass * rule, current);
+                stop = rewrite(kDrawsOfPass * rule, current);
             }
         }
-        return status;
+        return stop;
     }
 
-    [[nodiscard]] DeriveStatus rewrite_by_mode(const Word*& current) {
+    [[nodiscard]] std::optional<Stop> rewrite_by_mode(const Word*& current) {
         if (rules == 0) {
-            return DeriveStatus::Ok;
+            return std::nullopt;
         }
         plan->prepare(age);
         switch (bytecode.settings.rewriting) {
@@ -189,39 +188,35 @@ struct Derivation::State {
             return rewrite_sequentially(current);
         case RewritingMode::Cyclic:
             plan->select_rule(age % rules);
-            return passes->concerns(*current) ? rewrite(0, current) : DeriveStatus::Ok;
+            return passes->concerns(*current) ? rewrite(0, current) : std::nullopt;
         }
-        return DeriveStatus::Ok;
+        return std::nullopt;
     }
 
     /// What `%` cuts off goes before anything is rewritten.
-    [[nodiscard]] DeriveStatus prune(const Word*& current) {
+    [[nodiscard]] std::optional<Stop> prune(const Word*& current) {
         if (!pruner.any()) {
-            return DeriveStatus::Ok;
+            return std::nullopt;
         }
         const PrunedSize size = pruned_size(pruner, *current);
         if (size.modules == current->module_count()) {
-            return DeriveStatus::Ok;
+            return std::nullopt;
         }
         Word& out = room_beside(current);
-        limit = {};
-        limit.kind = LimitKind::Memory;
-        limit.generation = age;
-        limit.modules = word.module_count();
-        limit.predicted_modules = size.modules;
-        limit.predicted_bytes = plan->held_bytes() + word.held_bytes() + spare.held_bytes() +
-                                out.held_bytes_after(size.modules, size.parameters);
-        limit.exact = false;
-        if (limit.predicted_bytes > options.limits.max_bytes) {
-            return DeriveStatus::Limit;
+        report_limit(LimitKind::Memory, size.modules,
+                     plan->held_bytes() + word.held_bytes() + spare.held_bytes() +
+                         out.held_bytes_after(size.modules, size.parameters));
+        end.limit.exact = false;
+        if (end.limit.predicted_bytes > options.limits.max_bytes) {
+            return Stop::Limit;
         }
         if (!out.resize(size.modules, size.parameters)) {
-            return DeriveStatus::OutOfMemory;
+            return Stop::OutOfMemory;
         }
         write_pruned(pruner, *current, out);
         take(out, current);
         passes->forget();
-        return DeriveStatus::Ok;
+        return std::nullopt;
     }
 
     /// The error that a module can still be decomposed, if there is such a module.
@@ -237,9 +232,9 @@ struct Derivation::State {
     }
 
     /// Passes of #decompose over a word of age `of`, until nothing matches.
-    [[nodiscard]] DeriveStatus decompose(std::uint32_t of, const Word*& current) {
+    [[nodiscard]] std::optional<Stop> decompose(std::uint32_t of, const Word*& current) {
         if (!decompose_plan) {
-            return DeriveStatus::Ok;
+            return std::nullopt;
         }
         decompose_plan->prepare(of);
         decompose_passes->forget();
@@ -250,35 +245,34 @@ struct Derivation::State {
                 break;
             }
             if (done == depth.passes) {
-                return depth.checked ? fail(std::move(*left)) : DeriveStatus::Ok;
+                return depth.checked ? fail(std::move(*left)) : std::nullopt;
             }
-            const DeriveStatus status = pass(*decompose_passes, keys, current);
-            if (status != DeriveStatus::Ok) {
-                limit.generation = age;
-                limit.modules = of == 0 ? 0 : limit.modules; // the axiom is not there yet
-                return status;
+            if (const std::optional<Stop> stop = pass(*decompose_passes, keys, current)) {
+                end.limit.generation = age;
+                end.limit.modules = of == 0 ? 0 : end.limit.modules; // there is no axiom yet
+                return stop;
             }
             keys.first_draw += kDrawsOfPass;
             passes->forget();
         }
-        return DeriveStatus::Ok;
+        return std::nullopt;
     }
 
-    [[nodiscard]] DeriveStatus step() {
+    [[nodiscard]] std::optional<Stop> step() {
         if (options.cancelled != nullptr && options.cancelled->load(std::memory_order_relaxed)) {
-            return DeriveStatus::Cancelled;
+            return Stop::Cancelled;
         }
         const Word* current = &word;
-        DeriveStatus status = prune(current);
-        if (status == DeriveStatus::Ok) {
-            status = rewrite_by_mode(current);
+        std::optional<Stop> stop = prune(current);
+        if (!stop) {
+            stop = rewrite_by_mode(current);
         }
-        if (status == DeriveStatus::Ok) {
-            status = decompose(age + 1, current);
+        if (!stop) {
+            stop = decompose(age + 1, current);
         }
-        if (status != DeriveStatus::Ok) {
+        if (stop) {
             passes->forget();
-            return status;
+            return stop;
         }
         if (current == &next) {
             std::swap(word, next);
@@ -287,16 +281,38 @@ struct Derivation::State {
         if (options.progress) {
             options.progress(age, word.module_count());
         }
-        return DeriveStatus::Ok;
+        return std::nullopt;
     }
 
-    [[nodiscard]] DeriveStatus decompose_axiom() {
+    [[nodiscard]] std::optional<Stop> decompose_axiom() {
         const Word* current = &word;
-        const DeriveStatus status = decompose(0, current);
-        if (status == DeriveStatus::Ok && current == &next) {
+        const std::optional<Stop> stop = decompose(0, current);
+        if (!stop && current == &next) {
             std::swap(word, next);
         }
-        return status;
+        return stop;
+    }
+
+    [[nodiscard]] std::optional<Stop> check_brackets() {
+        BracketCounter counter(bytecode);
+        const std::optional<std::uint64_t> found =
+            word.visit([&](auto codes) { return counter.feed(codes.data(), codes.size()); });
+        return found ? fail(unmatched_bracket(bytecode, word.code(*found), *found, age))
+                     : std::nullopt;
+    }
+
+    /// Runs `work` for a public function and keeps how it ended.
+    template <typename Work>
+    [[nodiscard]] std::optional<Stop> run(const Work& work) {
+        end.stop = catch_no_memory(work, [this]() -> std::optional<Stop> {
+            if (passes) {
+                passes->forget();
+            }
+            report_limit(LimitKind::Memory, word.module_count(), word.held_bytes());
+            end.limit.exact = false;
+            return Stop::OutOfMemory;
+        });
+        return end.stop;
     }
 };
 
@@ -307,54 +323,48 @@ Derivation::~Derivation() = default;
 Derivation::Derivation(Derivation&&) noexcept = default;
 Derivation& Derivation::operator=(Derivation&&) noexcept = default;
 
-DeriveStatus Derivation::start() {
-    const DeriveStatus status = state_->begin();
-    if (status != DeriveStatus::Ok) {
-        return status;
-    }
-    state_->age = 0;
-    const DeriveStatus made = state_->make_axiom();
-    return made == DeriveStatus::Ok ? state_->decompose_axiom() : made;
+std::optional<Stop> Derivation::start() {
+    return state_->run([this]() -> std::optional<Stop> {
+        std::optional<Stop> stop = state_->begin();
+        state_->age = 0;
+        if (!stop) {
+            stop = state_->make_axiom();
+        }
+        return stop ? stop : state_->decompose_axiom();
+    });
 }
 
-DeriveStatus Derivation::resume(Word word, std::uint32_t age) {
+std::optional<Stop> Derivation::resume(Word word, std::uint32_t age) {
     LSYS_CHECK(word.code_width() == state_->word.code_width(), word.code_width());
-    const DeriveStatus status = state_->begin();
-    if (status != DeriveStatus::Ok) {
-        return status;
-    }
-    return state_->take_over(std::move(word), age);
+    return state_->run([&] {
+        const std::optional<Stop> stop = state_->begin();
+        return stop ? stop : state_->take_over(std::move(word), age);
+    });
 }
 
-DeriveStatus Derivation::step() {
+std::optional<Stop> Derivation::step() {
     LSYS_CHECK(state_->passes.has_value());
-    return state_->step();
+    return state_->run([this] { return state_->step(); });
 }
 
-DeriveStatus Derivation::run_to(std::uint32_t age) {
-    DeriveStatus status = DeriveStatus::Ok;
-    while (status == DeriveStatus::Ok && state_->age < age) {
-        status = step();
+std::optional<Stop> Derivation::run_to(std::uint32_t age) {
+    std::optional<Stop> stop;
+    while (!stop && state_->age < age) {
+        stop = step();
     }
-    return status;
+    return stop;
 }
 
-DeriveStatus Derivation::derive() {
-    DeriveStatus status = start();
-    if (status == DeriveStatus::Ok) {
-        status = run_to(state_->options.generations);
+std::optional<Stop> Derivation::derive() {
+    std::optional<Stop> stop = start();
+    if (!stop) {
+        stop = run_to(state_->options.generations);
     }
-    return status == DeriveStatus::Ok ? check_brackets() : status;
+    return stop ? stop : check_brackets();
 }
 
-DeriveStatus Derivation::check_brackets() {
-    State& state = *state_;
-    BracketCounter counter(state.bytecode);
-    const std::optional<std::uint64_t> found =
-        state.word.visit([&](auto codes) { return counter.feed(codes.data(), codes.size()); });
-    return found ? state.fail(unmatched_bracket(state.bytecode, state.word.code(*found), *found,
-                                                state.age))
-                 : DeriveStatus::Ok;
+std::optional<Stop> Derivation::check_brackets() {
+    return state_->run([this] { return state_->check_brackets(); });
 }
 
 const Word& Derivation::word() const {
@@ -363,11 +373,8 @@ const Word& Derivation::word() const {
 std::uint32_t Derivation::age() const {
     return state_->age;
 }
-const RuntimeError& Derivation::error() const {
-    return state_->error;
-}
-const LimitReport& Derivation::limit() const {
-    return state_->limit;
+const DerivationEnd& Derivation::end() const {
+    return state_->end;
 }
 const std::vector<float>& Derivation::globals() const {
     return state_->globals;

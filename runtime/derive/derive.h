@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
+#include "grammar/base/outcome.h"
 #include "runtime/base/limits.h"
 #include "runtime/derive/word.h"
 
@@ -55,9 +56,15 @@ struct DeriveOptions {
     std::function<void(std::uint32_t generation, std::uint64_t modules_written)> progress;
 };
 
-enum class DeriveStatus : std::uint8_t { Ok, Error, Limit, Cancelled, OutOfMemory };
+/// Why a derivation ended before its last word, as facts for messages.
+struct DerivationEnd {
+    std::optional<Stop> stop; // none: the derivation is complete, or may go on
+    RuntimeError error;       // for Stop::Diagnosed
+    LimitReport limit;        // for Stop::Limit and Stop::OutOfMemory
+};
 
-/// One derivation in progress. Holds a reference to the bytecode, which outlives it.
+/// One derivation in progress. Holds a reference to the bytecode, which outlives it. Functions that
+/// return a Stop return nothing when they are done; end() has the facts.
 class Derivation {
 public:
     Derivation(const Bytecode& bytecode, DeriveOptions options);
@@ -65,26 +72,26 @@ public:
     Derivation(Derivation&&) noexcept;
     Derivation& operator=(Derivation&&) noexcept;
 
-    /// Draws the globals and makes the axiom. Before anything else; or resume().
-    [[nodiscard]] DeriveStatus start();
-    /// Goes on from a saved word of age `age`; globals are drawn anew from the seed, which gives
-    /// the same. Origins that the word does not keep are not known.
-    [[nodiscard]] DeriveStatus resume(Word word, std::uint32_t age);
-    /// Rewrites the word once. After anything but Ok the word is still that of age().
-    [[nodiscard]] DeriveStatus step();
-    /// Steps until the age is `age` or something ends it.
-    [[nodiscard]] DeriveStatus run_to(std::uint32_t age);
-    /// The whole derivation from the axiom: start(), run_to() the generations asked for,
-    /// check_brackets().
-    [[nodiscard]] DeriveStatus derive();
-    /// Checks that every `]` of the word has its `[`; commands that derive call it on the last
-    /// word. Error names the production that wrote it if only one can have.
-    [[nodiscard]] DeriveStatus check_brackets();
+    /// Draws the globals and makes the axiom. This call or resume() comes first.
+    [[nodiscard]] std::optional<Stop> start();
+    /// Continues from a saved word of age `age`. Globals are drawn again from the seed, with the
+    /// same values. Origins that the word does not keep are unknown.
+    [[nodiscard]] std::optional<Stop> resume(Word word, std::uint32_t age);
+    /// Rewrites the word once. After a Stop the word is still that of age().
+    [[nodiscard]] std::optional<Stop> step();
+    /// Steps until the age is `age`, or until a Stop.
+    [[nodiscard]] std::optional<Stop> run_to(std::uint32_t age);
+    /// Runs the whole derivation: start(), run_to(DeriveOptions::generations), check_brackets().
+    [[nodiscard]] std::optional<Stop> derive();
+    /// Checks that every `]` of the word has its `[`. Commands call it on the last word. The error
+    /// names the production that wrote the `]` if only one can have.
+    [[nodiscard]] std::optional<Stop> check_brackets();
 
     [[nodiscard]] const Word& word() const;
     [[nodiscard]] std::uint32_t age() const;
-    [[nodiscard]] const RuntimeError& error() const; // after Error
-    [[nodiscard]] const LimitReport& limit() const;  // after Limit or OutOfMemory
+    [[nodiscard]] const DerivationEnd& end() const;
+    [[nodiscard]] const RuntimeError& error() const { return end().error; }
+    [[nodiscard]] const LimitReport& limit() const { return end().limit; }
     [[nodiscard]] const std::vector<float>& globals() const;
     [[nodiscard]] Word take_word();
 

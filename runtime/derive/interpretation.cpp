@@ -49,14 +49,14 @@ public:
                prepared_->inputs.cancelled},
               [this](const LevelBlock<C>& block) { return emit(block); }) {}
 
-    DeriveStatus feed(std::span<const Code> codes,
-                      std::span<const float> parameters,
-                      std::span<const Origin> origins) override {
+    std::optional<Stop> feed(std::span<const Code> codes,
+                             std::span<const float> parameters,
+                             std::span<const Origin> origins) override {
         const float* next = parameters.data();
         while (!codes.empty()) {
             const auto block = levels_.first_block();
             if (block.codes == nullptr) {
-                return DeriveStatus::Limit;
+                return Stop::Limit;
             }
             std::uint64_t count = 0;
             std::uint64_t stored = 0;
@@ -76,13 +76,12 @@ public:
                 origins = origins.subspan(count);
             }
             codes = codes.subspan(count);
-            const DeriveStatus status = levels_.push(count);
-            if (status != DeriveStatus::Ok) {
+            if (const std::optional<Stop> stop = levels_.push(count)) {
                 error_ = std::move(levels_.error());
-                return status;
+                return stop;
             }
         }
-        return DeriveStatus::Ok;
+        return std::nullopt;
     }
 
     const RuntimeError& error() const override { return error_; }

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace lsys {
@@ -35,11 +36,12 @@ public:
     Interpretation(const Interpretation&) = delete;
     Interpretation& operator=(const Interpretation&) = delete;
 
-    /// The next modules of the derived word. Cancelled: the sink has ended the work.
-    [[nodiscard]] virtual DeriveStatus feed(std::span<const Code> codes,
-                                            std::span<const float> parameters,
-                                            std::span<const Origin> origins) = 0;
-    /// After Error.
+    /// Interprets the next modules of the derived word. Stop::Cancelled: the sink has ended the
+    /// work.
+    [[nodiscard]] virtual std::optional<Stop> feed(std::span<const Code> codes,
+                                                   std::span<const float> parameters,
+                                                   std::span<const Origin> origins) = 0;
+    /// After Stop::Diagnosed.
     [[nodiscard]] virtual const RuntimeError& error() const = 0;
 
 protected:

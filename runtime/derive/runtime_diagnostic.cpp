@@ -221,8 +221,9 @@ Diagnostic limit_diagnostic(const LimitReport& report,
     Diagnostic diagnostic = make_diagnostic(
         DiagnosticCode::LimitReached, {},
         no_memory
-            ? fmt::format("the system has no memory for generation {}, which takes {}{}", failed,
-                          report.exact ? "" : "at least ", size)
+            ? fmt::format("the system has no memory for generation {}{}{}{}", failed,
+                          report.predicted_bytes == 0 ? "" : ", which takes ",
+                          report.exact ? "" : "at least ", report.predicted_bytes == 0 ? "" : size)
             : fmt::format("generation {} {} {}{}, over the limit of {}", failed,
                           modules ? "has" : "takes", report.exact ? "" : "at least ", size, limit));
     std::uint32_t site = bytecode.axiom_site;

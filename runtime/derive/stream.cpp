@@ -1,6 +1,6 @@
 #include "runtime/derive/stream.h"
 
-#include "grammar/base/contract.h"
+#include "runtime/base/memory_border.h"
 #include "runtime/derive/engine/brackets.h"
 #include "runtime/derive/engine/chains.h"
 #include "runtime/derive/engine/levels.h"
@@ -37,37 +37,38 @@ public:
 
     StreamOutcome run(const std::vector<float>& axiom_parameters) {
         const auto first = levels_.first_block();
-        DeriveStatus status = DeriveStatus::Limit;
+        std::optional<Stop> stop = Stop::Limit;
         if (first.codes != nullptr) {
             copy_axiom_codes(bytecode_, first.codes);
             std::copy(axiom_parameters.begin(), axiom_parameters.end(), first.parameters);
             if (options_.origins) {
                 copy_axiom_origins(bytecode_, first.origins);
             }
-            status = levels_.push(bytecode_.axiom.codes.count);
+            stop = levels_.push(bytecode_.axiom.codes.count);
         }
-        if (outcome_.status != DeriveStatus::Ok) {
-            return std::move(outcome_); // of emit()
+        if (outcome_.end.stop) {
+            return std::move(outcome_); // ended by emit()
         }
-        outcome_.status = status;
-        if (status == DeriveStatus::Error) {
-            outcome_.error = std::move(levels_.error());
-        } else if (status == DeriveStatus::Limit) {
+        outcome_.end.stop = stop;
+        if (stop == Stop::Diagnosed) {
+            outcome_.end.error = std::move(levels_.error());
+        } else if (stop == Stop::Limit) {
             report_limit(LimitKind::Memory, outcome_.modules);
-            outcome_.limit.predicted_bytes = levels_.held_bytes();
+            outcome_.end.limit.predicted_bytes = levels_.held_bytes();
         }
         return std::move(outcome_);
     }
 
 private:
     void report_limit(LimitKind kind, std::uint64_t predicted) {
-        outcome_.limit.kind = kind;
-        outcome_.limit.generation = options_.generations;
-        outcome_.limit.modules = outcome_.modules;
-        outcome_.limit.predicted_modules = predicted;
-        outcome_.limit.exact = false;
-        outcome_.limit.streamed = true;
-        outcome_.status = DeriveStatus::Limit;
+        LimitReport& limit = outcome_.end.limit;
+        limit.kind = kind;
+        limit.generation = options_.generations;
+        limit.modules = outcome_.modules;
+        limit.predicted_modules = predicted;
+        limit.exact = false;
+        limit.streamed = true;
+        outcome_.end.stop = Stop::Limit;
     }
 
     /// Hands a block of the last word to the consumer.
@@ -79,10 +80,10 @@ private:
         }
         const std::optional<std::uint64_t> unmatched = brackets_.feed(block.codes.data(), count);
         if (unmatched) {
-            outcome_.error =
+            outcome_.end.error =
                 unmatched_bracket(bytecode_, block.codes[*unmatched],
                                   block.first_position + *unmatched, options_.generations);
-            outcome_.status = DeriveStatus::Error;
+            outcome_.end.stop = Stop::Diagnosed;
             return false;
         }
         std::uint64_t parameters = 0;
@@ -94,7 +95,7 @@ private:
         emitted_.assign(block.codes.begin(), block.codes.end());
         const std::size_t origins = options_.origins ? emitted_.size() : 0;
         if (!consumer_({emitted_, {block.parameters, parameters}, {block.origins, origins}})) {
-            outcome_.status = DeriveStatus::Cancelled;
+            outcome_.end.stop = Stop::Cancelled;
             return false;
         }
         const std::uint64_t before = outcome_.modules;
@@ -116,24 +117,8 @@ private:
     StreamOutcome outcome_;
 };
 
-} // namespace
-
-std::optional<std::string> why_not_streamable(const Bytecode& bytecode) {
-    if (bytecode.settings.rewriting != RewritingMode::Parallel) {
-        return "`rewriting " + std::string(name_of(bytecode.settings.rewriting)) +
-               "` needs the whole word";
-    }
-    for (const BytecodeProduction& production : bytecode.productions) {
-        if (production.has_left || production.has_right) {
-            return "production `" + production.name + "` has a context, which needs the whole word";
-        }
-    }
-    return std::nullopt;
-}
-
-StreamOutcome derive_streamed(const Bytecode& bytecode,
-                              const DeriveOptions& options,
-                              const StreamConsumer& consumer) {
+StreamOutcome
+stream(const Bytecode& bytecode, const DeriveOptions& options, const StreamConsumer& consumer) {
     StreamOutcome outcome;
     std::vector<float> globals;
     std::vector<float> axiom;
@@ -142,8 +127,8 @@ StreamOutcome derive_streamed(const Bytecode& bytecode,
         wrong = axiom_parameters(bytecode, options.seed, globals, axiom);
     }
     if (wrong) {
-        outcome.error = std::move(*wrong);
-        outcome.status = DeriveStatus::Error;
+        outcome.end.error = std::move(*wrong);
+        outcome.end.stop = Stop::Diagnosed;
         return outcome;
     }
     const PlanInputs inputs{globals.data(), options.seed, static_cast<float>(options.generations)};
@@ -170,6 +155,35 @@ StreamOutcome derive_streamed(const Bytecode& bytecode,
                 .run(axiom);
         });
     });
+}
+
+} // namespace
+
+std::optional<std::string> why_not_streamable(const Bytecode& bytecode) {
+    if (bytecode.settings.rewriting != RewritingMode::Parallel) {
+        return "`rewriting " + std::string(name_of(bytecode.settings.rewriting)) +
+               "` needs the whole word";
+    }
+    for (const BytecodeProduction& production : bytecode.productions) {
+        if (production.has_left || production.has_right) {
+            return "production `" + production.name + "` has a context, which needs the whole word";
+        }
+    }
+    return std::nullopt;
+}
+
+StreamOutcome derive_streamed(const Bytecode& bytecode,
+                              const DeriveOptions& options,
+                              const StreamConsumer& consumer) {
+    return catch_no_memory([&] { return stream(bytecode, options, consumer); },
+                           [&] {
+                               StreamOutcome outcome;
+                               outcome.end.stop = Stop::OutOfMemory;
+                               outcome.end.limit.kind = LimitKind::Memory;
+                               outcome.end.limit.generation = options.generations;
+                               outcome.end.limit.streamed = true;
+                               return outcome;
+                           });
 }
 
 } // namespace lsys

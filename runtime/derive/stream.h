@@ -12,7 +12,7 @@
 
 namespace lsys {
 
-/// Whether the system can be streamed: parallel, without contexts. Otherwise a reason for the user.
+/// The reason, for the user, why the system cannot be streamed: it is not parallel or has contexts.
 [[nodiscard]] std::optional<std::string> why_not_streamable(const Bytecode& bytecode);
 
 /// A run of modules of the last word, in order.
@@ -21,18 +21,18 @@ struct StreamChunk {
     std::span<const float> parameters;
     std::span<const Origin> origins; // of each module, if DeriveOptions::origins asks for them
 };
-/// Returns false to stop the derivation (it then ends as Cancelled).
+/// Returns false to end the derivation with Stop::Cancelled.
 using StreamConsumer = std::function<bool(const StreamChunk&)>;
 
+/// How a streamed derivation ended, and the size of what the consumer was given.
 struct StreamOutcome {
-    DeriveStatus status = DeriveStatus::Ok;
-    RuntimeError error;
-    LimitReport limit;
+    DerivationEnd end;
     std::uint64_t modules = 0;
     std::uint64_t parameters = 0;
 };
 
-/// Precondition: !why_not_streamable(bytecode). options.generations generations from the axiom.
+/// Derives options.generations generations from the axiom. Precondition:
+/// !why_not_streamable(bytecode).
 [[nodiscard]] StreamOutcome derive_streamed(const Bytecode& bytecode,
                                             const DeriveOptions& options,
                                             const StreamConsumer& consumer);

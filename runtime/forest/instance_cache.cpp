@@ -1,12 +1,12 @@
 #include "runtime/forest/instance_cache.h"
 
 #include "grammar/base/contract.h"
+#include "runtime/base/memory_border.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <map>
-#include <new>
 #include <numbers>
 #include <string>
 #include <unordered_map>
@@ -228,9 +228,9 @@ private:
     std::uint32_t hero_ = 0;
 };
 
-CacheOutcome
-record_heroes(const Bytecode& bytecode, const CacheOptions& options, InstanceCache& cache) {
+CacheOutcome record_heroes(const Bytecode& bytecode, const CacheOptions& options) {
     CacheOutcome outcome;
+    InstanceCache cache;
     Recorder recorder(options, cache);
     TurtleOptions turtle_options;
     turtle_options.mesh_lengths = options.mesh_lengths;
@@ -240,7 +240,7 @@ record_heroes(const Bytecode& bytecode, const CacheOptions& options, InstanceCac
     turtle_options.seed = options.seed;
     turtle_options.generations = options.generations;
     Turtle turtle(bytecode, turtle_options);
-    for (std::uint32_t k = 0; k < options.heroes && outcome.fine(); ++k) {
+    for (std::uint32_t k = 0; k < options.heroes && outcome.ok(); ++k) {
         outcome.hero = k;
         DeriveOptions derive;
         derive.generations = options.generations;
@@ -249,10 +249,8 @@ record_heroes(const Bytecode& bytecode, const CacheOptions& options, InstanceCac
         derive.limits = options.limits;
         derive.cancelled = options.cancelled;
         Derivation derivation(bytecode, derive);
-        outcome.derived = derivation.derive();
-        if (outcome.derived != DeriveStatus::Ok) {
-            outcome.error = derivation.error();
-            outcome.limit = derivation.limit();
+        if (derivation.derive()) {
+            outcome.derived = derivation.end();
             break;
         }
         if (k > 0) {
@@ -268,34 +266,29 @@ record_heroes(const Bytecode& bytecode, const CacheOptions& options, InstanceCac
         }
     }
     if (outcome.drawn == TurtleStatus::NotInterpreted) {
-        outcome.error = turtle.error();
+        outcome.drawing_error = turtle.error();
     }
     outcome.faults = turtle.faults();
-    if (outcome.fine()) {
+    if (outcome.ok()) {
         recorder.finish();
         cache.heroes = options.heroes;
         cache.skeleton = turtle.take_skeleton();
+        outcome.cache = std::move(cache);
     }
     return outcome;
 }
 
 } // namespace
 
-CacheOutcome
-make_instance_cache(const Bytecode& bytecode, const CacheOptions& options, InstanceCache& cache) {
+CacheOutcome make_instance_cache(const Bytecode& bytecode, const CacheOptions& options) {
     LSYS_CHECK(options.heroes > 0);
     LSYS_CHECK(options.tolerance >= 0.0F);
-    cache = {};
-    CacheOutcome outcome;
-    try {
-        outcome = record_heroes(bytecode, options, cache);
-    } catch (const std::bad_alloc&) {
-        outcome.drawn = TurtleStatus::OutOfMemory;
-    }
-    if (!outcome.fine()) {
-        cache = {};
-    }
-    return outcome;
+    return catch_no_memory([&] { return record_heroes(bytecode, options); },
+                           [] {
+                               CacheOutcome outcome;
+                               outcome.drawn = TurtleStatus::OutOfMemory;
+                               return outcome;
+                           });
 }
 
 BranchInstance root_of(const Tree& tree) {

@@ -102,23 +102,20 @@ struct CacheOptions {
 };
 
 struct CacheOutcome {
-    DeriveStatus derived = DeriveStatus::Ok;
+    InstanceCache cache; // empty unless ok()
+    DerivationEnd derived;
     TurtleStatus drawn = TurtleStatus::Ok;
-    RuntimeError error;     // where derived is Error, or drawn NotInterpreted
-    LimitReport limit;      // where it is Limit or OutOfMemory
-    std::uint32_t hero = 0; // that could not be made
+    RuntimeError drawing_error;                          // of TurtleStatus::NotInterpreted
+    std::uint32_t hero = 0;                              // the last one begun
     std::array<TurtleFault, kTurtleFaultKinds> faults{}; // of all heroes
 
-    [[nodiscard]] bool fine() const {
-        return derived == DeriveStatus::Ok && drawn == TurtleStatus::Ok;
-    }
+    [[nodiscard]] bool ok() const { return !derived.stop && drawn == TurtleStatus::Ok; }
 };
 
 /// Derives and draws the heroes. `bytecode` is of an instanced system
-/// (compiler/instancing/impl/instancing_pass.h); another one gives a cache of whole plants. The
-/// cache is empty unless all is fine.
-[[nodiscard]] CacheOutcome
-make_instance_cache(const Bytecode& bytecode, const CacheOptions& options, InstanceCache& cache);
+/// (compiler/instancing/impl/instancing_pass.h); another one gives a cache of whole plants.
+[[nodiscard]] CacheOutcome make_instance_cache(const Bytecode& bytecode,
+                                               const CacheOptions& options);
 
 /// An instance where it stands in a plant.
 struct BranchInstance {

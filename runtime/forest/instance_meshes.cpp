@@ -1,13 +1,12 @@
 #include "runtime/forest/instance_meshes.h"
 
 #include "grammar/base/contract.h"
+#include "runtime/base/memory_border.h"
 #include "runtime/base/workers.h"
 
 #include <algorithm>
 #include <limits>
-#include <new>
 #include <span>
-#include <stdexcept>
 #include <utility>
 
 namespace lsys {
@@ -291,14 +290,9 @@ InstanceMeshStatus make_instance_meshes(const InstanceCache& cache,
                                         const MeshOptions& options,
                                         InstanceMeshes& meshes) {
     meshes = {};
-    InstanceMeshStatus status = InstanceMeshStatus::OutOfMemory;
-    try {
-        status = build(cache, user_meshes, options, meshes);
-    } catch (const std::bad_alloc&) {
-        status = InstanceMeshStatus::OutOfMemory;
-    } catch (const std::length_error&) {
-        status = InstanceMeshStatus::OutOfMemory;
-    }
+    const InstanceMeshStatus status =
+        catch_no_memory([&] { return build(cache, user_meshes, options, meshes); },
+                        [] { return InstanceMeshStatus::OutOfMemory; });
     if (status != InstanceMeshStatus::Ok) {
         meshes = {};
     }

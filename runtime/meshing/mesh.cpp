@@ -1,5 +1,6 @@
 #include "runtime/meshing/mesh.h"
 
+#include "runtime/base/memory_border.h"
 #include "runtime/meshing/impl/boxes.h"
 #include "runtime/meshing/impl/cylinders.h"
 #include "runtime/meshing/impl/mesh_builder.h"
@@ -8,9 +9,6 @@
 #include "runtime/meshing/impl/program_shapes.h"
 #include "runtime/meshing/impl/ring_segments.h"
 #include "runtime/meshing/impl/tubes.h"
-
-#include <new>
-#include <stdexcept>
 
 namespace lsys {
 
@@ -51,14 +49,11 @@ MeshStatus make_mesh(const Skeleton& skeleton,
                      const std::vector<UserMesh>& user_meshes,
                      const MeshOptions& options,
                      Mesh& mesh) {
-    try {
-        return build(skeleton, user_meshes, options, mesh);
-    } catch (const std::bad_alloc&) {
-        mesh = {};
-    } catch (const std::length_error&) {
-        mesh = {};
-    }
-    return MeshStatus::OutOfMemory;
+    return catch_no_memory([&] { return build(skeleton, user_meshes, options, mesh); },
+                           [&] {
+                               mesh = {};
+                               return MeshStatus::OutOfMemory;
+                           });
 }
 
 glm::vec3 palette_colour(std::uint32_t index) {

@@ -150,12 +150,12 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     cache.limits = project.limits;
     cache.max_bytes = project.limits.max_bytes;
     cache.cancelled = project.host.cancelled;
-    const CacheOutcome outcome = make_instance_cache(grammar.bytecode, cache, stage.cache);
-    if (const std::optional<Stop> stop =
-            report_drawing({outcome.derived, outcome.error, outcome.limit}, outcome.drawn,
-                           outcome.error, outcome.faults, grammar, step)) {
+    CacheOutcome outcome = make_instance_cache(grammar.bytecode, cache);
+    if (const std::optional<Stop> stop = report_drawing(
+            outcome.derived, outcome.drawn, outcome.drawing_error, outcome.faults, grammar, step)) {
         return step.end(*stop);
     }
+    stage.cache = std::move(outcome.cache);
     const bool any_hit = std::any_of(stage.cache.slots.begin(), stage.cache.slots.end(),
                                      [](const InstanceSlot& slot) { return slot.hits != 0; });
     if (system->kind_count != 0 && species.rho > 0.0F && !any_hit) {

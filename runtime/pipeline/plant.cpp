@@ -27,9 +27,8 @@ DerivationEnd draw_stored(const DeriveOptions& options,
                           Plant& plant) {
     const Stopwatch deriving;
     Derivation derivation(bytecode, options);
-    const DeriveStatus status = derivation.derive();
-    if (status != DeriveStatus::Ok) {
-        return {status, derivation.error(), derivation.limit()};
+    if (derivation.derive()) {
+        return derivation.end();
     }
     plant.modules = derivation.word().module_count();
     plant.derive_seconds = deriving.seconds();
@@ -55,38 +54,17 @@ DerivationEnd draw_streamed(const DeriveOptions& options,
     });
     plant.modules = outcome.modules;
     plant.derive_seconds = deriving.seconds();
-    if (drawn != TurtleStatus::Ok) {
-        return {}; // the turtle ended it
-    }
-    return {outcome.status, std::move(outcome.error), outcome.limit};
+    return drawn == TurtleStatus::Ok ? std::move(outcome.end) : DerivationEnd{};
 }
 
 } // namespace
 
-Stop stop_of(DeriveStatus status) {
-    switch (status) {
-    case DeriveStatus::Ok:
-    case DeriveStatus::Error:
-        return Stop::Diagnosed;
-    case DeriveStatus::Limit:
-        return Stop::Limit;
-    case DeriveStatus::OutOfMemory:
-        return Stop::OutOfMemory;
-    case DeriveStatus::Cancelled:
-        break;
-    }
-    return Stop::Cancelled;
-}
-
-Diagnostic derivation_diagnostic(DeriveStatus status,
-                                 const RuntimeError& error,
-                                 const LimitReport& limit,
-                                 const Limits& limits,
-                                 const Grammar& grammar) {
+Diagnostic
+derivation_diagnostic(const DerivationEnd& end, const Limits& limits, const Grammar& grammar) {
     const bool has_sources = !grammar.is_module_file;
-    return status == DeriveStatus::Error
-               ? runtime_diagnostic(error, grammar.bytecode, has_sources)
-               : limit_diagnostic(limit, limits, grammar.bytecode, has_sources);
+    return end.stop == Stop::Diagnosed
+               ? runtime_diagnostic(end.error, grammar.bytecode, has_sources)
+               : limit_diagnostic(end.limit, limits, grammar.bytecode, has_sources);
 }
 
 DeriveOptions
@@ -150,7 +128,7 @@ Outcome<Plant> grow_plant(const PlantOptions& options, Grammar& grammar, const P
     const DerivationEnd derived = options.stream
                                       ? draw_streamed(derive, bytecode, turtle, drawn, plant)
                                       : draw_stored(derive, bytecode, turtle, drawn, plant);
-    if (derived.status == DeriveStatus::Ok && drawn == TurtleStatus::Ok) {
+    if (!derived.stop && drawn == TurtleStatus::Ok) {
         drawn = turtle.finish();
     }
     if (const std::optional<Stop> stop = report_drawing(

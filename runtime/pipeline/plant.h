@@ -53,13 +53,8 @@ grow_plant(const PlantOptions& options, Grammar& grammar, const Project& project
                                        const MeshOptions& options,
                                        const Project& project);
 
-/// The diagnostic of a derivation that did not end as Ok or Cancelled.
-[[nodiscard]] Diagnostic derivation_diagnostic(DeriveStatus status,
-                                               const RuntimeError& error,
-                                               const LimitReport& limit,
-                                               const Limits& limits,
-                                               const Grammar& grammar);
-/// Why a derivation ended that did not end as Ok.
-[[nodiscard]] Stop stop_of(DeriveStatus status);
+/// The diagnostic of a derivation that a Stop other than Stop::Cancelled ended.
+[[nodiscard]] Diagnostic
+derivation_diagnostic(const DerivationEnd& end, const Limits& limits, const Grammar& grammar);
 
 } // namespace lsys

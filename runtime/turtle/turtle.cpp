@@ -197,25 +197,13 @@ TurtleStatus Turtle::State::interpret(std::span<const C> codes,
         for (const Code each : piece) {
             stored += bytecode.stored_parameters(each);
         }
-        const DeriveStatus done = interpretation->feed(
+        const std::optional<Stop> stop = interpretation->feed(
             piece, parameters.first(stored), origins.empty() ? origins : origins.first(count));
-        if (status == TurtleStatus::Ok) { // else the turtle has ended it
-            switch (done) {
-            case DeriveStatus::Ok:
-                break;
-            case DeriveStatus::Error:
-                status = TurtleStatus::NotInterpreted;
-                break;
-            case DeriveStatus::Limit:
-                status = TurtleStatus::Limit;
-                break;
-            case DeriveStatus::OutOfMemory:
-                status = TurtleStatus::OutOfMemory;
-                break;
-            case DeriveStatus::Cancelled:
-                status = TurtleStatus::Cancelled;
-                break;
-            }
+        if (stop && status == TurtleStatus::Ok) { // else the turtle has ended it
+            status = *stop == Stop::Limit         ? TurtleStatus::Limit
+                     : *stop == Stop::OutOfMemory ? TurtleStatus::OutOfMemory
+                     : *stop == Stop::Cancelled   ? TurtleStatus::Cancelled
+                                                  : TurtleStatus::NotInterpreted;
         }
         codes = codes.subspan(count);
         parameters = parameters.subspan(stored);

@@ -90,9 +90,11 @@ ForestStage stage_of(const Kind& kind) {
     options.knows_up = system->knows_up;
     ForestStage stage;
     stage.generations = kind.generations;
-    if (!make_instance_cache(system->bytecode, options, stage.cache).fine()) {
+    CacheOutcome outcome = make_instance_cache(system->bytecode, options);
+    if (!outcome.ok()) {
         fail("a cache cannot be made");
     }
+    stage.cache = std::move(outcome.cache);
     return stage;
 }
 

@@ -80,8 +80,7 @@ void measure_plant(const Plant& plant) {
     DeriveOptions options;
     options.generations = plant.generations;
     Derivation derivation(bytecode, options);
-    if (derivation.start() != DeriveStatus::Ok ||
-        derivation.run_to(plant.generations) != DeriveStatus::Ok) {
+    if (derivation.start() || derivation.run_to(plant.generations)) {
         fail("a plant does not derive");
     }
     const auto draw = [&] {

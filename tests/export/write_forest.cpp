@@ -50,9 +50,11 @@ bool add_stage(const std::string& grammar,
     CacheOptions options;
     options.generations = generations;
     options.knows_up = system->knows_up;
-    if (!make_instance_cache(system->bytecode, options, stage.cache).fine()) {
+    CacheOutcome outcome = make_instance_cache(system->bytecode, options);
+    if (!outcome.ok()) {
         return complain("no heroes");
     }
+    stage.cache = std::move(outcome.cache);
     return make_instance_meshes(stage.cache, {}, {}, meshes.emplace_back()) ==
                InstanceMeshStatus::Ok ||
            complain("no surfaces");

@@ -45,12 +45,12 @@ std::string derived_text(const lsys::Bytecode& bytecode) {
     options.limits.max_modules = 20'000;
     options.limits.max_bytes = 16U << 20;
     lsys::Derivation derivation(bytecode, options);
-    lsys::DeriveStatus status = derivation.start();
-    if (status == lsys::DeriveStatus::Ok) {
-        status = derivation.run_to(options.generations);
+    std::optional<lsys::Stop> stop = derivation.start();
+    if (!stop) {
+        stop = derivation.run_to(options.generations);
     }
-    std::string text = std::to_string(static_cast<int>(status)) + " ";
-    if (status == lsys::DeriveStatus::Ok) {
+    std::string text = std::to_string(stop ? 1 + static_cast<int>(*stop) : 0) + " ";
+    if (!stop) {
         static_cast<void>(
             lsys::WordPrinter(bytecode).print(derivation.word(), [&](std::string_view piece) {
                 text += piece;

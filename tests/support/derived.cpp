@@ -35,8 +35,8 @@ DeriveOptions options_for(std::uint32_t generations,
 std::string
 derived_with(const Bytecode& bytecode, const DeriveOptions& options, std::vector<Origin>& origins) {
     Derivation derivation(bytecode, options);
-    REQUIRE(derivation.start() == DeriveStatus::Ok);
-    REQUIRE(derivation.run_to(options.generations) == DeriveStatus::Ok);
+    REQUIRE(derivation.start() == std::nullopt);
+    REQUIRE(derivation.run_to(options.generations) == std::nullopt);
     REQUIRE(derivation.age() == options.generations);
     const std::span<const Origin> found = derivation.word().origins();
     CHECK(found.size() == (options.origins ? derivation.word().module_count() : 0));
@@ -57,7 +57,7 @@ streamed(const Bytecode& bytecode, const DeriveOptions& options, std::vector<Ori
         modules += chunk.codes.size();
         return true;
     });
-    REQUIRE(outcome.status == DeriveStatus::Ok);
+    REQUIRE(outcome.end.stop == std::nullopt);
     CHECK(outcome.modules == modules);
     return text;
 }
@@ -144,11 +144,11 @@ error_every_way(const Bytecode& bytecode, std::uint32_t generations, std::uint64
             for (const std::uint32_t chunk : kChunks) {
                 INFO(threads << " threads, chunks of " << chunk);
                 Derivation derivation(program, options_for(generations, seed, threads, chunk));
-                DeriveStatus status = derivation.start();
-                if (status == DeriveStatus::Ok) {
-                    status = derivation.run_to(generations);
+                std::optional<Stop> stop = derivation.start();
+                if (!stop) {
+                    stop = derivation.run_to(generations);
                 }
-                REQUIRE(status == DeriveStatus::Error);
+                REQUIRE(stop == Stop::Diagnosed);
                 if (!expected) {
                     expected = derivation.error();
                 }

@@ -59,12 +59,12 @@ typename Levels<C, R>::Block Levels<C, R>::first_block() {
 }
 
 template <typename C, typename R>
-DeriveStatus Levels<C, R>::push(std::uint64_t count) {
+std::optional<Stop> Levels<C, R>::push(std::uint64_t count) {
     levels_.front().count = count;
     std::uint64_t at = 0;
-    while (status_ == DeriveStatus::Ok) {
+    while (!stop_) {
         if (options_.cancelled != nullptr && options_.cancelled->load(std::memory_order_relaxed)) {
-            status_ = DeriveStatus::Cancelled;
+            stop_ = Stop::Cancelled;
             break;
         }
         if (at == last_ && levels_[at].count != 0) {
@@ -101,13 +101,13 @@ DeriveStatus Levels<C, R>::push(std::uint64_t count) {
             ++at;
         }
     }
-    return status_;
+    return stop_;
 }
 
 template <typename C, typename R>
 bool Levels<C, R>::fail(RuntimeError error) {
     error_ = std::move(error);
-    status_ = DeriveStatus::Error;
+    stop_ = Stop::Diagnosed;
     return false;
 }
 
@@ -223,7 +223,7 @@ bool Levels<C, R>::emit(Level& level) {
                 level.parameters.get(),
                 level.origins.get(),
                 level.first_position})) {
-        status_ = DeriveStatus::Cancelled;
+        stop_ = Stop::Cancelled;
         return false;
     }
     return true;
@@ -236,7 +236,7 @@ bool Levels<C, R>::add_level() {
     const std::uint64_t origin_bytes = options_.origins ? room_codes_ * sizeof(Origin) : 0;
     held_bytes_ += sizeof(Level) + code_bytes + parameter_bytes + origin_bytes;
     if (held_bytes_ > options_.max_bytes) {
-        status_ = DeriveStatus::Limit;
+        stop_ = Stop::Limit;
         return false;
     }
     Level& level = levels_.emplace_back();

@@ -12,6 +12,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -87,7 +88,7 @@ public:
     };
     [[nodiscard]] Block first_block();
     /// Sends the first `count` modules of that block down.
-    [[nodiscard]] DeriveStatus push(std::uint64_t count);
+    [[nodiscard]] std::optional<Stop> push(std::uint64_t count);
 
     [[nodiscard]] RuntimeError& error() { return error_; }
     [[nodiscard]] std::uint64_t held_bytes() const { return held_bytes_; }
@@ -126,7 +127,7 @@ private:
     std::uint64_t room_codes_ = 0;
     std::uint64_t room_parameters_ = 0;
     std::uint64_t held_bytes_ = 0;
-    DeriveStatus status_ = DeriveStatus::Ok;
+    std::optional<Stop> stop_;
     RuntimeError error_;
 };
 

@@ -65,7 +65,7 @@ bool Passes::concerns(const Word& word) const {
     return visit_view(word, [this](const auto& view) { return may_rewrite(plan_, view); });
 }
 
-DeriveStatus
+std::optional<Stop>
 Passes::run(const Word& in, Word& out, const PassKeys& keys, std::uint64_t other_bytes) {
     other_bytes_ = other_bytes;
     written_.store(0, std::memory_order_relaxed);
@@ -79,17 +79,17 @@ Passes::run(const Word& in, Word& out, const PassKeys& keys, std::uint64_t other
     });
 }
 
-DeriveStatus Passes::no_memory(const Word& in, std::uint64_t bytes) {
+std::optional<Stop> Passes::no_memory(const Word& in, std::uint64_t bytes) {
     census_known_ = false;
     limit_.kind = LimitKind::Memory;
     limit_.predicted_modules = std::max(modules_, in.module_count());
     limit_.predicted_bytes = bytes;
     limit_.exact = false;
-    return DeriveStatus::OutOfMemory;
+    return Stop::OutOfMemory;
 }
 
 template <typename C, typename R>
-DeriveStatus
+std::optional<Stop>
 Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const PassKeys& keys) {
     modules_ = 0;
     parameters_ = 0;
@@ -104,7 +104,7 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
         limit_.predicted_modules = word.count;
         limit_.predicted_bytes = before;
         limit_.exact = false;
-        return DeriveStatus::Limit;
+        return Stop::Limit;
     }
     if (!records_.reserve(record_bytes + sizeof(R)) ||
         (searches && !contexts_.prepare(plan_, in))) {
@@ -120,30 +120,25 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
     } else {
         census_known_ = false;
         place_chunks(word, !in.parameters().empty());
-        const DeriveStatus status = count<C, R>(word, keys);
-        if (status != DeriveStatus::Ok) {
-            return status;
+        if (const std::optional<Stop> stop = count<C, R>(word, keys)) {
+            return stop;
         }
     }
-    DeriveStatus status = check_limits(in, out, keys);
-    if (status == DeriveStatus::Limit) {
+    if (!check_limits(in, out, keys)) {
         limit_.production = dominant_production(word, keys);
-    }
-    if (status != DeriveStatus::Ok) {
-        return status;
+        return Stop::Limit;
     }
     if (!out.resize(modules_, parameters_)) {
         return no_memory(in, limit_.predicted_bytes);
     }
-    status = write<C, R>(word, out, keys);
-    if (status != DeriveStatus::Ok) {
+    if (const std::optional<Stop> stop = write<C, R>(word, out, keys)) {
         census_known_ = false;
-        return status;
+        return stop;
     }
     if (by_census_) {
         advance_census();
     }
-    return DeriveStatus::Ok;
+    return std::nullopt;
 }
 
 /// Chunks of the size asked for; with several threads smaller ones if each would have few of them,
@@ -205,7 +200,7 @@ bool Passes::marks_pay(const WordView<C>& word, const Chunk& chunk) const {
 }
 
 template <typename C, typename R>
-DeriveStatus Passes::count(const WordView<C>& word, const PassKeys& keys) {
+std::optional<Stop> Passes::count(const WordView<C>& word, const PassKeys& keys) {
     // A match of several modules may reach into the next chunk, which then begins after it.
     const bool in_order = workers_.count() == 1 || plan_.predecessor_count() > 1;
     const auto count_chunk = [&](std::uint64_t index) {
@@ -240,7 +235,7 @@ DeriveStatus Passes::count(const WordView<C>& word, const PassKeys& keys) {
         workers_.for_each(chunks_.size(), count_chunk);
     }
     if (cancelled()) {
-        return DeriveStatus::Cancelled;
+        return Stop::Cancelled;
     }
     for (const Chunk& chunk : chunks_) {
         if (chunk.fault) {
@@ -253,11 +248,11 @@ DeriveStatus Passes::count(const WordView<C>& word, const PassKeys& keys) {
         modules_ = saturating_add(modules_, chunk.modules);
         parameters_ = saturating_add(parameters_, chunk.parameters);
     }
-    return DeriveStatus::Ok;
+    return std::nullopt;
 }
 
 template <typename C, typename R>
-DeriveStatus Passes::write(const WordView<C>& word, Word& out, const PassKeys& keys) {
+std::optional<Stop> Passes::write(const WordView<C>& word, Word& out, const PassKeys& keys) {
     C* const codes = out.codes<C>().data();
     float* const parameters = out.parameters().data();
     const bool in_order = workers_.count() == 1 || chunks_.size() == 1 || by_census_;
@@ -318,42 +313,36 @@ DeriveStatus Passes::write(const WordView<C>& word, Word& out, const PassKeys& k
         workers_.for_each(chunks_.size(), write_chunk);
     }
     if (cancelled()) {
-        return DeriveStatus::Cancelled;
+        return Stop::Cancelled;
     }
     for (const Chunk& chunk : chunks_) {
         if (chunk.fault) {
             return report_fault(word, keys, chunk.begin, chunk.end);
         }
     }
-    return DeriveStatus::Ok;
+    return std::nullopt;
 }
 
 template <typename C>
-DeriveStatus Passes::report_fault(const WordView<C>& word,
-                                  const PassKeys& keys,
-                                  ModulePlace begin,
-                                  std::uint64_t end) {
+std::optional<Stop> Passes::report_fault(const WordView<C>& word,
+                                         const PassKeys& keys,
+                                         ModulePlace begin,
+                                         std::uint64_t end) {
     std::optional<RuntimeError> error = find_fault(plan_, keys, word, contexts(), begin, end);
     LSYS_CHECK(error.has_value(), begin.index, end);
     error_ = std::move(*error);
-    return DeriveStatus::Error;
+    return Stop::Diagnosed;
 }
 
-DeriveStatus Passes::check_limits(const Word& in, const Word& out, const PassKeys& keys) {
+bool Passes::check_limits(const Word& in, const Word& out, const PassKeys& keys) {
     const std::uint64_t held = saturating_add(other_bytes_ + held_bytes() + in.held_bytes(),
                                               out.held_bytes_after(modules_, parameters_));
     limit_.generation = keys.generation;
     limit_.predicted_modules = modules_;
     limit_.predicted_bytes = held;
-    if (modules_ > options_.limits.max_modules) {
-        limit_.kind = LimitKind::Modules;
-        return DeriveStatus::Limit;
-    }
-    if (held > options_.limits.max_bytes) {
-        limit_.kind = LimitKind::Memory;
-        return DeriveStatus::Limit;
-    }
-    return DeriveStatus::Ok;
+    const bool too_many = modules_ > options_.limits.max_modules;
+    limit_.kind = too_many ? LimitKind::Modules : LimitKind::Memory;
+    return !too_many && held <= options_.limits.max_bytes;
 }
 
 /// The production whose applications make the word longer by most modules.

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 namespace lsys {
@@ -22,9 +23,9 @@ class Passes {
 public:
     Passes(const Plan& plan, const DeriveOptions& options);
 
-    /// Rewrites `in` into `out`, as the plan is prepared. After anything but Ok `in` is untouched
-    /// and error() or limit() tells. `other_bytes` counts towards the limit on memory.
-    [[nodiscard]] DeriveStatus
+    /// Rewrites `in` into `out`, as the plan is prepared. After a Stop `in` is untouched and
+    /// error() or limit() has the facts. `other_bytes` counts towards the limit on memory.
+    [[nodiscard]] std::optional<Stop>
     run(const Word& in, Word& out, const PassKeys& keys, std::uint64_t other_bytes);
     /// Whether some module of `word` may be rewritten as the plan is prepared.
     [[nodiscard]] bool concerns(const Word& word) const;
@@ -51,7 +52,7 @@ private:
     };
 
     template <typename C, typename R>
-    [[nodiscard]] DeriveStatus
+    [[nodiscard]] std::optional<Stop>
     run_typed(const WordView<C>& word, const Word& in, Word& out, const PassKeys& keys);
     template <typename C>
     void cut(const WordView<C>& word);
@@ -60,13 +61,14 @@ private:
     template <typename C>
     [[nodiscard]] bool marks_pay(const WordView<C>& word, const Chunk& chunk) const;
     template <typename C, typename R>
-    [[nodiscard]] DeriveStatus count(const WordView<C>& word, const PassKeys& keys);
+    [[nodiscard]] std::optional<Stop> count(const WordView<C>& word, const PassKeys& keys);
     template <typename C, typename R>
-    [[nodiscard]] DeriveStatus write(const WordView<C>& word, Word& out, const PassKeys& keys);
+    [[nodiscard]] std::optional<Stop>
+    write(const WordView<C>& word, Word& out, const PassKeys& keys);
     template <typename C>
     void take_census(const WordView<C>& word);
     void advance_census();
-    [[nodiscard]] DeriveStatus check_limits(const Word& in, const Word& out, const PassKeys& keys);
+    [[nodiscard]] bool check_limits(const Word& in, const Word& out, const PassKeys& keys);
     template <typename C>
     [[nodiscard]] std::uint32_t dominant_production(const WordView<C>& word,
                                                     const PassKeys& keys) const;
@@ -74,11 +76,11 @@ private:
         return plan_.needs_contexts() ? &contexts_ : nullptr;
     }
     template <typename C>
-    [[nodiscard]] DeriveStatus report_fault(const WordView<C>& word,
-                                            const PassKeys& keys,
-                                            ModulePlace begin,
-                                            std::uint64_t end);
-    [[nodiscard]] DeriveStatus no_memory(const Word& in, std::uint64_t bytes);
+    [[nodiscard]] std::optional<Stop> report_fault(const WordView<C>& word,
+                                                   const PassKeys& keys,
+                                                   ModulePlace begin,
+                                                   std::uint64_t end);
+    [[nodiscard]] std::optional<Stop> no_memory(const Word& in, std::uint64_t bytes);
     [[nodiscard]] bool cancelled() const;
     void report_progress(std::uint32_t generation, std::uint64_t modules);
     template <typename R>

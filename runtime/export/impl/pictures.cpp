@@ -134,8 +134,8 @@ std::vector<std::string> encode_pictures(const std::vector<Picture>& pictures,
                                          std::uint32_t threads) {
     std::vector<std::string> files(pictures.size());
     Workers workers(threads);
-    for_each_piece(workers, pictures.size(),
-                   [&](std::uint64_t i) { files[i] = encode_picture(pictures[i]); });
+    workers.for_each(pictures.size(),
+                     [&](std::uint64_t i) { files[i] = encode_picture(pictures[i]); });
     const bool all = std::none_of(files.begin(), files.end(),
                                   [](const std::string& file) { return file.empty(); });
     if (!all) {

@@ -98,8 +98,7 @@ Axes find_axes(const Skeleton& skeleton, Workers& workers) {
     for (std::size_t begin = 0; begin < segments; begin += kRange) {
         ranges.emplace_back(begin, std::min(begin + kRange, segments));
     }
-    for_each_piece(workers, ranges.size(),
-                   [&](std::uint64_t i) { ranges[i].find(skeleton, axes.next); });
+    workers.for_each(ranges.size(), [&](std::uint64_t i) { ranges[i].find(skeleton, axes.next); });
     std::vector<bool> used(std::size_t{1} << 16);
     for (const Range& range : ranges) {
         for (const std::uint32_t child : range.late()) {

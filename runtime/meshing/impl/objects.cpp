@@ -8,8 +8,6 @@
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
-#include <atomic>
-#include <new>
 #include <optional>
 #include <span>
 
@@ -111,17 +109,9 @@ void write_all(Workers& workers, const Instances& instances) {
     const std::uint64_t count = instances.items.size();
     const std::uint64_t size =
         std::max<std::uint64_t>(1, kVerticesOfPiece / instances.part.positions.size());
-    std::atomic<bool> failed{false};
     workers.for_each((count + size - 1) / size, [&](std::uint64_t piece) {
-        try {
-            instances.write(piece * size, std::min(count, (piece + 1) * size));
-        } catch (const std::bad_alloc&) {
-            failed = true;
-        }
+        instances.write(piece * size, std::min(count, (piece + 1) * size));
     });
-    if (failed) {
-        throw std::bad_alloc();
-    }
 }
 
 } // namespace

@@ -7,9 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <new>
 #include <span>
 #include <vector>
 
@@ -117,22 +115,6 @@ struct Job {
     const LargeVector<std::uint32_t>& items;
 };
 
-/// Calls `work` for every piece; memory that runs out is told on the calling thread.
-template <typename Work>
-void for_each_piece(Workers& workers, std::vector<Piece>& pieces, const Work& work) {
-    std::atomic<bool> failed{false};
-    workers.for_each(pieces.size(), [&](std::uint64_t i) {
-        try {
-            work(pieces[i]);
-        } catch (const std::bad_alloc&) {
-            failed = true;
-        }
-    });
-    if (failed) {
-        throw std::bad_alloc();
-    }
-}
-
 void triangulate(const Job& job, Piece& piece) {
     Triangulator triangulator;
     std::vector<glm::dvec2> flat;
@@ -225,7 +207,7 @@ void append_polygons(const Skeleton& skeleton, const MeshOptions& options, MeshB
     Workers workers(options.threads);
     for (const Group& group : groups.groups) {
         std::vector<Piece> pieces = cut_into_pieces(job, group);
-        for_each_piece(workers, pieces, [&](Piece& piece) { triangulate(job, piece); });
+        workers.for_each(pieces.size(), [&](std::uint64_t i) { triangulate(job, pieces[i]); });
         std::uint64_t vertices = 0;
         std::uint64_t indices = 0;
         for (Piece& piece : pieces) {
@@ -242,7 +224,8 @@ void append_polygons(const Skeleton& skeleton, const MeshOptions& options, MeshB
         if (!builder.reserve(builder.part(material), vertices, indices, block)) {
             return;
         }
-        for_each_piece(workers, pieces, [&](Piece& piece) { write(job, piece, palette, block); });
+        workers.for_each(pieces.size(),
+                         [&](std::uint64_t i) { write(job, pieces[i], palette, block); });
     }
 }
 

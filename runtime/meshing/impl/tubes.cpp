@@ -272,7 +272,7 @@ void append_tubes(const Skeleton& skeleton, const MeshOptions& options, MeshBuil
         parts.push_back({.material = wood_material(colour), .triangles = {}});
     }
     std::vector<Piece> pieces = make_pieces(skeleton.segments.size(), parts.size());
-    for_each_piece(workers, pieces.size(), [&](std::uint64_t i) {
+    workers.for_each(pieces.size(), [&](std::uint64_t i) {
         PieceReader(skeleton, axes, options, slots, pieces[i]).read();
     });
 
@@ -289,7 +289,7 @@ void append_tubes(const Skeleton& skeleton, const MeshOptions& options, MeshBuil
         return;
     }
     const std::vector<Task> tasks = make_tasks(pieces, vertices);
-    workers.for_each(tasks.size(), [&](std::uint64_t i) {
+    workers.for_each(tasks.size(), [&](std::uint64_t i) noexcept { // tasks wait for one another
         TaskWriter(skeleton, block, options, workers.count() == 1, tasks[i]).write();
     });
 }

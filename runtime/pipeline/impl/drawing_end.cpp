@@ -1,5 +1,6 @@
 #include "runtime/pipeline/impl/drawing_end.h"
 
+#include "runtime/derive/runtime_diagnostic.h"
 #include "runtime/pipeline/plant.h"
 #include "runtime/turtle/turtle_diagnostic.h"
 
@@ -14,19 +15,15 @@ std::optional<Stop> report_drawing(const DerivationEnd& derived,
                                    const Grammar& grammar,
                                    Step& step) {
     const Limits& limits = step.project().limits;
-    if (derived.status == DeriveStatus::Cancelled) {
-        return Stop::Cancelled;
-    }
-    if (derived.status != DeriveStatus::Ok) {
-        step.diagnose(
-            derivation_diagnostic(derived.status, derived.error, derived.limit, limits, grammar),
-            grammar.sources);
-        return stop_of(derived.status);
+    if (derived.stop) {
+        if (derived.stop != Stop::Cancelled) {
+            step.diagnose(derivation_diagnostic(derived, limits, grammar), grammar.sources);
+        }
+        return derived.stop;
     }
     if (drawn == TurtleStatus::NotInterpreted) {
-        step.diagnose(
-            derivation_diagnostic(DeriveStatus::Error, drawing_error, {}, limits, grammar),
-            grammar.sources);
+        step.diagnose(runtime_diagnostic(drawing_error, grammar.bytecode, !grammar.is_module_file),
+                      grammar.sources);
         return Stop::Diagnosed;
     }
     Diagnostics diagnostics;
@@ -38,7 +35,7 @@ std::optional<Stop> report_drawing(const DerivationEnd& derived,
     } else if (drawn == TurtleStatus::OutOfMemory) {
         diagnostics.add(no_memory_diagnostic("the skeleton"));
     }
-    const bool fine = step.diagnose(std::move(diagnostics), grammar.sources);
+    const bool ok = step.diagnose(std::move(diagnostics), grammar.sources);
     switch (drawn) {
     case TurtleStatus::Limit:
         return Stop::Limit;
@@ -51,7 +48,7 @@ std::optional<Stop> report_drawing(const DerivationEnd& derived,
     case TurtleStatus::NotInterpreted:
         break;
     }
-    return fine ? std::nullopt : std::optional(Stop::Diagnosed);
+    return ok ? std::nullopt : std::optional(Stop::Diagnosed);
 }
 
 } // namespace lsys

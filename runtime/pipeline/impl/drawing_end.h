@@ -12,14 +12,8 @@
 
 namespace lsys {
 
-struct DerivationEnd {
-    DeriveStatus status = DeriveStatus::Ok;
-    RuntimeError error;
-    LimitReport limit;
-};
-
-/// Adds the diagnostics of a derivation and of its drawing to `step`. `drawing_error`: of a turtle
-/// that ended as NotInterpreted. Returns why the step has to end, or nothing.
+/// Adds the diagnostics of a derivation and of its drawing to `step`. `drawing_error`: the error of
+/// TurtleStatus::NotInterpreted. Returns why the step has to end, or nothing.
 [[nodiscard]] std::optional<Stop>
 report_drawing(const DerivationEnd& derived,
                TurtleStatus drawn,

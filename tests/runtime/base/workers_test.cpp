@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -64,5 +65,20 @@ TEST_CASE("workers end whatever they are about to do") {
         std::atomic<int> done{0};
         workers.for_each(2, [&](std::uint64_t) { ++done; });
         REQUIRE(done == 2);
+    }
+}
+
+TEST_CASE("a piece without memory ends the task with std::bad_alloc") {
+    for (const std::uint32_t threads : {1U, 4U}) {
+        Workers workers(threads);
+        const auto run = [&](bool has_memory) {
+            workers.for_each(100, [&](std::uint64_t piece) {
+                if (!has_memory && piece % 40 == 7) {
+                    throw std::length_error("too long");
+                }
+            });
+        };
+        CHECK_THROWS(run(false));
+        CHECK_NOTHROW(run(true)); // the threads are still there
     }
 }

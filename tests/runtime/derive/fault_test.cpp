@@ -145,12 +145,12 @@ TEST_CASE("after an error the word is that of the last generation") {
     DeriveOptions options;
     options.generations = 5;
     Derivation derivation(bytecode, options);
-    REQUIRE(derivation.start() == DeriveStatus::Ok);
-    REQUIRE(derivation.run_to(5) == DeriveStatus::Error);
+    REQUIRE(derivation.start() == std::nullopt);
+    REQUIRE(derivation.run_to(5) == Stop::Diagnosed);
     CHECK(derivation.age() == 2);
     const bool parallel = builder.settings.rewriting == RewritingMode::Parallel;
     CHECK(test::text_of(bytecode, derivation.word()) == (parallel ? "A(0)B(1)b" : "A(0)b b"));
-    CHECK(derivation.step() == DeriveStatus::Error);
+    CHECK(derivation.step() == Stop::Diagnosed);
 }
 
 TEST_CASE("errors before generation 0") {
@@ -160,7 +160,7 @@ TEST_CASE("errors before generation 0") {
         builder.parameter("width", "{2, 3}", 0.0F, 1.0F).axiom("F");
         const Bytecode bytecode = builder.build();
         Derivation derivation(bytecode, options);
-        REQUIRE(derivation.start() == DeriveStatus::Error);
+        REQUIRE(derivation.start() == Stop::Diagnosed);
         CHECK(derivation.error().kind == RuntimeErrorKind::OutOfBounds);
         CHECK(derivation.error().generation == kStartGeneration);
         const Diagnostic diagnostic = runtime_diagnostic(derivation.error(), bytecode, true);
@@ -172,7 +172,7 @@ TEST_CASE("errors before generation 0") {
         builder.global("c", "1 / ({0, 0})").axiom("F(c)");
         const Bytecode bytecode = builder.build();
         Derivation derivation(bytecode, options);
-        REQUIRE(derivation.start() == DeriveStatus::Error);
+        REQUIRE(derivation.start() == Stop::Diagnosed);
         CHECK(runtime_diagnostic(derivation.error(), bytecode, true).message ==
               "the value of constant `c` is infinite");
     }
@@ -180,7 +180,7 @@ TEST_CASE("errors before generation 0") {
         builder.global("c", "{0, 0}").axiom("F [ F(1) F(c) F(1, 1/c) ]");
         const Bytecode bytecode = builder.build();
         Derivation derivation(bytecode, options);
-        REQUIRE(derivation.start() == DeriveStatus::Error);
+        REQUIRE(derivation.start() == Stop::Diagnosed);
         CHECK(derivation.error().position == 4);
         const Diagnostic diagnostic = runtime_diagnostic(derivation.error(), bytecode, true);
         CHECK(diagnostic.message == "a parameter of the axiom is infinite");
@@ -197,10 +197,10 @@ TEST_CASE("an unmatched bracket is found, with its production where only one can
     options.generations = 2;
     const auto check = [&] {
         Derivation derivation(bytecode, options);
-        REQUIRE(derivation.start() == DeriveStatus::Ok);
-        CHECK(derivation.check_brackets() == DeriveStatus::Ok);
-        REQUIRE(derivation.run_to(2) == DeriveStatus::Ok);
-        REQUIRE(derivation.check_brackets() == DeriveStatus::Error);
+        REQUIRE(derivation.start() == std::nullopt);
+        CHECK(derivation.check_brackets() == std::nullopt);
+        REQUIRE(derivation.run_to(2) == std::nullopt);
+        REQUIRE(derivation.check_brackets() == Stop::Diagnosed);
         return derivation.error();
     };
     RuntimeError error = check();
@@ -218,9 +218,9 @@ TEST_CASE("an unmatched bracket is found, with its production where only one can
 
     const StreamOutcome outcome =
         derive_streamed(bytecode, options, [](const StreamChunk&) { return true; });
-    CHECK(outcome.status == DeriveStatus::Error);
-    CHECK(outcome.error.position == error.position);
-    CHECK(outcome.error.kind == RuntimeErrorKind::Unbalanced);
+    CHECK(outcome.end.stop == Stop::Diagnosed);
+    CHECK(outcome.end.error.position == error.position);
+    CHECK(outcome.end.error.kind == RuntimeErrorKind::Unbalanced);
 }
 
 TEST_CASE("a streamed derivation stops at an error") {
@@ -231,10 +231,10 @@ TEST_CASE("a streamed derivation stops at an error") {
     options.generations = 9;
     const StreamOutcome outcome =
         derive_streamed(bytecode, options, [](const StreamChunk&) { return true; });
-    REQUIRE(outcome.status == DeriveStatus::Error);
-    CHECK(outcome.error.kind == RuntimeErrorKind::NotFinite);
-    CHECK(outcome.error.generation == 3);
-    CHECK(outcome.error.position == 3);
+    REQUIRE(outcome.end.stop == Stop::Diagnosed);
+    CHECK(outcome.end.error.kind == RuntimeErrorKind::NotFinite);
+    CHECK(outcome.end.error.generation == 3);
+    CHECK(outcome.end.error.position == 3);
 }
 
 TEST_CASE("messages name production, module, position and generation") {

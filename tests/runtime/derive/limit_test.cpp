@@ -8,6 +8,8 @@
 #include <catch2/catch.hpp>
 
 #include <atomic>
+#include <new>
+#include <stdexcept>
 #include <string>
 
 using namespace lsys;
@@ -31,8 +33,8 @@ TEST_CASE("a word over the limit on modules is not written") {
     options.threads = GENERATE(1u, 2u);
     options.chunk_modules = GENERATE(100u, 1u << 16);
     Derivation derivation(bytecode, options);
-    REQUIRE(derivation.start() == DeriveStatus::Ok);
-    REQUIRE(derivation.run_to(9) == DeriveStatus::Limit);
+    REQUIRE(derivation.start() == std::nullopt);
+    REQUIRE(derivation.run_to(9) == Stop::Limit);
     CHECK(derivation.age() == 5);
     CHECK(derivation.word().module_count() == 6'249);
     const LimitReport& report = derivation.limit();
@@ -42,7 +44,7 @@ TEST_CASE("a word over the limit on modules is not written") {
     CHECK(report.predicted_modules == 31'249);
     CHECK(report.exact);
     CHECK(report.production == 0);
-    CHECK(derivation.step() == DeriveStatus::Limit);
+    CHECK(derivation.step() == Stop::Limit);
 
     const Diagnostic diagnostic = limit_diagnostic(report, options.limits, bytecode, true);
     CHECK(diagnostic.code == DiagnosticCode::LimitReached);
@@ -67,16 +69,16 @@ TEST_CASE("the prediction of a conditional and stochastic system is exact") {
     options.generations = 9;
     options.threads = 1;
     Derivation unlimited(bytecode, options);
-    REQUIRE(unlimited.start() == DeriveStatus::Ok);
-    REQUIRE(unlimited.run_to(6) == DeriveStatus::Ok);
+    REQUIRE(unlimited.start() == std::nullopt);
+    REQUIRE(unlimited.run_to(6) == std::nullopt);
     const std::uint64_t six = unlimited.word().module_count();
-    REQUIRE(unlimited.step() == DeriveStatus::Ok);
+    REQUIRE(unlimited.step() == std::nullopt);
     const std::uint64_t seven = unlimited.word().module_count();
 
     options.limits.max_modules = seven - 1;
     Derivation derivation(bytecode, options);
-    REQUIRE(derivation.start() == DeriveStatus::Ok);
-    REQUIRE(derivation.run_to(9) == DeriveStatus::Limit);
+    REQUIRE(derivation.start() == std::nullopt);
+    REQUIRE(derivation.run_to(9) == Stop::Limit);
     CHECK(derivation.limit().generation == 6);
     CHECK(derivation.limit().modules == six);
     CHECK(derivation.limit().predicted_modules == seven);
@@ -93,8 +95,8 @@ TEST_CASE("the production that adds most modules is named") {
     options.generations = 9;
     options.limits.max_modules = 20;
     Derivation derivation(bytecode, options);
-    REQUIRE(derivation.start() == DeriveStatus::Ok);
-    REQUIRE(derivation.run_to(9) == DeriveStatus::Limit);
+    REQUIRE(derivation.start() == std::nullopt);
+    REQUIRE(derivation.run_to(9) == Stop::Limit);
     // 3 A add 6, 1 B adds 4, 4 C add 8
     CHECK(derivation.limit().generation == 1);
     CHECK(derivation.limit().production == 2);
@@ -107,8 +109,8 @@ TEST_CASE("a limit on memory") {
     options.limits.max_bytes = 1 << 20;
     options.threads = GENERATE(1u, 2u);
     Derivation derivation(bytecode, options);
-    REQUIRE(derivation.start() == DeriveStatus::Ok);
-    REQUIRE(derivation.run_to(20) == DeriveStatus::Limit);
+    REQUIRE(derivation.start() == std::nullopt);
+    REQUIRE(derivation.run_to(20) == Stop::Limit);
     const LimitReport& report = derivation.limit();
     CHECK(report.kind == LimitKind::Memory);
     CHECK(report.predicted_bytes > options.limits.max_bytes);
@@ -126,7 +128,7 @@ TEST_CASE("an axiom over the limit") {
     DeriveOptions options;
     options.limits.max_modules = 2;
     Derivation derivation(bytecode, options);
-    REQUIRE(derivation.start() == DeriveStatus::Limit);
+    REQUIRE(derivation.start() == Stop::Limit);
     CHECK(limit_diagnostic(derivation.limit(), options.limits, bytecode, true).message ==
           "generation 0 has 3 modules, over the limit of 2");
 }
@@ -141,11 +143,11 @@ TEST_CASE("a streamed derivation stops at the limit on modules") {
         modules += chunk.codes.size();
         return true;
     });
-    REQUIRE(outcome.status == DeriveStatus::Limit);
+    REQUIRE(outcome.end.stop == Stop::Limit);
     CHECK(modules <= 100'000);
-    CHECK(outcome.limit.kind == LimitKind::Modules);
-    CHECK_FALSE(outcome.limit.exact);
-    CHECK(limit_diagnostic(outcome.limit, options.limits, bytecode, true)
+    CHECK(outcome.end.limit.kind == LimitKind::Modules);
+    CHECK_FALSE(outcome.end.limit.exact);
+    CHECK(limit_diagnostic(outcome.end.limit, options.limits, bytecode, true)
               .message.find("generation 12 has at least 10") == 0);
 }
 
@@ -159,15 +161,15 @@ TEST_CASE("streaming needs memory for generations only") {
         modules += chunk.codes.size();
         return true;
     });
-    REQUIRE(outcome.status == DeriveStatus::Ok);
+    REQUIRE(outcome.end.stop == std::nullopt);
     CHECK(modules == 97'656'249);
     CHECK(outcome.modules == modules);
 
     options.generations = 4'000'000'000;
     const StreamOutcome deep =
         derive_streamed(bytecode, options, [](const StreamChunk&) { return true; });
-    CHECK(deep.status == DeriveStatus::Limit);
-    CHECK(deep.limit.kind == LimitKind::Memory);
+    CHECK(deep.end.stop == Stop::Limit);
+    CHECK(deep.end.limit.kind == LimitKind::Memory);
 }
 
 TEST_CASE("cancelling") {
@@ -181,13 +183,13 @@ TEST_CASE("cancelling") {
     SECTION("between generations") {
         options.progress = [&](std::uint32_t age, std::uint64_t) { cancelled = age >= 5; };
         Derivation derivation(bytecode, options);
-        REQUIRE(derivation.start() == DeriveStatus::Ok);
-        CHECK(derivation.run_to(12) == DeriveStatus::Cancelled);
+        REQUIRE(derivation.start() == std::nullopt);
+        CHECK(derivation.run_to(12) == Stop::Cancelled);
         CHECK(derivation.age() == 5);
         CHECK(derivation.word().module_count() == 6'249);
         // and going on after it
         cancelled = false;
-        CHECK(derivation.step() == DeriveStatus::Ok);
+        CHECK(derivation.step() == std::nullopt);
         CHECK(derivation.word().module_count() == 31'249);
     }
     SECTION("within one") {
@@ -199,8 +201,8 @@ TEST_CASE("cancelling") {
             }
         };
         Derivation derivation(bytecode, options);
-        REQUIRE(derivation.start() == DeriveStatus::Ok);
-        CHECK(derivation.run_to(12) == DeriveStatus::Cancelled);
+        REQUIRE(derivation.start() == std::nullopt);
+        CHECK(derivation.run_to(12) == Stop::Cancelled);
         CHECK(derivation.age() == 10);
         CHECK(written < 97'656'249);
         CHECK(derivation.word().module_count() == 19'531'249);
@@ -212,7 +214,7 @@ TEST_CASE("cancelling") {
                 modules += chunk.codes.size();
                 return modules < 10'000;
             });
-        CHECK(outcome.status == DeriveStatus::Cancelled);
+        CHECK(outcome.end.stop == Stop::Cancelled);
         CHECK(modules < 30'000);
     }
 }
@@ -225,4 +227,31 @@ TEST_CASE("sizes in words") {
     CHECK(byte_size_text(1023) == "1023 B");
     CHECK(byte_size_text(1536) == "1.5 KiB");
     CHECK(byte_size_text(std::uint64_t{3} << 30) == "3.0 GiB");
+}
+
+TEST_CASE("a derivation that runs out of memory ends with Stop::OutOfMemory and keeps its word") {
+    const Bytecode bytecode = koch();
+    DeriveOptions options;
+    options.generations = 3;
+    bool has_memory = false;
+    options.progress = [&](std::uint32_t, std::uint64_t) {
+        if (!has_memory) {
+            throw std::bad_alloc();
+        }
+    };
+    Derivation derivation(bytecode, options);
+    REQUIRE(derivation.start() == std::nullopt);
+    CHECK(derivation.step() == Stop::OutOfMemory);
+    CHECK(derivation.end().stop == Stop::OutOfMemory);
+    CHECK(derivation.limit().kind == LimitKind::Memory);
+
+    const StreamOutcome outcome = derive_streamed(
+        bytecode, options, [](const StreamChunk&) -> bool { throw std::length_error("long"); });
+    CHECK(outcome.end.stop == Stop::OutOfMemory);
+    CHECK(limit_diagnostic(outcome.end.limit, options.limits, bytecode, true).message ==
+          "the system has no memory for generation 3");
+
+    has_memory = true;
+    CHECK(derivation.derive() == std::nullopt);
+    CHECK(derivation.age() == 3);
 }

@@ -51,8 +51,8 @@ Lines traced(const Bytecode& bytecode, const Word& word) {
 Lines traced(const Bytecode& bytecode, std::uint32_t generations) {
     static_cast<void>(test::derived_every_way(bytecode, generations, 0));
     Derivation derivation(bytecode, with_origins(generations));
-    REQUIRE(derivation.start() == DeriveStatus::Ok);
-    REQUIRE(derivation.run_to(generations) == DeriveStatus::Ok);
+    REQUIRE(derivation.start() == std::nullopt);
+    REQUIRE(derivation.run_to(generations) == std::nullopt);
     return traced(bytecode, derivation.word());
 }
 
@@ -139,14 +139,14 @@ TEST_CASE("several modules that are rewritten together leave one origin for each
 TEST_CASE("origins of a word that is taken over are kept, or not known") {
     const Bytecode bytecode = BytecodeBuilder().axiom("A").production("p : A : * : F A").build();
     Derivation first(bytecode, with_origins(4));
-    REQUIRE(first.start() == DeriveStatus::Ok);
-    REQUIRE(first.run_to(2) == DeriveStatus::Ok);
+    REQUIRE(first.start() == std::nullopt);
+    REQUIRE(first.run_to(2) == std::nullopt);
     const auto last = [&](Word word, bool asks) {
         DeriveOptions options = with_origins(4);
         options.origins = asks;
         Derivation derivation(bytecode, options);
-        REQUIRE(derivation.resume(std::move(word), 2) == DeriveStatus::Ok);
-        REQUIRE(derivation.run_to(4) == DeriveStatus::Ok);
+        REQUIRE(derivation.resume(std::move(word), 2) == std::nullopt);
+        REQUIRE(derivation.run_to(4) == std::nullopt);
         return derivation.take_word();
     };
     const Word all = last(first.take_word(), true);
@@ -157,8 +157,8 @@ TEST_CASE("origins of a word that is taken over are kept, or not known") {
     DeriveOptions plain;
     plain.generations = 4;
     Derivation second(bytecode, plain);
-    REQUIRE(second.start() == DeriveStatus::Ok);
-    REQUIRE(second.run_to(2) == DeriveStatus::Ok);
+    REQUIRE(second.start() == std::nullopt);
+    REQUIRE(second.run_to(2) == std::nullopt);
     CHECK(second.word().origins().empty());
     const Word some = last(second.take_word(), true);
     CHECK(traced(bytecode, some) == Lines{"F origin unknown, in the saved state of generation 2",
@@ -166,8 +166,8 @@ TEST_CASE("origins of a word that is taken over are kept, or not known") {
                                           "F from p, generation 3", "F from p, generation 4",
                                           "A from p, generation 4"});
 
-    REQUIRE(first.start() == DeriveStatus::Ok);
-    REQUIRE(first.run_to(2) == DeriveStatus::Ok);
+    REQUIRE(first.start() == std::nullopt);
+    REQUIRE(first.run_to(2) == std::nullopt);
     CHECK(last(first.take_word(), false).origins().empty());
 }
 
@@ -180,8 +180,8 @@ TEST_CASE("origins count towards the limit on memory") {
     for (const bool asks : {false, true}) {
         options.origins = asks;
         Derivation derivation(bytecode, options);
-        REQUIRE(derivation.start() == DeriveStatus::Ok);
-        CHECK(derivation.run_to(8) == (asks ? DeriveStatus::Limit : DeriveStatus::Ok));
+        REQUIRE(derivation.start() == std::nullopt);
+        CHECK(derivation.run_to(8) == (asks ? std::optional(Stop::Limit) : std::nullopt));
         CHECK(derivation.age() == (asks ? 7U : 8U));
         CHECK(derivation.word().origins().size() == (asks ? derivation.word().module_count() : 0));
     }
@@ -190,8 +190,8 @@ TEST_CASE("origins count towards the limit on memory") {
 TEST_CASE("what is drawn has the origin of its module") {
     const Bytecode bytecode = plant();
     Derivation derivation(bytecode, with_origins(2));
-    REQUIRE(derivation.start() == DeriveStatus::Ok);
-    REQUIRE(derivation.run_to(2) == DeriveStatus::Ok);
+    REQUIRE(derivation.start() == std::nullopt);
+    REQUIRE(derivation.run_to(2) == std::nullopt);
     Turtle turtle(bytecode, {});
     const bool reserves = GENERATE(false, true);
     if (reserves) {
@@ -229,7 +229,7 @@ TEST_CASE("what is drawn has the origin of its module") {
         derive_streamed(bytecode, with_origins(2), [&](const StreamChunk& chunk) {
             return pieces.feed(chunk.codes, chunk.parameters, chunk.origins) == TurtleStatus::Ok;
         });
-    REQUIRE(outcome.status == DeriveStatus::Ok);
+    REQUIRE(outcome.end.stop == std::nullopt);
     const Skeleton streamed = pieces.take_skeleton();
     CHECK(streamed.segment_origins == stored.segment_origins);
     CHECK(streamed.object_origins == stored.object_origins);
@@ -240,8 +240,8 @@ TEST_CASE("a skeleton without origins takes no room for them") {
     const Bytecode bytecode = plant();
     DeriveOptions options;
     Derivation derivation(bytecode, options);
-    REQUIRE(derivation.start() == DeriveStatus::Ok);
-    REQUIRE(derivation.run_to(2) == DeriveStatus::Ok);
+    REQUIRE(derivation.start() == std::nullopt);
+    REQUIRE(derivation.run_to(2) == std::nullopt);
     Turtle turtle(bytecode, {});
     REQUIRE(turtle.feed(derivation.word()) == TurtleStatus::Ok);
     CHECK_FALSE(turtle.skeleton().segments.empty());
@@ -256,8 +256,8 @@ TEST_CASE("origins of a skeleton count towards its limit") {
     Bytecode drawn = bytecode;
     draw_with(drawn, "F", TurtleOperation::Forward);
     Derivation derivation(drawn, with_origins(7));
-    REQUIRE(derivation.start() == DeriveStatus::Ok);
-    REQUIRE(derivation.run_to(7) == DeriveStatus::Ok);
+    REQUIRE(derivation.start() == std::nullopt);
+    REQUIRE(derivation.run_to(7) == std::nullopt);
     TurtleOptions options;
     options.max_bytes = 16'384 * (sizeof(Segment) + sizeof(Origin));
     Turtle enough(drawn, options);
