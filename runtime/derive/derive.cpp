@@ -3,12 +3,12 @@
 #include "grammar/base/contract.h"
 #include "runtime/base/memory_border.h"
 #include "runtime/derive/engine/brackets.h"
-#include "runtime/derive/engine/chains.h"
+#include "runtime/derive/engine/depth_limit.h"
 #include "runtime/derive/engine/origins.h"
 #include "runtime/derive/engine/pass.h"
 #include "runtime/derive/engine/plan.h"
 #include "runtime/derive/engine/prune.h"
-#include "runtime/derive/engine/remains.h"
+#include "runtime/derive/engine/stage_depth.h"
 #include "runtime/derive/engine/start.h"
 
 #include <algorithm>
@@ -21,17 +21,17 @@ struct Derivation::State {
     State(const Bytecode& program, DeriveOptions chosen)
         : bytecode(program), options(std::move(chosen)), word(code_width(program.code_count())),
           next(word.code_width()), spare(word.code_width()), pruner(program),
-          depth(depth_of(program, Stage::Decompose)), rules(program.rewriting_rules()) {}
+          depth(stage_depth(program, Stage::Decompose)), rules(program.rewriting_rules()) {}
 
     const Bytecode& bytecode;
     DeriveOptions options;
     std::vector<float> globals;
     std::optional<Plan> plan;
     std::optional<Passes> passes;
-    std::optional<Plan> decompose_plan; // where there are such productions
+    std::optional<Plan> decompose_plan; // if there are such productions
     std::optional<Passes> decompose_passes;
     Word word;
-    Word next;  // written by the pass at work
+    Word next;  // written by the current pass
     Word spare; // a generation of several passes needs a third
     Pruner pruner;
     StageDepth depth; // of decomposition
@@ -68,7 +68,7 @@ struct Derivation::State {
         return std::nullopt;
     }
 
-    /// Either all words keep origins or none does. False: no memory.
+    /// Lets all words keep origins, or none. Returns false if there is no memory.
     [[nodiscard]] bool agree_on_origins() {
         for (Word* const each : {&word, &next, &spare}) {
             if (!options.origins) {
@@ -80,7 +80,7 @@ struct Derivation::State {
         return true;
     }
 
-    /// The word of a saved derivation in place of the axiom.
+    /// Takes the word of a saved derivation in place of the axiom.
     [[nodiscard]] std::optional<Stop> take_over(Word saved, std::uint32_t saved_age) {
         const bool knows = saved.keeps_origins();
         word = std::move(saved);
@@ -132,7 +132,7 @@ struct Derivation::State {
         return std::nullopt;
     }
 
-    /// Where the next pass writes; then `current` is told.
+    /// The word that the next pass over `current` writes; take() then makes it `current`.
     [[nodiscard]] Word& room_beside(const Word* current) { return current == &next ? spare : next; }
     void take(const Word& written, const Word*& current) {
         if (&written == &spare) {
@@ -141,7 +141,7 @@ struct Derivation::State {
         current = &next;
     }
 
-    /// One pass over `current`, which becomes what is written; `word` stays what it is.
+    /// Runs one pass over `current`, which then refers to the written word; `word` is unchanged.
     [[nodiscard]] std::optional<Stop> pass(Passes& by, const PassKeys& keys, const Word*& current) {
         Word& out = room_beside(current);
         const Word& other = current == &word ? spare : word;
@@ -163,7 +163,7 @@ struct Derivation::State {
         return pass(*passes, {options.seed, age, first_draw}, current);
     }
 
-    /// A pass of each rule in turn.
+    /// Runs a pass of each rule in turn.
     [[nodiscard]] std::optional<Stop> rewrite_sequentially(const Word*& current) {
         std::optional<Stop> stop;
         for (std::uint32_t rule = 0; rule < rules && !stop; ++rule) {
@@ -193,7 +193,7 @@ struct Derivation::State {
         return std::nullopt;
     }
 
-    /// What `%` cuts off goes before anything is rewritten.
+    /// Removes what `%` cuts off, before anything is rewritten.
     [[nodiscard]] std::optional<Stop> prune(const Word*& current) {
         if (!pruner.any()) {
             return std::nullopt;
@@ -231,7 +231,7 @@ struct Derivation::State {
         });
     }
 
-    /// Passes of #decompose over a word of age `of`, until nothing matches.
+    /// Runs passes of #decompose over a word of age `of` until nothing matches.
     [[nodiscard]] std::optional<Stop> decompose(std::uint32_t of, const Word*& current) {
         if (!decompose_plan) {
             return std::nullopt;

@@ -22,34 +22,34 @@ enum class RuntimeErrorKind : std::uint8_t {
     RangeReversed, // {min, max} with min > max
     RangeTooWide,  // a bound or the width is not finite
     OutOfBounds,   // a #param outside its bounds
-    Unbalanced,    // a `]` without its `[` in the last word, which is of age `generation`
-    TooDeep,       // a later stage's production still matches after as many passes as there may be
+    Unbalanced,    // a `]` without its `[` in the last word, whose age is `generation`
+    TooDeep,       // a later stage's production still matches after the max number of passes
 };
 
-/// What went wrong at run time, as facts; runtime_diagnostic() words it.
+/// The facts of a run-time error; runtime_diagnostic() makes the message.
 struct RuntimeError {
     RuntimeErrorKind kind{};
-    ProductionId production = kNoProduction; // none: the axiom or a global
+    ProductionId production = kNoProduction; // kNoProduction: the axiom or a global
     std::uint32_t site = kNone;              // the expression, or the production's name
     std::uint32_t generation = 0; // age of the word being rewritten; kStartGeneration: at the start
-    std::uint64_t position = 0;   // of the module in that word
-    SymbolId symbol = kNoSymbol;  // the module
-    std::vector<float> parameters; // its parameters
+    std::uint64_t position = 0;   // index of the module in that word
+    SymbolId symbol = kNoSymbol;  // of the module
+    std::vector<float> parameters; // of the module
     float value = 0.0F;            // the value, or min
     float second = 0.0F;           // max
-    std::uint32_t global = kNone;  // of OutOfBounds and errors while globals are drawn
-    bool in_condition = false;     // not in an argument
+    std::uint32_t global = kNone;  // for OutOfBounds and errors while globals are drawn
+    bool in_condition = false;     // else in an argument
 };
 
 struct DeriveOptions {
-    std::uint32_t generations = 0; // asked for: what steps() yields
+    std::uint32_t generations = 0; // to derive; the value of steps()
     std::uint64_t seed = 0;
     std::uint32_t threads = 0; // 0: as many as the machine has
-    /// Words keep the origin of each module: 8 bytes more for each, and time to write them.
+    /// Keep the origin of each module, which takes 8 bytes per module and time to write them.
     bool origins = false;
     Limits limits;
     const std::atomic<bool>* cancelled = nullptr;
-    /// Modules that a thread takes at a time; no word depends on it. Tests make it small.
+    /// Modules per chunk of a thread. No word depends on it; tests make it small.
     std::uint32_t chunk_modules = 1U << 16;
     /// Called between generations, and now and then within a long one; from any thread, but never
     /// from two at once.

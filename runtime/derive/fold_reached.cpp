@@ -14,7 +14,7 @@ namespace lsys {
 
 namespace {
 
-/// Larger programs would spend more on this than they gain.
+/// Larger programs would lose more time by folding than they gain.
 constexpr std::size_t kMostProductions = 4096;
 constexpr std::uint32_t kMostAxiomParameters = 4096;
 constexpr std::uint32_t kMostCodes = 4096;
@@ -32,7 +32,7 @@ public:
         for (std::uint32_t i = 0; i < bytecode.productions.size(); ++i) {
             const BytecodeProduction& production = bytecode.productions[i];
             const SymbolId symbol = bytecode.patterns[production.predecessor.first].symbol;
-            if (production.stage != Stage::Interpret) { // whose words are never kept
+            if (production.stage != Stage::Interpret) { // its words are never stored
                 (production.stage == Stage::Rewrite ? by_symbol_
                                                     : parts_)[static_cast<std::size_t>(symbol)]
                     .push_back(i);
@@ -44,12 +44,12 @@ public:
         const Code before = program_.code_count();
         WordTemplate& axiom = program_.axiom;
         take(axiom, axiom_parameters.data());
-        if (!fine_) {
+        if (!ok_) {
             return std::nullopt;
         }
         put(axiom, axiom_parameters.data());
         decompose();
-        for (std::uint32_t age = 0; age < generations_ && !next_.empty() && fine_; ++age) {
+        for (std::uint32_t age = 0; age < generations_ && !next_.empty() && ok_; ++age) {
             const std::vector<Code> now = std::exchange(next_, {});
             for (const Code code : now) {
                 apply(by_symbol_, code);
@@ -57,20 +57,20 @@ public:
             decompose();
         }
         const bool any = program_.code_count() > before || bare_axiom_;
-        return fine_ && any ? std::optional(std::move(program_)) : std::nullopt;
+        return ok_ && any ? std::optional(std::move(program_)) : std::nullopt;
     }
 
 private:
     using Table = std::vector<std::vector<std::uint32_t>>; // productions by symbol
 
-    /// What the new modules are taken apart into, to the end.
+    /// Applies #decompose to the new modules until none is left.
     void decompose() {
-        for (std::size_t i = 0; i < next_.size() && fine_; ++i) {
+        for (std::size_t i = 0; i < next_.size() && ok_; ++i) {
             apply(parts_, next_[i]);
         }
     }
 
-    /// The modules that the productions can make of a module.
+    /// Notes the modules that the productions can write for a module.
     void apply(const Table& table, Code code) {
         const auto symbol = static_cast<std::size_t>(program_.symbol_of(code));
         std::vector<float> own;
@@ -82,8 +82,8 @@ private:
         }
         const bool own_known = own.size() == program_.symbols[symbol].parameter_count;
         for (const std::uint32_t index : table[symbol]) {
-            fine_ = fine_ && ++trials_ <= kMostTrials;
-            if (!fine_) {
+            ok_ = ok_ && ++trials_ <= kMostTrials;
+            if (!ok_) {
                 return;
             }
             const BytecodeProduction& production = program_.productions[index];
@@ -128,17 +128,16 @@ private:
         take(successor, known ? values.data() : nullptr);
     }
 
-    /// Notes the modules of a template; without `arguments`, those that store some stay as they
-    /// are.
+    /// Notes the modules of a template, folded if `arguments` are known.
     void take(const WordTemplate& words, const float* arguments) {
-        for (std::uint32_t i = 0; i < words.codes.count && fine_; ++i) {
+        for (std::uint32_t i = 0; i < words.codes.count && ok_; ++i) {
             Code code = program_.template_codes[words.codes.first + i];
             const std::uint32_t stored = program_.stored_parameters(code);
             if (stored != 0 && arguments != nullptr) {
                 code = fold(static_cast<SymbolId>(code), arguments);
                 arguments += stored;
             }
-            if (fine_ && !seen_[code]) {
+            if (ok_ && !seen_[code]) {
                 seen_[code] = true;
                 next_.push_back(code);
             }
@@ -152,7 +151,7 @@ private:
         }
         const Code code = program_.code_count();
         if (code >= most_codes_) {
-            fine_ = false;
+            ok_ = false;
             return 0;
         }
         program_.folded.push_back({symbol, static_cast<std::uint32_t>(program_.constants.size())});
@@ -163,7 +162,7 @@ private:
         return code;
     }
 
-    /// The axiom with its folded modules.
+    /// Puts the folded modules into the axiom.
     void put(WordTemplate& axiom, const float* arguments) {
         bare_axiom_ = axiom.parameter_count != 0;
         for (std::uint32_t i = 0; i < axiom.codes.count; ++i) {
@@ -188,13 +187,13 @@ private:
     std::uint32_t generations_;
     FoldedIndex index_;
     std::vector<bool> seen_; // by code
-    std::vector<Code> next_; // of the next age
+    std::vector<Code> next_; // first written at the next age
     Table by_symbol_;
-    Table parts_; // of #decompose
+    Table parts_; // productions of #decompose
     std::uint32_t most_codes_ = 0;
     std::uint64_t trials_ = 0;
-    bool bare_axiom_ = false; // it stored parameters
-    bool fine_ = true;
+    bool bare_axiom_ = false; // the axiom stored parameters and no longer does
+    bool ok_ = true;
 };
 
 } // namespace

@@ -1,7 +1,7 @@
-// Folds the modules that a derivation can reach. Where the arguments of the modules are few
-// different tuples, as in most published systems (lengths that grow by a factor each generation,
-// counters that run down), a module with its arguments is one code: then words store no parameters,
-// conditions are decided once a code, and what was parametric is rewritten as fast as what is not.
+// Folds the modules that a derivation can reach. If modules have few different tuples of arguments,
+// as in most published systems (lengths that grow by a factor per generation, counters that run
+// down), a module with its arguments becomes one code. Words then store no parameters, conditions
+// are decided once per code, and parametric systems are rewritten as fast as others.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -11,10 +11,9 @@
 
 namespace lsys {
 
-/// The program with all modules folded whose arguments are known when a derivation from the axiom
-/// begins and that `generations` generations can write. It derives the same words, with codes of
-/// its own. Nothing if there is nothing to fold, or if these modules are more than codes of the
-/// same width can tell apart.
+/// The program with every module folded that `generations` generations from the axiom can write and
+/// whose arguments are known in advance. It derives the same words with codes of its own. Returns
+/// nothing if there is nothing to fold, or if codes of the same width cannot number these modules.
 [[nodiscard]] std::optional<Bytecode>
 fold_reached(const Bytecode& bytecode, std::uint64_t seed, std::uint32_t generations);
 

@@ -1,7 +1,7 @@
 #include "runtime/derive/interpretation.h"
 
-#include "runtime/derive/engine/chains.h"
 #include "runtime/derive/engine/levels.h"
+#include "runtime/derive/engine/stage_depth.h"
 #include "runtime/derive/engine/start.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// What outlives the plan that reads it.
+/// Values that the plan refers to.
 struct Prepared {
     Prepared(const Bytecode& program, const InterpretInputs& given)
         : bytecode(program), inputs(given) {}
@@ -43,11 +43,12 @@ public:
                 Sink sink)
         : prepared_(std::move(prepared)), plan_(std::move(plan)), sink_(std::move(sink)),
           origins_(origins),
-          levels_(
-              steps_of(*plan_, prepared_->inputs, depth_of(prepared_->bytecode, Stage::Interpret)),
-              {origins, prepared_->inputs.max_bytes, 1, most_stored(prepared_->bytecode),
-               prepared_->inputs.cancelled},
-              [this](const LevelBlock<C>& block) { return emit(block); }) {}
+          levels_(steps_of(*plan_,
+                           prepared_->inputs,
+                           stage_depth(prepared_->bytecode, Stage::Interpret)),
+                  {origins, prepared_->inputs.max_bytes, 1, most_stored(prepared_->bytecode),
+                   prepared_->inputs.cancelled},
+                  [this](const LevelBlock<C>& block) { return emit(block); }) {}
 
     std::optional<Stop> feed(std::span<const Code> codes,
                              std::span<const float> parameters,
@@ -124,7 +125,7 @@ std::unique_ptr<Interpretation> Interpretation::make(const Bytecode& bytecode,
         return nullptr;
     }
     auto prepared = std::make_unique<Prepared>(bytecode, inputs);
-    // The derivation has drawn them before, without an error.
+    // the derivation has drawn them before, without an error
     static_cast<void>(draw_globals(bytecode, inputs.seed, prepared->globals));
     prepared->globals.resize(bytecode.globals.size());
     auto plan = std::make_unique<Plan>(

@@ -1,6 +1,5 @@
-// Interpretation: modules are drawn as what the productions of `#interpret` make of them. The
-// derived word is the first of as many words as there are passes; the last of them is drawn, and
-// none is stored.
+// Interpretation: applies the productions of `#interpret` to a derived word in passes, and hands on
+// the modules to draw. No word of a pass is stored.
 #pragma once
 
 #include "runtime/derive/derive.h"
@@ -14,22 +13,22 @@
 
 namespace lsys {
 
-/// What a derivation has fixed for its last word.
+/// Inputs that the derivation of the word has fixed.
 struct InterpretInputs {
     std::uint64_t seed = 0;
-    std::uint32_t generations = 0; // asked for; the age of the word
+    std::uint32_t generations = 0; // the age of the word
     std::uint64_t max_bytes = ~std::uint64_t{0};
     const std::atomic<bool>* cancelled = nullptr;
 };
 
 class Interpretation {
 public:
-    /// False ends the work.
+    /// Takes modules to draw. Returns false to end the work.
     using Sink =
         std::function<bool(std::span<const Code>, std::span<const float>, std::span<const Origin>)>;
 
-    /// Null where the program has no such productions. `bytecode` outlives it. `origins`: every
-    /// piece has them.
+    /// Returns null if the program has no such productions. `bytecode` outlives the result.
+    /// `origins`: every piece has origins.
     [[nodiscard]] static std::unique_ptr<Interpretation>
     make(const Bytecode& bytecode, const InterpretInputs& inputs, bool origins, Sink sink);
     virtual ~Interpretation() = default;

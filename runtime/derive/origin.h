@@ -1,6 +1,6 @@
-// Origin: where a module of a word comes from. A module has its origin from the axiom or the
-// production that wrote it, and keeps it until it is rewritten. Made with a word where it is asked
-// for (DeriveOptions::origins), handed on by the turtle to what it draws.
+// Origin: the place in the program that wrote a module of a word. A module keeps its origin until
+// it is rewritten. Derivations keep origins on request (DeriveOptions::origins); the turtle hands
+// them on to the segments, objects and polygons it draws.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -12,17 +12,17 @@
 namespace lsys {
 
 struct Origin {
-    /// In Bytecode::template_codes: the module of the axiom or of a successor that it was written
-    /// as. kNone: not known, it was there when a saved derivation went on.
+    /// Index in Bytecode::template_codes of the module of the axiom or successor. kNone: unknown,
+    /// because the module was in the word of a saved state.
     std::uint32_t place = kNone;
-    /// The age of the first word that holds it; of an unknown origin the age of the saved word.
+    /// The age of the first word with the module; for an unknown origin, the age of the saved word.
     std::uint32_t generation = 0;
 
     friend bool operator==(const Origin&, const Origin&) = default;
 };
 
-/// Origins in words: "from p2 at tree.lsys:7:14, generation 3", without the place where the program
-/// has none; "origin unknown, in the saved state of generation 2".
+/// Prints origins: "from p2 at tree.lsys:7:14, generation 3", without the place if the program has
+/// none; "origin unknown, in the saved state of generation 2".
 class OriginPrinter {
 public:
     /// `bytecode` outlives the printer.
@@ -32,7 +32,7 @@ public:
 
 private:
     const Bytecode& bytecode_;
-    std::vector<std::string> places_; // by place, those met so far; empty: not met
+    std::vector<std::string> places_; // texts by place; empty: not printed yet
 };
 
 } // namespace lsys

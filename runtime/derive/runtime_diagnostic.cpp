@@ -50,7 +50,7 @@ std::string owner(const RuntimeError& error, const Bytecode& bytecode) {
                        bytecode.productions[static_cast<std::size_t>(error.production)].name);
 }
 
-/// The place of a site, and a note for readers without the source.
+/// Sets the place of a site, or a note if there is no source.
 void place(Diagnostic& diagnostic,
            std::uint32_t site,
            const Bytecode& bytecode,
@@ -67,7 +67,7 @@ void place(Diagnostic& diagnostic,
         "at {}:{}:{}", bytecode.files[static_cast<std::size_t>(at.span.file)], at.line, at.column));
 }
 
-/// What was done with the module.
+/// The verb for what was done with the module.
 const char* doing(const RuntimeError& error, const Bytecode& bytecode) {
     switch (error.production == kNoProduction
                 ? Stage::Rewrite
@@ -210,7 +210,7 @@ Diagnostic limit_diagnostic(const LimitReport& report,
                             bool sources_loaded) {
     const bool modules = report.kind == LimitKind::Modules;
     const bool no_memory = !modules && report.predicted_bytes <= limits.max_bytes;
-    // a report without a word is of the axiom itself
+    // a report without a word is about the axiom itself
     const bool axiom = report.modules == 0 && report.generation == 0 && !report.streamed;
     const std::uint64_t failed =
         std::uint64_t{report.generation} + (axiom || report.streamed ? 0 : 1);

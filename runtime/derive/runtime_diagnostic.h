@@ -1,5 +1,5 @@
-// What went wrong while a word was derived, as messages to the grammar's author. Made from facts
-// and bytecode alone, so that they are the same for a source file and for a .lsb file.
+// Messages to the grammar's author about errors and limits of a derivation. Made from facts and
+// bytecode alone, so that they are the same for a source file and for a .lsb file.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -15,13 +15,13 @@
 
 namespace lsys {
 
-/// Spans refer to Bytecode::files, which are the files of the SourceMap when the bytecode was just
-/// compiled. Where there is no source (`sources_loaded` false), a note names the place instead.
+/// The message of a run-time error. Spans refer to Bytecode::files, which are the files of the
+/// SourceMap if the bytecode was just compiled. Without sources a note names the place instead.
 [[nodiscard]] Diagnostic
 runtime_diagnostic(const RuntimeError& error, const Bytecode& bytecode, bool sources_loaded);
 
-/// What a derivation that ended as Limit or OutOfMemory tells, with the largest number of
-/// generations that fits, as far as it is known.
+/// The message of a derivation that ended with Stop::Limit or Stop::OutOfMemory, with the largest
+/// number of generations that fits, if known.
 [[nodiscard]] Diagnostic limit_diagnostic(const LimitReport& report,
                                           const Limits& limits,
                                           const Bytecode& bytecode,

@@ -27,7 +27,8 @@ namespace lsys {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "words are written as they lie");
+static_assert(std::endian::native == std::endian::little,
+              "words are written as they are in memory");
 
 constexpr std::string_view kMagic = "lsystate";
 constexpr std::size_t kHeaderBytes = 64;
@@ -129,8 +130,8 @@ Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode) 
     if (version != kStateFileVersion) {
         return other_version("its format", version, kStateFileVersion);
     }
-    // The digest is one of the bytecode's contents, so that it does not tell whether the program
-    // is another one or was compiled to another version of bytecode.
+    // The digest covers the bytecode, so it differs both for another program and for another
+    // version of bytecode.
     if (bytecode_version != kModuleFileVersion) {
         return other_version("its bytecode", bytecode_version, kModuleFileVersion);
     }

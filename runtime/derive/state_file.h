@@ -1,6 +1,6 @@
-// A derivation saved in its middle: `--save-state`, `--from`. Holds the digest of the program,
-// seed, number of generations asked for, age and word, with magic, versions and a checksum; the
-// .cpp draws the layout.
+// State files: derivations saved before their end (`--save-state`, `--from`). A file holds the
+// digest of the program, seed, number of generations, age and word, with magic, versions and a
+// checksum; state_file.cpp shows the layout.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -19,7 +19,7 @@ namespace lsys {
 inline constexpr std::uint32_t kStateFileVersion = 2;
 
 struct StateHeader {
-    std::uint64_t program_digest = 0; // of digest()
+    std::uint64_t program_digest = 0; // digest() of the bytecode
     std::uint64_t seed = 0;
     std::uint32_t generations = 0; // asked for
     std::uint32_t age = 0;
@@ -30,13 +30,13 @@ struct SavedState {
     Word word;
 };
 
-/// Hands the bytes of a state file to `flush`, in order and in few pieces; the word is not copied.
-/// False as soon as flush returns false.
+/// Hands the bytes of a state file to `flush`, in order and in few pieces, without copying the
+/// word. Returns false as soon as flush does.
 [[nodiscard]] bool write_state(const StateHeader& header,
                                const Word& word,
                                const std::function<bool(std::string_view)>& flush);
-/// Refuses foreign, newer, truncated or damaged bytes, states of another program, and words that
-/// the program could not hold. The message does not name the file.
+/// Reads a state file. Errors: foreign, newer, truncated or damaged bytes, a state of another
+/// program, a word that the program cannot have. The message does not name the file.
 [[nodiscard]] Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode);
 /// Whether these bytes begin like a state file.
 [[nodiscard]] bool is_state_file(std::string_view bytes);

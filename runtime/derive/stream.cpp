@@ -2,10 +2,10 @@
 
 #include "runtime/base/memory_border.h"
 #include "runtime/derive/engine/brackets.h"
-#include "runtime/derive/engine/chains.h"
 #include "runtime/derive/engine/levels.h"
 #include "runtime/derive/engine/origins.h"
 #include "runtime/derive/engine/plan.h"
+#include "runtime/derive/engine/stage_depth.h"
 #include "runtime/derive/engine/start.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint64_t kProgressStride = std::uint64_t{1} << 24;
 
-/// Sends the axiom down the levels, and what arrives to the consumer.
+/// Sends the axiom down the levels, and the modules of the last level to the consumer.
 template <typename C, typename R>
 class Streamer {
 public:
@@ -139,7 +139,7 @@ stream(const Bytecode& bytecode, const DeriveOptions& options, const StreamConsu
     steps.seed = options.seed;
     steps.last_age = options.generations;
     steps.prunes = bytecode.cuts();
-    const StageDepth depth = depth_of(bytecode, Stage::Decompose);
+    const StageDepth depth = stage_depth(bytecode, Stage::Decompose);
     if (depth.passes != 0) {
         decomposing.emplace(bytecode, inputs, false, Stage::Decompose);
         steps.passes = &*decomposing;

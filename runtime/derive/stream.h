@@ -1,7 +1,6 @@
 // Derivation without a stored word: depth-first expansion of a context-free parallel system, in
-// memory that grows with the number of generations only. Each generation counts the modules it has
-// passed, which is the position of the next, so draws are those of the stored word and the result
-// is the same.
+// memory that grows with the number of generations only. Each generation counts its modules, which
+// gives the position of the next one, so draws and result are those of the stored word.
 #pragma once
 
 #include "runtime/derive/derive.h"
@@ -19,7 +18,7 @@ namespace lsys {
 struct StreamChunk {
     std::span<const Code> codes;
     std::span<const float> parameters;
-    std::span<const Origin> origins; // of each module, if DeriveOptions::origins asks for them
+    std::span<const Origin> origins; // one per module with DeriveOptions::origins, else none
 };
 /// Returns false to end the derivation with Stop::Cancelled.
 using StreamConsumer = std::function<bool(const StreamChunk&)>;

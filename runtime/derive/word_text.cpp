@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::string_view kSymbols = "+-/\\^&|$!\"'.[]{}%";
 constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
-/// Programs of more codes, and shorter words, are printed module by module.
+/// Words of programs with more codes, and shorter words, are printed module by module.
 constexpr std::size_t kMostPairedCodes = 64;
 constexpr std::size_t kPairedFrom = 4096;
-/// The longest binary32 in text, and a comma or parenthesis.
+/// Room for the longest binary32 as text and a comma or parenthesis.
 constexpr std::size_t kNumberBytes = 24;
 
 bool is_one_character(std::string_view name) {
@@ -97,7 +97,7 @@ WordPrinter::WordPrinter(const Bytecode& bytecode) {
     }
 }
 
-/// A table instead of texts.
+/// Prints words whose modules are one character each, by a table.
 bool WordPrinter::write_letters(std::span<const std::uint8_t> codes, const Sink& sink) {
     const char* const letters = letters_.data();
     while (!codes.empty()) {

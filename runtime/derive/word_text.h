@@ -1,5 +1,4 @@
-// A word as text (docs/language.md section 10): what is printed parses again as the axiom of the
-// same file.
+// A word as text (docs/language.md section 10), which parses again as the axiom of the same file.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -16,38 +15,38 @@
 
 namespace lsys {
 
-/// A name as it is written in a list of modules: back quotes where it is no symbol of the
-/// language, or, with `names letters`, no single letter.
+/// A name as written in a list of modules: in back quotes unless it is a symbol of the language, an
+/// identifier or, with `names letters`, a single letter.
 [[nodiscard]] std::string spelled_name(std::string_view name, bool letters);
-/// A number as a word shows it.
+/// Appends a number as words show it: the shortest text that reads back equal.
 void append_number(float value, std::string& out);
 
-/// Prints modules of one word in order; may be fed in pieces.
+/// Prints the modules of one word in order; the word may come in pieces.
 class WordPrinter {
 public:
     explicit WordPrinter(const Bytecode& bytecode);
-    /// What comes next is not behind what was printed before.
+    /// Starts a new word: the next module does not follow the last one printed.
     void begin() { after_identifier_ = false; }
-    /// What stands before and behind a word that is not empty: with `names characters` it is one
-    /// text in back quotes. print() writes it, append() does not.
+    /// The text before and after a word that is not empty: a back quote if the word is one text,
+    /// with `names characters`. print() writes it, append() does not.
     [[nodiscard]] std::string_view quote() const { return one_text_ ? "`" : ""; }
-    /// Appends the text of `codes`; `parameters` holds exactly what they store.
+    /// Appends the text of `codes`, whose parameters are `parameters`.
     void append(std::span<const Code> codes, std::span<const float> parameters, std::string& out);
-    /// Hands the text of a whole word to `flush` in pieces; false as soon as flush returns false.
+    /// Hands the text of a whole word to `flush` in pieces. Returns false as soon as flush does.
     [[nodiscard]] bool print(const Word& word, const std::function<bool(std::string_view)>& flush);
 
 private:
     static constexpr std::size_t kShort = 16;
 
     struct Spelling {
-        std::array<char, kShort> head{}; // the text, if it is short
+        std::array<char, kShort> head{}; // the text if it fits
         std::uint32_t length = 0;
-        std::uint32_t long_text = 0; // otherwise, in long_texts_
+        std::uint32_t long_text = 0; // else its index in long_texts_
         std::uint32_t parameter_count = 0;
         bool starts_identifier = false;
         bool ends_identifier = false; // an identifier without parameters
     };
-    /// Two neighbours as one short text. Length 0: they are written one after the other.
+    /// Two neighbours as one short text; length 0 if they are written one by one.
     struct Pair {
         std::array<char, kShort - 1> text{};
         std::uint8_t length = 0;
@@ -64,7 +63,7 @@ private:
 
     std::vector<Spelling> spellings_; // by code; folded arguments included
     std::vector<std::string> long_texts_;
-    std::vector<char> letters_; // by code, if each code is one character and that is all
+    std::vector<char> letters_; // by code, if every module is one character
     std::vector<Pair> pairs_;   // by after_identifier_, first and second code; empty: not made
     std::vector<char> buffer_;
     bool after_identifier_ = false;

@@ -148,8 +148,8 @@ Result<CompiledText> compile_text(const std::string& path,
                                   const GrammarOptions& options,
                                   std::uint64_t max_modules,
                                   const FileLoader& load) {
-    if (Result<Done> fine = check_system(path, text.dialect, options); !fine) {
-        return fine.error();
+    if (Result<Done> ok = check_system(path, text.dialect, options); !ok) {
+        return ok.error();
     }
     CompiledText compiled;
     Grammar& grammar = compiled.grammar;
@@ -213,11 +213,11 @@ load_grammar(const std::string& path, const GrammarOptions& options, const Proje
         return step.fail(compiled.error());
     }
     CompiledText& text = compiled.value();
-    const bool fine = step.diagnose(std::move(text.diagnostics), text.grammar.sources);
+    const bool ok = step.diagnose(std::move(text.diagnostics), text.grammar.sources);
     if (text.definition_error) {
         return step.fail(*text.definition_error);
     }
-    return fine ? step.done(std::move(text.grammar)) : step.end_diagnosed();
+    return ok ? step.done(std::move(text.grammar)) : step.end_diagnosed();
 }
 
 } // namespace lsys

@@ -33,9 +33,9 @@ bool Step::diagnose(Diagnostics diagnostics, std::shared_ptr<const SourceMap> so
     if (project_.deny_warnings) {
         diagnostics.promote_warnings();
     }
-    const bool fine = !diagnostics.has_errors();
+    const bool ok = !diagnostics.has_errors();
     messages.add(std::move(diagnostics), std::move(sources));
-    return fine;
+    return ok;
 }
 
 bool Step::diagnose(Diagnostic diagnostic, std::shared_ptr<const SourceMap> sources) {

@@ -50,7 +50,7 @@ ProductionId only_unbalanced_production(const Bytecode& bytecode) {
     ProductionId found = kNoProduction;
     for (std::uint32_t i = 0; i < bytecode.productions.size(); ++i) {
         if (bytecode.productions[i].stage == Stage::Interpret) {
-            break; // it writes no word
+            break; // writes no word
         }
         if (rewrites_bracket(bytecode, bytecode.productions[i])) {
             return kNoProduction;

@@ -1,4 +1,4 @@
-// Whether every `]` has its `[`. A word may be fed in pieces.
+// BracketCounter: checks that every `]` has its `[`, in a word that may come in pieces.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -30,13 +30,13 @@ public:
     }
 
 private:
-    std::vector<std::int8_t> change_; // of the depth, by code
+    std::vector<std::int8_t> change_; // change of the depth, by code
     std::int64_t depth_ = 0;
     bool has_close_ = false;
 };
 
-/// The production that must have written an unmatched `]`: the only one whose successor closes
-/// what it has not opened, in a program whose axiom does not. kNoProduction if that is not known.
+/// The production that must have written an unmatched `]`: the only one whose successor closes a
+/// bracket that it does not open, if the axiom closes none. kNoProduction if several could have.
 [[nodiscard]] ProductionId only_unbalanced_production(const Bytecode& bytecode);
 
 /// The error of a `]` without its `[` at `position` of a word of age `age`.

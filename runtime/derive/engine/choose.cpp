@@ -51,7 +51,7 @@ bool Chooser<C>::choose(const ModulePlace& place, const Row& row, std::uint32_t&
     const Family& family = plan_.family(row.source);
     const std::span<const Candidate> candidates = plan_.candidates(family);
     const float* const own = matcher_.own(place);
-    std::uint32_t group = kNone; // whose contexts were looked for last
+    std::uint32_t group = kNone; // the last one whose contexts were searched
     bool in_context = true;
     for (std::uint32_t i = 0; i < candidates.size(); ++i) {
         const Candidate& candidate = candidates[i];
@@ -81,7 +81,7 @@ bool Chooser<C>::choose(const ModulePlace& place, const Row& row, std::uint32_t&
     return true;
 }
 
-/// The stochastic choice once candidate `first` of the family is known to match.
+/// The stochastic choice among the group of candidate `first`, which is known to match.
 template <typename C>
 bool Chooser<C>::choose_among(const Family& family,
                               std::uint32_t first,

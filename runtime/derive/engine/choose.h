@@ -12,15 +12,15 @@
 
 namespace lsys {
 
-/// What names the draws of one pass.
+/// The key of the draws of one pass.
 struct PassKeys {
     std::uint64_t seed = 0;
     std::uint32_t generation = 0;
     std::uint64_t first_draw = 0; // 4096 k in the pass of rule k of a sequential generation
-    bool same_age = false;        // what is written is of that generation too, not of the next
+    bool same_age = false;        // the written word has the same generation, not the next
 };
 
-/// Reads what it is given when it is asked, so that word and keys may be changed between calls.
+/// Holds references: word and keys may change between calls.
 template <typename C>
 class Chooser {
 public:
@@ -31,11 +31,11 @@ public:
         : plan_(plan), keys_(keys), word_(word), contexts_(contexts),
           matcher_(plan, word, contexts) {}
 
-    /// The record of a module whose row is not Fixed: 0 if nothing matches, r if entry row.base + r
-    /// rewrites it. False: a condition has no finite value, fault() tells.
+    /// Sets `record` of a module whose row is not Fixed: 0 if nothing matches, r if entry
+    /// row.base + r rewrites it. Returns false if a condition has no finite value; see fault().
     [[nodiscard]] bool choose(const ModulePlace& place, const Row& row, std::uint32_t& record);
 
-    /// The draw of a Choice row's module, and at once those of `count` modules at `positions`.
+    /// The draw of a module of a Choice row. module_draws() draws for `count` modules at once.
     [[nodiscard]] float module_draw(std::uint64_t index) const {
         const std::uint64_t position = word_.first_position + index;
         const DrawKey key = choice_key();
@@ -45,7 +45,7 @@ public:
     void module_draws(const std::uint64_t* positions, std::size_t count, float* units) const {
         draw_units(choice_key(), positions, count, units);
     }
-    /// The same for a Choice row, with its draw, and for a Tests row, which cannot fail.
+    /// choose() for a Choice row, given its draw, and for a Tests row; neither can fail.
     [[nodiscard]] std::uint32_t choose_by_chance(float u, const Row& row) const {
         const Choice& choice = plan_.choice(row.source);
         const float* const thresholds = plan_.thresholds(choice).data();
@@ -63,7 +63,7 @@ public:
         }
         return 0;
     }
-    /// Whether the neighbours of a General row's module allow any match at all.
+    /// Whether the neighbours of a module of a General row allow any match.
     [[nodiscard]] bool passes_guards(std::uint64_t index, const Row& row) const {
         if (row.left_guard != kNone) {
             const std::uint64_t left = contexts_->left_of(index);
@@ -81,7 +81,7 @@ public:
     }
 
     [[nodiscard]] const EvalFault& fault() const { return fault_; }
-    /// The candidate at fault, an index into Plan::candidate().
+    /// The candidate of the fault, an index for Plan::candidate().
     [[nodiscard]] std::uint32_t faulty_candidate() const { return faulty_candidate_; }
     [[nodiscard]] Matcher<C>& matcher() { return matcher_; }
 

@@ -82,7 +82,7 @@ bool ContextTables::is_plain(const C* codes) const {
                        [this](C code) { return sights_[code] == Sight::Module; });
 }
 
-/// One walk with a stack of what was left of each open `[`.
+/// Walks once, with a stack of the module to the left of each open `[`.
 template <typename C>
 void ContextTables::build_left(const C* codes) {
     std::vector<std::uint64_t> open;
@@ -109,8 +109,8 @@ void ContextTables::build_left(const C* codes) {
     }
 }
 
-/// The same from the right: a `]` ends the axis before it, and its `[` goes on after it. A `[`
-/// without its `]` is a branch that reaches to the end of the word.
+/// Walks once from the right: a `]` ends the axis before it, which goes on after the branch at its
+/// `[`. A `[` without its `]` is a branch that reaches to the end of the word.
 template <typename C>
 void ContextTables::build_right(const C* codes) {
     struct Closed {

@@ -1,7 +1,7 @@
-// Where a context is looked for: for each place of a word the next module on the path to the root
-// and along the axis, in constant time, so that no long branch or row of ignored modules is walked
-// twice. Built for one word where a production in force has a context. A word without brackets and
-// ignored modules needs no table: neighbours are adjacent.
+// ContextTables: for each place of a word the next module towards the root and along the axis, in
+// constant time, so that no long branch or row of ignored modules is walked twice. Built per word
+// if a production in force has a context. A word without brackets and ignored modules needs no
+// table: neighbours are adjacent.
 //
 // A gap g is the place before module g; gap count is the end of the word.
 #pragma once
@@ -18,16 +18,17 @@ namespace lsys {
 /// No such module.
 inline constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
 
-/// What a context search sees of a code.
+/// The role of a code in a context search.
 enum class Sight : std::uint8_t { Module, Ignored, Open, Close };
 
-/// Indices into a word, of 4 bytes each where the word allows it.
+/// Indices into a word, of 4 bytes each if the word is short enough.
 class IndexTable {
 public:
     [[nodiscard]] static std::uint64_t width(std::uint64_t word_length) {
         return word_length < 0xFFFFFFFFu ? sizeof(std::uint32_t) : sizeof(std::uint64_t);
     }
-    /// Room for `count` indices of a word of `word_length` modules. False: no memory.
+    /// Makes room for `count` indices into a word of `word_length` modules. Returns false if there
+    /// is no memory.
     [[nodiscard]] bool reserve(std::uint64_t count, std::uint64_t word_length) {
         wide_ = width(word_length) == sizeof(std::uint64_t);
         return arena_.reserve(count * width(word_length));
@@ -57,13 +58,14 @@ class ContextTables {
 public:
     explicit ContextTables(const Plan& plan);
 
-    /// What held_bytes() would be after prepare(word).
+    /// held_bytes() after prepare(word).
     [[nodiscard]] std::uint64_t held_bytes_after(const Word& word) const;
-    /// Builds what the productions in force need to know of `word`. False: no memory.
+    /// Builds the tables of `word` that the productions in force need. Returns false if there is no
+    /// memory.
     [[nodiscard]] bool prepare(const Plan& plan, const Word& word);
     [[nodiscard]] std::uint64_t held_bytes() const;
 
-    /// Neither brackets nor ignored modules are in the word.
+    /// Whether the word has neither brackets nor ignored modules.
     [[nodiscard]] bool plain() const { return plain_; }
     [[nodiscard]] Sight sight(Code code) const { return sights_[code]; }
     /// The module left of module `index` on the path to the root, or kNowhere.
@@ -77,11 +79,11 @@ public:
         }
         return next_.get(gap);
     }
-    /// Of a `[`: the gap after its branch. Of an ignored module: the gap after the row of ignored
-    /// modules. Only where a right context has brackets, and not in a plain word.
+    /// For a `[`, the gap after its branch; for an ignored module, the gap after the row of ignored
+    /// modules. Available if a right context has brackets and the word is not plain.
     [[nodiscard]] std::uint64_t jump_from(std::uint64_t index) const { return jump_.get(index); }
-    /// The number of parameters that are stored before the last multiple of kOffsetStride up to
-    /// `index`. Only where a formal of a context is used.
+    /// The number of parameters stored before module `index` rounded down to a multiple of
+    /// kOffsetStride. Available if a formal of a context is used.
     static constexpr std::uint64_t kOffsetStride = 64;
     [[nodiscard]] std::uint64_t offset_before(std::uint64_t index) const {
         return offsets_.as<std::uint64_t>()[index / kOffsetStride];

@@ -70,35 +70,35 @@ CountResult count_modules(const Plan& plan,
 }
 
 template <typename C, typename R>
-CountResult count_marked(const Plan& plan,
+CountResult count_active(const Plan& plan,
                          Chooser<C>& chooser,
-                         const Marks& marks,
+                         const ActiveMask& mask,
                          const WordView<C>& word,
                          ModulePlace begin,
                          std::uint64_t end,
                          R* records) {
-    constexpr std::size_t kBlock = Marks::kBlock;
+    constexpr std::size_t kBlock = ActiveMask::kBlock;
     const Row* const rows = plan.rows().data();
     const Entry* const entries = plan.entries().data();
-    std::array<MarkBits, Marks::kModules / kBlock> bits; // NOLINT: filled before it is read
-    std::array<std::uint64_t, kBlock> positions{};       // of modules that draw
+    std::array<ActiveBits, ActiveMask::kModules / kBlock> bits; // NOLINT: filled before it is read
+    std::array<std::uint64_t, kBlock> positions{};              // modules that draw
     std::array<float, kBlock> units{};
     CountResult result;
     while (begin.index < end) {
-        const auto count =
-            static_cast<std::size_t>(std::min<std::uint64_t>(end - begin.index, Marks::kModules));
+        const auto count = static_cast<std::size_t>(
+            std::min<std::uint64_t>(end - begin.index, ActiveMask::kModules));
         result.modules +=
-            count - marks.fill(word.codes, word.count, begin.index, count, bits.data());
+            count - mask.fill(word.codes, word.count, begin.index, count, bits.data());
         for (std::size_t first = 0; first < count; first += kBlock) {
-            const MarkBits& block = bits[first / kBlock];
+            const ActiveBits& block = bits[first / kBlock];
             const std::uint64_t index = begin.index + first;
             const C* const codes = word.codes + index;
-            result.parameters += marks.stored(codes, block.stores & ~block.active);
+            result.parameters += mask.stored(codes, block.stores & ~block.active);
             if (block.active == 0) {
-                begin.parameter += marks.stored(codes, block.stores);
+                begin.parameter += mask.stored(codes, block.stores);
                 continue;
             }
-            if (marks.has_choices()) {
+            if (mask.has_choices()) {
                 std::size_t draws = 0;
                 for (std::uint64_t active = block.active; active != 0; active &= active - 1) {
                     const auto place = static_cast<std::uint64_t>(std::countr_zero(active));
@@ -108,7 +108,7 @@ CountResult count_marked(const Plan& plan,
                 chooser.module_draws(positions.data(), draws, units.data());
             }
             const float* unit = units.data();
-            std::uint64_t stores = block.stores; // of modules from the one that is counted
+            std::uint64_t stores = block.stores; // of the modules not yet counted
             for (std::uint64_t active = block.active; active != 0; active &= active - 1) {
                 const auto place = static_cast<std::uint64_t>(std::countr_zero(active));
                 const C code = codes[place];
@@ -123,7 +123,7 @@ CountResult count_marked(const Plan& plan,
                     record = chooser.choose_by_chance(*unit++, row);
                 } else {
                     const std::uint64_t below = (std::uint64_t{1} << place) - 1;
-                    begin.parameter += marks.stored(codes, stores & below);
+                    begin.parameter += mask.stored(codes, stores & below);
                     stores &= ~below;
                     const ModulePlace at{index + place, begin.parameter};
                     if (row.kind == RowKind::Tests) {
@@ -140,7 +140,7 @@ CountResult count_marked(const Plan& plan,
                 result.modules += entry.code_count;
                 result.parameters += entry.parameter_count;
             }
-            begin.parameter += marks.stored(codes, stores);
+            begin.parameter += mask.stored(codes, stores);
         }
         begin.index += count;
     }
@@ -151,7 +151,7 @@ CountResult count_marked(const Plan& plan,
 #define LSYS_COUNT(C, R)                                                                           \
     template CountResult count_modules<C, R>(const Plan&, Chooser<C>&, const WordView<C>&,         \
                                              const CountRequest&, R*);                             \
-    template CountResult count_marked<C, R>(const Plan&, Chooser<C>&, const Marks&,                \
+    template CountResult count_active<C, R>(const Plan&, Chooser<C>&, const ActiveMask&,           \
                                             const WordView<C>&, ModulePlace, std::uint64_t, R*);
 LSYS_FOR_CODES_AND_RECORDS(LSYS_COUNT)
 #undef LSYS_COUNT

@@ -1,16 +1,16 @@
-// The counting pass: for a stretch of modules, what rewriting it will write, so that every word is
-// sized exactly before it is written and cut into parts that do not meet. Modules whose row is not
-// Fixed leave one record each.
+// The counting pass: the number of modules and parameters that rewriting a stretch will write, so
+// that every word is sized exactly before it is written, in parts that do not overlap. Each module
+// whose row is not Fixed leaves one record.
 #pragma once
 
+#include "runtime/derive/engine/active_mask.h"
 #include "runtime/derive/engine/choose.h"
-#include "runtime/derive/engine/marks.h"
 
 #include <cstdint>
 
 namespace lsys {
 
-/// What to count: from `begin` up to `end`, while no more than the room is written.
+/// The stretch to count: from `begin` to `end`, or until the room is used up.
 struct CountRequest {
     ModulePlace begin;
     std::uint64_t end = 0;
@@ -19,8 +19,8 @@ struct CountRequest {
 };
 
 struct CountResult {
-    /// Where counting stopped: at the end; beyond it by a match of several modules; before it for
-    /// want of room or at a fault.
+    /// Where counting stopped: at the end; past it after a match of several modules; before it if
+    /// the room was used up or at a fault.
     ModulePlace end;
     std::uint64_t modules = 0;
     std::uint64_t parameters = 0;
@@ -36,12 +36,12 @@ template <typename C, typename R>
                                         const CountRequest& request,
                                         R* records);
 
-/// The same for all modules from `begin` to `end` by their marks, which leave out what is surely
-/// copied: a record for each marked module whose row is not Fixed.
+/// Counts all modules from `begin` to `end` by their mask, without looking at modules that are
+/// certain to be copied: a record for each active module whose row is not Fixed.
 template <typename C, typename R>
-[[nodiscard]] CountResult count_marked(const Plan& plan,
+[[nodiscard]] CountResult count_active(const Plan& plan,
                                        Chooser<C>& chooser,
-                                       const Marks& marks,
+                                       const ActiveMask& mask,
                                        const WordView<C>& word,
                                        ModulePlace begin,
                                        std::uint64_t end,

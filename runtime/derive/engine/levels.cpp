@@ -2,9 +2,9 @@
 
 #include "grammar/base/contract.h"
 #include "runtime/derive/engine/count.h"
+#include "runtime/derive/engine/depth_limit.h"
 #include "runtime/derive/engine/faults.h"
 #include "runtime/derive/engine/instantiate.h"
-#include "runtime/derive/engine/remains.h"
 #include "runtime/derive/engine/write.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kMaxBlock = 4096;
 constexpr std::uint64_t kMinBlock = 32;
-/// The blocks of all levels together, where templates do not ask for more.
+/// Bytes of the blocks of all levels together, unless templates need more.
 constexpr std::uint64_t kBlocksBytes = std::uint64_t{8} << 20;
 
 } // namespace
@@ -149,7 +149,7 @@ void Levels<C, R>::prune(std::uint64_t index) {
     level.count = kept;
 }
 
-/// Gives a whole block to the level below as it is.
+/// Hands a whole block to the level below unchanged.
 template <typename C, typename R>
 void Levels<C, R>::hand_down(Level& level, Level& below) {
     std::swap(level.codes, below.codes);
@@ -199,7 +199,7 @@ bool Levels<C, R>::descend(std::uint64_t index) {
     return true;
 }
 
-/// After the last pass over a word: whether nothing matches any more.
+/// Whether nothing matches any more after the last pass over a word; else fails.
 template <typename C, typename R>
 bool Levels<C, R>::is_decomposed(std::uint64_t index) {
     if (!steps_.checked || !steps_.rewrites(index)) {
@@ -245,7 +245,7 @@ bool Levels<C, R>::add_level() {
     if (options_.origins) {
         level.origins = std::make_unique_for_overwrite<Origin[]>(room_codes_);
     }
-    // lanes read past the last parameter, and then need finite numbers
+    // wide loads read past the last parameter, where they need finite numbers
     std::fill_n(level.parameters.get(), parameter_bytes / sizeof(float), 0.0F);
     return true;
 }

@@ -1,6 +1,6 @@
-// Words that are never stored: blocks of modules that go down a row of levels, depth first. What is
-// left of a level's block is rewritten, piece by piece, into the block of the level below. Each
-// level counts the modules it has passed, which is the position of the next.
+// Levels: words that are never stored. Blocks of modules go down a row of levels, depth first: the
+// rest of a level's block is rewritten, piece by piece, into the block of the level below. Each
+// level counts the modules that have passed, which gives the position of the next.
 #pragma once
 
 #include "runtime/derive/derive.h"
@@ -18,17 +18,17 @@
 
 namespace lsys {
 
-/// What is done with a word on its way down: generations of rewriting, each followed by passes.
+/// The steps of a word on its way down: generations of rewriting, each followed by passes.
 struct LevelSteps {
     const Plan* rewriting = nullptr; // may be null for a single generation
-    const Plan* passes = nullptr;    // of a later stage; null: `depth` is 0
+    const Plan* passes = nullptr;    // plan of a later stage; null: `depth` is 0
     std::uint64_t seed = 0;
     std::uint32_t first_age = 0;
     std::uint32_t last_age = 0;
     std::uint32_t depth = 0;           // passes over the word of each age
-    bool checked = false;              // something may match after them, which is an error
-    std::uint64_t first_pass_draw = 0; // of the first pass
-    bool prunes = false;               // generations begin with cuts
+    bool checked = false;              // a module that still matches after them is an error
+    std::uint64_t first_pass_draw = 0; // number of the first draw of the first pass
+    bool prunes = false;               // each generation begins with cuts
 
     [[nodiscard]] std::uint64_t count() const {
         return (std::uint64_t{last_age} - first_age + 1) * depth + (last_age - first_age);
@@ -36,7 +36,7 @@ struct LevelSteps {
     [[nodiscard]] std::uint32_t age_of(std::uint64_t level) const {
         return first_age + static_cast<std::uint32_t>(level / (std::uint64_t{depth} + 1));
     }
-    /// Whether a word of that level is rewritten next; else it is passed over.
+    /// Whether the word of that level is rewritten next, by a generation; else a pass follows.
     [[nodiscard]] bool rewrites(std::uint64_t level) const {
         return level % (std::uint64_t{depth} + 1) == depth;
     }
@@ -50,24 +50,24 @@ struct LevelSteps {
     }
 };
 
-/// Modules of the last level, in order.
+/// A run of modules of the last level.
 template <typename C>
 struct LevelBlock {
     std::span<const C> codes;
     const float* parameters = nullptr;
-    const Origin* origins = nullptr;  // null if nobody asks for them
+    const Origin* origins = nullptr;  // null unless LevelOptions::origins
     std::uint64_t first_position = 0; // in the last word
 };
 
 struct LevelOptions {
     bool origins = false;
     std::uint64_t max_bytes = ~std::uint64_t{0};
-    std::uint64_t least_codes = 0; // a block that push() fills
+    std::uint64_t least_codes = 0; // min room of a block
     std::uint64_t least_parameters = 0;
     const std::atomic<bool>* cancelled = nullptr;
 };
 
-/// R: uint8_t or uint32_t, as the wider Plan::record_width() says.
+/// R: uint8_t or uint32_t, the wider of the plans' record_width().
 template <typename C, typename R>
 class Levels {
 public:
@@ -76,18 +76,18 @@ public:
 
     Levels(const LevelSteps& steps, const LevelOptions& options, Sink sink);
 
-    /// Room of a block.
+    /// Modules and parameters that a block has room for.
     [[nodiscard]] std::uint64_t room_codes() const { return room_codes_; }
     [[nodiscard]] std::uint64_t room_parameters() const { return room_parameters_; }
-    /// Makes room for a block of the first word and returns it, or null: no memory is allowed for
-    /// it.
+    /// Makes room for a block of the first word and returns it; null pointers if the limit on
+    /// memory is reached.
     struct Block {
         C* codes = nullptr;
         float* parameters = nullptr;
         Origin* origins = nullptr;
     };
     [[nodiscard]] Block first_block();
-    /// Sends the first `count` modules of that block down.
+    /// Sends the first `count` modules of the first block down.
     [[nodiscard]] std::optional<Stop> push(std::uint64_t count);
 
     [[nodiscard]] RuntimeError& error() { return error_; }
@@ -95,14 +95,14 @@ public:
 
 private:
     struct Level {
-        std::unique_ptr<C[]> codes; // not initialised
+        std::unique_ptr<C[]> codes; // uninitialised
         std::unique_ptr<float[]> parameters;
         std::unique_ptr<Origin[]> origins;
         std::uint64_t count = 0;          // modules in the block
-        ModulePlace next;                 // to be rewritten
-        std::uint64_t first_position = 0; // of the block in its level's word
-        bool settled = false;             // no pass of this age concerns the block
-        bool pruned = false;              // cuts of the block have been made
+        ModulePlace next;                 // the next module to rewrite
+        std::uint64_t first_position = 0; // position of the block in its level's word
+        bool settled = false;             // no pass of this age changes the block
+        bool pruned = false;              // cuts have been made
     };
 
     [[nodiscard]] bool add_level();
@@ -117,12 +117,12 @@ private:
     LevelSteps steps_;
     LevelOptions options_;
     Sink sink_;
-    std::uint64_t last_ = 0; // level
-    WordView<C> view_;       // of the block that is rewritten
+    std::uint64_t last_ = 0; // index of the last level
+    WordView<C> view_;       // the block being rewritten
     PassKeys keys_;
-    std::deque<Chooser<C>> choosers_; // of rewriting and of passes; they read the two above
+    std::deque<Chooser<C>> choosers_; // for rewriting and for passes; refer to view_ and keys_
     std::vector<Level> levels_;
-    std::deque<Pruner> pruners_; // by age, where there are cuts
+    std::deque<Pruner> pruners_; // by generation, if there are cuts
     std::vector<R> records_;
     std::uint64_t room_codes_ = 0;
     std::uint64_t room_parameters_ = 0;

@@ -1,5 +1,5 @@
-// Matcher: contexts and formals of one module of a word. Choosing a production and evaluating its
-// arguments ask it; each thread has its own.
+// Matcher: finds the contexts and formals of one module of a word, to choose a production and to
+// evaluate its arguments. Each thread has its own.
 #pragma once
 
 #include "runtime/derive/engine/contexts.h"
@@ -12,15 +12,15 @@
 
 namespace lsys {
 
-/// A word, or a block of one, as the passes read it. Positions count from `first_position`, which
-/// is not 0 where a block of a streamed word is rewritten.
+/// A word, or a block of a streamed word, as the passes read it. Positions count from
+/// `first_position`, which is 0 for a whole word.
 template <typename C>
 struct WordView {
     const C* codes = nullptr;
     const float* parameters = nullptr;
     std::uint64_t count = 0;
     std::uint64_t first_position = 0;
-    const Origin* origins = nullptr; // of each module, where they are kept
+    const Origin* origins = nullptr; // one per module, if they are kept
 };
 
 /// Calls visit with the WordView of a whole word.
@@ -42,11 +42,11 @@ struct ModulePlace {
 template <typename C>
 class Matcher {
 public:
-    /// `contexts` may be null where no production in force has one.
+    /// `contexts` may be null if no production in force has a context.
     Matcher(const Plan& plan, const WordView<C>& word, const ContextTables* contexts)
         : plan_(plan), word_(word), contexts_(contexts) {}
 
-    /// The parameters of a module, wherever they are kept.
+    /// The parameters of a module, stored in the word or constant.
     [[nodiscard]] const float* own(const ModulePlace& place) const {
         const Row& row = plan_.row(word_.codes[place.index]);
         return row.constants == kNone ? word_.parameters + place.parameter
@@ -55,13 +55,13 @@ public:
     /// Whether the modules after the first are those of the predecessor.
     [[nodiscard]] bool matches_predecessor(const BytecodeProduction& production,
                                            std::uint64_t index) const;
-    /// Whether the contexts of `production` match around the predecessor at `index`. Keeps where,
-    /// for gather().
+    /// Whether the contexts of `production` match around the predecessor at `index`. Keeps the
+    /// places of the match for formals().
     [[nodiscard]] bool matches_contexts(const BytecodeProduction& production, std::uint64_t index);
-    /// All formals of the candidate's production for the module at `place`. If some are of
-    /// contexts, the last matches_contexts() was for this production's group and place.
+    /// All formals of the candidate's production for the module at `place`. Precondition if some
+    /// belong to contexts: the last matches_contexts() was for this production's group and place.
     [[nodiscard]] const float* formals(const Candidate& candidate, const ModulePlace& place);
-    /// The same, after looking for the contexts again.
+    /// formals() after another search for the contexts.
     [[nodiscard]] const float* formals_again(const Candidate& candidate, const ModulePlace& place);
 
 private:
@@ -76,10 +76,10 @@ private:
     const Plan& plan_;
     const WordView<C>& word_;
     const ContextTables* contexts_;
-    std::vector<std::uint64_t> left_; // of each pattern item, its module
+    std::vector<std::uint64_t> left_; // module matched by each pattern item
     std::vector<std::uint64_t> right_;
     std::vector<std::uint64_t> predecessor_;
-    std::vector<std::uint64_t> branches_; // gaps after the branches that the pattern is inside
+    std::vector<std::uint64_t> branches_; // gaps after the branches that enclose the pattern
     std::vector<float> formals_;
 };
 

@@ -22,8 +22,8 @@ public:
           entries_(plan.entries().data()), records_(records), out_(out), index_(request.begin) {}
 
     Origin* run() {
-        if (request_.marks != nullptr) {
-            run_marked();
+        if (request_.mask != nullptr) {
+            run_masked();
         } else {
             while (index_ < request_.end) {
                 trace_next();
@@ -33,7 +33,7 @@ public:
     }
 
 private:
-    /// The module at index_, or the several that a match used up.
+    /// Traces the module at index_, or the modules that a match used up.
     void trace_next() {
         const C code = word_.codes[index_];
         const Row& row = rows_[code];
@@ -57,15 +57,16 @@ private:
         index_ += used;
     }
 
-    /// Runs between marked modules are copied.
-    void run_marked() {
-        constexpr std::size_t kBlock = Marks::kBlock;
-        std::array<MarkBits, Marks::kModules / kBlock> bits; // NOLINT: filled before it is read
+    /// Traces active modules and copies the runs between them.
+    void run_masked() {
+        constexpr std::size_t kBlock = ActiveMask::kBlock;
+        std::array<ActiveBits, ActiveMask::kModules / kBlock>
+            bits; // NOLINT: filled before it is read
         while (index_ < request_.end) {
             const std::uint64_t begin = index_;
             const auto count = static_cast<std::size_t>(
-                std::min<std::uint64_t>(request_.end - begin, Marks::kModules));
-            request_.marks->fill(word_.codes, word_.count, begin, count, bits.data());
+                std::min<std::uint64_t>(request_.end - begin, ActiveMask::kModules));
+            request_.mask->fill(word_.codes, word_.count, begin, count, bits.data());
             for (std::size_t first = 0; first < count; first += kBlock) {
                 const std::uint64_t block = begin + first;
                 for (std::uint64_t active = bits[first / kBlock].active; active != 0;

@@ -1,9 +1,9 @@
-// The origins of what a pass writes: a second walk over what the counting pass chose, for those who
-// ask. Where a production was applied, its successor's modules are born; what is copied keeps its
-// origin.
+// The origins of the modules that a pass writes: a second walk over the records of the counting
+// pass, if DeriveOptions::origins asks for them. The modules of a successor have that place as
+// origin; a copied module keeps its origin.
 #pragma once
 
-#include "runtime/derive/engine/marks.h"
+#include "runtime/derive/engine/active_mask.h"
 #include "runtime/derive/engine/match.h"
 #include "runtime/derive/engine/plan.h"
 
@@ -11,16 +11,16 @@
 
 namespace lsys {
 
-/// Modules [begin, end) of the word that is read: exactly those that were written.
+/// Modules [begin, end) of the word that is read: exactly the modules just rewritten.
 struct OriginRequest {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;
-    std::uint32_t generation = 0; // of the word that is written
-    const Marks* marks = nullptr; // those of WriteRequest
+    std::uint32_t generation = 0;     // generation of the written word
+    const ActiveMask* mask = nullptr; // those of WriteRequest
 };
 
-/// `records` as for write_modules(). Returns where the next origin belongs.
-/// Precondition: word.origins is there.
+/// Writes origins to `out`; returns where the next one belongs. `records` as in write_modules().
+/// Precondition: word.origins is not null.
 template <typename C, typename R>
 [[nodiscard]] Origin* trace_origins(const Plan& plan,
                                     const WordView<C>& word,
@@ -28,7 +28,7 @@ template <typename C, typename R>
                                     const R* records,
                                     Origin* out);
 
-/// The origins of the axiom's modules.
+/// Writes the origins of the axiom's modules.
 void copy_axiom_origins(const Bytecode& bytecode, Origin* out);
 
 } // namespace lsys

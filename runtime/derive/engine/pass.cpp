@@ -3,8 +3,8 @@
 #include "grammar/base/contract.h"
 #include "runtime/base/saturating.h"
 #include "runtime/derive/engine/count.h"
+#include "runtime/derive/engine/depth_limit.h"
 #include "runtime/derive/engine/faults.h"
-#include "runtime/derive/engine/remains.h"
 #include "runtime/derive/engine/write.h"
 
 #include <algorithm>
@@ -16,25 +16,25 @@ namespace lsys {
 
 namespace {
 
-/// Programs of more codes are counted module by module.
+/// Programs with more codes are counted module by module.
 constexpr Code kCensusCodes = 4096;
-/// From this many modules on, counting them by all threads costs less than it saves over the
-/// census.
+/// From this many modules on, counting by all threads is faster than the census, which writes in
+/// order.
 constexpr std::uint64_t kCountedInParallel = 1U << 22;
-/// Threads end at about the same time if they have several chunks each, of a size that is worth it.
+/// Threads end at about the same time if each has several chunks, none of them too small.
 constexpr std::uint64_t kChunksPerThread = 6;
 constexpr std::uint64_t kLeastChunk = 1U << 14;
-/// Shorter words take one thread less time than two need to meet. Threads are started a few
-/// generations before, for that takes them as long as a word of this length.
+/// Shorter words take one thread less time than two need to synchronize. Threads are started a few
+/// generations before, because that takes as long as a word of kWorthStarting modules.
 constexpr std::uint64_t kWorthSharing = 1U << 17;
 constexpr std::uint64_t kWorthStarting = 1U << 13;
 /// Modules between two reports of progress.
 constexpr std::uint64_t kProgressStride = std::uint64_t{1} << 24;
 
-/// Marks pay where this part of the modules or less is marked: of a word of which every module has
-/// one successor, and of one where each is chosen or tested, which costs more.
-constexpr std::uint64_t kMarkedOfFixed = 8;
-constexpr std::uint64_t kMarkedOfDynamic = 2;
+/// A mask pays if at most one in this many modules is active: for a word whose modules have one
+/// successor each, and for one whose modules are chosen or tested, which costs more.
+constexpr std::uint64_t kActivePartOfFixed = 8;
+constexpr std::uint64_t kActivePartOfDynamic = 2;
 
 } // namespace
 
@@ -111,7 +111,7 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
         return no_memory(in, before);
     }
     cut(word);
-    marks_.prepare(plan_, contexts());
+    mask_.prepare(plan_, contexts());
 
     by_census_ = !dynamic && plan_.rows().size() <= kCensusCodes &&
                  (workers_.count() == 1 || word.count < kCountedInParallel);
@@ -141,8 +141,8 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
     return std::nullopt;
 }
 
-/// Chunks of the size asked for; with several threads smaller ones if each would have few of them,
-/// and one chunk of a word that is not worth a second thread.
+/// Cuts the word into chunks of the size asked for, into smaller ones if several threads would have
+/// few of them, and into one chunk if the word is too short for a second thread.
 template <typename C>
 void Passes::cut(const WordView<C>& word) {
     std::uint64_t size = std::max(options_.chunk_modules, 1U);
@@ -162,7 +162,7 @@ void Passes::cut(const WordView<C>& word) {
     }
 }
 
-/// Where the parameters of each chunk begin, if the word stores any and several threads are to read
+/// Finds where the parameters of each chunk begin, if the word stores any and several threads read
 /// them.
 template <typename C>
 void Passes::place_chunks(const WordView<C>& word, bool stores) {
@@ -185,23 +185,24 @@ void Passes::place_chunks(const WordView<C>& word, bool stores) {
     }
 }
 
-/// Judged by how the chunk begins.
+/// Judged by the first modules of the chunk.
 template <typename C>
-bool Passes::marks_pay(const WordView<C>& word, const Chunk& chunk) const {
-    if (!marks_.usable()) {
+bool Passes::mask_pays(const WordView<C>& word, const Chunk& chunk) const {
+    if (!mask_.usable()) {
         return false;
     }
-    std::array<MarkBits, Marks::kModules / Marks::kBlock> bits; // NOLINT: written by fill()
+    std::array<ActiveBits, ActiveMask::kModules / ActiveMask::kBlock>
+        bits; // NOLINT: written by fill()
     const std::uint64_t count =
-        std::min<std::uint64_t>(chunk.end - chunk.begin.index, Marks::kModules);
-    const std::uint64_t part = plan_.all_fixed() ? kMarkedOfFixed : kMarkedOfDynamic;
-    return marks_.fill(word.codes, word.count, chunk.begin.index, count, bits.data()) <=
+        std::min<std::uint64_t>(chunk.end - chunk.begin.index, ActiveMask::kModules);
+    const std::uint64_t part = plan_.all_fixed() ? kActivePartOfFixed : kActivePartOfDynamic;
+    return mask_.fill(word.codes, word.count, chunk.begin.index, count, bits.data()) <=
            count / part;
 }
 
 template <typename C, typename R>
 std::optional<Stop> Passes::count(const WordView<C>& word, const PassKeys& keys) {
-    // A match of several modules may reach into the next chunk, which then begins after it.
+    // a match of several modules may reach into the next chunk, which then begins after it
     const bool in_order = workers_.count() == 1 || plan_.predecessor_count() > 1;
     const auto count_chunk = [&](std::uint64_t index) {
         if (cancelled()) {
@@ -210,10 +211,10 @@ std::optional<Stop> Passes::count(const WordView<C>& word, const PassKeys& keys)
         Chunk& chunk = chunks_[index];
         Chooser<C> chooser(plan_, keys, word, contexts());
         R* const records = records_at<R>(chunk.begin.index);
-        chunk.marked = marks_pay(word, chunk);
+        chunk.masked = mask_pays(word, chunk);
         const CountResult result =
-            chunk.marked
-                ? count_marked(plan_, chooser, marks_, word, chunk.begin, chunk.end, records)
+            chunk.masked
+                ? count_active(plan_, chooser, mask_, word, chunk.begin, chunk.end, records)
                 : count_modules(plan_, chooser, word, {chunk.begin, chunk.end}, records);
         chunk.modules = result.modules;
         chunk.parameters = result.parameters;
@@ -258,7 +259,7 @@ std::optional<Stop> Passes::write(const WordView<C>& word, Word& out, const Pass
     const bool in_order = workers_.count() == 1 || chunks_.size() == 1 || by_census_;
     C* const codes_end = codes + modules_ + kWordSlack / sizeof(C);
     float* const parameters_end = parameters + parameters_ + kWordSlack / sizeof(float);
-    WriteRequest<C> next; // in order: where the chunk before ended
+    WriteRequest<C> next; // in order: starts where the previous chunk ended
     next.codes = codes;
     next.parameters = parameters;
     Origin* const origins = out.keeps_origins() ? out.origins().data() : nullptr;
@@ -269,7 +270,7 @@ std::optional<Stop> Passes::write(const WordView<C>& word, Word& out, const Pass
             rewritten += plan_.row(code).copies ? 0 : census_[code];
         }
     }
-    const bool census_marked = marks_.usable() && rewritten <= word.count / kMarkedOfFixed;
+    const bool census_masked = mask_.usable() && rewritten <= word.count / kActivePartOfFixed;
     const auto write_chunk = [&](std::uint64_t index) {
         if (cancelled()) {
             return;
@@ -280,7 +281,7 @@ std::optional<Stop> Passes::write(const WordView<C>& word, Word& out, const Pass
         request.codes = codes + chunk.out_module;
         request.parameters = parameters + chunk.out_parameter;
         request.origins = origins == nullptr ? nullptr : origins + chunk.out_module;
-        request.marks = chunk.marked ? &marks_ : nullptr;
+        request.mask = chunk.masked ? &mask_ : nullptr;
         request.writes_parameters = chunk.parameters != 0;
         const bool last = index + 1 == chunks_.size();
         request.codes_limit = in_order || last ? codes_end : request.codes + chunk.modules;
@@ -291,7 +292,7 @@ std::optional<Stop> Passes::write(const WordView<C>& word, Word& out, const Pass
             request.codes = next.codes;
             request.parameters = next.parameters;
             request.origins = next.origins;
-            request.marks = census_marked ? &marks_ : nullptr;
+            request.mask = census_masked ? &mask_ : nullptr;
             request.writes_parameters = parameters_ != 0;
         }
         request.end = chunk.end;
@@ -345,7 +346,7 @@ bool Passes::check_limits(const Word& in, const Word& out, const PassKeys& keys)
     return !too_many && held <= options_.limits.max_bytes;
 }
 
-/// The production whose applications make the word longer by most modules.
+/// The production whose applications add most modules to the word.
 template <typename C>
 std::uint32_t Passes::dominant_production(const WordView<C>& word, const PassKeys& keys) const {
     std::vector<std::uint64_t> uses(plan_.entries().size(), 0);
@@ -389,7 +390,7 @@ std::uint32_t Passes::dominant_production(const WordView<C>& word, const PassKey
     return dominant;
 }
 
-/// Makes sure of the census and takes the sizes of the next word from it.
+/// Makes the census unless it is known, and takes the sizes of the next word from it.
 template <typename C>
 void Passes::take_census(const WordView<C>& word) {
     if (!census_known_) {
@@ -407,7 +408,7 @@ void Passes::take_census(const WordView<C>& word) {
     }
 }
 
-/// The census of the word that was written, by the growth matrix.
+/// Turns the census into that of the written word, by the growth matrix.
 void Passes::advance_census() {
     std::vector<std::uint64_t> next(census_.size(), 0);
     for (Code code = 0; code < census_.size(); ++code) {

@@ -1,13 +1,12 @@
-// One pass: a word read, another written. Cut into chunks that are counted and written by any
-// number of threads; limits are checked between the two. A generation is one pass, or one for each
-// rule.
+// Passes: one pass reads a word and writes another, in chunks that any number of threads count and
+// then write; limits are checked in between. A generation is one pass, or one pass per rule.
 #pragma once
 
 #include "runtime/base/workers.h"
 #include "runtime/derive/derive.h"
+#include "runtime/derive/engine/active_mask.h"
 #include "runtime/derive/engine/choose.h"
 #include "runtime/derive/engine/contexts.h"
-#include "runtime/derive/engine/marks.h"
 #include "runtime/derive/engine/match.h"
 #include "runtime/derive/engine/plan.h"
 
@@ -29,7 +28,7 @@ public:
     run(const Word& in, Word& out, const PassKeys& keys, std::uint64_t other_bytes);
     /// Whether some module of `word` may be rewritten as the plan is prepared.
     [[nodiscard]] bool concerns(const Word& word) const;
-    /// The next word given to run() is not the one it wrote last.
+    /// Announces that the next word given to run() is not the one it wrote last.
     void forget() { census_known_ = false; }
 
     [[nodiscard]] const RuntimeError& error() const { return error_; }
@@ -38,15 +37,15 @@ public:
     [[nodiscard]] const Workers& workers() const { return workers_; }
 
 private:
-    /// A stretch of the word that one thread takes: [begin, end), and where it is written.
+    /// A stretch [begin, end) of the word for one thread, and where its successors are written.
     struct Chunk {
         ModulePlace begin;
         std::uint64_t end = 0;
-        std::uint64_t modules = 0; // that it becomes
+        std::uint64_t modules = 0; // written
         std::uint64_t parameters = 0;
         std::uint64_t out_module = 0;
         std::uint64_t out_parameter = 0;
-        bool marked = false; // counted, and to be written, by its marks
+        bool masked = false; // counted and written by its mask
         bool fault = false;
         std::uint64_t fault_index = 0;
     };
@@ -59,7 +58,7 @@ private:
     template <typename C>
     void place_chunks(const WordView<C>& word, bool stores);
     template <typename C>
-    [[nodiscard]] bool marks_pay(const WordView<C>& word, const Chunk& chunk) const;
+    [[nodiscard]] bool mask_pays(const WordView<C>& word, const Chunk& chunk) const;
     template <typename C, typename R>
     [[nodiscard]] std::optional<Stop> count(const WordView<C>& word, const PassKeys& keys);
     template <typename C, typename R>
@@ -92,13 +91,13 @@ private:
     const DeriveOptions& options_;
     Workers workers_;
     ContextTables contexts_;
-    Marks marks_;
+    ActiveMask mask_;
     std::vector<Chunk> chunks_;
-    Arena records_;                     // of module i at place i or before, within its chunk
-    std::vector<std::uint64_t> census_; // modules of each code in the word
+    Arena records_;                     // record of module i at index <= i, within its chunk
+    std::vector<std::uint64_t> census_; // number of modules of each code in the word
     bool census_known_ = false;
-    bool by_census_ = false;    // the pass at work takes sizes from the census, and writes in order
-    std::uint64_t modules_ = 0; // of the word to be written
+    bool by_census_ = false;    // this pass takes sizes from the census and writes in order
+    std::uint64_t modules_ = 0; // of the word to write
     std::uint64_t parameters_ = 0;
     std::uint64_t other_bytes_ = 0;
     std::atomic<std::uint64_t> written_{0};

@@ -18,7 +18,7 @@ void append_code(Code code, std::uint32_t width, std::vector<std::byte>& pool) {
     pool.insert(pool.end(), bytes.begin(), bytes.begin() + width);
 }
 
-/// Programs of more codes are rewritten without folding templates.
+/// Programs with more codes are rewritten without folded templates.
 constexpr Code kMostFoldedCodes = 4096;
 
 bool uses_step(const Bytecode& bytecode, std::uint32_t first) {
@@ -46,10 +46,10 @@ Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generat
     make_entries();
     if (parallel_) {
         if (has_parameters_ && bytecode_.code_count() <= kMostFoldedCodes) {
-            folded_index_.emplace(bytecode_);
+            folding_.index.emplace(bytecode_);
         }
         for (const Candidate& candidate : candidates_) {
-            predecessor_count_ = std::max(predecessor_count_, candidate.modules);
+            in_force_.predecessor_count = std::max(in_force_.predecessor_count, candidate.modules);
         }
         for (std::uint32_t i = 0; i < families_.size(); ++i) {
             put_in_force(i);
@@ -59,16 +59,16 @@ Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generat
 
 void Plan::make_codes() {
     const Code count = bytecode_.code_count();
-    code_width_ = lsys::code_width(count);
-    identity_first_ = static_cast<std::uint32_t>(bytecode_.template_codes.size());
-    pool_.reserve((std::size_t{identity_first_} + count) * code_width_ + kWordSlack);
+    codes_.width = lsys::code_width(count);
+    codes_.first_identity = static_cast<std::uint32_t>(bytecode_.template_codes.size());
+    codes_.pool.reserve((std::size_t{codes_.first_identity} + count) * codes_.width + kWordSlack);
     for (const Code code : bytecode_.template_codes) {
-        append_code(code, code_width_, pool_);
+        append_code(code, codes_.width, codes_.pool);
     }
     for (Code code = 0; code < count; ++code) {
-        append_code(code, code_width_, pool_);
+        append_code(code, codes_.width, codes_.pool);
     }
-    pool_.resize(pool_.size() + kWordSlack);
+    codes_.pool.resize(codes_.pool.size() + kWordSlack);
 
     std::uint32_t most_stored = 0;
     for (const BytecodeSymbol& symbol : bytecode_.symbols) {
@@ -80,34 +80,35 @@ void Plan::make_codes() {
     has_parameters_ = most_stored != 0;
     mixes_inputs_ = most_stored > 1;
     for (const BytecodeProduction& production : bytecode_.productions) {
-        if (std::uint64_t{production.successor.codes.count} * code_width_ > wide_bytes_) {
-            wide_bytes_ = 32;
+        if (std::uint64_t{production.successor.codes.count} * codes_.width > codes_.wide_bytes) {
+            codes_.wide_bytes = 32;
         }
     }
-    lanes_.resize(most_stored); // of every module that is copied
+    terms_.resize(most_stored); // for every copied module
     for (std::uint32_t i = 0; i < most_stored; ++i) {
-        lanes_[i].input = i;
+        terms_[i].input = i;
     }
 
     const std::size_t symbols = bytecode_.symbols.size();
-    codes_of_first_.assign(symbols + 1, 0);
+    codes_.first_of_symbol.assign(symbols + 1, 0);
     for (Code code = 0; code < count; ++code) {
-        ++codes_of_first_[static_cast<std::size_t>(bytecode_.symbol_of(code)) + 1];
+        ++codes_.first_of_symbol[static_cast<std::size_t>(bytecode_.symbol_of(code)) + 1];
     }
     for (std::size_t i = 0; i < symbols; ++i) {
-        codes_of_first_[i + 1] += codes_of_first_[i];
+        codes_.first_of_symbol[i + 1] += codes_.first_of_symbol[i];
     }
-    codes_of_.resize(count);
-    std::vector<std::uint32_t> next(codes_of_first_.begin(), codes_of_first_.end() - 1);
+    codes_.by_symbol.resize(count);
+    std::vector<std::uint32_t> next(codes_.first_of_symbol.begin(),
+                                    codes_.first_of_symbol.end() - 1);
     for (Code code = 0; code < count; ++code) {
-        codes_of_[next[static_cast<std::size_t>(bytecode_.symbol_of(code))]++] = code;
+        codes_.by_symbol[next[static_cast<std::size_t>(bytecode_.symbol_of(code))]++] = code;
     }
 }
 
 std::span<const Code> Plan::codes_of(SymbolId symbol) const {
     const auto index = static_cast<std::size_t>(symbol);
-    return {codes_of_.data() + codes_of_first_[index],
-            codes_of_first_[index + 1] - codes_of_first_[index]};
+    return {codes_.by_symbol.data() + codes_.first_of_symbol[index],
+            codes_.first_of_symbol[index + 1] - codes_.first_of_symbol[index]};
 }
 
 SymbolId Plan::first_symbol(std::uint32_t rule) const {
@@ -154,7 +155,7 @@ void Plan::make_families() {
         Family& family = families_[index];
         Candidate& candidate = candidates_[family.first + filled[index]++];
         const PatternItem& item = bytecode_.patterns[production.predecessor.first];
-        std::uint32_t own_count = 0; // of all predecessor modules
+        std::uint32_t own_count = 0; // formals of all predecessor modules
         for (std::uint32_t i = 0; i < production.predecessor.count; ++i) {
             own_count +=
                 bytecode_.symbol(bytecode_.patterns[production.predecessor.first + i].symbol)
@@ -188,15 +189,15 @@ void Plan::make_families() {
     }
 }
 
-/// Where every candidate of a family asks for a left neighbour, most modules are done with when
-/// theirs is seen to be another; the same on the right.
+/// If every candidate of a family has a left context, a look at the left neighbour settles most
+/// modules; likewise on the right.
 void Plan::make_guards() {
     constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 22;
     const Code codes = bytecode_.code_count();
     if (std::uint64_t{codes} * families_.size() * 2 > kMostBytes) {
         return;
     }
-    const auto mark = [&](std::uint32_t& guard, SymbolId symbol) {
+    const auto accept = [&](std::uint32_t& guard, SymbolId symbol) {
         if (guard == kNone) {
             guard = static_cast<std::uint32_t>(guards_.size());
             guards_.resize(guards_.size() + codes);
@@ -218,10 +219,10 @@ void Plan::make_guards() {
             const BytecodeProduction& production = bytecode_.productions[candidate.production];
             if (all_left) {
                 const std::uint32_t nearest = production.left.first + production.left.count - 1;
-                mark(family.left_guard, bytecode_.patterns[nearest].symbol);
+                accept(family.left_guard, bytecode_.patterns[nearest].symbol);
             }
             if (all_right) {
-                mark(family.right_guard, bytecode_.patterns[production.right.first].symbol);
+                accept(family.right_guard, bytecode_.patterns[production.right.first].symbol);
             }
         }
     }
@@ -230,9 +231,9 @@ void Plan::make_guards() {
 void Plan::make_entries() {
     const Code count = bytecode_.code_count();
     rows_.resize(count);
-    block_of_code_.assign(count, kNone);
-    choice_of_code_.assign(count, kNone);
-    tests_of_code_.assign(count, kNone);
+    folding_.block_of_code.assign(count, kNone);
+    choices_.of_code.assign(count, kNone);
+    tests_.of_code.assign(count, kNone);
     entries_.resize(std::size_t{count} + candidates_.size());
     for (Code code = 0; code < count; ++code) {
         Row& row = rows_[code];
@@ -250,57 +251,57 @@ void Plan::make_entries() {
         entry.first_place = successor.codes.first;
         entry.code_count = successor.codes.count;
         entry.parameter_count = successor.parameter_count;
-        if (entry.parameter_count > kEntryLanes) {
-            entry.first_lane = static_cast<std::uint32_t>(lanes_.size());
-            lanes_.resize(lanes_.size() + entry.parameter_count);
+        if (entry.parameter_count > kEntryTerms) {
+            entry.first_term = static_cast<std::uint32_t>(terms_.size());
+            terms_.resize(terms_.size() + entry.parameter_count);
         }
     }
 }
 
 Code Plan::pool_code(std::uint32_t index) const {
-    if (index < identity_first_) {
+    if (index < codes_.first_identity) {
         return bytecode_.template_codes[index];
     }
-    const Code code = index - identity_first_;
-    return code < bytecode_.code_count() ? code : folded_codes_[code - bytecode_.code_count()];
+    const Code code = index - codes_.first_identity;
+    return code < bytecode_.code_count() ? code : folding_.codes[code - bytecode_.code_count()];
 }
 
-/// Puts a template behind the others; returns where it begins.
+/// Appends a template to the pool; returns its index there.
 std::uint32_t Plan::add_template(const std::vector<Code>& codes) {
-    pool_.resize(pool_.size() - kWordSlack);
-    const auto first = static_cast<std::uint32_t>(pool_.size() / code_width_);
+    codes_.pool.resize(codes_.pool.size() - kWordSlack);
+    const auto first = static_cast<std::uint32_t>(codes_.pool.size() / codes_.width);
     for (const Code code : codes) {
-        append_code(code, code_width_, pool_);
+        append_code(code, codes_.width, codes_.pool);
     }
-    pool_.resize(pool_.size() + kWordSlack);
-    folded_codes_.insert(folded_codes_.end(), codes.begin(), codes.end());
+    codes_.pool.resize(codes_.pool.size() + kWordSlack);
+    folding_.codes.insert(folding_.codes.end(), codes.begin(), codes.end());
     return first;
 }
 
 Entry Plan::identity_entry(Code code) const {
     Entry entry;
-    entry.first_code = identity_first_ + code;
+    entry.first_code = codes_.first_identity + code;
     entry.code_count = 1;
     entry.parameter_count = rows_[code].stored;
-    for (std::uint32_t lane = 0; lane < kEntryLanes && lane < entry.parameter_count; ++lane) {
-        entry.scale[lane] = 1.0F;
-        entry.offset[lane] = -0.0F;
-        entry.input[lane] = static_cast<std::uint8_t>(lane);
+    for (std::uint32_t term = 0; term < kEntryTerms && term < entry.parameter_count; ++term) {
+        entry.scale[term] = 1.0F;
+        entry.offset[term] = -0.0F;
+        entry.input[term] = static_cast<std::uint8_t>(term);
     }
     entry.reads_own = entry.parameter_count != 0;
-    entry.special = entry.parameter_count > kEntryLanes;
+    entry.special = entry.parameter_count > kEntryTerms;
     return entry;
 }
 
 void Plan::finish(Entry& entry) {
-    entry.special = entry.general || entry.parameter_count > kEntryLanes ||
-                    std::uint64_t{entry.code_count} * code_width_ > wide_bytes_;
+    entry.special = entry.general || entry.parameter_count > kEntryTerms ||
+                    std::uint64_t{entry.code_count} * codes_.width > codes_.wide_bytes;
 }
 
 void Plan::set_kind(Code code, RowKind kind) {
     Row& row = rows_[code];
-    dynamic_rows_ -= row.kind != RowKind::Fixed ? 1 : 0;
-    dynamic_rows_ += kind != RowKind::Fixed ? 1 : 0;
+    in_force_.dynamic_rows -= row.kind != RowKind::Fixed ? 1 : 0;
+    in_force_.dynamic_rows += kind != RowKind::Fixed ? 1 : 0;
     row.kind = kind;
     row.copies = row.copies && kind == RowKind::Fixed;
 }
@@ -330,15 +331,15 @@ void Plan::prepare(std::uint32_t generation) {
 }
 
 void Plan::select_rule(std::uint32_t rule) {
-    if (selected_rule_ != kNone) {
-        for (const Code code : codes_of(first_symbol(selected_rule_))) {
+    if (in_force_.selected_rule != kNone) {
+        for (const Code code : codes_of(first_symbol(in_force_.selected_rule))) {
             reset_row(code);
         }
     }
-    needs_contexts_ = false;
-    reads_contexts_ = false;
-    selected_rule_ = rule;
-    predecessor_count_ =
+    in_force_.needs_contexts = false;
+    in_force_.reads_contexts = false;
+    in_force_.selected_rule = rule;
+    in_force_.predecessor_count =
         bytecode_.productions[candidates_[families_[rule].first].production].predecessor.count;
     put_in_force(rule);
 }
@@ -352,12 +353,13 @@ float Plan::rule_draw(std::uint32_t rule, std::uint32_t generation) const {
 }
 
 std::uint64_t Plan::held_bytes() const {
-    return bytes_of(rows_) + bytes_of(entries_) + bytes_of(lanes_) + bytes_of(families_) +
-           bytes_of(candidates_) + bytes_of(comparisons_) + bytes_of(choices_) +
-           bytes_of(thresholds_) + bytes_of(choice_records_) + bytes_of(pool_) +
-           bytes_of(codes_of_first_) + bytes_of(codes_of_) + bytes_of(choice_of_code_) +
-           bytes_of(tests_of_code_) + bytes_of(test_lists_) + bytes_of(tests_) + bytes_of(guards_) +
-           bytes_of(varying_families_) + bytes_of(folded_codes_) + bytes_of(block_of_code_);
+    return bytes_of(rows_) + bytes_of(entries_) + bytes_of(terms_) + bytes_of(families_) +
+           bytes_of(candidates_) + bytes_of(comparisons_) + bytes_of(choices_.list) +
+           bytes_of(choices_.thresholds) + bytes_of(choices_.records) + bytes_of(codes_.pool) +
+           bytes_of(codes_.first_of_symbol) + bytes_of(codes_.by_symbol) +
+           bytes_of(choices_.of_code) + bytes_of(tests_.of_code) + bytes_of(tests_.lists) +
+           bytes_of(tests_.list) + bytes_of(guards_) + bytes_of(varying_families_) +
+           bytes_of(folding_.codes) + bytes_of(folding_.block_of_code);
 }
 
 } // namespace lsys

@@ -1,15 +1,15 @@
-// Plan: a program prepared for rewriting, with everything decided that can be decided before a
-// module is seen. Made once a run, when the globals are known; refreshed for a generation where
-// something depends on step(), and for a rule where a pass rewrites one rule only. Read by the
-// passes, by many threads at once.
+// Plan: a program prepared for rewriting, with every decision made that does not need the module.
+// Made once per run, when the globals are known; refreshed for each generation if something depends
+// on step(), and for each rule if a pass rewrites one rule only. Read by the passes, by many
+// threads at once.
 //
-// A row tells how modules of a code are rewritten: always by one entry, by a choice among a fixed
-// set, by the first of some comparisons that holds, or as conditions and contexts say. An entry is
-// one way: the codes to copy, and for each parameter a lane (expressions/shape.h), or general code.
-// Entry c < code_count belongs to code c: what a Fixed row writes, and the copy that stands for no
-// match in other rows. The others follow in the order of the families, so that record r > 0 of a
-// module means entry row.base + r. A code whose entries differ from those of its family, because
-// its arguments are known and what it writes is folded (fold_reached.h), has a block of its own.
+// A row says how modules of a code are rewritten: by one entry, by a choice among a fixed set, by
+// the first of some comparisons that holds, or by conditions and contexts. An entry is one way to
+// rewrite: the codes to copy, and for each parameter an AffineTerm (shape.h) or an expression.
+// Entry c < code_count belongs to code c: the successor of a Fixed row, or the copy that other rows
+// write if nothing matches. The other entries follow in the order of the families, so that record
+// r > 0 of a module means entry row.base + r. A code whose arguments are known and whose successors
+// are folded (fold_reached.h) has a block of entries of its own.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -28,58 +28,58 @@
 
 namespace lsys {
 
-/// Parameters that an entry makes without a loop.
-inline constexpr std::size_t kEntryLanes = 4;
+/// Parameters that an entry computes without a loop.
+inline constexpr std::size_t kEntryTerms = 4;
 
 struct alignas(64) Entry {
-    std::array<float, kEntryLanes> scale{};
-    std::array<float, kEntryLanes> offset{};
-    std::array<std::uint8_t, kEntryLanes> input{};
-    std::uint32_t first_code = 0; // in the pool
+    std::array<float, kEntryTerms> scale{};
+    std::array<float, kEntryTerms> offset{};
+    std::array<std::uint8_t, kEntryTerms> input{};
+    std::uint32_t first_code = 0; // index in the pool
     std::uint32_t code_count = 0;
     std::uint32_t parameter_count = 0;
-    std::uint32_t first_lane = 0;    // in Plan::lanes(): of all parameters, if they are over four
-    std::uint32_t candidate = kNone; // none: the module itself
-    std::uint32_t first_place = 0;   // of the successor, in Bytecode::template_codes
+    std::uint32_t first_term = 0;    // in Plan::terms(), if there are more than kEntryTerms
+    std::uint32_t candidate = kNone; // kNone: a copy of the module
+    std::uint32_t first_place = 0;   // of the successor in Bytecode::template_codes
     bool general = false;            // parameters need evaluate()
-    bool reads_own = false;          // lanes read the module's parameters
-    bool special = false;            // more than one wide store of codes and one of lanes writes
+    bool reads_own = false;          // terms read the module's parameters
+    bool special = false;            // needs more than one wide store of codes and of terms
 };
 
 static_assert(sizeof(Entry) == 64, "an entry is one line of the cache");
 
 enum class RowKind : std::uint8_t {
-    Fixed,   // always entry c
-    Choice,  // stochastic, among the same productions for every module
+    Fixed,   // always by entry c
+    Choice,  // by chance, among the same productions for every module
     Tests,   // by the first comparison of its parameters that holds
-    General, // the family's candidates are tried
+    General, // by trying the candidates of the family
 };
 
 struct Row {
     std::uint32_t base = 0;            // record r > 0 means entry base + r
-    std::uint32_t code_count = 0;      // Fixed: what is written
-    std::uint32_t parameter_count = 0; // Fixed
-    std::uint32_t stored = 0;          // parameters the module has in the word
+    std::uint32_t code_count = 0;      // Fixed: codes written
+    std::uint32_t parameter_count = 0; // Fixed: parameters written
+    std::uint32_t stored = 0;          // parameters of the module in the word
     std::uint32_t constants = kNone;   // of a folded module, in Bytecode::constants
     std::uint32_t source = 0;         // Choice: in choices; Tests: in test lists; else: in families
-    std::uint32_t left_guard = kNone; // General: what must be next to it, in guards
+    std::uint32_t left_guard = kNone; // General: accepted neighbours, in guards
     std::uint32_t right_guard = kNone;
     RowKind kind = RowKind::Fixed;
     bool copies = true; // Fixed: writes the module itself
     bool slow = false;  // entries read the parameters of a folded module
 };
 
-/// The productions that are tried for a module, in file order: those of its symbol, or of one rule.
+/// The productions that are tried for a module, in file order: all of its symbol, or of one rule.
 struct Family {
     std::uint32_t first = 0; // in candidates
     std::uint32_t count = 0;
-    std::uint32_t left_guard = kNone; // codes that may stand left of a module that is rewritten
+    std::uint32_t left_guard = kNone; // codes accepted to the left of a rewritten module
     std::uint32_t right_guard = kNone;
     bool several = false; // a candidate rewrites several modules
     bool has_context = false;
     bool reads_context = false; // a formal of a context is used
     bool reads_own = false;     // an entry reads the module's parameters
-    bool varies = false;        // depends on the generation: step(), or one choice a generation
+    bool varies = false;        // depends on the generation: step(), or a choice per generation
     bool current = false;       // candidates and entries are up to date
 };
 
@@ -88,7 +88,7 @@ enum class ConditionKind : std::uint8_t { Always, Never, Comparisons, Expression
 struct Candidate {
     std::uint32_t production = 0;
     std::uint32_t group = 0;
-    std::uint32_t modules = 1;   // that a match uses up
+    std::uint32_t modules = 1;   // used up by a match
     std::uint32_t own_first = 0; // formal of the module's first parameter
     std::uint32_t first_comparison = 0;
     std::uint32_t comparison_count = 0;
@@ -97,18 +97,18 @@ struct Candidate {
     ConditionKind condition = ConditionKind::Always;
     bool stochastic = false;
     bool has_context = false;
-    bool gathers = false;       // formals are not just the module's parameters: collect them
-    bool reads_context = false; // formals of contexts among them
+    bool gathers = false;       // formals are not the module's parameters alone: collect them
+    bool reads_context = false; // some formals belong to contexts
 };
 
-/// The fixed set of a Choice row: the first record whose running weight exceeds the draw.
+/// The fixed set of a Choice row. The first record whose running weight exceeds the draw is taken.
 struct Choice {
-    std::uint32_t first = 0; // in thresholds and choice_records
+    std::uint32_t first = 0; // in thresholds and records
     std::uint32_t count = 0;
     std::uint32_t room = 0;
 };
 
-/// One of the tests of a row, in file order; the first that holds decides.
+/// One of the tests of a row, in file order. The first that holds decides.
 struct Test {
     Comparison comparison;
     std::uint32_t record = 0;
@@ -125,7 +125,7 @@ decltype(auto) visit_record_type(std::uint32_t width, Visit&& visit) {
     return width == 1 ? visit(std::uint8_t{}) : visit(std::uint32_t{});
 }
 
-/// What a derivation fixes for all its generations.
+/// Inputs that are constant during a derivation.
 struct PlanInputs {
     const float* globals = nullptr;
     std::uint64_t seed = 0;
@@ -134,17 +134,17 @@ struct PlanInputs {
 
 class Plan {
 public:
-    /// `each_generation`: prepare() will be called for each; otherwise one plan serves all.
-    /// Of the productions of one stage.
+    /// Plans the productions of `stage`. `each_generation`: prepare() will be called for each
+    /// generation; otherwise one plan serves all.
     Plan(const Bytecode& bytecode,
          const PlanInputs& inputs,
          bool each_generation,
          Stage stage = Stage::Rewrite);
 
-    /// Brings rows and entries up to date for rewriting words of age `generation`. In parallel
-    /// mode all families are in force.
+    /// Updates rows and entries to rewrite words of age `generation`. In parallel mode all families
+    /// are in force.
     void prepare(std::uint32_t generation);
-    /// Other modes: only rule `rule` is in force. After prepare().
+    /// Puts only rule `rule` in force, in the other modes. Called after prepare().
     void select_rule(std::uint32_t rule);
 
     [[nodiscard]] const Bytecode& bytecode() const { return bytecode_; }
@@ -152,7 +152,7 @@ public:
     [[nodiscard]] const Row& row(Code code) const { return rows_[code]; }
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
     [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
-    [[nodiscard]] const std::vector<Lane>& lanes() const { return lanes_; }
+    [[nodiscard]] const std::vector<AffineTerm>& terms() const { return terms_; }
     [[nodiscard]] const Family& family(std::uint32_t index) const { return families_[index]; }
     [[nodiscard]] std::span<const Candidate> candidates(const Family& family) const {
         return {candidates_.data() + family.first, family.count};
@@ -163,55 +163,55 @@ public:
     [[nodiscard]] std::span<const Comparison> comparisons(const Candidate& candidate) const {
         return {comparisons_.data() + candidate.first_comparison, candidate.comparison_count};
     }
-    [[nodiscard]] const Choice& choice(std::uint32_t index) const { return choices_[index]; }
+    [[nodiscard]] const Choice& choice(std::uint32_t index) const { return choices_.list[index]; }
     [[nodiscard]] std::span<const float> thresholds(const Choice& choice) const {
-        return {thresholds_.data() + choice.first, choice.count};
+        return {choices_.thresholds.data() + choice.first, choice.count};
     }
     [[nodiscard]] std::span<const std::uint32_t> records(const Choice& choice) const {
-        return {choice_records_.data() + choice.first, choice.count};
+        return {choices_.records.data() + choice.first, choice.count};
     }
     [[nodiscard]] std::span<const Test> tests(std::uint32_t index) const {
-        return {tests_.data() + test_lists_[index].first, test_lists_[index].count};
+        return {tests_.list.data() + tests_.lists[index].first, tests_.lists[index].count};
     }
-    /// guards()[guard + code]: whether a module of that code may be the neighbour.
+    /// guards()[guard + code] is not 0 if a module of `code` may be the neighbour.
     [[nodiscard]] const std::uint8_t* guards() const { return guards_.data(); }
     /// Codes at the word's width: those of the templates, then every code once, then templates with
-    /// folded modules; with slack.
-    [[nodiscard]] const std::byte* pool() const { return pool_.data(); }
+    /// folded modules, then kWordSlack bytes.
+    [[nodiscard]] const std::byte* pool() const { return codes_.pool.data(); }
     [[nodiscard]] Code pool_code(std::uint32_t index) const;
 
-    /// Bytes of codes that one wide store writes: 16 or 32.
-    [[nodiscard]] std::uint32_t wide_bytes() const { return wide_bytes_; }
-    /// Some lanes of an entry read a parameter other than its first lane's.
+    /// Bytes of codes per wide store: 16 or 32.
+    [[nodiscard]] std::uint32_t wide_bytes() const { return codes_.wide_bytes; }
+    /// Whether terms of an entry may read different parameters.
     [[nodiscard]] bool mixes_inputs() const { return mixes_inputs_; }
 
-    // Of what is in force now:
-    [[nodiscard]] bool all_fixed() const { return dynamic_rows_ == 0; }
-    [[nodiscard]] bool needs_contexts() const { return needs_contexts_; }
-    [[nodiscard]] bool reads_contexts() const { return reads_contexts_; }
-    /// The most modules that a match uses up; above 1 in a pass of one rule, of which each match
-    /// uses as many, and in leftmost rewriting.
-    [[nodiscard]] std::uint32_t predecessor_count() const { return predecessor_count_; }
-    /// Modules that a match uses up whose successor is this entry.
+    // properties of the rows in force
+    [[nodiscard]] bool all_fixed() const { return in_force_.dynamic_rows == 0; }
+    [[nodiscard]] bool needs_contexts() const { return in_force_.needs_contexts; }
+    [[nodiscard]] bool reads_contexts() const { return in_force_.reads_contexts; }
+    /// The max number of modules that a match uses up. It is above 1 in leftmost rewriting, and in
+    /// a pass of one rule, where every match uses up this number.
+    [[nodiscard]] std::uint32_t predecessor_count() const { return in_force_.predecessor_count; }
+    /// Modules used up by a match whose successor is `entry`.
     [[nodiscard]] std::uint32_t used_by(const Entry& entry) const {
         return entry.candidate == kNone ? 1 : candidates_[entry.candidate].modules;
     }
-    /// From a module to the first that guards on its right may look at.
+    /// Distance from a module to the first one that its right guard may check.
     [[nodiscard]] std::uint32_t guard_distance() const {
-        return parallel_ ? 1 : predecessor_count_;
+        return parallel_ ? 1 : in_force_.predecessor_count;
     }
-    /// First symbol of a rule's predecessor.
+    /// First symbol of the predecessor of `rule`.
     [[nodiscard]] SymbolId first_symbol(std::uint32_t rule) const;
-    /// The codes that are modules of a symbol.
+    /// The codes of the modules of `symbol`.
     [[nodiscard]] std::span<const Code> codes_of(SymbolId symbol) const;
 
-    // Of the whole program:
+    // properties of the program
     [[nodiscard]] bool has_parameters() const { return has_parameters_; }
     [[nodiscard]] std::uint32_t record_width() const { return record_width_; }
-    [[nodiscard]] std::uint32_t code_width() const { return code_width_; }
+    [[nodiscard]] std::uint32_t code_width() const { return codes_.width; }
     /// Whether brackets or ignored modules can occur at all.
     [[nodiscard]] bool has_structure() const { return has_structure_; }
-    /// The draw of a rule under `choice generation`.
+    /// The draw of `rule` with `choice generation`.
     [[nodiscard]] float rule_draw(std::uint32_t rule, std::uint32_t generation) const;
     [[nodiscard]] std::uint64_t held_bytes() const;
 
@@ -245,6 +245,45 @@ private:
         return each_generation_ || !family.varies;
     }
 
+    /// Codes at the word's width, and the codes of each symbol.
+    struct CodeTables {
+        std::vector<std::byte> pool;      // templates, each code once, folded templates, slack
+        std::uint32_t first_identity = 0; // index in the pool of code 0, which copies write
+        std::vector<std::uint32_t> first_of_symbol; // in by_symbol; one more at the end
+        std::vector<Code> by_symbol;
+        std::uint32_t width = 1; // bytes per code
+        std::uint32_t wide_bytes = 16;
+    };
+    /// Alternatives of Choice rows.
+    struct ChoiceTables {
+        std::vector<Choice> list;
+        std::vector<float> thresholds;      // running weights
+        std::vector<std::uint32_t> records; // one per threshold
+        std::vector<std::uint32_t> of_code; // index in list; kNone: none yet
+    };
+    /// Comparisons of Tests rows.
+    struct TestTables {
+        std::vector<TestList> lists;
+        std::vector<Test> list;
+        std::vector<std::uint32_t> of_code; // index in lists; kNone: none yet
+    };
+    /// Templates with folded modules, where arguments are known.
+    struct Folding {
+        std::optional<FoldedIndex> index; // none: nothing is folded
+        std::vector<Code> codes;          // of the folded templates, at the end of the pool
+        std::unordered_map<std::uint64_t, std::uint32_t> templates; // by code and candidate
+        std::vector<std::uint32_t> block_of_code; // first own entry; kNone: those of the family
+        std::uint64_t budget = 0; // candidates that may still be tried for folded modules
+    };
+    /// Summary of the rows in force.
+    struct InForce {
+        std::uint32_t dynamic_rows = 0; // that are not Fixed
+        std::uint32_t predecessor_count = 1;
+        std::uint32_t selected_rule = kNone; // kNone: all rules
+        bool needs_contexts = false;
+        bool reads_contexts = false;
+    };
+
     const Bytecode& bytecode_;
     PlanInputs inputs_;
     bool each_generation_;
@@ -252,41 +291,26 @@ private:
     bool parallel_; // a family holds all productions of its symbol
     std::uint32_t generation_ = 0;
     std::optional<RuleDice> dice_; // with `random glibc`
-    std::vector<Row> rows_;
+
+    std::vector<Row> rows_; // by code
     std::vector<Entry> entries_;
-    std::vector<Lane> lanes_;
+    std::vector<AffineTerm> terms_; // of entries with more than kEntryTerms parameters
     std::vector<Family> families_;
+    std::vector<std::uint32_t> varying_families_; // that depend on the generation
     std::vector<Candidate> candidates_;
     std::vector<Comparison> comparisons_;
-    std::vector<Choice> choices_;
-    std::vector<float> thresholds_;
-    std::vector<std::uint32_t> choice_records_;
-    std::vector<TestList> test_lists_;
-    std::vector<Test> tests_;
     std::vector<std::uint8_t> guards_;
-    std::vector<std::byte> pool_;
-    std::vector<std::uint32_t> codes_of_first_; // by symbol; one more at the end
-    std::vector<Code> codes_of_;
-    std::vector<std::uint32_t> choice_of_code_; // kNone: none yet
-    std::vector<std::uint32_t> tests_of_code_;
-    std::vector<std::uint32_t> varying_families_;
-    std::optional<FoldedIndex> folded_index_; // where templates are folded
-    std::vector<Code> folded_codes_;          // of folded templates, at the end of the pool
-    std::unordered_map<std::uint64_t, std::uint32_t> templates_; // by code and candidate
-    std::vector<std::uint32_t> block_of_code_; // entries of its own; kNone: those of the family
-    std::uint32_t identity_first_ = 0;
-    std::uint32_t dynamic_rows_ = 0;
-    std::uint32_t predecessor_count_ = 1;
-    std::uint32_t selected_rule_ = kNone; // in force; kNone: all
+    ChoiceTables choices_;
+    TestTables tests_;
+    CodeTables codes_;
+    Folding folding_;
+    InForce in_force_;
+
+    // facts of the program
     std::uint32_t record_width_ = 1;
-    std::uint32_t code_width_ = 1;
-    std::uint64_t folded_budget_ = 0; // candidates that may still be tried for folded modules
-    std::uint32_t wide_bytes_ = 16;
     bool mixes_inputs_ = false;
     bool has_parameters_ = false;
     bool has_structure_ = false;
-    bool needs_contexts_ = false;
-    bool reads_contexts_ = false;
 };
 
 } // namespace lsys

@@ -1,5 +1,5 @@
-// What a module with known arguments writes, as folded modules: a template of its own in the pool
-// in place of the parameters of its production's.
+// Folding: a module with known arguments gets a template of its own in the pool, whose modules are
+// folded, in place of its production's template and parameters.
 #include "runtime/derive/engine/plan.h"
 
 #include <algorithm>
@@ -8,24 +8,24 @@ namespace lsys {
 
 namespace {
 
-/// Larger templates, and larger families, are left to the parameters of the word.
+/// Larger templates and larger families are not folded.
 constexpr std::size_t kMostFoldedTemplateCodes = std::size_t{1} << 20;
 constexpr std::uint32_t kMostOwnEntries = 256;
 
 } // namespace
 
-/// Lets an entry of a module whose arguments are known write folded modules alone, if the program
-/// has them.
+/// Lets an entry of a module whose arguments are known write folded modules only, if the program
+/// has them all.
 bool Plan::fold(Code code, Entry& entry) {
-    if (!folded_index_ || rows_[code].stored != 0 || entry.parameter_count == 0) {
+    if (!folding_.index || rows_[code].stored != 0 || entry.parameter_count == 0) {
         return false;
     }
     const std::uint64_t key = std::uint64_t{code} << 32 | entry.candidate;
-    auto known = templates_.find(key);
-    if (known == templates_.end()) {
+    auto known = folding_.templates.find(key);
+    if (known == folding_.templates.end()) {
         const std::uint32_t first =
             folded_template(candidates_[entry.candidate], own_constants(rows_[code]));
-        known = templates_.emplace(key, first).first;
+        known = folding_.templates.emplace(key, first).first;
     }
     if (known->second == kNone) {
         return false;
@@ -38,12 +38,12 @@ bool Plan::fold(Code code, Entry& entry) {
     return true;
 }
 
-/// The successor with the folded modules that these arguments lead to, in the pool; kNone if not
-/// all are.
+/// Puts the successor with folded modules for the arguments `own` into the pool; returns its index,
+/// or kNone if the program lacks one of these modules.
 std::uint32_t Plan::folded_template(const Candidate& candidate, const float* own) {
     const WordTemplate& successor = bytecode_.productions[candidate.production].successor;
     if (candidate.gathers || is_drawn(bytecode_, successor) ||
-        folded_codes_.size() + successor.codes.count > kMostFoldedTemplateCodes ||
+        folding_.codes.size() + successor.codes.count > kMostFoldedTemplateCodes ||
         contains(bytecode_, successor.arguments, Opcode::Step)) {
         return kNone;
     }
@@ -60,7 +60,7 @@ std::uint32_t Plan::folded_template(const Candidate& candidate, const float* own
         Code written = bytecode_.template_codes[successor.codes.first + i];
         const std::uint32_t stored = bytecode_.stored_parameters(written);
         if (stored != 0) {
-            written = folded_index_->find(static_cast<SymbolId>(written), arguments);
+            written = folding_.index->find(static_cast<SymbolId>(written), arguments);
             arguments += stored;
         }
         if (written == kNone) {
@@ -71,10 +71,10 @@ std::uint32_t Plan::folded_template(const Candidate& candidate, const float* own
     return add_template(codes);
 }
 
-/// The entries of a module that is rewritten in one of several ways.
+/// Folds the entries of a module that is rewritten in one of several ways.
 void Plan::fold_records(const Family& family, Code code) {
     Row& row = rows_[code];
-    if (!folded_index_ || row.stored != 0 || family.count > kMostOwnEntries) {
+    if (!folding_.index || row.stored != 0 || family.count > kMostOwnEntries) {
         return;
     }
     std::vector<Entry> block(entries_.begin() + row.base + 1,
@@ -86,7 +86,7 @@ void Plan::fold_records(const Family& family, Code code) {
     if (!any) {
         return;
     }
-    std::uint32_t& first = block_of_code_[code];
+    std::uint32_t& first = folding_.block_of_code[code];
     if (first == kNone) {
         first = static_cast<std::uint32_t>(entries_.size());
         entries_.resize(entries_.size() + family.count);

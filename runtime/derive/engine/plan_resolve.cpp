@@ -1,4 +1,5 @@
-// What is in force: the shapes of a family's conditions and arguments, and the rows they lead to.
+// Puts families in force: shapes their conditions and arguments, and resolves the rows of their
+// codes.
 #include "grammar/base/contract.h"
 #include "runtime/derive/engine/plan.h"
 
@@ -9,14 +10,14 @@ namespace lsys {
 
 namespace {
 
-/// A lane that yields `value` from any finite input; nothing fits -0, whose sign would depend on
-/// the input's.
-bool is_lane_constant(float value) {
+/// Whether a term can yield `value` for any finite input. It cannot yield -0, whose sign would
+/// depend on the input.
+bool is_term_constant(float value) {
     return std::isfinite(value) && !(value == 0.0F && std::signbit(value));
 }
 
-/// Candidates tried ahead for all folded modules of one family; further ones are tried when a
-/// module is met.
+/// Max candidates tried in advance for all folded modules of one family; further ones are tried per
+/// module.
 constexpr std::uint64_t kFoldedBudget = std::uint64_t{1} << 16;
 
 } // namespace
@@ -78,22 +79,22 @@ void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
         shapes_of(bytecode_, successor.arguments, knowledge(candidate));
     entry.general = shapes.size() != successor.parameter_count;
     for (std::uint32_t i = 0; i < shapes.size() && !entry.general; ++i) {
-        Lane lane;
-        if (shapes[i].kind == ShapeKind::Constant && is_lane_constant(shapes[i].constant)) {
-            lane = {0, 0.0F, shapes[i].constant};
-        } else if (shapes[i].kind == ShapeKind::Affine && shapes[i].lane.input <= 0xFF) {
-            lane = shapes[i].lane;
+        AffineTerm term;
+        if (shapes[i].kind == ShapeKind::Constant && is_term_constant(shapes[i].constant)) {
+            term = {0, 0.0F, shapes[i].constant};
+        } else if (shapes[i].kind == ShapeKind::Affine && shapes[i].term.input <= 0xFF) {
+            term = shapes[i].term;
             entry.reads_own = true;
         } else {
             entry.general = true;
         }
-        if (i < kEntryLanes) {
-            entry.scale[i] = lane.scale;
-            entry.offset[i] = lane.offset;
-            entry.input[i] = static_cast<std::uint8_t>(lane.input);
+        if (i < kEntryTerms) {
+            entry.scale[i] = term.scale;
+            entry.offset[i] = term.offset;
+            entry.input[i] = static_cast<std::uint8_t>(term.input);
         }
-        if (entry.parameter_count > kEntryLanes) {
-            lanes_[entry.first_lane + i] = lane;
+        if (entry.parameter_count > kEntryTerms) {
+            terms_[entry.first_term + i] = term;
         }
     }
     finish(entry);
@@ -115,10 +116,10 @@ void Plan::put_in_force(std::uint32_t family_index) {
     if (!family.current) {
         shape(family);
     }
-    needs_contexts_ = needs_contexts_ || family.has_context;
-    reads_contexts_ = reads_contexts_ || family.reads_context;
+    in_force_.needs_contexts = in_force_.needs_contexts || family.has_context;
+    in_force_.reads_contexts = in_force_.reads_contexts || family.reads_context;
     const BytecodeProduction& example = bytecode_.productions[candidates_[family.first].production];
-    folded_budget_ = kFoldedBudget;
+    folding_.budget = kFoldedBudget;
     for (const Code code : codes_of(bytecode_.patterns[example.predecessor.first].symbol)) {
         resolve(family_index, code);
     }
@@ -169,11 +170,11 @@ void Plan::resolve(std::uint32_t family_index, Code code) {
     for (std::uint32_t i = 0; i < family.count; ++i) {
         const Candidate& candidate = candidates_[family.first + i];
         if (own != nullptr) {
-            if (folded_budget_ == 0) {
+            if (folding_.budget == 0) {
                 set_kind(code, RowKind::General);
                 return;
             }
-            --folded_budget_;
+            --folding_.budget;
         }
         const ConditionKind condition = condition_for(family, candidate, own);
         if (condition == ConditionKind::Never) {
@@ -194,7 +195,8 @@ void Plan::resolve(std::uint32_t family_index, Code code) {
     row.slow = false; // no production can match
 }
 
-/// Whether comparisons alone decide, each by itself: no contexts, no chance, no other conditions.
+/// Makes the tests of a row if single comparisons alone decide: no contexts, no chance, no other
+/// conditions. Returns whether they do.
 bool Plan::resolve_tests(const Family& family, Code code) {
     constexpr std::size_t kMostTests = 16;
     Row& row = rows_[code];
@@ -221,20 +223,20 @@ bool Plan::resolve_tests(const Family& family, Code code) {
         }
         found.push_back({all[0], i + 1});
     }
-    std::uint32_t& index = tests_of_code_[code];
+    std::uint32_t& index = tests_.of_code[code];
     if (index == kNone) {
-        index = static_cast<std::uint32_t>(test_lists_.size());
-        test_lists_.emplace_back();
+        index = static_cast<std::uint32_t>(tests_.lists.size());
+        tests_.lists.emplace_back();
     }
-    TestList& list = test_lists_[index];
+    TestList& list = tests_.lists[index];
     const auto count = static_cast<std::uint32_t>(found.size());
     if (count > list.room) {
         list.room = count;
-        list.first = static_cast<std::uint32_t>(tests_.size());
-        tests_.resize(tests_.size() + count);
+        list.first = static_cast<std::uint32_t>(tests_.list.size());
+        tests_.list.resize(tests_.list.size() + count);
     }
     list.count = count;
-    std::copy(found.begin(), found.end(), tests_.begin() + list.first);
+    std::copy(found.begin(), found.end(), tests_.list.begin() + list.first);
     row.source = index;
     return true;
 }
@@ -243,11 +245,11 @@ void Plan::resolve_choice(const Family& family, std::uint32_t first_match, Code 
     Row& row = rows_[code];
     const Candidate& first = candidates_[family.first + first_match];
     if (own_constants(row) != nullptr) {
-        if (folded_budget_ < family.count) {
+        if (folding_.budget < family.count) {
             set_kind(code, RowKind::General);
             return;
         }
-        folded_budget_ -= family.count;
+        folding_.budget -= family.count;
     }
     std::vector<std::uint32_t> records;
     float sum = 0.0F;
@@ -291,22 +293,22 @@ void Plan::resolve_choice(const Family& family, std::uint32_t first_match, Code 
         resolve_fixed(code, entries_[row.base + records[taken]]);
         return;
     }
-    std::uint32_t& index = choice_of_code_[code];
+    std::uint32_t& index = choices_.of_code[code];
     if (index == kNone) {
-        index = static_cast<std::uint32_t>(choices_.size());
-        choices_.emplace_back();
+        index = static_cast<std::uint32_t>(choices_.list.size());
+        choices_.list.emplace_back();
     }
-    Choice& choice = choices_[index];
+    Choice& choice = choices_.list[index];
     const auto count = static_cast<std::uint32_t>(records.size());
     if (count > choice.room) {
         choice.room = count;
-        choice.first = static_cast<std::uint32_t>(thresholds_.size());
-        thresholds_.resize(thresholds_.size() + count);
-        choice_records_.resize(choice_records_.size() + count);
+        choice.first = static_cast<std::uint32_t>(choices_.thresholds.size());
+        choices_.thresholds.resize(choices_.thresholds.size() + count);
+        choices_.records.resize(choices_.records.size() + count);
     }
     choice.count = count;
-    std::copy(running.begin(), running.end(), thresholds_.begin() + choice.first);
-    std::copy(records.begin(), records.end(), choice_records_.begin() + choice.first);
+    std::copy(running.begin(), running.end(), choices_.thresholds.begin() + choice.first);
+    std::copy(records.begin(), records.end(), choices_.records.begin() + choice.first);
     row.source = index;
     set_kind(code, RowKind::Choice);
     fold_records(family, code);
@@ -328,15 +330,15 @@ void Plan::resolve_fixed(Code code, const Entry& taken) {
     set_kind(code, RowKind::Fixed);
 }
 
-/// Makes the parameters of a folded module's only entry constants, if they can be.
+/// Makes the parameters of a folded module's only entry constants, if possible.
 bool Plan::bake(const Row& row, Entry& entry) const {
     const BytecodeProduction& production =
         bytecode_.productions[candidates_[entry.candidate].production];
     const float* const own = own_constants(row);
-    if (entry.parameter_count > kEntryLanes) {
+    if (entry.parameter_count > kEntryTerms) {
         return false;
     }
-    std::array<float, kEntryLanes> values{};
+    std::array<float, kEntryTerms> values{};
     if (entry.general) {
         const bool steady =
             each_generation_ || !contains(bytecode_, production.successor.arguments, Opcode::Step);
@@ -354,7 +356,7 @@ bool Plan::bake(const Row& row, Entry& entry) const {
             values[i] = own[entry.input[i]] * entry.scale[i] + entry.offset[i];
         }
     }
-    if (!std::all_of(values.begin(), values.begin() + entry.parameter_count, is_lane_constant)) {
+    if (!std::all_of(values.begin(), values.begin() + entry.parameter_count, is_term_constant)) {
         return false;
     }
     for (std::size_t i = 0; i < entry.parameter_count; ++i) {

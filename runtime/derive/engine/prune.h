@@ -10,7 +10,7 @@
 
 namespace lsys {
 
-/// Follows the branches of a word that comes in pieces.
+/// Finds the modules that cuts remove from a word, which may come in pieces.
 class Pruner {
 public:
     explicit Pruner(const Bytecode& bytecode);
@@ -40,7 +40,7 @@ public:
             parameter += kind.stored;
         }
     }
-    /// Whether a piece begins within what is cut off, or holds a cut.
+    /// Whether a piece begins within a cut branch or holds a cut.
     template <typename C>
     [[nodiscard]] bool concerns(const C* codes, std::uint64_t count) const {
         if (depth_ > 0) {
@@ -63,18 +63,18 @@ private:
         std::uint32_t stored = 0;
     };
     std::vector<Kind> kinds_; // by code
-    std::uint64_t depth_ = 0; // branches open within what is cut off, and that one; 0: nothing is
+    std::uint64_t depth_ = 0; // open branches from the one being cut on; 0: nothing is cut
     bool any_ = false;
 };
 
-/// How much of a word stays.
+/// The size of a word after its cuts.
 struct PrunedSize {
     std::uint64_t modules = 0;
     std::uint64_t parameters = 0;
 };
-/// Nothing to cut: the sizes of the word itself.
+/// The size of the word itself if there is nothing to cut.
 [[nodiscard]] PrunedSize pruned_size(Pruner& pruner, const Word& word);
-/// Writes what stays to `out`, which has the sizes of pruned_size().
+/// Writes the remaining modules to `out`. Precondition: `out` has the size of pruned_size().
 void write_pruned(Pruner& pruner, const Word& word, Word& out);
 
 } // namespace lsys

@@ -1,6 +1,6 @@
-// The draws of `choice generation` under `random glibc`: one call of rand() for each rule in each
-// generation, in order, whether the rule has a choice or not; of c alternatives it takes number
-// rand() mod c.
+// RuleDice: the draws of `choice generation` under `random glibc`: one call of rand() per rule and
+// generation, in order, whether the rule has a choice or not. Alternative rand() mod c of c is
+// taken.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -15,10 +15,10 @@ class RuleDice {
 public:
     RuleDice(const Bytecode& bytecode, std::uint64_t seed);
 
-    /// Makes the draws of a generation known.
+    /// Makes the draws of a generation.
     void roll(std::uint32_t generation);
-    /// As u in [0, 1): the middle of the part of an alternative, if all weigh the same. Of a
-    /// generation that was not rolled it takes as long as all generations before.
+    /// The draw as u in [0, 1): the middle of the alternative's interval if all have one weight.
+    /// For a generation other than the last one rolled it repeats all draws before.
     [[nodiscard]] float draw(std::uint32_t rule, std::uint32_t generation) const;
 
 private:
@@ -28,7 +28,7 @@ private:
     std::vector<std::uint32_t> alternatives_; // by rule
     GlibcRandom random_;                      // at the start of next_
     std::uint64_t next_ = 0;                  // generation
-    std::vector<std::uint32_t> rolled_;       // by rule, of generation next_ - 1
+    std::vector<std::uint32_t> rolled_;       // by rule, in generation next_ - 1
 };
 
 } // namespace lsys

@@ -14,7 +14,7 @@ namespace {
 struct Term {
     ShapeKind kind = ShapeKind::Other;
     float constant = 0.0F;
-    Lane lane;
+    AffineTerm lane;
     bool scaled = false; // the lane multiplies, so a further factor would round differently
     bool offset = false; // the lane adds
     std::size_t first_comparison = 0;
@@ -93,7 +93,7 @@ public:
         ValueShape shape;
         shape.kind = term.kind;
         shape.constant = term.constant;
-        shape.lane = term.lane;
+        shape.term = term.lane;
         const auto begin =
             comparisons_.begin() + static_cast<std::ptrdiff_t>(term.first_comparison);
         shape.comparisons.assign(begin, begin + static_cast<std::ptrdiff_t>(term.comparison_count));
@@ -149,7 +149,7 @@ private:
         }
     }
 
-    Term comparison(Opcode opcode, const Lane& lane, float bound, bool swapped) {
+    Term comparison(Opcode opcode, const AffineTerm& lane, float bound, bool swapped) {
         std::uint32_t accepted = 0;
         switch (opcode) {
         case Opcode::Less:

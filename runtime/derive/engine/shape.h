@@ -14,29 +14,29 @@ namespace lsys {
 
 /// input * scale + offset, in two roundings. A plain factor has offset -0, which changes nothing;
 /// a plain sum has scale 1; so one form fits `x`, `x * 1.1`, `x - 1`, `-x` and `2 * x + 1` exactly.
-struct Lane {
+struct AffineTerm {
     std::uint32_t input = 0; // which of the module's own parameters
     float scale = 1.0F;
     float offset = -0.0F;
 };
 
-[[nodiscard]] inline float value_of(const Lane& lane, const float* own) {
-    return own[lane.input] * lane.scale + lane.offset;
+[[nodiscard]] inline float value_of(const AffineTerm& term, const float* own) {
+    return own[term.input] * term.scale + term.offset;
 }
 
-/// A lane compared with a constant.
+/// A term compared with a constant.
 struct Comparison {
     static constexpr std::uint32_t kLess = 1;
     static constexpr std::uint32_t kEqual = 2;
     static constexpr std::uint32_t kGreater = 4;
 
-    Lane lane;
+    AffineTerm term;
     float bound = 0.0F; // a number
     std::uint32_t accepted = 0;
 };
 
 [[nodiscard]] inline bool holds(const Comparison& comparison, const float* own) {
-    const float value = value_of(comparison.lane, own);
+    const float value = value_of(comparison.term, own);
     const std::uint32_t order = value < comparison.bound    ? Comparison::kLess
                                 : value == comparison.bound ? Comparison::kEqual
                                                             : Comparison::kGreater;
@@ -59,7 +59,7 @@ enum class ShapeKind : std::uint8_t { Constant, Affine, Comparisons, Other };
 struct ValueShape {
     ShapeKind kind = ShapeKind::Other;
     float constant = 0.0F;               // Constant; may be infinite or not a number
-    Lane lane;                           // Affine
+    AffineTerm term;                     // Affine
     std::vector<Comparison> comparisons; // all must hold
 };
 

@@ -1,4 +1,4 @@
-// The start of a derivation: constants that are drawn, and the axiom.
+// The start of a derivation: drawn constants and the axiom.
 #pragma once
 
 #include "runtime/derive/derive.h"
@@ -9,11 +9,11 @@
 
 namespace lsys {
 
-/// Draws the globals in source order and checks the bounds of parameters.
+/// Draws the globals in source order and checks the bounds of each #param. Returns the first error.
 [[nodiscard]] std::optional<RuntimeError>
 draw_globals(const Bytecode& bytecode, std::uint64_t seed, std::vector<float>& globals);
 
-/// The parameters that the axiom stores.
+/// Evaluates the parameters that the axiom stores. Returns the first error.
 [[nodiscard]] std::optional<RuntimeError> axiom_parameters(const Bytecode& bytecode,
                                                            std::uint64_t seed,
                                                            const std::vector<float>& globals,

@@ -14,11 +14,11 @@ namespace lsys {
 
 namespace {
 
-/// Four binary32 values that are computed together: GCC's and Clang's vectors, on any machine.
+/// Four binary32 values computed together: a vector type of GCC and Clang, on any machine.
 using Float4 = float __attribute__((vector_size(16)));
 
-/// Where the lanes of one entry find their inputs.
-enum class LaneInputs : std::uint8_t {
+/// The inputs of the terms of one entry.
+enum class TermInputs : std::uint8_t {
     None,  // no parameters are written
     First, // no module stores more than one
     Any,
@@ -48,29 +48,29 @@ public:
           codes_(request.codes), parameters_(request.parameters) {}
 
     bool run() {
-        bool fine = true;
+        bool ok = true;
         if (plan_.predecessor_count() > 1) {
-            fine = run_exactly(request_.end);
+            ok = run_exactly(request_.end);
         } else if (!plan_.has_parameters() || !request_.writes_parameters) {
-            fine = run_with<LaneInputs::None>();
+            ok = run_with<TermInputs::None>();
         } else if (!plan_.mixes_inputs()) {
-            fine = run_with<LaneInputs::First>();
+            ok = run_with<TermInputs::First>();
         } else {
-            fine = run_with<LaneInputs::Any>();
+            ok = run_with<TermInputs::Any>();
         }
         const float* const written = std::exchange(request_.parameters, parameters_);
         request_.begin = place_;
         request_.codes = codes_;
-        return fine && all_finite(written, static_cast<std::size_t>(parameters_ - written));
+        return ok && all_finite(written, static_cast<std::size_t>(parameters_ - written));
     }
 
 private:
-    template <LaneInputs kInputs>
+    template <TermInputs kInputs>
     bool run_with() {
-        return request_.marks != nullptr ? run_marked<kInputs>() : run_wide<kInputs>();
+        return request_.mask != nullptr ? run_masked<kInputs>() : run_wide<kInputs>();
     }
 
-    template <LaneInputs kInputs>
+    template <TermInputs kInputs>
     bool run_wide() {
         if (plan_.all_fixed()) {
             return plan_.wide_bytes() == 16 ? run_wide<kInputs, false, 16>()
@@ -80,9 +80,9 @@ private:
                                         : run_wide<kInputs, true, 32>();
     }
 
-    /// Batches that cannot pass the limits, without asking for each module; what is near a limit
-    /// or special is written exactly.
-    template <LaneInputs kInputs, bool kRecords, std::size_t kBytes>
+    /// Writes batches that cannot pass the limits without a check per module. A module near a limit
+    /// or a special one is written exactly.
+    template <TermInputs kInputs, bool kRecords, std::size_t kBytes>
     bool run_wide() {
         while (place_.index < request_.end) {
             const auto code_room = static_cast<std::uint64_t>(request_.codes_limit - codes_);
@@ -90,8 +90,8 @@ private:
                 static_cast<std::uint64_t>(request_.parameters_limit - parameters_);
             std::uint64_t batch =
                 std::min(request_.end - place_.index, code_room / (kBytes / sizeof(C)));
-            if constexpr (kInputs != LaneInputs::None) {
-                batch = std::min(batch, parameter_room / kEntryLanes);
+            if constexpr (kInputs != TermInputs::None) {
+                batch = std::min(batch, parameter_room / kEntryTerms);
             }
             if (batch != 0 && run_batch<kInputs, kRecords, kBytes>(batch) == batch) {
                 continue;
@@ -103,15 +103,15 @@ private:
         return true;
     }
 
-    /// The first four parameters of an entry, as one store.
-    template <LaneInputs kInputs>
-    static void store_lanes(const Entry& entry, const float* own, float* out) {
+    /// Stores the first four parameters of an entry at once.
+    template <TermInputs kInputs>
+    static void store_terms(const Entry& entry, const float* own, float* out) {
         Float4 scale;
         Float4 offset;
         std::memcpy(&scale, entry.scale.data(), sizeof scale);
         std::memcpy(&offset, entry.offset.data(), sizeof offset);
         Float4 input;
-        if constexpr (kInputs == LaneInputs::First) {
+        if constexpr (kInputs == TermInputs::First) {
             input = Float4{own[0], own[0], own[0], own[0]};
         } else {
             input = Float4{own[entry.input[0]], own[entry.input[1]], own[entry.input[2]],
@@ -121,8 +121,8 @@ private:
         std::memcpy(out, &values, sizeof values);
     }
 
-    /// Up to `batch` modules; returns how many, which are fewer if a special one comes next.
-    template <LaneInputs kInputs, bool kRecords, std::size_t kBytes>
+    /// Writes up to `batch` modules; returns how many: fewer if a special module comes next.
+    template <TermInputs kInputs, bool kRecords, std::size_t kBytes>
     std::uint64_t run_batch(std::uint64_t batch) {
         const C* in = word_.codes + place_.index;
         const C* const begin = in;
@@ -155,8 +155,8 @@ private:
             }
             std::memcpy(codes, pool + entry->first_code, kBytes);
             codes += entry->code_count;
-            if constexpr (kInputs != LaneInputs::None) {
-                store_lanes<kInputs>(*entry, own, parameters);
+            if constexpr (kInputs != TermInputs::None) {
+                store_terms<kInputs>(*entry, own, parameters);
                 parameters += entry->parameter_count;
                 own += row->stored;
             }
@@ -170,19 +170,20 @@ private:
         return done;
     }
 
-    template <LaneInputs kInputs>
-    bool run_marked() {
-        constexpr std::size_t kBlock = Marks::kBlock;
-        const Marks& marks = *request_.marks;
-        std::array<MarkBits, Marks::kModules / kBlock> bits; // NOLINT: filled before it is read
+    template <TermInputs kInputs>
+    bool run_masked() {
+        constexpr std::size_t kBlock = ActiveMask::kBlock;
+        const ActiveMask& mask = *request_.mask;
+        std::array<ActiveBits, ActiveMask::kModules / kBlock>
+            bits; // NOLINT: filled before it is read
         while (place_.index < request_.end) {
             const std::uint64_t begin = place_.index;
             const auto count = static_cast<std::size_t>(
-                std::min<std::uint64_t>(request_.end - begin, Marks::kModules));
-            marks.fill(word_.codes, word_.count, begin, count, bits.data());
+                std::min<std::uint64_t>(request_.end - begin, ActiveMask::kModules));
+            mask.fill(word_.codes, word_.count, begin, count, bits.data());
             for (std::size_t first = 0; first < count; first += kBlock) {
                 const auto size = static_cast<unsigned>(std::min(count - first, kBlock));
-                if (!write_block<kInputs>(marks, bits[first / kBlock], size)) {
+                if (!write_block<kInputs>(mask, bits[first / kBlock], size)) {
                     return false;
                 }
             }
@@ -190,11 +191,11 @@ private:
         return true;
     }
 
-    /// The next `size` modules, of 64 or the last: what stands between two that are marked is moved
-    /// by one copy of 64.
-    template <LaneInputs kInputs>
-    bool write_block(const Marks& marks, MarkBits bits, unsigned size) {
-        constexpr std::size_t kBlock = Marks::kBlock;
+    /// Writes the next `size` modules, 64 or the last ones. A run between two active modules is
+    /// moved by one copy of 64 codes.
+    template <TermInputs kInputs>
+    bool write_block(const ActiveMask& mask, ActiveBits bits, unsigned size) {
+        constexpr std::size_t kBlock = ActiveMask::kBlock;
         const C* const in = word_.codes + place_.index;
         const std::uint64_t begin = place_.index;
         unsigned from = 0;
@@ -210,10 +211,10 @@ private:
                 std::copy_n(in + from, run, codes_);
             }
             codes_ += run;
-            if constexpr (kInputs != LaneInputs::None) {
+            if constexpr (kInputs != TermInputs::None) {
                 const std::uint64_t before =
                     to == kBlock ? ~std::uint64_t{0} : (std::uint64_t{1} << to) - 1;
-                const std::uint64_t stored = marks.stored(in, bits.stores & before);
+                const std::uint64_t stored = mask.stored(in, bits.stores & before);
                 bits.stores &= ~before;
                 copy_parameters(stored);
             }
@@ -222,7 +223,7 @@ private:
             }
             bits.active &= bits.active - 1;
             place_.index = begin + to;
-            if (!write_marked<kInputs>(in[to])) {
+            if (!write_active<kInputs>(in[to])) {
                 return false;
             }
             bits.stores &= ~(std::uint64_t{1} << to);
@@ -235,9 +236,9 @@ private:
     void copy_parameters(std::uint64_t count) {
         const float* const own = word_.parameters + place_.parameter;
         if (static_cast<std::uint64_t>(request_.parameters_limit - parameters_) >=
-            count + kEntryLanes) {
-            for (std::uint64_t i = 0; i < count; i += kEntryLanes) {
-                std::memcpy(parameters_ + i, own + i, kEntryLanes * sizeof(float));
+            count + kEntryTerms) {
+            for (std::uint64_t i = 0; i < count; i += kEntryTerms) {
+                std::memcpy(parameters_ + i, own + i, kEntryTerms * sizeof(float));
             }
         } else {
             std::copy_n(own, count, parameters_);
@@ -246,9 +247,9 @@ private:
         place_.parameter += count;
     }
 
-    /// The marked module at place_.
-    template <LaneInputs kInputs>
-    bool write_marked(C code) {
+    /// Writes the active module at place_.
+    template <TermInputs kInputs>
+    bool write_active(C code) {
         constexpr std::size_t kWide = 32 / sizeof(C);
         const Row& row = rows_[code];
         const Entry* entry = entries_ + code;
@@ -257,14 +258,14 @@ private:
             entry = record == 0 ? entry : entries_ + row.base + record;
         }
         bool room = static_cast<std::size_t>(request_.codes_limit - codes_) >= kWide;
-        if constexpr (kInputs != LaneInputs::None) {
+        if constexpr (kInputs != TermInputs::None) {
             room = room &&
-                   static_cast<std::size_t>(request_.parameters_limit - parameters_) >= kEntryLanes;
+                   static_cast<std::size_t>(request_.parameters_limit - parameters_) >= kEntryTerms;
         }
         if (room && !entry->special && !row.slow) {
             std::memcpy(codes_, pool_ + entry->first_code, kWide * sizeof(C));
-            if constexpr (kInputs != LaneInputs::None) {
-                store_lanes<kInputs>(*entry, word_.parameters + place_.parameter, parameters_);
+            if constexpr (kInputs != TermInputs::None) {
+                store_terms<kInputs>(*entry, word_.parameters + place_.parameter, parameters_);
             }
         } else {
             std::copy_n(pool_ + entry->first_code, entry->code_count, codes_);
@@ -278,7 +279,7 @@ private:
         return true;
     }
 
-    /// Modules up to `end`, without writing anything but what they become.
+    /// Writes the modules up to `end` without wide stores.
     bool run_exactly(std::uint64_t end) {
         while (place_.index < end) {
             const C code = word_.codes[place_.index];
@@ -314,10 +315,10 @@ private:
                                   place_, entry, parameters_, fault);
         }
         const float* const own = matcher_.own(place_);
-        if (entry.parameter_count > kEntryLanes) {
-            const Lane* const lanes = plan_.lanes().data() + entry.first_lane;
+        if (entry.parameter_count > kEntryTerms) {
+            const AffineTerm* const terms = plan_.terms().data() + entry.first_term;
             for (std::uint32_t i = 0; i < entry.parameter_count; ++i) {
-                parameters_[i] = value_of(lanes[i], own);
+                parameters_[i] = value_of(terms[i], own);
             }
             return true;
         }
@@ -356,7 +357,7 @@ bool write_modules(const Plan& plan,
     }
     if (request.origins != nullptr) {
         const OriginRequest traced{begin, request.begin.index,
-                                   keys.generation + (keys.same_age ? 0 : 1), request.marks};
+                                   keys.generation + (keys.same_age ? 0 : 1), request.mask};
         request.origins = trace_origins(plan, word, traced, records, request.origins);
     }
     return true;

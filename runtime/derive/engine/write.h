@@ -1,17 +1,17 @@
-// The writing pass: what the counting pass found, written. The common module costs one row, one
+// The writing pass: writes what the counting pass has counted. The common module costs one row, one
 // entry, one wide store of codes and one of parameters, and no branch.
 #pragma once
 
+#include "runtime/derive/engine/active_mask.h"
 #include "runtime/derive/engine/choose.h"
-#include "runtime/derive/engine/marks.h"
 
 #include <cstdint>
 
 namespace lsys {
 
-/// A stretch of modules and the room for what they become. Wide stores may spill up to the limits,
-/// never beyond; what lies between the stretch's own part and its limits is written later or never.
-/// write_modules() moves `begin`, `codes`, `parameters` and `origins` past what it has done.
+/// A stretch of modules and the room for their successors. Wide stores may spill up to the limits,
+/// never beyond: memory between the stretch's own part and its limits is written later or never.
+/// write_modules() advances `begin`, `codes`, `parameters` and `origins`.
 template <typename C>
 struct WriteRequest {
     ModulePlace begin;
@@ -20,14 +20,14 @@ struct WriteRequest {
     C* codes_limit = nullptr;
     float* parameters = nullptr;
     float* parameters_limit = nullptr;
-    Origin* origins = nullptr;     // where origins are kept: those of what is written, as `codes`
-    const Marks* marks = nullptr;  // then runs of modules that are not marked are moved as blocks
-    bool writes_parameters = true; // false: the stretch becomes modules that store none
+    Origin* origins = nullptr;        // one per code; null: none are kept
+    const ActiveMask* mask = nullptr; // if set, runs of inactive modules are moved as blocks
+    bool writes_parameters = true;    // false: no module written stores a parameter
 };
 
-/// False: a parameter is not finite or a range is not one; find_fault() tells which.
-/// `records` are those that count_marked(), with marks, or else count_modules() wrote for this
-/// stretch.
+/// Writes the successors of a stretch. Returns false if a parameter is not finite or a range is
+/// invalid; find_fault() finds it. `records` were written by count_active() if the request has a
+/// mask, else by count_modules().
 template <typename C, typename R>
 [[nodiscard]] bool write_modules(const Plan& plan,
                                  const PassKeys& keys,
@@ -36,8 +36,8 @@ template <typename C, typename R>
                                  WriteRequest<C>& request,
                                  const R* records);
 
-/// The parameters of one entry for the module at `place`, in order, by the general way.
-/// False: `fault` says why.
+/// Evaluates the parameters of one entry for the module at `place`, in order, with evaluate().
+/// Returns false and sets `fault` if one has no value.
 template <typename C>
 [[nodiscard]] bool evaluate_entry(const Plan& plan,
                                   const PassKeys& keys,

@@ -222,7 +222,7 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
                                    FileBudget& budget) {
     Step step(project);
     MeshFiles files;
-    bool fine = true;
+    bool ok = true;
     const std::filesystem::path folder = std::filesystem::path(grammar_file).parent_path();
     for (std::size_t i = 0; i < bytecode.symbols.size(); ++i) {
         const BytecodeSymbol& symbol = bytecode.symbols[i];
@@ -242,7 +242,7 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
         PictureSearch search(path, text.value(), budget, mesh.value());
         search.run(project);
         const bool has_limit = search.has_limit;
-        fine = step.diagnose(std::move(search.diagnostics), search.sources) && fine;
+        ok = step.diagnose(std::move(search.diagnostics), search.sources) && ok;
         if (has_limit) {
             return step.end(Stop::Limit);
         }
@@ -251,7 +251,7 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
         files.lengths[i] = mesh.value().length();
         files.meshes.push_back(std::move(mesh.value()));
     }
-    return fine ? step.done(std::move(files)) : step.end(Stop::Diagnosed);
+    return ok ? step.done(std::move(files)) : step.end(Stop::Diagnosed);
 }
 
 } // namespace lsys

@@ -1,4 +1,4 @@
-#include "runtime/derive/engine/marks.h"
+#include "runtime/derive/engine/active_mask.h"
 
 #include "runtime/derive/engine/instantiate.h"
 
@@ -14,22 +14,22 @@ namespace lsys {
 
 namespace {
 
-/// Programs of more codes are rewritten without marks.
+/// Programs with more codes are rewritten without a mask.
 constexpr Code kMostCodes = 4096;
 constexpr std::size_t kBankCodes = 16;
 
-/// One module after the other: what the vectors do, for any width and machine.
+/// Scalar version of mask_blocks_avx2() for any code width and machine.
 template <typename C>
-MarkBits mark_block(const Marks::Tables& tables,
-                    const C* codes,
-                    std::uint64_t length,
-                    std::uint64_t first,
-                    std::size_t count) {
-    MarkBits bits;
+ActiveBits mask_block(const ActiveMask::Tables& tables,
+                      const C* codes,
+                      std::uint64_t length,
+                      std::uint64_t first,
+                      std::size_t count) {
+    ActiveBits bits;
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint64_t index = first + i;
         const std::uint8_t centre = tables.centre[codes[index]];
-        std::uint8_t groups = centre & static_cast<std::uint8_t>(~Marks::kStores);
+        std::uint8_t groups = centre & static_cast<std::uint8_t>(~ActiveMask::kStores);
         if (tables.looks_left) {
             groups &= index == 0 ? tables.at_begin : tables.left[codes[index - 1]];
         }
@@ -37,15 +37,15 @@ MarkBits mark_block(const Marks::Tables& tables,
             groups &= index + 1 == length ? tables.at_end : tables.right[codes[index + 1]];
         }
         bits.active |= std::uint64_t{groups != 0} << i;
-        bits.stores |= std::uint64_t{(centre & Marks::kStores) != 0} << i;
+        bits.stores |= std::uint64_t{(centre & ActiveMask::kStores) != 0} << i;
     }
     return bits;
 }
 
 #if defined(__x86_64__)
-#define LSYS_MARKS_AVX2 1
+#define LSYS_MASK_AVX2 1
 
-/// The bytes that a table of `banks` times 16 holds for 32 codes.
+/// Looks up 32 codes in a table of `banks` times 16 bytes.
 [[gnu::target("avx2"), gnu::always_inline]] inline __m256i
 look_up(const std::uint8_t* table, std::size_t banks, __m256i codes) {
     const auto bank = [table](std::size_t i) __attribute__((target("avx2"), always_inline)) {
@@ -70,17 +70,17 @@ look_up(const std::uint8_t* table, std::size_t banks, __m256i codes) {
     return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(at));
 }
 
-/// `blocks` times 64 modules whose neighbours may be read. Tables hold 16 bytes for each bank.
-[[gnu::target("avx2,popcnt")]] std::uint64_t mark_blocks_avx2(const Marks::Tables& tables,
+/// Masks `blocks` times 64 modules whose neighbours may be read. Tables hold 16 bytes per bank.
+[[gnu::target("avx2,popcnt")]] std::uint64_t mask_blocks_avx2(const ActiveMask::Tables& tables,
                                                               const std::uint8_t* codes,
                                                               std::size_t blocks,
-                                                              MarkBits* bits) {
-    std::uint64_t marked = 0;
+                                                              ActiveBits* bits) {
+    std::uint64_t count = 0;
     const __m256i no_store = _mm256_set1_epi8(0x7F);
     for (std::size_t block = 0; block < blocks; ++block) {
-        MarkBits found;
+        ActiveBits found;
         for (std::size_t half = 0; half < 2; ++half) {
-            const std::uint8_t* const at = codes + Marks::kBlock * block + 32 * half;
+            const std::uint8_t* const at = codes + ActiveMask::kBlock * block + 32 * half;
             const __m256i centre = look_up(tables.centre.data(), tables.banks, load(at));
             __m256i groups = _mm256_and_si256(centre, no_store);
             if (tables.looks_left) {
@@ -98,9 +98,9 @@ look_up(const std::uint8_t* table, std::size_t banks, __m256i codes) {
             found.stores |= std::uint64_t{stores} << (32 * half);
         }
         bits[block] = found;
-        marked += static_cast<std::uint64_t>(_mm_popcnt_u64(found.active));
+        count += static_cast<std::uint64_t>(_mm_popcnt_u64(found.active));
     }
-    return marked;
+    return count;
 }
 
 const bool has_avx2 = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("popcnt") != 0;
@@ -108,7 +108,7 @@ const bool has_avx2 = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_suppo
 
 } // namespace
 
-void Marks::prepare(const Plan& plan, const ContextTables* contexts) {
+void ActiveMask::prepare(const Plan& plan, const ContextTables* contexts) {
     const Code codes = plan.bytecode().code_count();
     usable_ = codes <= kMostCodes && plan.predecessor_count() == 1;
     if (!usable_) {
@@ -126,7 +126,7 @@ void Marks::prepare(const Plan& plan, const ContextTables* contexts) {
     tables_.looks_left = false;
     tables_.looks_right = false;
 
-    // a pair of guards is a group; when the bits are used up, neighbours are not looked at
+    // each pair of guards is a group; beyond six groups neighbours are not checked
     std::array<std::pair<std::uint32_t, std::uint32_t>, 6> groups;
     std::size_t group_count = 0;
     const auto group_of = [&](const Row& row) -> std::uint8_t {
@@ -146,7 +146,7 @@ void Marks::prepare(const Plan& plan, const ContextTables* contexts) {
         }
         return static_cast<std::uint8_t>(kAnywhere << 1 << (at - groups.begin()));
     };
-    std::uint32_t same = 0; // parameters of all modules that store any; kNone: not the same
+    std::uint32_t same = 0; // parameters per module that stores any; kNone: they differ
     for (Code code = 0; code < codes; ++code) {
         const Row& row = plan.row(code);
         if (row.stored != 0) {
@@ -166,7 +166,7 @@ void Marks::prepare(const Plan& plan, const ContextTables* contexts) {
         tables_.looks_left = tables_.looks_left || left != kNone;
         tables_.looks_right = tables_.looks_right || right != kNone;
         for (Code code = 0; code < codes; ++code) {
-            // what a search passes by says nothing of what lies beyond it
+            // a module that a search passes by does not tell what lies beyond it
             const bool passed_by = contexts->sight(code) != Sight::Module;
             const std::uint8_t* const guards = plan.guards();
             if (left == kNone || passed_by || guards[left + code] != 0) {
@@ -180,19 +180,19 @@ void Marks::prepare(const Plan& plan, const ContextTables* contexts) {
 }
 
 template <typename C>
-std::uint64_t Marks::fill(const C* codes,
-                          std::uint64_t length,
-                          std::uint64_t first,
-                          std::size_t count,
-                          MarkBits* bits) const {
+std::uint64_t ActiveMask::fill(const C* codes,
+                               std::uint64_t length,
+                               std::uint64_t first,
+                               std::size_t count,
+                               ActiveBits* bits) const {
     std::uint64_t active = 0;
     std::size_t done = 0;
-#if defined(LSYS_MARKS_AVX2)
+#if defined(LSYS_MASK_AVX2)
     if constexpr (sizeof(C) == 1) {
         if (has_avx2) {
             if (first == 0 && tables_.looks_left) {
                 done = std::min(count, kBlock);
-                bits[0] = mark_block(tables_, codes, length, 0, done);
+                bits[0] = mask_block(tables_, codes, length, 0, done);
                 active += count_bits(bits[0].active);
             }
             // the last module of a word has no neighbour, so its block is not among these
@@ -200,7 +200,7 @@ std::uint64_t Marks::fill(const C* codes,
             if (done == 0 || done == kBlock) {
                 const std::size_t blocks = last > first + done ? (last - first - done) / kBlock : 0;
                 active +=
-                    mark_blocks_avx2(tables_, codes + first + done, blocks, bits + done / kBlock);
+                    mask_blocks_avx2(tables_, codes + first + done, blocks, bits + done / kBlock);
                 done += blocks * kBlock;
             }
         }
@@ -208,18 +208,18 @@ std::uint64_t Marks::fill(const C* codes,
 #endif
     while (done < count) {
         const std::size_t size = std::min(count - done, kBlock);
-        MarkBits& block = bits[done / kBlock];
-        block = mark_block(tables_, codes, length, first + done, size);
+        ActiveBits& block = bits[done / kBlock];
+        block = mask_block(tables_, codes, length, first + done, size);
         active += count_bits(block.active);
         done += size;
     }
     return active;
 }
 
-#define LSYS_MARKS(C)                                                                              \
-    template std::uint64_t Marks::fill<C>(const C*, std::uint64_t, std::uint64_t, std::size_t,     \
-                                          MarkBits*) const;
-LSYS_FOR_CODES(LSYS_MARKS)
-#undef LSYS_MARKS
+#define LSYS_FILL_MASK(C)                                                                          \
+    template std::uint64_t ActiveMask::fill<C>(const C*, std::uint64_t, std::uint64_t,             \
+                                               std::size_t, ActiveBits*) const;
+LSYS_FOR_CODES(LSYS_FILL_MASK)
+#undef LSYS_FILL_MASK
 
 } // namespace lsys

@@ -1,7 +1,7 @@
-// Marks: of each module of a stretch, whether it may be rewritten and whether it stores a
-// parameter, as bits of 64 modules each. Found by comparing vectors of codes, so that modules which
-// are surely copied cost a fraction of a look at them: a module of a production with a context is
-// marked only if its neighbours may be those of the context.
+// ActiveMask: bits per module of a stretch, 64 modules at a time: may it be rewritten, and does it
+// store a parameter? The bits come from comparing vectors of codes, so that a module that is
+// certain to be copied costs a fraction of a table lookup. A module of a production with a context
+// is active only if its neighbours may be those of the context.
 #pragma once
 
 #include "runtime/derive/engine/contexts.h"
@@ -14,13 +14,13 @@
 
 namespace lsys {
 
-/// Of 64 modules, the first in the lowest bit.
-struct MarkBits {
+/// Bits of 64 modules, the first in the lowest bit.
+struct ActiveBits {
     std::uint64_t active = 0; // may be rewritten
     std::uint64_t stores = 0; // stores a parameter
 };
 
-/// std::popcount without a call, which it is where the machine need not have the instruction.
+/// std::popcount without the library call that it compiles to for machines without the instruction.
 [[nodiscard]] inline std::uint64_t count_bits(std::uint64_t bits) {
     constexpr std::uint64_t kOnes = ~std::uint64_t{0};
     bits -= (bits >> 1) & (kOnes / 3);
@@ -29,32 +29,32 @@ struct MarkBits {
     return (bits * (kOnes / 255)) >> 56;
 }
 
-class Marks {
+class ActiveMask {
 public:
-    /// Modules that fill() takes at most.
+    /// Max modules per call of fill().
     static constexpr std::size_t kModules = 4096;
     static constexpr std::size_t kBlock = 64;
 
-    /// Made for the plan as it is prepared. `contexts` tells what a search for contexts passes by;
-    /// it may be null where no production in force has one.
+    /// Builds the tables for the plan as it is prepared. `contexts` knows the modules that a
+    /// context search passes by; it may be null if no production in force has a context.
     void prepare(const Plan& plan, const ContextTables* contexts);
 
-    /// False: too many codes, or a match takes several modules.
+    /// Whether the mask can be used: not with too many codes, nor if a match takes several modules.
     [[nodiscard]] bool usable() const { return usable_; }
     /// Whether some module is rewritten by chance alone.
     [[nodiscard]] bool has_choices() const { return has_choices_; }
 
-    /// The marks of the `count` modules from `first`, in bits[0 .. (count + 63) / 64); bits past
-    /// the last module are 0. `length`: of the word, which may be read with kWordSlack past it.
-    /// Returns how many are active.
+    /// Writes the bits of the `count` modules from `first` to bits[0 .. (count + 63) / 64); bits
+    /// past the last module are 0. `length` is the length of the word; up to kWordSlack bytes past
+    /// its end may be read. Returns the number of active modules.
     template <typename C>
     std::uint64_t fill(const C* codes,
                        std::uint64_t length,
                        std::uint64_t first,
                        std::size_t count,
-                       MarkBits* bits) const;
+                       ActiveBits* bits) const;
 
-    /// The number of parameters stored by those of the 64 modules at `block` whose bits are set.
+    /// The number of parameters stored by the modules at `block` whose bits in `stores` are set.
     template <typename C>
     [[nodiscard]] std::uint64_t stored(const C* block, std::uint64_t stores) const {
         if (stores == 0) {
@@ -71,17 +71,17 @@ public:
     }
 
     static constexpr std::uint8_t kStores = 0x80;
-    /// The group of what is rewritten whatever its neighbours are.
+    /// The group of modules that are rewritten whatever their neighbours are.
     static constexpr std::uint8_t kAnywhere = 0x01;
-    /// What is looked up by code, a byte each: the groups of productions a module may be rewritten
-    /// by, and those which may have it for a left or a right neighbour.
+    /// Lookup tables by code, a byte of group bits each: the groups of productions that may rewrite
+    /// a module, and the groups that accept it as a left or as a right neighbour.
     struct Tables {
         std::vector<std::uint8_t> centre; // kStores: stores a parameter
         std::vector<std::uint8_t> left;
         std::vector<std::uint8_t> right;
-        std::uint8_t at_begin = kAnywhere; // of the groups that need no left neighbour
-        std::uint8_t at_end = kAnywhere;   // no right one
-        std::size_t banks = 0;             // of 16 codes
+        std::uint8_t at_begin = kAnywhere; // groups that need no left neighbour
+        std::uint8_t at_end = kAnywhere;   // groups that need no right neighbour
+        std::size_t banks = 0;             // 16 codes each
         bool looks_left = false;
         bool looks_right = false;
     };
@@ -89,7 +89,7 @@ public:
 private:
     Tables tables_;
     const Row* rows_ = nullptr;
-    std::uint32_t stored_each_ = 1; // by every module that stores any; 0: they differ
+    std::uint32_t stored_each_ = 1; // parameters per module that stores any; 0: they differ
     bool usable_ = false;
     bool has_choices_ = false;
 };

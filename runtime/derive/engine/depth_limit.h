@@ -1,4 +1,4 @@
-// What productions of a stage still match after its passes.
+// Checks whether productions of a stage still match after its max number of passes.
 #pragma once
 
 #include "runtime/derive/derive.h"
@@ -21,7 +21,7 @@ template <typename C>
     return false;
 }
 
-/// The first module that a production matches, or that a condition has no value for.
+/// The first module that a production matches, or for which a condition has no value.
 template <typename C>
 [[nodiscard]] std::optional<ModulePlace>
 find_match(const Plan& plan, Chooser<C>& chooser, const WordView<C>& word) {

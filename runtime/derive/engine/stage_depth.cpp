@@ -1,4 +1,4 @@
-#include "runtime/derive/engine/chains.h"
+#include "runtime/derive/engine/stage_depth.h"
 
 #include <algorithm>
 #include <optional>
@@ -8,7 +8,7 @@ namespace lsys {
 
 namespace {
 
-/// Modules that productions of the stage take apart, by what they are made of; by symbol.
+/// For each symbol the symbols that productions of the stage write for it and match again.
 std::vector<std::vector<std::uint32_t>> parts_of(const Bytecode& bytecode, TableRange stage) {
     std::vector<std::vector<std::uint32_t>> parts(bytecode.symbols.size());
     std::vector<bool> matched(bytecode.symbols.size(), false);
@@ -36,8 +36,8 @@ std::vector<std::vector<std::uint32_t>> parts_of(const Bytecode& bytecode, Table
     return parts;
 }
 
-/// Modules on the longest way, less one; nothing if it never ends.
-std::optional<std::uint32_t> longest_way(const std::vector<std::vector<std::uint32_t>>& parts) {
+/// The number of edges of the longest path; nothing if there is a cycle.
+std::optional<std::uint32_t> longest_path(const std::vector<std::vector<std::uint32_t>>& parts) {
     std::vector<std::uint32_t> users(parts.size(), 0);
     for (const std::vector<std::uint32_t>& list : parts) {
         for (const std::uint32_t part : list) {
@@ -68,14 +68,14 @@ std::optional<std::uint32_t> longest_way(const std::vector<std::vector<std::uint
 
 } // namespace
 
-StageDepth depth_of(const Bytecode& bytecode, Stage stage) {
+StageDepth stage_depth(const Bytecode& bytecode, Stage stage) {
     const TableRange range = bytecode.of(stage);
     if (range.count == 0) {
         return {};
     }
     const std::uint32_t most = stage == Stage::Decompose ? bytecode.settings.decompose_depth
                                                          : bytecode.settings.interpret_depth;
-    const std::optional<std::uint32_t> way = longest_way(parts_of(bytecode, range));
+    const std::optional<std::uint32_t> way = longest_path(parts_of(bytecode, range));
     const std::uint32_t needed = way ? *way + 1 : most + 1;
     return {std::min(needed, most), needed > most && bytecode.settings.at_depth == AtDepth::Error};
 }

@@ -1,0 +1,23 @@
+// The depth to which productions of a stage can nest: one may rewrite what another has written.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+
+#include <cstdint>
+
+namespace lsys {
+
+/// Passes of later stages add these to the numbers of their draws (docs/language.md section 6), and
+/// 4096 more per pass, so that no number is drawn twice.
+inline constexpr std::uint64_t kDrawsOfPass = std::uint64_t{kMaxSequentialDraws} + 1;
+inline constexpr std::uint64_t kFirstDecomposeDraw = std::uint64_t{1} << 32;
+inline constexpr std::uint64_t kFirstInterpretDraw = kFirstDecomposeDraw + (std::uint64_t{1} << 31);
+
+/// The passes of Stage::Decompose or Stage::Interpret.
+struct StageDepth {
+    std::uint32_t passes = 0; // until nothing can match, or the max number allowed
+    bool checked = false;     // a module that still matches then is an error
+};
+[[nodiscard]] StageDepth stage_depth(const Bytecode& bytecode, Stage stage);
+
+} // namespace lsys
