@@ -1,7 +1,7 @@
-// The numbers of rand() as glibc has them by default: an additive feedback generator of 31 words,
-// r[i] = r[i - 31] + r[i - 3] modulo 2^32, of which the upper 31 bits count. Its first words are
-// those of the multiplicative generator 16807 modulo 2^31 - 1, and the first 310 sums are thrown
-// away. For words that are to be held against those of a program that was run with that library.
+// GlibcRandom: the numbers of glibc's rand(), an additive feedback generator of 31 words,
+// r[i] = r[i - 31] + r[i - 3] modulo 2^32, of which the upper 31 bits are returned. Its first words
+// come from the multiplicative generator 16807 modulo 2^31 - 1, and the first 310 sums are
+// discarded. Used to reproduce words of programs that draw with this library (`random glibc`).
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@ namespace lsys {
 
 class GlibcRandom {
 public:
-    /// As after srand(seed); a seed of 0 counts as 1.
+    /// Starts as after srand(seed). Seed 0 is the same as 1.
     explicit GlibcRandom(std::uint32_t seed = 1);
 
-    /// What the next call of rand() returns, from 0 to 2^31 - 1.
+    /// The result of the next call of rand(), 0 to 2^31 - 1.
     [[nodiscard]] std::uint32_t next();
 
 private:
@@ -24,8 +24,8 @@ private:
 
     std::uint32_t sum();
 
-    std::array<std::uint32_t, kWords> words_{}; // the last ones, in a ring
-    std::size_t at_ = kDistance;                // what the next sum takes the place of
+    std::array<std::uint32_t, kWords> words_{}; // ring buffer of the last words
+    std::size_t at_ = kDistance;                // index of the word that the next sum replaces
 };
 
 } // namespace lsys

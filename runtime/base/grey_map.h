@@ -1,6 +1,5 @@
-// GreyMap: a picture of one channel: heights of a terrain, densities of a forest. Row 0 lies at the
-// lowest Z and column 0 at the lowest X, so a picture seen on a screen is the ground seen from
-// above.
+// GreyMap: a picture of one channel, such as heights of a terrain or densities of a forest. Row 0
+// lies at the lowest Z and column 0 at the lowest X, so the picture shows the ground from above.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -12,7 +11,7 @@
 
 namespace lsys {
 
-/// Most pixels of a map: 11,585 by 11,585.
+/// Max pixels of a map: 11,585 by 11,585.
 inline constexpr std::uint64_t kMaxMapPixels = std::uint64_t{1} << 27;
 
 struct GreyMap {
@@ -25,13 +24,13 @@ struct GreyMap {
     }
 };
 
-/// Reads a PNG file of 1 to 16 bits a sample; 8 bits b become 257 b. Samples are taken as they are
-/// stored: no gamma, no opacity. Pictures with colours are refused, unless every pixel is grey. At
-/// most `max_bytes` are used beside `bytes`.
+/// Reads a PNG file of 1 to 16 bits per sample; 8 bits b become 257 b. Gamma and opacity are
+/// ignored. Errors: a pixel with a colour, a damaged file, more than `max_bytes` needed beside
+/// `bytes`.
 [[nodiscard]] Result<GreyMap> read_grey_png(std::string_view bytes, std::uint64_t max_bytes);
 
-/// Reads raw samples of 16 bits, little-endian, by rows, without a header. At most `max_bytes` are
-/// used beside `bytes`.
+/// Reads raw samples of 16 bits, little-endian, by rows, without a header. Errors: sizes that do
+/// not fit, more than `max_bytes` needed beside `bytes`.
 [[nodiscard]] Result<GreyMap> read_grey_raw(std::string_view bytes,
                                             std::uint32_t columns,
                                             std::uint32_t rows,

@@ -1,4 +1,4 @@
-// Huge pages: fresh memory in them is two to five times as fast to write.
+// Huge pages: fresh memory on them is two to five times as fast to write as on small pages.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@ namespace lsys {
 
 inline constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
-/// Asks for huge pages where the bytes fill them; a refusal costs time and nothing more.
-/// `address` is a multiple of kHugePage.
+/// Asks for huge pages for the whole pages among `bytes`; a refusal costs only time.
+/// Precondition: `address` is a multiple of kHugePage.
 void advise_huge_pages(void* address, std::size_t bytes);
 
 } // namespace lsys

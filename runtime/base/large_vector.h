@@ -1,6 +1,6 @@
-// LargeVector: a std::vector for millions of items. Large blocks begin at the border of a huge page
-// and ask for huge pages, which makes fresh memory two to five times as fast; resize() leaves
-// items of trivial types as they are, so that what is written next is not written twice.
+// LargeVector: a std::vector for millions of items. Large blocks are aligned to huge pages and ask
+// for them, which makes fresh memory two to five times as fast. resize() leaves items of trivial
+// types uninitialised, so that they are written once.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// `bytes` of memory, aligned for any type; throws std::bad_alloc. Given back with release_large().
+/// Allocates `bytes`, aligned for any type. Throws std::bad_alloc. Freed by release_large().
 [[nodiscard]] void* allocate_large(std::size_t bytes);
 void release_large(void* address, std::size_t bytes) noexcept;
 

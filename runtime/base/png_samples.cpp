@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-/// What libpng reads from, and where it leaves the reason of a failure.
+/// The source of libpng, and the reason of its failure.
 struct PngInput {
     std::string_view left;
     std::array<char, 128> reason{};
@@ -47,7 +47,8 @@ struct PngSize {
     std::uint32_t passes = 0;
 };
 
-/// False: failed, see PngInput::reason. After it, samples have the form that is asked for.
+/// Prepares libpng to give samples in the form asked for. Returns false on failure, see
+/// PngInput::reason.
 bool read_size(png_structp png, png_infop info, PngForm form, PngSize& size) {
     if (setjmp(png_jmpbuf(png)) != 0) {
         return false;

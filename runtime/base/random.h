@@ -51,8 +51,8 @@ inline constexpr std::uint32_t kStartGeneration = 0xFFFFFFFFu;
                       {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
 }
 
-/// Where the draws of many positions are the same: of which seed, generation and block, and which
-/// of the block's four words.
+/// The part of a draw's key that many positions share: seed, generation, block, and which of the
+/// four words of the block.
 struct DrawKey {
     std::uint64_t seed = 0;
     std::uint32_t generation = 0;
@@ -60,15 +60,15 @@ struct DrawKey {
     std::uint32_t word = 0;
 };
 
-/// The draws at `count` positions, as u in [0, 1): several at a time where the machine can, the
-/// same numbers on any.
+/// Writes the draws at `count` positions to `units`, as u in [0, 1). Uses vector instructions if
+/// the machine has them; the numbers are the same on every machine.
 void draw_units(const DrawKey& key,
                 const std::uint64_t* positions,
                 std::size_t count,
                 float* units);
 
-/// First words of blocks `first_block` ... `first_block` + 7 at one position: eight at a time where
-/// the machine can, the same words on any.
+/// First words of blocks `first_block` ... `first_block` + 7 at one position. Uses vector
+/// instructions if the machine has them; the words are the same on every machine.
 inline constexpr std::uint32_t kBlockRun = 8;
 [[nodiscard]] std::array<std::uint32_t, kBlockRun> draw_block_run(std::uint64_t seed,
                                                                   std::uint32_t generation,
@@ -89,13 +89,13 @@ private:
 
     std::uint64_t seed_;
     std::uint64_t position_;
-    std::uint64_t block_ = kNoBlock; // the one in words_
+    std::uint64_t block_ = kNoBlock; // index of the block in words_
     std::uint32_t generation_;
     PhiloxBlock words_{};
 };
 
-/// `{minimum, maximum}` at u (docs/language.md section 4). Precondition: minimum <= maximum, finite
-/// width.
+/// The value of `{minimum, maximum}` at u (docs/language.md section 4). Precondition: minimum <=
+/// maximum, finite width.
 [[nodiscard]] float draw_in_range(float minimum, float maximum, float u);
 
 } // namespace lsys

@@ -1,4 +1,4 @@
-// Sizes in messages.
+// Numbers and sizes in messages.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -13,8 +13,8 @@ namespace lsys {
 [[nodiscard]] std::string grouped_digits(std::uint64_t value);
 /// 640 B, 1.5 KiB, 3.2 GiB
 [[nodiscard]] std::string byte_size_text(std::uint64_t bytes);
-/// `subject`, such as "its mesh", needs more memory than the `left` bytes that may still be used
-/// for what is read from files; of ErrorKind::Limit.
+/// The error (ErrorKind::Limit) that `subject`, such as "its mesh", needs more memory than the
+/// `left` bytes that the run may still use for files.
 [[nodiscard]] Error memory_error(std::string_view subject, std::uint64_t left);
 
 } // namespace lsys

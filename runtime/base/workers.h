@@ -1,5 +1,5 @@
-// Workers: the threads of one derivation. Work is a number of numbered pieces; which thread takes
-// which piece never shows in a result.
+// Workers: a team of threads. Work is a number of numbered pieces; results never depend on which
+// thread takes which piece.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,12 @@
 
 namespace lsys {
 
-/// A team that is ready in microseconds, which counts for words that derive in milliseconds:
-/// oneTBB's arenas take one to two milliseconds before their first task.
+/// The team is ready in microseconds, which matters for words that derive in milliseconds: oneTBB's
+/// arenas take one to two milliseconds before their first task.
 class Workers {
 public:
-    /// 0: as many as the machine has. No thread is started before it is needed. Builds without
-    /// threads (LSYS_THREADS=OFF) have one worker, the calling thread.
+    /// `threads` 0: as many as the machine has. No thread is started before it is needed. Builds
+    /// without threads (LSYS_THREADS=OFF) have one worker, the calling thread.
     explicit Workers(std::uint32_t threads);
     ~Workers();
     Workers(const Workers&) = delete;

@@ -28,7 +28,7 @@ std::string path_in(const std::string& folder, const std::string& path) {
     return (std::filesystem::path(folder) / path).string();
 }
 
-/// A scene of grammars alone.
+/// The scene of a list of grammars.
 Scene scene_of(const std::vector<std::string>& grammars) {
     Scene scene;
     scene.terrain.region = {0.0, 0.0, kUsualSize, kUsualSize};
@@ -43,7 +43,7 @@ Scene scene_of(const std::vector<std::string>& grammars) {
     return scene;
 }
 
-/// An error about a file or another name, where the scene has it.
+/// Ends the step with an error about a name, at its place in the scene if it has one.
 Step::Ended fail_at(SourceSpan place, const Error& error, const LoadedScene& loaded, Step& step) {
     if (place.file == kNoFile || step.project().is_cancelled()) {
         return step.fail(error);
@@ -256,7 +256,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
     }
     const Stopwatch growing;
     grown.forest.key = scene.placement.key;
-    std::set<const Texture*> known_pictures; // that are counted
+    std::set<const Texture*> known_pictures; // counted in the budget
     for (const SceneSpecies& species : scene.species) {
         const std::string path = path_in(loaded.folder, species.grammar.path);
         if (!project.host.file_exists(path)) {
@@ -290,7 +290,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
         for (std::size_t i = 0; i < stages; ++i) {
             const std::optional<std::uint32_t> generations =
                 species.stages.empty() ? std::nullopt : std::optional(species.stages[i]);
-            for (const UserMesh& mesh : meshes) { // those of the stage before
+            for (const UserMesh& mesh : meshes) { // of the previous stage
                 budget.give_back(mesh.byte_count());
             }
             meshes.clear();
@@ -321,7 +321,7 @@ mesh_forest(const GrownForest& grown, const MeshOptions& options, const Project&
             switch (make_instance_meshes(stage.cache, grown.user_meshes[s], limited,
                                          made.emplace_back())) {
             case InstanceMeshStatus::Ok:
-            case InstanceMeshStatus::Joined: // only of boxes, which are not offered
+            case InstanceMeshStatus::Joined: // only with boxes, which are not offered
                 break;
             case InstanceMeshStatus::TooManyVertices:
                 return step.fail("the heroes have more than 4,294,967,295 vertices; ask for fewer "

@@ -1,4 +1,4 @@
-// A scene and its forest: reads the files of the scene, makes the ground, derives and draws the
+// From a scene to its forest: reads the files of the scene, makes the ground, derives and draws the
 // heroes of each species, places the trees.
 #pragma once
 
@@ -24,32 +24,32 @@ namespace lsys {
 struct LoadedScene {
     Scene scene;
     std::shared_ptr<const SourceMap> sources; // of the places in `scene`
-    std::string folder;                       // that paths of the scene are relative to
+    std::string folder;                       // base of relative paths in the scene
 };
 
 /// A forest and the ground that it stands on.
 struct GrownForest {
     Forest forest;
-    std::vector<std::vector<UserMesh>> user_meshes; // of each species
+    std::vector<std::vector<UserMesh>> user_meshes; // by species
     std::optional<Terrain> terrain;
     std::optional<GreyMap> density_map;
     PlacementReport placed;
-    /// Of each species: its index in the known forest that its heroes were taken from; none: they
-    /// were grown.
+    /// By species: the index in the known forest from which the heroes were taken; none: they were
+    /// grown.
     std::vector<std::optional<std::size_t>> known;
-    std::vector<Messages> messages; // of each species
+    std::vector<Messages> messages; // by species
     double cache_seconds = 0.0;     // to derive and draw the heroes
     double place_seconds = 0.0;
 };
 
-/// A forest that was grown before. Species that ask for the same heroes take them from there,
-/// although their files may have changed since.
+/// A forest that was grown before. Species that ask for the same heroes take them from it, even if
+/// their files have changed since.
 struct KnownForest {
     const Scene* scene = nullptr;
     const GrownForest* grown = nullptr;
 };
 
-/// By the name: `.toml`.
+/// Whether the path names a scene: it ends in `.toml`.
 [[nodiscard]] bool is_scene(const std::string& path);
 
 /// Reads the scene file `files` names, or makes a scene of the grammars that it names, and applies
@@ -58,15 +58,16 @@ struct KnownForest {
                                               const SceneOverrides& overrides,
                                               const Project& project);
 
-/// Everything but the trees. Files that cannot be read are reported where the scene names them.
+/// Makes everything but the trees. A file that cannot be read is reported at its place in the
+/// scene.
 [[nodiscard]] Outcome<GrownForest>
 grow_species(const LoadedScene& loaded, const Project& project, const KnownForest& known);
 
-/// Places the trees.
+/// Places the trees of `grown`.
 [[nodiscard]] Outcome<Done>
 place_forest(const Scene& scene, const Project& project, GrownForest& grown);
 
-/// The meshes of all instances, by species and stage.
+/// Meshes all instances; by species and stage.
 [[nodiscard]] Outcome<std::vector<std::vector<InstanceMeshes>>>
 mesh_forest(const GrownForest& grown, const MeshOptions& options, const Project& project);
 

@@ -35,7 +35,7 @@ Error unknown_dialect(const std::string& path) {
                              path, dialect_names())};
 }
 
-/// The dialect of a file: as asked for, else as it tells.
+/// The dialect asked for, else the detected one.
 Result<Dialect> dialect_of(const std::string& path,
                            const std::string& dialect,
                            std::string_view bytes,
@@ -49,7 +49,7 @@ Result<Dialect> dialect_of(const std::string& path,
         return unknown_dialect(path);
     }
     if (is_module_file(bytes)) {
-        return Dialect::Lsys; // which the caller tells apart
+        return Dialect::Lsys; // the caller checks for module files
     }
     const DetectedDialect detected = detect_dialect(path, bytes);
     if (!detected.dialect) {
@@ -62,7 +62,7 @@ Result<Dialect> dialect_of(const std::string& path,
     return *detected.dialect;
 }
 
-/// The -D that no constant answers to, with the nearest that does.
+/// The error of a -D that names no constant, with the nearest name that exists.
 Error unknown_definition(const std::string& name, const Grammar& grammar) {
     std::string text = fmt::format("-D {}: the grammar has no #define or #param `{}`", name, name);
     if (grammar.program) {
@@ -161,7 +161,7 @@ Result<CompiledText> compile_text(const std::string& path,
     compiled.syntax_diagnostics = compiled.diagnostics.all().size();
     const bool foreign = text.dialect != Dialect::Lsys;
     if (foreign && compiled.diagnostics.has_errors()) {
-        return compiled; // nothing can be said of the rest
+        return compiled; // there is no whole translation to check
     }
     CompileOptions compile_options;
     compile_options.definitions = options.definitions;
@@ -173,7 +173,7 @@ Result<CompiledText> compile_text(const std::string& path,
     CompileOutcome outcome = compile(std::move(ast), grammar.names, *grammar.sources,
                                      compile_options, compiled.diagnostics);
     if (foreign) {
-        compiled.diagnostics.drop_repairs("`#"); // they are written in .lsys
+        compiled.diagnostics.drop_repairs("`#"); // repairs written in .lsys
     }
     grammar.program = std::move(outcome.program);
     if (outcome.bytecode) {

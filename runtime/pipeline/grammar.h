@@ -22,16 +22,16 @@ namespace lsys {
 
 /// How a grammar is read and compiled.
 struct GrammarOptions {
-    std::string dialect; // a name of one; empty: by what the file holds, else by its extension
+    std::string dialect; // its name; empty: detected by contents, else by extension
     bool bug_compatible = false;
-    std::string system; // of a file that holds several; empty: the only one
+    std::string system; // name in a file of several systems; empty: the only one
     std::vector<Definition> definitions;
-    /// Those of constants that the grammar does not have are ignored.
+    /// Definitions that are ignored if the grammar has no such constant.
     std::vector<Definition> optional_definitions;
     std::optional<std::uint32_t> generations; // instead of #n
 };
 
-/// The bytes of a grammar and the dialect that they are in.
+/// The bytes of a grammar and their dialect.
 struct GrammarText {
     std::string bytes;
     Dialect dialect = Dialect::Lsys;
@@ -41,39 +41,39 @@ struct GrammarText {
 struct Grammar {
     std::shared_ptr<SourceMap> sources = std::make_shared<SourceMap>();
     Names names;
-    std::optional<Program> program; // of a source without errors
+    std::optional<Program> program; // none for a .lsb file or after errors
     Bytecode bytecode;
-    std::string translation;     // .lsys text of a grammar of another dialect
+    std::string translation;     // to .lsys, of a grammar in another dialect
     bool is_module_file = false; // read from a .lsb: `sources` is empty
 };
 
-/// What compile_text() made of a text, also where that has errors.
+/// The result of compile_text(), also for a text with errors.
 struct CompiledText {
     Grammar grammar;
     Diagnostics diagnostics;
-    std::vector<SourceSpan> statements; // places of all, of those with errors too
-    /// The first diagnostics, before they are sorted, are those of the syntax.
+    std::vector<SourceSpan> statements; // of all statements, also with errors
+    /// Number of diagnostics of the syntax; they come first before sorting.
     std::size_t syntax_diagnostics = 0;
     bool has_bytecode = false;             // there are no errors
-    std::optional<Error> definition_error; // a -D of no constant
+    std::optional<Error> definition_error; // -D names no constant
 };
 
 /// `path` in messages; `-` is standard input.
 [[nodiscard]] std::string shown_path(const std::string& path);
 
-////// Reads files for #include, which take at most `max_bytes` together.
+/// A reader of files for #include, at most `max_bytes` in all.
 [[nodiscard]] FileLoader make_loader(const Project& project, std::uint64_t max_bytes);
 
-/// `dialect`: a name of one, or empty. Failed: the file cannot be read, or nothing tells its
-/// dialect.
+/// Reads a grammar. `dialect`: a name, or empty to detect it. Stop::Failed: the file cannot be
+/// read, or its dialect is unknown.
 [[nodiscard]] Outcome<GrammarText>
 read_grammar(const std::string& path, const std::string& dialect, const Project& project);
 
-/// Error: `system` is given for a dialect whose files are one system.
+/// Error: GrammarOptions::system is set for a dialect with one system per file.
 [[nodiscard]] Result<Done>
 check_system(const std::string& path, Dialect dialect, const GrammarOptions& options);
 
-/// Compiles the `text` of `path`. Error: check_system().
+/// Compiles the `text` of `path`. Errors: those of check_system().
 [[nodiscard]] Result<CompiledText> compile_text(const std::string& path,
                                                 GrammarText text,
                                                 const GrammarOptions& options,

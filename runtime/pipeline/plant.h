@@ -16,11 +16,11 @@
 namespace lsys {
 
 struct PlantOptions {
-    std::string file; // the grammar's path: files of `#object` lie beside it
+    std::string file;                         // path of the grammar, the base of files of `#object`
     std::optional<std::uint32_t> generations; // none: those of #n
     std::optional<std::uint64_t> seed;        // none: that of #set seed
     bool stream = false;                      // store no word
-    bool origins = false;                     // of what is drawn
+    bool origins = false;                     // keep the origins of segments and objects
 };
 
 /// A plant and how long its steps took.
@@ -30,24 +30,24 @@ struct Plant {
     std::uint64_t modules = 0;         // of the derived word
     std::uint32_t generations = 0;
     std::uint64_t seed = 0;
-    double derive_seconds = 0.0; // with drawing, where no word is stored
+    double derive_seconds = 0.0; // includes drawing if no word is stored
     double draw_seconds = 0.0;
 };
 
-/// Generations, seed, limits and threads of a derivation of the grammar; reports progress to the
-/// host.
+/// Options for a derivation of the grammar: generations, seed, limits, threads, cancellation.
 [[nodiscard]] DeriveOptions
 derive_options(const PlantOptions& options, const Bytecode& bytecode, const Project& project);
 
-/// Folds all modules that a derivation from the axiom can reach: the bytecode becomes a program
-/// that derives the same words faster, with codes of its own.
+/// Folds all modules that a derivation from the axiom can reach (fold_reached()): the bytecode then
+/// derives the same words faster, with codes of its own.
 void fold_modules(const DeriveOptions& options, Bytecode& bytecode);
 
 /// Derives and draws. The grammar's bytecode is folded.
 [[nodiscard]] Outcome<Plant>
 grow_plant(const PlantOptions& options, Grammar& grammar, const Project& project);
 
-/// Meshes a skeleton of the plant, bent or not. Threads and limit of memory are the project's.
+/// Meshes `skeleton`, that of the plant or a bent one, with the threads and the limit of memory of
+/// the project.
 [[nodiscard]] Outcome<Mesh> mesh_plant(const Plant& plant,
                                        const Skeleton& skeleton,
                                        const MeshOptions& options,

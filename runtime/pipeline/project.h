@@ -1,4 +1,4 @@
-// Project: what all steps of the pipeline share: the host that gives files and takes progress, and
+// Project: input of all steps of the pipeline: the host, which gives files and takes progress, and
 // the limits of a run.
 #pragma once
 
@@ -15,27 +15,26 @@ namespace lsys {
 
 /// How far a derivation has come.
 struct DerivationProgress {
-    std::uint32_t generation = 0;  // the one that is being written
-    std::uint32_t generations = 0; // asked for
-    std::uint64_t modules = 0;     // written of it
-    /// Modules expected of each generation from 0 on; empty where that is not known.
+    std::uint32_t generation = 0;  // being written
+    std::uint32_t generations = 0; // to derive
+    std::uint64_t modules = 0;     // written of this generation
+    /// Expected number of modules per generation from 0 on; empty if unknown.
     const std::vector<double>& expected;
 };
 
-////// How much of a file may be read.
+/// How much of a file may be read.
 struct ReadLimit {
-    std::uint64_t max_bytes = 0;              // of a file of its kind
-    std::uint64_t memory = ~std::uint64_t{0}; // left for it: more is an Error of ErrorKind::Limit
+    std::uint64_t max_bytes = 0;              // for a file of its kind
+    std::uint64_t memory = ~std::uint64_t{0}; // left; more is an Error of ErrorKind::Limit
 };
 
-/// What the pipeline asks of the program around it. The functions may be called from any thread,
+/// Services of the program that calls the pipeline. The functions may be called from any thread,
 /// but never from two at once.
 struct Host {
-    ///    /// The bytes of a file that the user names, which may be a pipe. An Error is the reason
-    ///    alone:
-    /// "no such file or directory".
+    /// Reads a file that the user names, which may be a pipe. The Error is the reason alone: "no
+    /// such file or directory".
     std::function<Result<std::string>(const std::string& path, const ReadLimit& limit)> read_file;
-    /// The same of a file that another file names: a regular one, so that nobody waits for it.
+    /// Reads a file that another file names. Refuses pipes, so that the program never waits.
     std::function<Result<std::string>(const std::string& path, const ReadLimit& limit)>
         read_named_file;
     std::function<bool(const std::string& path)> file_exists;
@@ -47,7 +46,7 @@ struct Host {
 
 struct Project {
     Host host;
-    Limits limits;             // modules of one word; bytes of each word, skeleton, mesh and file
+    Limits limits;             // modules per word; bytes per word, skeleton, mesh and file
     std::uint32_t threads = 0; // 0: as many as the machine has
     bool deny_warnings = false;
 

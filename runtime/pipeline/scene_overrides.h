@@ -22,7 +22,7 @@ struct ForestTile {
 };
 
 struct SceneOverrides {
-    GrammarOptions grammar; // of all species; generations: one stage of that age
+    GrammarOptions grammar; // for all species; generations: one stage of that age
     std::optional<std::uint64_t> key;
     std::optional<std::uint64_t> seed; // of the heroes
     std::optional<std::uint32_t> heroes;
@@ -31,7 +31,7 @@ struct SceneOverrides {
     std::optional<float> tolerance;
     std::optional<PlacementMethod> method;
     std::optional<std::uint64_t> count;
-    std::optional<float> size;    // m, of a square around the origin
+    std::optional<float> size;    // m, side of a square around the origin
     std::optional<float> spacing; // m
     std::optional<float> density; // places per square metre
     std::string density_map;      // absolute, or relative to the working folder
@@ -39,7 +39,7 @@ struct SceneOverrides {
     std::optional<ForestTile> tile;
 };
 
-/// Error: a tile of a placement that has none.
+/// Applies the set options to `scene`. Error: a tile with a placement that has none.
 [[nodiscard]] Result<Done> apply(const SceneOverrides& overrides, Scene& scene);
 
 } // namespace lsys

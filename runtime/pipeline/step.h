@@ -16,9 +16,9 @@ public:
 
     [[nodiscard]] const Project& project() const { return project_; }
 
-    /// A file that the user names; its Error names the file.
+    /// Reads a file that the user names. The Error names the file.
     [[nodiscard]] Result<std::string> read(const std::string& path, const ReadLimit& limit) const;
-    /// A file that another file names; its Error names the file.
+    /// Reads a file that another file names. The Error names the file.
     [[nodiscard]] Result<std::string> read_named(const std::string& path,
                                                  const ReadLimit& limit) const;
 
@@ -26,7 +26,7 @@ public:
     /// step may go on.
     bool diagnose(Diagnostics diagnostics, std::shared_ptr<const SourceMap> sources);
     bool diagnose(Diagnostic diagnostic, std::shared_ptr<const SourceMap> sources);
-    /// Takes over the value of a step within this one; returns whether there is one.
+    /// Takes over messages and value of an inner step; returns whether there is a value.
     template <typename T>
     [[nodiscard]] bool take(Outcome<T> outcome, T& value) {
         messages.append(std::move(outcome.messages()));
@@ -38,14 +38,14 @@ public:
         return true;
     }
 
-    /// The end of a step whose value is `value`, without value, or as the step within it that
-    /// take() found ended.
+    /// Ends the step: done() with a value, end(stop) without one, end() like the inner step that
+    /// take() has refused.
     template <typename T>
     [[nodiscard]] Outcome<T> done(T value) {
         return {std::move(value), std::move(messages)};
     }
 
-    /// Converts to the Outcome of any type.
+    /// An end without value; converts to any Outcome.
     struct Ended {
         Stop stop;
         Messages messages;
@@ -57,10 +57,10 @@ public:
     };
     [[nodiscard]] Ended end(Stop stop) { return {stop, std::move(messages)}; }
     [[nodiscard]] Ended end() { return end(stop_); }
-    /// Limit where a diagnostic says so, else Diagnosed.
+    /// Ends with Stop::Limit if a diagnostic is about a limit, else with Stop::Diagnosed.
     [[nodiscard]] Ended end_diagnosed();
-    /// A failure of the environment, or a limit of memory; Cancelled where the host has cancelled
-    /// the step.
+    /// Ends with a failure of the environment or a limit of memory, or with Stop::Cancelled if the
+    /// host has cancelled the step.
     [[nodiscard]] Ended fail(Error error);
     [[nodiscard]] Ended fail(std::string message) { return fail(Error{std::move(message)}); }
 

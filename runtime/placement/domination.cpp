@@ -20,17 +20,18 @@ namespace {
 
 constexpr std::uint64_t kPiece = 2048;
 constexpr std::uint64_t kPiecesAtOnce = 8; // for each worker
-/// A plant without any tolerance dies when it has been in the shade for this part of the time in
-/// which its radius grew, so the time is longer for larger plants.
+/// A plant without tolerance dies after this fraction of the time in which its radius grew has
+/// passed in the shade, so the time is longer for larger plants.
 constexpr float kShadeEndured = 0.25F;
-constexpr float kLifeSpread = 0.2F; // of the lifespan, to both sides
+constexpr float kLifeSpread = 0.2F; // relative to the lifespan, +-
 constexpr std::uint32_t kEndOfNumbers = 0xFFFFFFFFu;
 
 std::uint32_t oldest_age(const SpeciesGrowth& growth) {
     return growth.lifespan + growth.lifespan / 5 + 1;
 }
 
-/// A point of the unit disc, from two of its square; false once in 22 times, when both miss it.
+/// Finds a point of the unit disc among two of its square. Returns false if both miss it, once in
+/// 22 times.
 bool find_in_disc(const PhiloxBlock& words, std::array<double, 2>& point) {
     for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
         point = {2.0 * unit(words[i]) - 1.0, 2.0 * unit(words[i + 1]) - 1.0};
@@ -41,7 +42,7 @@ bool find_in_disc(const PhiloxBlock& words, std::array<double, 2>& point) {
     return false;
 }
 
-/// m a year, in the open.
+/// Growth in the open, m per year.
 float open_growth(const SpeciesGrowth& growth, float radius, float vigour) {
     return growth.rate * vigour * (1.0F - radius / growth.greatest_radius);
 }
@@ -54,13 +55,13 @@ std::vector<float> open_radii(const SpeciesGrowth& growth) {
     return radii;
 }
 
-/// Where a seed becomes a plant.
+/// The place where a seed sprouts.
 struct Sprout {
     glm::vec2 place;
     std::uint16_t species = 0;
 };
 
-/// What draws and limits of a placement say about one plant or seed.
+/// Draws and limits of the placement for one plant or seed.
 class Life {
 public:
     Life(const PlacementOptions& options, const Terrain& terrain, std::uint32_t year)
@@ -87,7 +88,7 @@ public:
         plant.radius += plant.dominated ? more * growth.tolerance : more;
     }
 
-    /// Stress of a year in shade, or recovery in a year without.
+    /// Stress of a year in the shade, or recovery of a year in the open.
     void suffer(ForestPlant& plant) const {
         const SpeciesGrowth& growth = growth_of(plant);
         const float harm = growth.rate * plant.vigour / (plant.radius * kShadeEndured);
@@ -107,7 +108,7 @@ public:
         return static_cast<float>(plant.age) >= span * (1.0F + kLifeSpread * (2.0F * u - 1.0F));
     }
 
-    /// Seeds of this year.
+    /// Number of seeds of a plant this year.
     [[nodiscard]] std::uint32_t seed_count(const ForestPlant& plant) const {
         const SpeciesGrowth& growth = growth_of(plant);
         if (plant.dominated || plant.age < growth.maturity || growth.seeds <= 0.0F) {

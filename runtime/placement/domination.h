@@ -1,9 +1,8 @@
 // Domination: a forest that grows and thins itself, year by year, after Deussen et al. 1998,
 // "Realistic modeling and rendering of plant ecosystems", section 4.1. Every plant has a circle of
-// influence that grows. Where two circles meet the weaker plant is dominated: it is stunted, and
-// dies when it has been too long. Plants that are not dominated have seeds, and die of age. No rule
-// says how many plants there are for their size; the law of self-thinning (Yoda et al. 1963) comes
-// out.
+// influence that grows. If two circles meet, the weaker plant is dominated: it is stunted, and dies
+// after too long a time. Plants that are not dominated have seeds, and die of age. No rule relates
+// the number of plants to their size; the law of self-thinning (Yoda et al. 1963) emerges.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -20,33 +19,33 @@ namespace lsys {
 struct ForestPlant {
     glm::vec2 place{};         // m, x and z
     float radius = 0.0F;       // m, of influence
-    float vigour = 1.0F;       // 0 to 1: of growth and strength
+    float vigour = 1.0F;       // 0 to 1, factor of growth and strength
     float stress = 0.0F;       // from 0; the plant dies at 1
-    std::uint32_t number = 0;  // of its tree, in the order in which plants sprouted
+    std::uint32_t number = 0;  // of the tree, in the order of sprouting
     std::uint16_t species = 0; // in PlacementOptions::species
-    std::uint16_t age = 0;     // years; 1 in that in which it sprouted
-    bool dominated = false;    // a circle of a stronger plant meets its own
+    std::uint16_t age = 0;     // years; 1 in the year of sprouting
+    bool dominated = false;    // its circle meets that of a stronger plant
 };
 static_assert(sizeof(ForestPlant) <= 32);
 
 class Domination {
 public:
-    /// Year 0: `options.count` plants in their first year, at uniform places. Options other than
-    /// key, region, species, count and threads are not read. `terrain` must outlive the value.
-    /// Error: as of place_trees().
+    /// Starts in year 0 with `options.count` plants in their first year, at uniform places. Options
+    /// other than key, region, species, count and threads are ignored. `terrain` must outlive the
+    /// value. Errors: those of place_trees().
     [[nodiscard]] static Result<Domination> begin(const PlacementOptions& options,
                                                   const Terrain& terrain);
 
-    /// One year: seeds, growth, domination, death. Time is about linear in the plants. The same for
-    /// any number of threads. Error: more than kMaxTrees plants and seeds, more numbers than 32
-    /// bits hold, or the end of kMaxYears; the forest is then as it was.
+    /// Advances one year: seeds, growth, domination, death, in time about linear in the plants. The
+    /// result is the same for any number of threads. Errors: more than kMaxTrees plants and seeds,
+    /// more numbers than 32 bits hold, the end of kMaxYears; the forest is then unchanged.
     [[nodiscard]] Result<Done> step();
 
     [[nodiscard]] std::uint32_t year() const { return year_; }
-    /// The living, by number. No two circles of plants that are not dominated meet.
+    /// The living plants by number. No two circles of plants that are not dominated meet.
     [[nodiscard]] const LargeVector<ForestPlant>& plants() const { return plants_; }
-    /// The living as trees, in the same order. A tree's scale is that drawn for it times its radius
-    /// by that of a plant of its age and full vigour that was never dominated.
+    /// The living plants as trees, in the same order. A tree's scale is the drawn one times the
+    /// ratio of its radius to that of a plant of its age and full vigour that was never dominated.
     [[nodiscard]] LargeVector<Tree> trees() const;
     [[nodiscard]] const PlacementReport& report() const { return report_; }
 
@@ -58,7 +57,7 @@ private:
     std::uint32_t year_ = 0;
     std::uint32_t next_number_ = 0;
     LargeVector<ForestPlant> plants_;
-    /// Radius at each age, of each species, in the open and of full vigour.
+    /// Radius by species and age, in the open with full vigour.
     std::vector<std::vector<float>> open_radii_;
     PlacementReport report_;
 };

@@ -18,7 +18,7 @@ namespace lsys {
 
 namespace {
 
-/// A text as TOML writes it.
+/// A text as a TOML string.
 std::string quoted(std::string_view text) {
     std::string result = "\"";
     for (const char c : text) {
@@ -41,7 +41,7 @@ std::string table_text(const Painting& painting, std::span<const std::string> sp
     if (!painting.trees.empty()) {
         text += "trees = [ # species, x, z, yaw in degrees, scale\n";
         for (const PaintedTree& tree : painting.trees) {
-            // The nearest degree that is read back as the same angle is the one itself.
+            // a whole degree, if it is read back as the same angle
             fmt::format_to(std::back_inserter(text), "  [{}, {}, {}, {}, {}],\n",
                            quoted(species[tree.species]), tree.x, tree.z,
                            static_cast<double>(tree.yaw) * 180.0 / std::numbers::pi, tree.scale);
@@ -59,7 +59,7 @@ std::string table_text(const Painting& painting, std::span<const std::string> sp
     return text;
 }
 
-/// Where the `[painted]` of a file lies, its heading and all its values.
+/// The span of `[painted]` in a file: its heading and all its values.
 struct TablePlace {
     std::size_t begin = 0;
     std::size_t end = 0;

@@ -1,5 +1,5 @@
-// Painting: trees that somebody has put into a forest by hand, and those taken away. A part of a
-// scene; applied to what was placed.
+// Painting: trees added to a forest by hand, and trees erased. Part of a scene; applied to the
+// placed trees.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -16,8 +16,8 @@
 
 namespace lsys {
 
-/// Painted trees have numbers from here on, by where they stand: a tree looks the same whatever
-/// else is painted.
+/// Painted trees have numbers from here on, derived from their position: the look of a tree does
+/// not depend on other painted trees.
 inline constexpr std::uint32_t kFirstPainted = 0x8000'0000U;
 inline constexpr std::size_t kMaxPainted = 10'000'000;
 
@@ -33,24 +33,24 @@ struct PaintedTree {
 
 struct Painting {
     std::vector<PaintedTree> trees;
-    std::vector<std::uint32_t> erased; // Tree::number of placed trees that are gone; rising
+    std::vector<std::uint32_t> erased; // Tree::number of erased trees, ascending
 
     [[nodiscard]] bool empty() const { return trees.empty() && erased.empty(); }
     friend bool operator==(const Painting&, const Painting&) = default;
 };
 
-/// The tree that stands where it was painted.
+/// The tree of a painted one, on the terrain.
 [[nodiscard]] Tree painted_tree(const PaintedTree& painted, const Terrain& terrain);
 
-/// Takes the erased trees away and puts behind the others those that were painted within `region`.
+/// Removes the erased trees and appends those painted within `region`.
 void apply_painting(const Painting& painting,
                     const Region& region,
                     const Terrain& terrain,
                     LargeVector<Tree>& trees);
 
-/// The text of a scene file with `painting` instead of the one it has; everything else stays as it
-/// is. `species` are the names of the scene's. Error: the file's own `[painted]` is written in a
-/// way that cannot be replaced.
+/// The text of a scene file with its painting replaced by `painting`. `species` holds the names of
+/// the scene's species. Error: the `[painted]` of the file is written in a way that cannot be
+/// replaced.
 [[nodiscard]] Result<std::string> with_painting(std::string_view scene,
                                                 const Painting& painting,
                                                 std::span<const std::string> species);

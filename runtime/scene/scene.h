@@ -1,6 +1,6 @@
-// Scene: what a scene file asks for: a ground, species, where their plants stand. A scene file is
-// TOML; samples/scenes/README.md lists its keys. Made by parse_scene() and then changed by options
-// of a command line; files that it names are opened by whoever uses it.
+// Scene: the contents of a scene file: a ground, species, and the placement of their plants. A
+// scene file is TOML; samples/scenes/README.md lists its keys. Made by parse_scene(), then changed
+// by options of a command line. Its users open the files that it names.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -18,17 +18,17 @@
 
 namespace lsys {
 
-inline constexpr float kSceneRho = 0.6F; // of Carey 2019
+inline constexpr float kSceneRho = 0.6F; // as in Carey 2019
 inline constexpr std::uint32_t kMaxHeroes = 100'000;
-inline constexpr std::uint32_t kMaxSceneSpecies = 65'536; // that Tree::species counts
+inline constexpr std::uint32_t kMaxSceneSpecies = 65'536; // range of Tree::species
 
-/// A file as the scene names it: a path that is absolute, or relative to the scene's folder.
+/// A file named by the scene: an absolute path, or one relative to the scene's folder.
 struct SceneFile {
     std::string path; // empty: none
     SourceSpan span;
 };
 
-/// A name that a scene gives, and where; empty: none.
+/// A name in the scene and its place; empty: none.
 struct SceneName {
     std::string text;
     SourceSpan span;
@@ -39,16 +39,16 @@ enum class TerrainKind : std::uint8_t { Flat, Noise, HeightMap };
 struct SceneTerrain {
     TerrainKind kind = TerrainKind::Flat;
     Region region{0.0, 0.0, 100.0, 100.0};
-    double base = 0.0; // m; altitude of Flat, and noise.base
+    double base = 0.0; // m, altitude of Flat; noise.base of Noise
     NoiseOptions noise;
     SceneFile map;                 // HeightMap
     std::uint32_t map_columns = 0; // of raw samples; 0: the map is a PNG
     std::uint32_t map_rows = 0;
     HeightMapOptions height_map;
-    SourceSpan span; // of `[terrain]`; kNoFile: there is none
+    SourceSpan span; // of `[terrain]`; kNoFile if missing
 };
 
-/// Replaces a constant of the grammar, as `-D`.
+/// Replaces a constant of the grammar, like `-D`.
 struct SceneDefinition {
     std::string name;
     float value = 0.0F;
@@ -56,32 +56,32 @@ struct SceneDefinition {
 };
 
 struct SceneSpecies {
-    std::string name; // no two are alike
+    std::string name; // unique
     SceneFile grammar;
-    SceneName dialect; // of the grammar; empty: what it holds tells
-    SceneName system;  // of a file that holds several; empty: the only one
+    SceneName dialect; // of the grammar; empty: detected
+    SceneName system;  // in a file of several systems; empty: the only one
     bool bug_compatible = false;
     std::vector<SceneDefinition> definitions;
-    /// One number of generations for each stage, rising; empty: one stage, the grammar's own.
+    /// Generations per stage, ascending; empty: one stage with the generations of the grammar.
     std::vector<std::uint32_t> stages;
-    float years_of_stage = 0.0F; // 0: there is one stage
+    float years_of_stage = 0.0F; // 0: one stage
     float rho = kSceneRho;
-    CacheOptions cache; // heroes, seed, cap and tolerance; the rest is not the scene's
+    CacheOptions cache; // only heroes, seed, cap and tolerance are set
     SourceSpan span;    // of `[[species]]`
 };
 
 struct Scene {
     SceneTerrain terrain;
     std::vector<SceneSpecies> species; // at least one
-    /// With key, region of the terrain, and a species for each of `species`; without density_map.
+    /// Has the key, the region of the terrain and one entry per `species`; no density_map.
     PlacementOptions placement;
-    Painting painting;     // what was changed by hand
+    Painting painting;     // changes by hand
     SceneFile density_map; // DensityMap, DensityCells; spans the region of the terrain
-    SourceSpan span;       // of `[placement]`; kNoFile: there is none
+    SourceSpan span;       // of `[placement]`; kNoFile if missing
 };
 
-/// Reads `file` as a scene. Every mistake is reported once, in order of place; a file that is no
-/// TOML has one. None if there is any.
+/// Reads `file` as a scene. Reports each mistake once, in order of place; a file that is not TOML
+/// has one. Returns none if there is a mistake.
 [[nodiscard]] std::optional<Scene>
 parse_scene(FileId file, const SourceMap& sources, Diagnostics& diagnostics);
 

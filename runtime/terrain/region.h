@@ -1,13 +1,13 @@
-// Region: a rectangle of the ground along the axes, in metres. Half open, so that regions side by
-// side share no point.
+// Region: an axis-aligned rectangle of the ground, in metres. Half open, so that adjacent regions
+// share no point.
 #pragma once
 
 #include "grammar/base/result.h"
 
 namespace lsys {
 
-/// Beyond this, a coordinate in binary32 is coarser than 7 cm.
-inline constexpr double kFarthest = 1.0e6; // m, of a coordinate
+/// Max coordinate, in m. Beyond it binary32 is coarser than 7 cm.
+inline constexpr double kFarthest = 1.0e6;
 
 struct Region {
     double x = 0.0;     // m, lowest
@@ -24,8 +24,8 @@ struct Region {
     friend bool operator==(const Region&, const Region&) = default;
 };
 
-/// Why nothing can be made on `region`: a side that is not a positive number, or a corner farther
-/// than kFarthest from the origin.
+/// Checks `region`. Errors: a side that is not a positive number; a corner farther than kFarthest
+/// from the origin.
 [[nodiscard]] Result<Done> check_region(const Region& region);
 
 } // namespace lsys

@@ -16,15 +16,15 @@ namespace lsys {
 namespace {
 
 constexpr double kPeriod = 256.0; // cells after which stb's noise repeats
-/// Part of the finest feature over which slopes are measured. Places within the noise are exact to
-/// 2^-17 of a cell, which leaves an error of 1 in 2,000 there.
+/// Fraction of the finest feature over which slopes are measured. Coordinates in the noise are
+/// exact to 2^-17 of a cell, which leaves an error of 1 in 2,000.
 constexpr double kSlopePart = 1.0 / 32.0;
-constexpr double kLeastSlopeStep = 0.05; // m; binary32 is coarser than less of it far out
-/// The generation that the draws of terrains take; derivations never come to it.
+constexpr double kLeastSlopeStep = 0.05; // m; less is finer than binary32 far out
+/// Generation of the draws of terrains, beyond those of derivations.
 constexpr std::uint32_t kTerrainGeneration = 0xFFFFFFFCu;
 
 bool within(double value, double least, double most) {
-    return value >= least && value <= most; // false for what is no number
+    return value >= least && value <= most; // false for NaN
 }
 
 Result<Done> check_noise(const NoiseOptions& options) {
@@ -91,7 +91,7 @@ Result<Terrain> Terrain::noise(const Region& region, const NoiseOptions& options
     double height = 1.0;
     double sum = 0.0;
     for (std::uint32_t number = 0; number < options.octaves; ++number) {
-        // Octaves have places of their own within the noise: in common, their zeros would meet.
+        // each octave is shifted within the noise: otherwise their zeros would coincide
         const PhiloxBlock words = draw_block(options.seed, kTerrainGeneration, number, 0);
         terrain.octaves_.push_back({scale, static_cast<double>(words[0]) * (kPeriod * 0x1p-32),
                                     static_cast<double>(words[1]) * (kPeriod * 0x1p-32),

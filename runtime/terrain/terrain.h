@@ -1,5 +1,5 @@
-// Terrain: the ground of a forest. One function gives its height; placement, meshes and picking all
-// call it, so that trees stand on what is drawn. Metres, +Y up.
+// Terrain: the ground of a forest. One function gives its height to placement, meshes and picking,
+// so that trees stand on the drawn ground. Metres, +Y up.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -23,22 +23,21 @@ inline constexpr std::uint32_t kMaxOctaves = 16;
 struct NoiseOptions {
     std::uint64_t seed = 0;
     std::uint32_t octaves = 6; // 1 to kMaxOctaves
-    double lacunarity = 2.0;   // features of an octave for one of that before, 1 to 8
-    double gain = 0.5;         // height of an octave by that before, 0 to 1
+    double lacunarity = 2.0;   // ratio of frequencies of successive octaves, 1 to 8
+    double gain = 0.5;         // ratio of heights of successive octaves, 0 to 1
     double feature = 250.0;    // m, between hills of the first octave
-    double height = 50.0; // m; heights lie in [base, base + height], most within its middle half
-    double base = 0.0;    // m
+    double height = 50.0;      // m; heights lie in [base, base + height], most in the middle half
+    double base = 0.0;         // m
 
     friend bool operator==(const NoiseOptions&, const NoiseOptions&) = default;
 };
 
 enum class HeightFilter : std::uint8_t {
     Bilinear,
-    Bicubic, // Catmull-Rom (Keys 1981, a = -1/2); smooth, may pass the range of its samples a
-             // little
+    Bicubic, // Catmull-Rom (Keys 1981, a = -1/2); smooth, may overshoot its samples slightly
 };
 
-/// Black lies at `lowest`, white at `highest`. The middles of the outermost pixels lie upon the
+/// Black lies at `lowest`, white at `highest`. The centres of the outermost pixels lie on the
 /// border of the ground, so columns - 1 cells span it.
 struct HeightMapOptions {
     double lowest = 0.0;   // m
@@ -48,31 +47,31 @@ struct HeightMapOptions {
 
 class Terrain {
 public:
-    /// A level ground. Error: a bad region, an altitude that is no number or beyond kFarthest.
+    /// Makes a level ground. Errors: a bad region; an altitude that is NaN or beyond kFarthest.
     [[nodiscard]] static Result<Terrain> flat(const Region& region, double altitude = 0.0);
-    /// Goes on beyond `region`, the same wherever `region` lies. Error: also a bad option, which it
-    /// names.
+    /// Makes ground of noise, which continues beyond `region` and does not depend on it. Errors:
+    /// also a bad option, named.
     [[nodiscard]] static Result<Terrain> noise(const Region& region, const NoiseOptions& options);
-    /// Goes on level beyond its border. Error: also fewer than 2 by 2 pixels.
+    /// Makes ground from a map, level beyond its border. Errors: also fewer than 2 by 2 pixels.
     [[nodiscard]] static Result<Terrain>
     height_map(const Region& region, GreyMap map, const HeightMapOptions& options);
 
     [[nodiscard]] const Region& region() const { return region_; }
-    /// m at a place in m. The same on every machine; finite within kFarthest.
+    /// Height in m at a place in m. The same on every machine; finite within kFarthest.
     [[nodiscard]] float height(float x, float z) const;
-    /// Of unit length, by differences over slope_step(), which do not reach beyond a height map.
+    /// Unit normal, by differences over slope_step() that stay within a height map.
     [[nodiscard]] glm::vec3 normal(float x, float z) const;
-    /// Rise over run: 0 is level, 1 is 45 degrees. By the same differences.
+    /// Rise over run by the same differences: 0 is level, 1 is 45 degrees.
     [[nodiscard]] float slope(float x, float z) const;
-    /// m; the distance over which slopes are measured, from the finest feature.
+    /// Distance in m over which slopes are measured, from the finest feature.
     [[nodiscard]] double slope_step() const { return slope_step_; }
 
 private:
     struct Octave {
-        double scale = 0.0; // cells a metre
+        double scale = 0.0; // cells per metre
         double shift_x = 0.0;
         double shift_z = 0.0;
-        float layer = 0.0F; // of the noise, which is of three dimensions
+        float layer = 0.0F; // third coordinate in the noise
         double height = 0.0;
     };
 
@@ -84,7 +83,7 @@ private:
 
     Region region_;
     double base_ = 0.0;
-    double map_scale_ = 0.0; // m for one grey value
+    double map_scale_ = 0.0; // m per grey value
     double slope_step_ = 1.0;
     std::vector<Octave> octaves_;
     std::optional<GreyMap> map_;
@@ -93,16 +92,16 @@ private:
 
 inline constexpr std::uint64_t kMaxTerrainCells = std::uint64_t{1} << 24; // 0.9 GB of mesh
 
-/// Cells of a mesh of the ground along X and Z.
+/// Options of a mesh of the ground: cells along X and Z.
 struct TerrainMeshOptions {
     std::uint32_t columns = 256;
     std::uint32_t rows = 256;
-    double texture_size = 0.0; // m of the ground for one texture; 0: one for the whole ground
+    double texture_size = 0.0; // m of ground per texture; 0: one texture for all
     std::uint32_t threads = 0; // 0: as many as the machine has
 };
 
-/// The terrain's region as two triangles a cell. Every vertex lies at height() of its x and z and
-/// has normal() there; u runs along X and v along Z. The same for any number of threads. Error: no
+/// Meshes the terrain's region with two triangles per cell. Vertices have height() and normal() of
+/// their x and z; u runs along X and v along Z. The same for any number of threads. Errors: no
 /// cells, or more than kMaxTerrainCells.
 [[nodiscard]] Result<Mesh> make_terrain_mesh(const Terrain& terrain,
                                              const TerrainMeshOptions& options);

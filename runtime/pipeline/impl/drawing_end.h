@@ -1,5 +1,5 @@
-// What the end of a derivation and of the drawing of its word means for a step: shared by single
-// plants and the heroes of forests.
+// Reports the end of a derivation and of the drawing of its word to a step, for single plants and
+// for the heroes of forests.
 #pragma once
 
 #include "runtime/derive/derive.h"

@@ -31,10 +31,10 @@ struct Library {
     std::string path;
     std::string text;
     std::unordered_map<std::string, MaterialPicture> materials;
-    FileId file = kNoFile; // once it has a diagnostic
+    FileId file = kNoFile; // added for its first diagnostic
 };
 
-/// Finds and reads the picture of a mesh that was read from `text`, the file `path`.
+/// Finds and reads the picture of the mesh in the file `path`, whose contents are `text`.
 class PictureSearch {
 public:
     PictureSearch(const std::string& path,
@@ -84,7 +84,7 @@ public:
     }
 
     Diagnostics diagnostics;
-    bool has_limit = false; // memory is missing
+    bool has_limit = false; // a picture needed too much memory
     std::shared_ptr<SourceMap> sources = std::make_shared<SourceMap>();
 
 private:
@@ -92,7 +92,8 @@ private:
         return budget_.left - std::min(budget_.left, held_);
     }
 
-    /// At the place of `name` in `text`: a warning, or an error where the memory is missing.
+    /// Reports at the place of `name` in `text`: a warning, or an error if it needs too much
+    /// memory.
     void report(const std::string& path,
                 const std::string& text,
                 FileId& file,
@@ -129,7 +130,7 @@ private:
         report(path, text, file, name, Error{std::move(message)});
     }
 
-    /// The picture of a material; no path: it has none.
+    /// The picture of a material; an empty path if it has none.
     struct Found {
         std::string path;
         Library* library = nullptr;
@@ -208,7 +209,7 @@ private:
     const std::string& text_;
     FileBudget& budget_;
     UserMesh& mesh_;
-    std::uint64_t held_; // bytes that the budget does not know: the text of the files, the mesh
+    std::uint64_t held_; // bytes not in the budget: the text of the files, the mesh
     FileId obj_ = kNoFile;
     bool reported_unknown_ = false;
     std::vector<Library> libraries_;

@@ -13,13 +13,12 @@
 namespace lsys {
 
 struct MeshFiles {
-    std::vector<UserMesh> meshes; // of the MeshFile symbols, in their order
-    std::vector<float> lengths;   // along +Y, by symbol; empty where there are no meshes
+    std::vector<UserMesh> meshes; // in the order of the MeshFile symbols
+    std::vector<float> lengths;   // along +Y, by symbol; empty if there are no meshes
 };
 
-/// Reads the mesh files, which lie beside `grammar_file` unless their path is absolute. Meshes
-/// whose/// picture is missing or cannot be shown have none, which is a warning at its place.
-/// `budget` counts the memory of all that is read.
+/// Reads the mesh files, whose paths are relative to `grammar_file` or absolute. A picture that is
+/// missing or cannot be shown is left out with a warning at its place. `budget` counts the memory.
 [[nodiscard]] Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
                                                  const Bytecode& bytecode,
                                                  const Project& project,

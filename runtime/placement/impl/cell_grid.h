@@ -1,6 +1,5 @@
-// CellGrid: squares of an unbounded grid, and numbers of 32 bits for the places within them. A
-// number holds the cell's row, its column and the place, so no two places share one; what does not
-// fit into 32 bits is refused.
+// CellGrid: the squares of an unbounded grid, and 32-bit numbers for the places within them. A
+// number holds row, column and place, so no two places share one; cells beyond 32 bits are refused.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -17,7 +16,7 @@ struct Cell {
 
 class CellGrid {
 public:
-    /// `place_bits`: 2^place_bits places a cell; 32 - place_bits is even.
+    /// `place_bits`: 2^place_bits places per cell; 32 - place_bits is even.
     CellGrid(double side, std::uint32_t place_bits)
         : side_(side), place_bits_(place_bits),
           half_(std::int64_t{1} << ((32 - place_bits) / 2 - 1)) {}
@@ -33,11 +32,11 @@ public:
         return cell.column >= -half_ && cell.column < half_ && cell.row >= -half_ &&
                cell.row < half_;
     }
-    /// m from the origin up to which cells have a number, less `cells`.
+    /// Distance in m from the origin within which cells have a number, less `cells` cells.
     [[nodiscard]] double reach(std::int64_t cells) const {
         return side_ * static_cast<double>(half_ - cells);
     }
-    /// Of the cell's first place. Precondition: has_number().
+    /// Number of the cell's first place. Precondition: has_number().
     [[nodiscard]] std::uint32_t first_number(const Cell& cell) const {
         const auto index =
             static_cast<std::uint64_t>((cell.row + half_) * 2 * half_ + cell.column + half_);
@@ -47,19 +46,18 @@ public:
 private:
     double side_;
     std::uint32_t place_bits_;
-    std::int64_t half_; // cells of each sign
+    std::int64_t half_; // columns on each side of 0
 };
 
-/// Cells from `first` on.
+/// A rectangle of cells from `first` on.
 struct CellRange {
     Cell first;
     std::int64_t columns = 0;
     std::int64_t rows = 0;
 };
 
-/// The cells that may have a place in `region`, which rounding can move by a step: those that touch
-/// it and one more on each side. Error: of these, or of `margin` cells around them, some have no
-/// number.
+/// The cells that may have a place in `region`: those that touch it and one more on each side, for
+/// rounding. Error: one of these or of the `margin` cells around them has no number.
 [[nodiscard]] Result<CellRange>
 cells_of(const CellGrid& grid, const Region& region, std::int64_t margin);
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLeastSide = 0.25;     // m, of a region: several steps of binary32 anywhere
 constexpr double kLeastSpacing = 0.001; // m
-/// Places that a density map is asked about; a map may be black nearly everywhere.
+/// Max places to sample in a density map, which may be black nearly everywhere.
 constexpr double kMaxMapPlaces = 1.0e9;
 /// Trees of a Poisson disk sample in a square of the spacing: random sequential adsorption covers
 /// 0.547 of the plane (Tanemura 1979) with discs of half the spacing.
@@ -30,7 +30,7 @@ struct Bound {
 };
 
 bool within(const Bound& bound) {
-    return bound.value >= bound.least && bound.value <= bound.most; // not of what is no number
+    return bound.value >= bound.least && bound.value <= bound.most; // false for NaN
 }
 
 Result<Done> check_growth(std::size_t number, const SpeciesGrowth& growth) {
@@ -99,8 +99,7 @@ Result<Done> check_map(const PlacementOptions& options) {
     return options.map_region ? check_region(*options.map_region) : Result<Done>(Done{});
 }
 
-/// The number of trees to expect, or why there is none. Species that cannot live everywhere are not
-/// looked at.
+/// The expected number of trees, or the error. Limits of species are ignored.
 Result<double> expected_trees(const PlacementOptions& options) {
     const auto check = [](const Bound& bound) -> Result<Done> {
         if (!within(bound)) {

@@ -40,7 +40,7 @@ private:
     double side_ = 1.0;
     std::uint32_t columns_ = 1;
     std::uint32_t rows_ = 1;
-    LargeVector<std::uint64_t> starts_; // of each square's entries; one more
+    LargeVector<std::uint64_t> starts_; // of entries by square; one more at the end
     LargeVector<std::uint32_t> entries_;
 };
 
@@ -53,7 +53,7 @@ CrowdGrid::CrowdGrid(const Region& region, std::span<const ForestPlant> plants)
     }
     const double square_area =
         std::max(region.area(), boxes) / std::max(1.0, static_cast<double>(plants.size()));
-    // Of a long and narrow ground, not more squares than plants either.
+    // at most as many squares as plants, also on a long and narrow ground
     const double count = static_cast<double>(plants.size()) + 1.0;
     side_ = std::max({std::sqrt(square_area), region.width / count, region.depth / count});
     columns_ = static_cast<std::uint32_t>(region.width / side_) + 1;

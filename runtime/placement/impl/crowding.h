@@ -1,4 +1,4 @@
-// Which plants are dominated: those whose circle a stronger plant's circle meets.
+// Finds dominated plants: those whose circle meets the circle of a stronger plant.
 #pragma once
 
 #include "runtime/base/workers.h"
@@ -8,8 +8,7 @@
 
 namespace lsys {
 
-/// Of two plants, the one with the greater product of radius and vigour is stronger, else the one
-/// that sprouted first.
+/// Whether `a` has the greater product of radius and vigour or, if they are equal, sprouted first.
 [[nodiscard]] inline bool is_stronger(const ForestPlant& a, const ForestPlant& b) {
     const float strength_a = a.radius * a.vigour;
     const float strength_b = b.radius * b.vigour;

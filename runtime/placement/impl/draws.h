@@ -1,5 +1,5 @@
-// Which draw of a forest's key is for what. Position is the tree's number, or that of the cell
-// where a draw is for a cell; runtime/base/random.h says what a draw is.
+// The draws of a forest's key and their purposes. The position is the tree's number, or the cell's
+// number for draws of a cell; runtime/base/random.h defines draws.
 #pragma once
 
 #include "runtime/base/random.h"
@@ -9,8 +9,8 @@
 
 namespace lsys {
 
-/// Other than those of derivations, which count up from 0, and of docs/language.md sections 6
-/// and 9.
+/// Differs from the generations of derivations, which count up from 0, and from those of
+/// docs/language.md sections 6 and 9.
 inline constexpr std::uint32_t kPlacementGeneration = 0xFFFFFFFDu;
 
 /// Blocks at a tree's number.
@@ -18,19 +18,19 @@ inline constexpr std::uint32_t kPlaceBlock = 0; // words: x, z, rank, threshold
 inline constexpr std::uint32_t kLooksBlock = 1; // words: species, yaw, scale, vigour
 inline constexpr std::uint32_t kLifeBlock = 2;  // words: age of death
 /// Blocks at a cell's number.
-inline constexpr std::uint32_t kCellBlock = 8; // and the next three: count, or an order of 16
-/// Blocks at a step of PoissonDisk: which point to go on from; then one an attempt.
+inline constexpr std::uint32_t kCellBlock = 8; // to kCellBlock + 3: a count, or an order of 16
+/// Blocks at a step of PoissonDisk: the point to continue from; then one per attempt.
 inline constexpr std::uint32_t kStepBlock = 16;
-/// Blocks at a plant's number, one a seed and a year.
+/// Blocks at a plant's number, one per seed and year.
 inline constexpr std::uint32_t kSeedBlock = 0x80000000u;
-inline constexpr std::uint32_t kMaxSeeds = 256; // of a plant in a year
+inline constexpr std::uint32_t kMaxSeeds = 256; // per plant and year
 
 [[nodiscard]] inline PhiloxBlock
 placement_draws(std::uint64_t key, std::uint64_t position, std::uint32_t block) {
     return draw_block(key, kPlacementGeneration, position, block);
 }
 
-/// A word as u in [0, 1), all its bits.
+/// A word as u in [0, 1), with all 32 bits.
 [[nodiscard]] inline double unit(std::uint32_t word) {
     return static_cast<double>(word) * 0x1p-32;
 }

@@ -29,7 +29,7 @@ struct Squares {
     double depth = 0.0; // m
 };
 
-/// Of at most 1 / density square metres each.
+/// Squares of at most 1 / density square metres each.
 Squares squares_of(const Region& region, double density) {
     Squares squares;
     squares.columns = static_cast<std::uint32_t>(std::ceil(region.width * std::sqrt(density)));
@@ -43,7 +43,7 @@ Squares squares_of(const Region& region, double density) {
 LargeVector<std::uint32_t> diffuse(const PlacementOptions& options, const Squares& squares) {
     const GreySampler grey(*options.density_map, options.map_region.value_or(options.region));
     LargeVector<std::uint32_t> chosen;
-    // A square of margin on each side takes what is owed beyond the border.
+    // a square of margin on each side takes the error beyond the border
     std::vector<double> owed(squares.columns + 2);
     std::vector<double> owed_next(squares.columns + 2);
     for (std::uint32_t row = 0; row < squares.rows; ++row) {

@@ -26,7 +26,7 @@ double GreySampler::at(double x, double z) const {
 }
 
 double GreySampler::integral(const Region& region) const {
-    // In pixels, cut to the map.
+    // the region in pixels, clipped to the map
     const auto cut = [](double at, std::uint32_t count) {
         return std::clamp(at, 0.0, static_cast<double>(count));
     };

@@ -1,5 +1,5 @@
-// GreySampler: a map stretched over a region, each pixel a rectangle of one grey. Beyond it all is
-// black.
+// GreySampler: a map stretched over a region, each pixel a rectangle of one grey. The map is black
+// beyond the region.
 #pragma once
 
 #include "runtime/base/grey_map.h"
@@ -11,10 +11,10 @@ class GreySampler {
 public:
     GreySampler(const GreyMap& map, const Region& span);
 
-    /// 0 to 1, of the pixel at a place.
+    /// The value of the pixel at a place, 0 to 1.
     [[nodiscard]] double at(double x, double z) const;
-    /// The integral of 0 to 1 over `region`, in square metres; exact but for rounding. Takes time
-    /// in proportion to the pixels that `region` touches.
+    /// The integral of the values over `region`, in square metres; exact but for rounding. Takes
+    /// time proportional to the number of pixels that `region` touches.
     [[nodiscard]] double integral(const Region& region) const;
 
 private:

@@ -1,5 +1,5 @@
-// The methods of placement, one a file. Each adds its trees to a placement; options have been
-// checked and the expected number of trees is in bounds.
+// The methods of placement, one per file. Each adds its trees to a placement. The options have been
+// checked and the expected number of trees is within bounds.
 #pragma once
 
 #include "runtime/base/workers.h"
@@ -18,7 +18,7 @@ struct PlacementJob {
 void place_uniform(const PlacementJob& job, Placement& placement);
 void place_poisson_disk(const PlacementJob& job, Placement& placement);
 void place_by_error_diffusion(const PlacementJob& job, Placement& placement);
-/// Of unbounded grids. Error: cells of the region have numbers beyond 32 bits.
+/// Methods on unbounded grids. Error: cells of the region have numbers beyond 32 bits.
 [[nodiscard]] Result<Done> place_jittered(const PlacementJob& job, Placement& placement);
 [[nodiscard]] Result<Done> place_uniform_cells(const PlacementJob& job, Placement& placement);
 [[nodiscard]] Result<Done> place_poisson_cells(const PlacementJob& job, Placement& placement);

@@ -1,8 +1,8 @@
-// PoissonCells: a Poisson disk sample of the whole plane of which any region can be made alone.
+// PoissonCells: a Poisson disk sample of the whole plane, any region of which can be made alone.
 // Each cell of an unbounded grid holds 16 candidates with drawn ranks. In a round, candidates whose
 // rivals of lower rank within the spacing are all gone are taken, and their rivals go (Luby 1986,
 // "A simple parallel algorithm for the maximal independent set problem"; after enough rounds this
-// is what one gets by taking candidates in order of rank). Only kRounds rounds are made, so that a
+// gives the same as taking candidates in order of rank). Only kRounds rounds are made, so that a
 // candidate depends on no other farther than 2 kRounds - 1 spacings; what is undecided then stays
 // without a tree: after 6 rounds 2 of 316,000 trees were missing, after 7 none.
 //
@@ -24,19 +24,19 @@ namespace lsys {
 namespace {
 
 constexpr std::uint32_t kPlaceBits = 4;
-constexpr std::uint32_t kCandidates = 1U << kPlaceBits; // of a cell
+constexpr std::uint32_t kCandidates = 1U << kPlaceBits; // per cell
 constexpr std::uint8_t kRounds = 8;
 constexpr std::int64_t kHalo = 2 * kRounds - 1; // cells around a block that it depends on
 constexpr std::int64_t kBlock = 64;             // cells along each side of a block
-/// Cells are wider than the spacing by what rounding can move two candidates, within the grid's
-/// 2^13 cells of the origin: so rivals are in neighbouring cells.
+/// Cells are wider than the spacing by the max rounding error of two candidates within 2^13 cells
+/// of the origin, so rivals are in neighbouring cells.
 constexpr double kCellSide = 1.0 + 0x1p-9;
 
 constexpr std::uint8_t kUndecided = 0xFF; // a round that never comes
 constexpr float kNowhere = 1.0e30F;       // a coordinate far from all others
 constexpr std::int64_t kReach = 2;        // quarters around one that the spacing reaches into
 
-/// A candidate that is taken, and in which round.
+/// A candidate that is taken, and its round.
 struct Taken {
     float x = kNowhere;
     float z = kNowhere;
@@ -67,7 +67,7 @@ private:
         const double dz = static_cast<double>(places_[a].y) - static_cast<double>(places_[b].y);
         return dx * dx + dz * dz < squared_;
     }
-    /// Of the quarter that `candidate` lies in, in taken_at_.
+    /// Index in taken_at_ of the quarter that `candidate` lies in.
     [[nodiscard]] std::size_t quarter_of(std::uint32_t candidate) const {
         const std::int64_t cell = candidate / kCandidates;
         const std::int64_t column = 2 * (cell % cells_.columns) + (quarters_[candidate] & 1);
@@ -77,7 +77,7 @@ private:
 
     const PlacementOptions& options_;
     const CellGrid& grid_;
-    double squared_; // of the spacing
+    double squared_; // square of the spacing
     CellRange cells_;
     std::vector<glm::vec2> places_;
     std::vector<std::uint32_t> ranks_;
@@ -85,7 +85,7 @@ private:
     std::vector<std::uint32_t> order_;   // candidates by rank, then by number
     std::vector<std::uint32_t> order_before_;
     std::vector<std::uint8_t> taken_; // the round in which a candidate is taken
-    std::vector<std::uint8_t> gone_;  // or in which it goes
+    std::vector<std::uint8_t> gone_;  // the round in which it is rejected
     /// The cells' quarters, by rows, kReach more on each side. A quarter's diagonal is shorter than
     /// the spacing, so at most one candidate is taken in it.
     std::vector<Taken> taken_at_;
@@ -111,7 +111,7 @@ void PoissonBlock::draw_candidates() {
     }
 }
 
-/// By radix, which keeps the order of equal ranks.
+/// Sorts by radix, which keeps the order of equal ranks.
 void PoissonBlock::sort_by_rank() {
     constexpr std::uint32_t kDigitBits = 11;
     constexpr std::uint32_t kDigits = 1U << kDigitBits;
@@ -136,7 +136,7 @@ void PoissonBlock::sort_by_rank() {
     }
 }
 
-/// The first round in which all rivals of lower rank are gone; kUndecided: some never is.
+/// The first round in which all rivals of lower rank are gone; kUndecided if one never is.
 std::uint8_t PoissonBlock::round_without_rivals(std::uint32_t candidate) const {
     const std::int64_t cell = candidate / kCandidates;
     const std::int64_t column = cell % cells_.columns;
@@ -152,7 +152,7 @@ std::uint8_t PoissonBlock::round_without_rivals(std::uint32_t candidate) const {
             const bool lower = ranks_[other] < ranks_[candidate] ||
                                (ranks_[other] == ranks_[candidate] && other < candidate);
             if (lower && gone_[other] > last && are_rivals(candidate, other)) {
-                last = gone_[other]; // of an undecided one the greatest
+                last = gone_[other]; // kUndecided is the max
             }
         }
     }

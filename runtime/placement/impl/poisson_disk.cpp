@@ -1,8 +1,8 @@
 // PoissonDisk: "Fast Poisson disk sampling in arbitrary dimensions" (Bridson 2007). A list of
 // active points; around one of them, drawn, some 30 points are tried in the ring from r to 2r; one
 // that is at least r from all others joins, and a point whose ring gave none leaves the list. Cells
-// of side r / sqrt(2) hold at most one point each. It goes on from point to point, so on one
-// thread; only species and heights are found by all.
+// of side r / sqrt(2) hold at most one point each. The algorithm is serial; only species and
+// heights are found by all threads.
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/methods.h"
 
@@ -19,8 +19,8 @@ namespace lsys {
 
 namespace {
 
-/// Points that are tried, two a block of draws, in the square around the ring, so that no sine is
-/// needed. 0.589 of them are in the ring: 30.6 on average, for the paper's k = 30.
+/// Points tried, two per block of draws, in the square around the ring, which avoids sines. 0.589
+/// of them are in the ring: 30.6 on average, for the paper's k = 30.
 constexpr std::uint32_t kBlocks = 26;
 constexpr std::int64_t kReach = 2; // cells around one that the spacing reaches into
 constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;
@@ -68,8 +68,8 @@ private:
     double side_;
     std::int64_t columns_;
     std::int64_t rows_;
-    LargeVector<std::uint32_t> points_at_; // of each cell; kReach empty ones around all
-    std::vector<Offset> around_;           // cells around one and itself
+    LargeVector<std::uint32_t> points_at_; // by cell; kReach empty cells around all
+    std::vector<Offset> around_;           // a cell's neighbourhood, itself included
     LargeVector<glm::vec2> points_;
     LargeVector<std::uint32_t> active_;
 };

@@ -12,7 +12,7 @@ namespace lsys {
 namespace {
 
 constexpr float kTurn = 6.28318531F;
-constexpr std::uint64_t kPiecesAtOnce = 8; // for each worker
+constexpr std::uint64_t kPiecesAtOnce = 8; // per worker
 
 bool lives_everywhere(const PlacementSpecies& species) {
     return std::isinf(species.lowest) && std::isinf(species.highest) &&
@@ -45,7 +45,7 @@ std::uint32_t TreeMaker::choose_species(std::uint32_t word, float x, float heigh
         }
     }
     double left = unit(word) * shares;
-    std::uint32_t last = kNoSpecies; // also where rounding leaves something
+    std::uint32_t last = kNoSpecies; // also taken if rounding leaves a remainder
     for (std::size_t i = 0; i < species.size(); ++i) {
         if (species[i].share <= 0.0 || (has_limits_ && !fits(species[i], height, slope))) {
             continue;

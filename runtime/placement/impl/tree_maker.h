@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// What one piece of work made.
+/// The trees of one piece of work.
 struct TreeChunk {
     std::vector<Tree> trees;
     std::uint64_t places = 0;
@@ -26,7 +26,7 @@ public:
     void make(std::uint32_t number, float x, float z, TreeChunk& chunk) const;
     /// Whether `species` can live at a place.
     [[nodiscard]] bool can_live(std::uint16_t species, float x, float z) const;
-    /// A tree of a species that is known, in all but its position and age.
+    /// The tree `number` of a known species, without position and age.
     [[nodiscard]] Tree looks_of(std::uint32_t number, std::uint16_t species) const;
 
 private:
@@ -44,8 +44,8 @@ private:
     bool has_steepest_ = false;
 };
 
-/// Appends the trees of pieces 0 ... pieces - 1, in that order, and sums up their reports. At no
-/// time there are more than a few pieces beside `placement`.
+/// Appends the trees of pieces 0 ... pieces - 1, in that order, and sums up their reports. Never
+/// holds more than a few pieces besides `placement`.
 void collect_trees(Workers& workers,
                    std::uint64_t pieces,
                    const std::function<void(std::uint64_t, TreeChunk&)>& piece,

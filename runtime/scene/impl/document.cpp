@@ -8,10 +8,10 @@
 #include <string_view>
 #include <utility>
 
-// Header-only, and compiled here alone. toml++ 3.3 takes two things for granted that do not hold:
+// toml++ is header-only and compiled here only. Version 3.3 asserts two things that do not hold:
 // that a key follows the `[` of a heading, and that a character beyond ASCII in a key is a blank.
-// Its assertions would end the process, and without them both are undefined. Told to go on, it
-// reports these as mistakes.
+// With its assertions the process would end, and without them both are undefined. Made to continue,
+// it reports them as mistakes.
 #define TOML_EXCEPTIONS 0
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/impl/preprocessor.h>
@@ -30,7 +30,7 @@ namespace lsys {
 
 namespace {
 
-/// Bytes of the character that `text` begins with; `text` is UTF-8 as far as anything was read.
+/// Bytes of the first character of `text`, which is valid UTF-8 as far as it was read.
 std::uint32_t character_length(std::string_view text) {
     std::uint32_t length = 1;
     while (length < text.size() && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) {
@@ -75,8 +75,8 @@ private:
 
     FileId file_;
     const SourceFile& source_;
-    std::uint32_t line_ = 0;             // of offsets_
-    std::vector<std::uint32_t> offsets_; // of its characters, and of its end
+    std::uint32_t line_ = 0;             // the line of offsets_
+    std::vector<std::uint32_t> offsets_; // of the characters of the line and of its end
 };
 
 SceneValue convert(const toml::node& node, Places& places);
@@ -134,7 +134,7 @@ SceneValue convert(const toml::node& node, Places& places) {
     return value;
 }
 
-/// toml++ says "Error while parsing WHAT: REASON", and 'x' where our messages have `x`.
+/// Messages of toml++ read "Error while parsing WHAT: REASON", with 'x' for our `x`.
 struct Complaint {
     std::string what; // a string, a key-value pair; may be empty
     std::string reason;
@@ -183,8 +183,8 @@ void report_syntax(const toml::parse_error& error, Places& places, Diagnostics& 
     }
 }
 
-/// toml++ goes through the parts of a key by recursion, as does what reads its tables. It bounds
-/// how deep values nest, but not keys.
+/// toml++ and the reader of its tables recurse over the parts of a key. toml++ limits the depth of
+/// values, but not of keys.
 constexpr std::uint32_t kMostKeyParts = 16;
 
 bool is_bare(char c) {
@@ -205,15 +205,15 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
         end += text[end] == '\\' && quote == '"' ? 2U : 1U;
     }
     end = std::min(end + closing.size(), text.size());
-    // Up to two quotes before the three that close it belong to the string.
+    // up to two quotes before the closing three belong to the string
     for (int more = 0; has_lines && more < 2 && end < text.size() && text[end] == quote; ++more) {
         ++end;
     }
     return end;
 }
 
-/// The first key of too many parts, up to the first part that is one too many. Only keys have
-/// more than one dot.
+/// The first key with too many parts, up to the first excess part. Only keys have more than one
+/// dot.
 std::optional<SourceSpan> find_long_key(FileId file, std::string_view text) {
     std::uint32_t parts = 0;
     std::size_t begin = 0;

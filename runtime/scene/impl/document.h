@@ -1,4 +1,4 @@
-// A TOML file as a tree of values with places in bytes. Keys stand in the order of the text.
+// A TOML file as a tree of values with their places in bytes. Keys are in the order of the text.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -18,9 +18,9 @@ struct SceneEntry;
 
 struct SceneValue {
     SceneValueKind kind = SceneValueKind::Table;
-    SourceSpan span;                 // of a table: its heading, or the whole of an inline one
+    SourceSpan span;                 // of a table, its heading or the whole inline table
     std::int64_t whole = 0;          // Whole
-    double real = 0.0;               // Real, and Whole as near as it gets
+    double real = 0.0;               // Real, and Whole rounded
     std::string text;                // Text
     std::vector<SceneValue> items;   // List
     std::vector<SceneEntry> entries; // Table
@@ -35,10 +35,10 @@ struct SceneEntry {
 /// `a text`, `a list`, ...
 [[nodiscard]] std::string_view kind_text(SceneValueKind kind);
 
-/// The entry of `key`; nullptr: there is none.
+/// The entry of `key`, or nullptr.
 [[nodiscard]] const SceneEntry* find_entry(const SceneValue& table, std::string_view key);
 
-/// The table of the whole file. None, and a diagnostic, if the file is no TOML.
+/// Reads the table of the whole file. Returns none, with a diagnostic, if the file is not TOML.
 [[nodiscard]] std::optional<SceneValue>
 read_toml(FileId file, const SourceMap& sources, Diagnostics& diagnostics);
 

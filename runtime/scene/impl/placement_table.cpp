@@ -10,7 +10,7 @@ namespace lsys {
 
 namespace {
 
-/// A method, and which keys it reads.
+/// A method and the keys it reads.
 struct MethodRow {
     std::string_view name;
     bool count = false;
@@ -20,7 +20,7 @@ struct MethodRow {
     bool years = false;
 };
 
-// As PlacementMethod.
+// in the order of PlacementMethod
 constexpr std::array<MethodRow, 8> kMethods{{
     {.name = "uniform", .count = true},
     {.name = "poisson-disk", .spacing = true},
@@ -34,12 +34,12 @@ constexpr std::array<MethodRow, 8> kMethods{{
 
 constexpr std::uint64_t kUsualCount = 1000;
 constexpr double kUsualSpacing = 5.0;  // m
-constexpr double kUsualDensity = 0.04; // 400 a hectare
+constexpr double kUsualDensity = 0.04; // 400 per hectare
 constexpr std::uint32_t kUsualYears = 100;
 constexpr double kLeastSpacing = 0.001; // m
-constexpr double kDiskTrees = 0.7;      // of PoissonDisk, in a square of the spacing
+constexpr double kDiskTrees = 0.7;      // PoissonDisk: trees per square of the spacing
 
-/// What `because` says of keys that the method does not read.
+/// The sentence about keys that the method does not read.
 std::string keys_of(const MethodRow& method) {
     std::string keys;
     const auto add = [&](bool reads, std::string_view key) {
@@ -78,13 +78,13 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
         names[i] = kMethods[i].name;
     }
     const auto found = reader.choice("method", names);
-    const bool any = reader.has("method") && !found; // no key can be told to be wrong then
+    const bool any = reader.has("method") && !found; // then no key can be wrong
     placement.method = static_cast<PlacementMethod>(found.value_or(0));
     placement.region = scene.terrain.region;
     const MethodRow& method = kMethods[found.value_or(0)];
     const std::string because =
         fmt::format("the method `{}` reads {}", method.name, keys_of(method));
-    /// Whether the method reads `key`; if not, it must not be there.
+    /// Whether the method reads `key`; if not, reports the key if present.
     const auto reads = [&](bool wanted, std::string_view key) {
         if (!wanted) {
             static_cast<void>(reader.entry(key));

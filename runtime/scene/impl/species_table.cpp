@@ -21,7 +21,7 @@ constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max
 constexpr std::size_t kMaxStages = 256;
 constexpr double kMaxSeedsOfYear = 254.0;
 
-/// `pine` of `trees/pine.lsys`.
+/// The stem of a path: `pine` of `trees/pine.lsys`.
 std::string stem_of(std::string_view path) {
     path.remove_prefix(path.find_last_of('/') + 1); // npos + 1 is 0
     const std::size_t dot = path.find_last_of('.');
@@ -32,7 +32,7 @@ float float_of(double value) {
     return static_cast<float>(value);
 }
 
-/// What is read of one species, and where.
+/// A species being read, and its reader.
 struct SpeciesReader {
     TableReader reader;
     SceneSpecies& species;
@@ -68,7 +68,7 @@ void read_grammar(SpeciesReader& from) {
     if (auto name = from.reader.text("name")) {
         from.species.name = std::move(*name);
     } else if (from.reader.has("name")) {
-        from.species.name.clear(); // it has one, which is reported
+        from.species.name.clear(); // the bad name was reported
     }
     if (const SceneValue* const define = from.reader.table("define")) {
         for (const SceneEntry& entry : define->entries) {
@@ -112,7 +112,7 @@ void read_stage_list(SpeciesReader& from) {
     }
 }
 
-/// `n`, or `stages` with `years_of_stage` where plants have an age.
+/// Reads `n`, or `stages` with `years_of_stage` if plants have an age.
 void read_stages(SpeciesReader& from, bool ages) {
     TableReader& reader = from.reader;
     const auto generations = reader.whole("n", {0, kMaxWhole32 - 1});
@@ -215,7 +215,7 @@ void check_names(const SceneValue& list, const Scene& scene, Diagnostics& diagno
     for (std::size_t i = 0; i < scene.species.size(); ++i) {
         const SceneSpecies& species = scene.species[i];
         if (species.name.empty()) {
-            continue; // a mistake of its own
+            continue; // reported elsewhere
         }
         const auto [other, is_new] = first.try_emplace(species.name, i);
         if (is_new) {

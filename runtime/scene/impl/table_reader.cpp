@@ -19,7 +19,7 @@ struct KeyPlace {
     std::string_view table;
 };
 
-/// Keys that one table alone has: what stands elsewhere is told where it belongs.
+/// Keys that only one table has; messages name the right table.
 constexpr KeyPlace kPlaces[] = {
     {"kind", "[terrain]"},
     {"size", "[terrain]"},
@@ -66,7 +66,7 @@ constexpr KeyPlace kPlaces[] = {
     {"key", "the file, above its tables"},
 };
 
-/// Shortest that reads back equal; whole numbers with commas.
+/// The shortest text that reads back equal; whole numbers with commas.
 std::string shown(double value) {
     if (value == std::floor(value) && std::abs(value) < 1e15) {
         return (value < 0.0 ? "-" : "") +
@@ -125,7 +125,7 @@ TableReader::number_of(const SceneValue& value, std::string_view what, const Num
     }
     const double number = value.real;
     const bool enough = range.above ? number > range.least : number >= range.least;
-    if (!(enough && number <= range.most)) { // also of what is no number
+    if (!(enough && number <= range.most)) { // also for NaN
         bad(value.span,
             fmt::format("{} is {}; it must {}", what, shown(number), range_text(range)));
         return std::nullopt;
@@ -270,7 +270,7 @@ const SceneValue* TableReader::table(std::string_view key) {
 Diagnostic& TableReader::missing(std::string_view key, std::string_view why) {
     SourceSpan at = span();
     if (name_.empty()) {
-        at.end = at.begin; // the file has no heading to point at
+        at.end = at.begin; // the file has no heading to underline
     }
     Diagnostic& error = diagnostics_.add(DiagnosticCode::MissingSceneKey, at,
                                          fmt::format("{} and has no `{}`", why, key));

@@ -1,5 +1,5 @@
-// TableReader: takes the values of a table of a scene file one key at a time, says what is wrong
-// with each, and in the end what nobody has asked for.
+// TableReader: reads the values of a table of a scene file key by key, reports mistakes in each,
+// and finally reports the keys that were not read.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -16,11 +16,11 @@
 
 namespace lsys {
 
-/// What a number may be.
+/// The range of a number.
 struct NumberRange {
     double least = 0.0;
     double most = 0.0;
-    bool above = false; // `least` itself is too little
+    bool above = false; // `least` itself is out of range
     std::string_view unit;
 };
 
@@ -31,48 +31,48 @@ struct WholeRange {
 
 class TableReader {
 public:
-    /// `name` as it is written: `[terrain]`; empty: the file. `table` may be nullptr: there is none
-    /// in the file, and all keys are missing.
+    /// `name` as written: `[terrain]`; empty: the file. `table` is nullptr if the file has none:
+    /// all keys are missing.
     TableReader(const SceneValue* table, std::string_view name, Diagnostics& diagnostics)
         : table_(table), name_(name), diagnostics_(diagnostics) {}
 
-    /// Each of these gives the value of `key`; none where it is not there, or is reported.
+    /// Each of these returns the value of `key`, or none if the key is missing or was reported.
     [[nodiscard]] const SceneEntry* entry(std::string_view key);
     [[nodiscard]] std::optional<double> number(std::string_view key, const NumberRange& range);
     [[nodiscard]] std::optional<std::uint64_t> whole(std::string_view key, WholeRange range);
     [[nodiscard]] std::optional<std::string> text(std::string_view key);
-    /// Of a file, not yet whether there is one.
+    /// The path of a file, which may not exist.
     [[nodiscard]] std::optional<SceneFile> file(std::string_view key);
-    /// Which of `names` stands there.
+    /// The index of the value in `names`.
     [[nodiscard]] std::optional<std::size_t> choice(std::string_view key,
                                                     std::span<const std::string_view> names);
-    /// `[first, second]`; with `lone`, also one number for both.
+    /// `[first, second]`; with `lone` also a single number for both.
     [[nodiscard]] std::optional<std::array<double, 2>>
     pair(std::string_view key, const NumberRange& range, bool lone);
-    /// The same, and the first is not above the second.
+    /// pair() whose first number is not above the second.
     [[nodiscard]] std::optional<std::array<double, 2>> ordered_pair(std::string_view key,
                                                                     const NumberRange& range);
     [[nodiscard]] const SceneValue* table(std::string_view key);
 
-    /// Of one value, wherever it stands; `what` names it.
+    /// The number of any value; `what` names it in messages.
     [[nodiscard]] std::optional<double>
     number_of(const SceneValue& value, std::string_view what, const NumberRange& range);
     [[nodiscard]] std::optional<std::uint64_t>
     whole_of(const SceneValue& value, std::string_view what, WholeRange range);
 
-    /// Says that the table needs `key`.
+    /// Reports that the table needs `key`.
     Diagnostic& missing(std::string_view key, std::string_view why);
     Diagnostic& bad(SourceSpan span, std::string message);
-    /// Says that `key` has no place here, if it is there; `because` is a sentence about `cause`,
-    /// the value that decides, which may be nowhere.
+    /// Reports `key`, if present, as not allowed. `because` is a sentence about `cause`, the place
+    /// of the value that forbids it, which may be empty.
     void refuse(std::string_view key, std::string_view because, SourceSpan cause);
-    /// After all keys have been asked for: reports the others.
+    /// Reports the keys that were not read. Called after all others.
     void finish();
 
     [[nodiscard]] bool has(std::string_view key) const {
         return table_ != nullptr && find_entry(*table_, key) != nullptr;
     }
-    /// Of the value of `key`, or of the table where it is not there.
+    /// The place of the value of `key`, or of the table if the key is missing.
     [[nodiscard]] SourceSpan span_of(std::string_view key) const;
     [[nodiscard]] SourceSpan span() const {
         return table_ == nullptr ? SourceSpan{} : table_->span;

@@ -1,5 +1,5 @@
-// The tables of a scene file, each read by a function of its own. They go on after a mistake, with
-// the default, so that all mistakes are found at once.
+// Readers of the tables of a scene file. After a mistake they continue with the default, so that
+// all mistakes are found at once.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -8,14 +8,14 @@
 
 namespace lsys {
 
-/// `table`: of `[terrain]`, nullptr where there is none.
+/// Reads `[terrain]`; nullptr if there is none.
 void read_terrain_table(const SceneValue* table, Scene& scene, Diagnostics& diagnostics);
-/// The terrain has been read. `table`: of `[placement]`, nullptr where there is none.
+/// Reads `[placement]`; nullptr if there is none. Precondition: the terrain has been read.
 void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& diagnostics);
-/// The placement has been read. `root`: the file, which holds the list of species.
+/// Reads the list of species of the file `root`. Precondition: the placement has been read.
 void read_species_list(const SceneValue& root, Scene& scene, Diagnostics& diagnostics);
 
-/// The species have been read. `table`: of `[painted]`, nullptr where there is none.
+/// Reads `[painted]`; nullptr if there is none. Precondition: the species have been read.
 void read_painting_table(const SceneValue* table, Scene& scene, Diagnostics& diagnostics);
 
 } // namespace lsys

@@ -10,8 +10,9 @@ namespace lsys {
 
 namespace {
 
-constexpr std::string_view kKinds[] = {"flat", "noise", "height-map"}; // as TerrainKind
-constexpr std::string_view kFilters[] = {"bilinear", "bicubic"};       // as HeightFilter
+constexpr std::string_view kKinds[] = {"flat", "noise",
+                                       "height-map"};            // in the order of TerrainKind
+constexpr std::string_view kFilters[] = {"bilinear", "bicubic"}; // in the order of HeightFilter
 constexpr NumberRange kAltitude{-kFarthest, kFarthest, false, "m"};
 constexpr double kLeastSide = 0.25; // m, on which trees can be placed
 constexpr double kMostOfSide = static_cast<double>(kMaxMapPixels) / 2.0; // pixels
@@ -98,7 +99,7 @@ void read_terrain_table(const SceneValue* table, Scene& scene, Diagnostics& diag
     terrain.span = reader.span();
     const auto kind = reader.choice("kind", kKinds);
     read_region(reader, terrain.region);
-    // Of a kind that does not exist nobody knows which keys it has.
+    // the keys of an unknown kind are unknown
     const bool any = reader.has("kind") && !kind;
     terrain.kind = static_cast<TerrainKind>(kind.value_or(0));
     const std::string because = fmt::format("the terrain is `{}`", kKinds[kind.value_or(0)]);

@@ -9,7 +9,7 @@ namespace lsys {
 
 namespace {
 
-/// Between samples `index` and index + 1, at `part` of the way.
+/// Interpolates between samples `index` and index + 1, at the fraction `part`.
 struct Place {
     std::uint32_t index = 0;
     double part = 0.0;
@@ -25,7 +25,7 @@ double mix(double a, double b, double part) {
     return a + (b - a) * part;
 }
 
-/// Keys' kernel over four samples, between the middle two.
+/// Applies Keys' kernel to four samples, between the middle two.
 double cubic(const std::array<double, 4>& p, double t) {
     return p[1] + 0.5 * t *
                       (p[2] - p[0] +
