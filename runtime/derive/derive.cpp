@@ -2,7 +2,7 @@
 
 #include "grammar/base/contract.h"
 #include "runtime/base/memory_border.h"
-#include "runtime/derive/engine/brackets.h"
+#include "runtime/derive/brackets.h"
 #include "runtime/derive/engine/depth_limit.h"
 #include "runtime/derive/engine/origins.h"
 #include "runtime/derive/engine/pass.h"

@@ -1,7 +1,7 @@
 #include "runtime/derive/stream.h"
 
 #include "runtime/base/memory_border.h"
-#include "runtime/derive/engine/brackets.h"
+#include "runtime/derive/brackets.h"
 #include "runtime/derive/engine/levels.h"
 #include "runtime/derive/engine/origins.h"
 #include "runtime/derive/engine/plan.h"

@@ -1,4 +1,4 @@
-// Grammar: from a file to checked bytecode: reads it and what it includes, parses, compiles.
+// Grammar: from a file to checked bytecode. Reads the file and its includes, parses, compiles.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

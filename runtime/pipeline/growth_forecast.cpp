@@ -1,11 +1,11 @@
 #include "runtime/pipeline/growth_forecast.h"
 
 #include "compiler/growth/growth.h"
+#include "runtime/derive/brackets.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
 namespace lsys {
 
@@ -23,39 +23,15 @@ std::uint64_t saturated(const Count& count) {
     return count.at_most(kMax) ? count.value.low : kMax;
 }
 
-/// Whether every `]` has its `[` within the template.
-bool closes_what_it_opens(const Bytecode& bytecode, const WordTemplate& words) {
-    std::uint64_t open = 0;
-    const std::span codes(bytecode.template_codes.data() + words.codes.first, words.codes.count);
-    for (const Code code : codes) {
-        const SymbolKind kind = bytecode.symbol(bytecode.symbol_of(code)).kind;
-        if (kind == SymbolKind::BranchClose && open == 0) {
-            return false;
-        }
-        open += kind == SymbolKind::BranchOpen ? 1 : 0;
-        open -= kind == SymbolKind::BranchClose ? 1 : 0;
-    }
-    return true;
-}
-
-bool rewrites_brackets(const Bytecode& bytecode, const BytecodeProduction& production) {
-    const std::span items(bytecode.patterns.data() + production.predecessor.first,
-                          production.predecessor.count);
-    return std::any_of(items.begin(), items.end(), [&](const PatternItem& item) {
-        const SymbolKind kind = bytecode.symbol(item.symbol).kind;
-        return kind == SymbolKind::BranchOpen || kind == SymbolKind::BranchClose;
-    });
-}
-
 /// Whether no derivation of the program can end in an error, once its constants are drawn.
 bool cannot_fail(const Bytecode& bytecode) {
     const auto is_plain = [](const BytecodeSymbol& symbol) { return symbol.parameter_count == 0; };
     const auto is_safe = [&](const BytecodeProduction& production) {
-        return production.condition == kNone && !rewrites_brackets(bytecode, production) &&
-               closes_what_it_opens(bytecode, production.successor);
+        return production.condition == kNone && !rewrites_bracket(bytecode, production) &&
+               !closes_unopened(bytecode, production.successor.codes);
     };
     return std::all_of(bytecode.symbols.begin(), bytecode.symbols.end(), is_plain) &&
-           closes_what_it_opens(bytecode, bytecode.axiom) &&
+           !closes_unopened(bytecode, bytecode.axiom.codes) &&
            std::all_of(bytecode.productions.begin(), bytecode.productions.end(), is_safe);
 }
 

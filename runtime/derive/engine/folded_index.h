@@ -1,4 +1,4 @@
-// The folded modules of a program by symbol and arguments.
+// FoldedIndex: finds the folded modules of a program by symbol and arguments.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -10,13 +10,13 @@ namespace lsys {
 
 class FoldedIndex {
 public:
-    /// `bytecode` outlives the index; modules that are folded later are added.
+    /// `bytecode` outlives the index. Modules folded later are added by add().
     explicit FoldedIndex(const Bytecode& bytecode);
 
-    /// The code of the module with these arguments, one for each parameter of the symbol, compared
-    /// bit by bit; kNone if it is not folded.
+    /// The code of the module with these arguments, one per parameter of the symbol, compared bit
+    /// by bit; kNone if it is not folded.
     [[nodiscard]] Code find(SymbolId symbol, const float* arguments) const;
-    /// Of a folded module.
+    /// Adds a folded module.
     void add(Code code);
 
 private:

@@ -16,7 +16,7 @@ struct OriginRequest {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;
     std::uint32_t generation = 0;     // generation of the written word
-    const ActiveMask* mask = nullptr; // those of WriteRequest
+    const ActiveMask* mask = nullptr; // the mask of WriteRequest
 };
 
 /// Writes origins to `out`; returns where the next one belongs. `records` as in write_modules().

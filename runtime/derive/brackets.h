@@ -1,4 +1,4 @@
-// BracketCounter: checks that every `]` has its `[`, in a word that may come in pieces.
+// Brackets of words and templates: whether every `]` has its `[`.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -10,6 +10,12 @@
 
 namespace lsys {
 
+/// Whether a `]` of the template has no `[` in it.
+[[nodiscard]] bool closes_unopened(const Bytecode& bytecode, TableRange codes);
+/// Whether the production removes a bracket from the word, so that another loses its partner.
+[[nodiscard]] bool rewrites_bracket(const Bytecode& bytecode, const BytecodeProduction& production);
+
+/// Checks the brackets of a word, which may come in pieces.
 class BracketCounter {
 public:
     explicit BracketCounter(const Bytecode& bytecode);

@@ -1,10 +1,8 @@
-#include "runtime/derive/engine/brackets.h"
+#include "runtime/derive/brackets.h"
 
 namespace lsys {
 
-namespace {
-
-bool closes_too_much(const Bytecode& bytecode, TableRange codes) {
+bool closes_unopened(const Bytecode& bytecode, TableRange codes) {
     std::int64_t depth = 0;
     for (std::uint32_t i = codes.first; i < codes.first + codes.count; ++i) {
         const SymbolKind kind =
@@ -17,7 +15,6 @@ bool closes_too_much(const Bytecode& bytecode, TableRange codes) {
     return false;
 }
 
-/// Whether the production takes a bracket out of the word, so that others lose their partner.
 bool rewrites_bracket(const Bytecode& bytecode, const BytecodeProduction& production) {
     for (std::uint32_t i = 0; i < production.predecessor.count; ++i) {
         const PatternItem& item = bytecode.patterns[production.predecessor.first + i];
@@ -28,8 +25,6 @@ bool rewrites_bracket(const Bytecode& bytecode, const BytecodeProduction& produc
     }
     return false;
 }
-
-} // namespace
 
 BracketCounter::BracketCounter(const Bytecode& bytecode) {
     change_.reserve(bytecode.code_count());
@@ -44,7 +39,7 @@ BracketCounter::BracketCounter(const Bytecode& bytecode) {
 }
 
 ProductionId only_unbalanced_production(const Bytecode& bytecode) {
-    if (closes_too_much(bytecode, bytecode.axiom.codes)) {
+    if (closes_unopened(bytecode, bytecode.axiom.codes)) {
         return kNoProduction;
     }
     ProductionId found = kNoProduction;
@@ -55,7 +50,7 @@ ProductionId only_unbalanced_production(const Bytecode& bytecode) {
         if (rewrites_bracket(bytecode, bytecode.productions[i])) {
             return kNoProduction;
         }
-        if (closes_too_much(bytecode, bytecode.productions[i].successor.codes)) {
+        if (closes_unopened(bytecode, bytecode.productions[i].successor.codes)) {
             if (found != kNoProduction) {
                 return kNoProduction;
             }
