@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-/// The source of libpng, and the reason of its failure.
+/// What libpng reads from, and where it leaves the reason of a failure.
 struct PngInput {
     std::string_view left;
     std::array<char, 128> reason{};
@@ -47,8 +47,7 @@ struct PngSize {
     std::uint32_t passes = 0;
 };
 
-/// Prepares libpng to give samples in the form asked for. Returns false on failure, see
-/// PngInput::reason.
+/// False: failed, see PngInput::reason. After it, samples have the form that is asked for.
 bool read_size(png_structp png, png_infop info, PngForm form, PngSize& size) {
     if (setjmp(png_jmpbuf(png)) != 0) {
         return false;

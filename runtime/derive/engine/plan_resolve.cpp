@@ -82,8 +82,8 @@ void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
         AffineTerm term;
         if (shapes[i].kind == ShapeKind::Constant && is_term_constant(shapes[i].constant)) {
             term = {0, 0.0F, shapes[i].constant};
-        } else if (shapes[i].kind == ShapeKind::Affine && shapes[i].term.input <= 0xFF) {
-            term = shapes[i].term;
+        } else if (shapes[i].kind == ShapeKind::Affine && shapes[i].affine.input <= 0xFF) {
+            term = shapes[i].affine;
             entry.reads_own = true;
         } else {
             entry.general = true;

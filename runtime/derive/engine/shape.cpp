@@ -93,7 +93,7 @@ public:
         ValueShape shape;
         shape.kind = term.kind;
         shape.constant = term.constant;
-        shape.term = term.lane;
+        shape.affine = term.lane;
         const auto begin =
             comparisons_.begin() + static_cast<std::ptrdiff_t>(term.first_comparison);
         shape.comparisons.assign(begin, begin + static_cast<std::ptrdiff_t>(term.comparison_count));

@@ -1,7 +1,7 @@
-// The forms of an expression that need no stack machine, found by running it on unknown inputs:
-// constants, one parameter times a factor plus an offset, and conjunctions of comparisons of such
-// values. They yield the very same binary32 values as evaluate(). Made when a derivation is
-// prepared, read by the passes.
+// The forms of an expression that need no stack machine, found by abstract interpretation
+// (compiler/bytecode/interpret.h): constants, one parameter times a factor plus an offset, and
+// conjunctions of comparisons of such values. They yield the same binary32 values as evaluate().
+// Made when a derivation is prepared, read by the passes.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -24,26 +24,26 @@ struct AffineTerm {
     return own[term.input] * term.scale + term.offset;
 }
 
-/// A term compared with a constant.
+/// An affine term compared with a constant.
 struct Comparison {
     static constexpr std::uint32_t kLess = 1;
     static constexpr std::uint32_t kEqual = 2;
     static constexpr std::uint32_t kGreater = 4;
 
-    AffineTerm term;
+    AffineTerm affine;
     float bound = 0.0F; // a number
     std::uint32_t accepted = 0;
 };
 
 [[nodiscard]] inline bool holds(const Comparison& comparison, const float* own) {
-    const float value = value_of(comparison.term, own);
+    const float value = value_of(comparison.affine, own);
     const std::uint32_t order = value < comparison.bound    ? Comparison::kLess
                                 : value == comparison.bound ? Comparison::kEqual
                                                             : Comparison::kGreater;
     return (order & comparison.accepted) != 0;
 }
 
-/// What is known while an expression is shaped.
+/// Inputs of an expression that are known while its shapes are found.
 struct ShapeKnowledge {
     std::uint32_t own_first = 0;          // the first formal of the module's own parameters
     std::uint32_t own_count = 0;          // formals elsewhere are unknown
@@ -55,23 +55,23 @@ struct ShapeKnowledge {
 
 enum class ShapeKind : std::uint8_t { Constant, Affine, Comparisons, Other };
 
-/// What one Emit or Test takes.
+/// The shape of a value that one Emit or Test takes.
 struct ValueShape {
     ShapeKind kind = ShapeKind::Other;
     float constant = 0.0F;               // Constant; may be infinite or not a number
-    AffineTerm term;                     // Affine
+    AffineTerm affine;                   // Affine
     std::vector<Comparison> comparisons; // all must hold
 };
 
-/// The shapes of the values of the expression at `first`, in order. Expressions longer than
-/// kMaxShapedInstructions have only shapes Other, and may then be cut off: an empty list.
+/// The shapes of the values of the expression at `first`, in order; an empty list for expressions
+/// longer than kMaxShapedInstructions.
 inline constexpr std::uint32_t kMaxShapedInstructions = 4096;
 [[nodiscard]] std::vector<ValueShape>
 shapes_of(const Bytecode& bytecode, std::uint32_t first, const ShapeKnowledge& knowledge);
 
 /// Whether the expression at `first` contains `opcode`.
 [[nodiscard]] bool contains(const Bytecode& bytecode, std::uint32_t first, Opcode opcode);
-/// Whether what a successor stores depends on random numbers.
+/// Whether the parameters that a successor stores depend on random numbers.
 [[nodiscard]] bool is_drawn(const Bytecode& bytecode, const WordTemplate& successor);
 /// Whether the expression at `first` (kNone: none) uses a formal outside [begin, end).
 [[nodiscard]] bool uses_formal_outside(const Bytecode& bytecode,
