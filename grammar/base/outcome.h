@@ -62,6 +62,9 @@ private:
     std::vector<Message> all_;
 };
 
+/// The value of a step that only acts: Outcome<Done>.
+struct Done {};
+
 template <typename T>
 class [[nodiscard]] Outcome {
 public:

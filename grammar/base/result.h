@@ -6,6 +6,7 @@
 #include "grammar/base/contract.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -50,7 +51,23 @@ private:
     std::variant<T, Error> state_;
 };
 
-/// The result of an action that yields nothing.
-struct Done {};
+/// The result of an action without a value.
+template <>
+class [[nodiscard]] Result<void> {
+public:
+    Result() = default;
+    Result(Error error) : error_(std::move(error)) {}
+
+    [[nodiscard]] bool ok() const { return !error_; }
+    explicit operator bool() const { return ok(); }
+
+    [[nodiscard]] const Error& error() const {
+        LSYS_CHECK(!ok());
+        return *error_;
+    }
+
+private:
+    std::optional<Error> error_;
+};
 
 } // namespace lsys

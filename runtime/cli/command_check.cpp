@@ -27,7 +27,7 @@ ExitStatus check_text(const std::string& path,
     }
     if (!compiled.value().definition_error && command.messages.format == MessageFormat::Json) {
         // Editors apply what is machine applicable.
-        const Result<Done> offered = offer_doubtful_fixes(
+        const Result<void> offered = offer_doubtful_fixes(
             path, text, command.grammar, FixScope(path, command.files), project, compiled.value());
         if (!offered) {
             return report_error(offered.error(), console);
@@ -46,7 +46,7 @@ ExitStatus check_text(const std::string& path,
 
 /// Writes what the fixes changed, all files or none: files in place, standard input to standard
 /// output.
-Result<Done> write_fixed(const std::string& path,
+Result<void> write_fixed(const std::string& path,
                          const std::string& bytes,
                          const FixedGrammar& fixed,
                          const Console& console) {
@@ -55,9 +55,9 @@ Result<Done> write_fixed(const std::string& path,
     const auto put = [&](const std::string& to, const std::string& text) {
         Result<Output> output = Output::open(to, console);
         if (!output) {
-            return Result<Done>(output.error());
+            return Result<void>(output.error());
         }
-        Result<Done> written = output.value().write(text);
+        Result<void> written = output.value().write(text);
         if (written) {
             written = output.value().finish();
         }
@@ -68,13 +68,13 @@ Result<Done> write_fixed(const std::string& path,
         if (path == "-" && changed_path == root) {
             continue;
         }
-        if (Result<Done> written = put(changed_path, text); !written) {
+        if (Result<void> written = put(changed_path, text); !written) {
             return written;
         }
     }
     if (path == "-") { // last: it cannot be taken back
         const auto mended = fixed.changed.find(root);
-        if (Result<Done> written = put("-", mended != fixed.changed.end() ? mended->second : bytes);
+        if (Result<void> written = put("-", mended != fixed.changed.end() ? mended->second : bytes);
             !written) {
             return written;
         }
@@ -87,13 +87,13 @@ ExitStatus fix_file(const std::string& path,
                     const CheckCommand& command,
                     const Console& console) {
     FixedGrammar fixed;
-    const Result<Done> done = fix_text(path, text, command.grammar, FixScope(path, command.files),
+    const Result<void> done = fix_text(path, text, command.grammar, FixScope(path, command.files),
                                        make_project(console, command.run), fixed);
     if (!done) {
         return report_error(done.error(), console);
     }
     if (!console.interrupted()) {
-        if (const Result<Done> written = write_fixed(path, text.bytes, fixed, console); !written) {
+        if (const Result<void> written = write_fixed(path, text.bytes, fixed, console); !written) {
             const ExitStatus status = report_error(written.error(), console);
             if (fixed.changed.size() > 1) {
                 console.help(fmt::format("`{}` and the files that it includes are as they were: "

@@ -28,7 +28,7 @@ ExitStatus run_compile(const CompileCommand& command, const Console& console) {
         bytecode.settings.seed = *command.seed;
     }
     const std::string bytes = write_module_file(bytecode);
-    if (const Result<Done> written = write_file(command.output, bytes, console); !written) {
+    if (const Result<void> written = write_file(command.output, bytes, console); !written) {
         console.error(written.error().message);
         return ExitStatus::Failure;
     }

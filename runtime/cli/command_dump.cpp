@@ -67,7 +67,7 @@ std::string find_conflict(const DumpCommand& command) {
 
 ExitStatus
 write_stage(const DumpCommand& command, const std::string& text, const Console& console) {
-    if (const Result<Done> written = write_file(command.output, text, console); !written) {
+    if (const Result<void> written = write_file(command.output, text, console); !written) {
         return report_error(written.error(), console);
     }
     return ExitStatus::Ok;
@@ -88,7 +88,7 @@ ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
                                               shown_path(command.file), row_of(dialect).title)},
                             console);
     }
-    if (const Result<Done> fine = check_system(command.file, dialect, command.grammar); !fine) {
+    if (const Result<void> fine = check_system(command.file, dialect, command.grammar); !fine) {
         return report_error(fine.error(), console);
     }
     SourceMap sources;
@@ -140,13 +140,13 @@ ExitStatus write_lines(const DumpCommand& command,
             if (console.interrupted()) {
                 return ExitStatus::Interrupted;
             }
-            if (const Result<Done> written = output.value().write(text); !written) {
+            if (const Result<void> written = output.value().write(text); !written) {
                 return report_error(written.error(), console);
             }
             text.clear();
         }
     }
-    const Result<Done> done = output.value().commit();
+    const Result<void> done = output.value().commit();
     return done ? ExitStatus::Ok : report_error(done.error(), console);
 }
 

@@ -84,7 +84,7 @@ ExitStatus run_explain(const ExplainCommand& command, const Console& console) {
         }
         text = explain(info(*code), *found);
     }
-    Result<Done> written = console.write(text);
+    Result<void> written = console.write(text);
     if (written) {
         written = console.flush();
     }

@@ -41,7 +41,7 @@ public:
             return false;
         }
         written_ += bytes.size();
-        const Result<Done> done = output_.write(bytes);
+        const Result<void> done = output_.write(bytes);
         if (!done) {
             failure_ = done.error();
         }
@@ -108,7 +108,7 @@ public:
         if (told != ExitStatus::Ok) {
             return told;
         }
-        if (const Result<Done> finished = output.value().finish(); !finished) {
+        if (const Result<void> finished = output.value().finish(); !finished) {
             return report_error(finished.error(), console_);
         }
         outputs_.push_back(std::move(output.value()));
@@ -116,7 +116,7 @@ public:
     }
     /// Lets all be seen.
     ExitStatus commit() {
-        const Result<Done> done = commit_all(outputs_);
+        const Result<void> done = commit_all(outputs_);
         return done ? ExitStatus::Ok : report_error(done.error(), console_);
     }
 
@@ -344,7 +344,7 @@ ExitStatus run_export(const ExportCommand& command, const Console& console) {
         console.line(text);
         return status;
     }
-    const Result<Done> written = console.write(text);
+    const Result<void> written = console.write(text);
     return written ? status : report_error(written.error(), console);
 }
 

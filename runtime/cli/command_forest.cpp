@@ -130,7 +130,7 @@ add_output(Run& run, const std::string& path, const Write& write, std::vector<Ou
         if (run.console.interrupted()) {
             return false;
         }
-        const Result<Done> done = output.value().write(bytes);
+        const Result<void> done = output.value().write(bytes);
         if (!done) {
             failure = done.error();
         }
@@ -142,7 +142,7 @@ add_output(Run& run, const std::string& path, const Write& write, std::vector<Ou
     if (status != ExitStatus::Ok) {
         return status;
     }
-    if (const Result<Done> finished = output.value().finish(); !finished) {
+    if (const Result<void> finished = output.value().finish(); !finished) {
         return report_error(finished.error(), run.console);
     }
     outputs.push_back(std::move(output.value()));
@@ -151,7 +151,7 @@ add_output(Run& run, const std::string& path, const Write& write, std::vector<Ou
 
 /// Lets the files be seen, all or none.
 ExitStatus show_outputs(std::vector<Output>& outputs, const Console& console) {
-    const Result<Done> done = commit_all(outputs);
+    const Result<void> done = commit_all(outputs);
     return done ? ExitStatus::Ok : report_error(done.error(), console);
 }
 
@@ -276,7 +276,7 @@ ExitStatus write_forest(Run& run, const std::string& path) {
         break;
     }
     const std::string text = forest_stats_json(scene, {true, run.command.run.threads}) + "\n";
-    const Result<Done> done = write_file(path, text, run.console);
+    const Result<void> done = write_file(path, text, run.console);
     return done ? ExitStatus::Ok : report_error(done.error(), run.console);
 }
 
@@ -346,7 +346,7 @@ ExitStatus print_stats(const Run& run) {
         const ForestCounts counts = count_forest(run.grown.forest, run.command.run.threads);
         text = stats_text(run, counts, counting.seconds());
     }
-    const Result<Done> done = run.console.write(text);
+    const Result<void> done = run.console.write(text);
     return done ? ExitStatus::Ok : report_error(done.error(), run.console);
 }
 
@@ -367,7 +367,7 @@ ExitStatus write_years(Run& run) {
             if (run.console.interrupted()) {
                 return ExitStatus::Interrupted;
             }
-            if (const Result<Done> done = domination.step(); !done) {
+            if (const Result<void> done = domination.step(); !done) {
                 return report_error(
                     Error{fmt::format("year {}: {}", domination.year() + 1, done.error().message)},
                     run.console);

@@ -48,7 +48,7 @@ format_file(const std::string& path, const FormatCommand& command, const Console
     if (path != "-" && *text == before) {
         return ExitStatus::Ok;
     }
-    if (Result<Done> written = write_file(path, *text, console); !written) {
+    if (Result<void> written = write_file(path, *text, console); !written) {
         console.error(written.error().message);
         return ExitStatus::Failure;
     }

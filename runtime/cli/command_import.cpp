@@ -62,7 +62,7 @@ ExitStatus import_text(const std::string& path,
 
 ExitStatus
 write_imported(const std::string& path, const std::string& text, const Console& console) {
-    const Result<Done> written = write_file(path, text, console);
+    const Result<void> written = write_file(path, text, console);
     return written ? ExitStatus::Ok : report_error(written.error(), console);
 }
 
@@ -130,7 +130,7 @@ write_named(const std::string& path, const std::string& text, const FolderImport
     if (!output) {
         return report_error(output.error(), import.console);
     }
-    Result<Done> done = output.value().write(text);
+    Result<void> done = output.value().write(text);
     if (done) {
         done = output.value().commit();
     }
@@ -138,7 +138,7 @@ write_named(const std::string& path, const std::string& text, const FolderImport
 }
 
 /// Imports one system to `stem`.lsys and prints a line about it.
-Result<Done> import_one(const std::string& path,
+Result<void> import_one(const std::string& path,
                         GrammarText text,
                         const GrammarOptions& options,
                         const std::string& stem,
@@ -165,7 +165,7 @@ Result<Done> import_one(const std::string& path,
 
 /// All systems of a file, each to `prefix`NAME.lsys. Of two with one name, whatever the case of its
 /// letters, only the first can be asked for.
-Result<Done> import_systems(const std::string& path,
+Result<void> import_systems(const std::string& path,
                             const GrammarText& text,
                             const std::string& prefix,
                             FolderImport& import) {
@@ -173,7 +173,7 @@ Result<Done> import_systems(const std::string& path,
     for (const std::string& system : systems_in(text.dialect, text.bytes)) {
         if (import.console.interrupted()) {
             import.status = ExitStatus::Interrupted;
-            return Done{};
+            return {};
         }
         std::string low = system;
         std::transform(low.begin(), low.end(), low.begin(), [](char c) {
@@ -182,7 +182,7 @@ Result<Done> import_systems(const std::string& path,
         if (!known.insert(low).second) {
             ++import.lost;
             import.status = worse(import.status, ExitStatus::AuthorErrors);
-            if (Result<Done> written = import.console.write(fmt::format(
+            if (Result<void> written = import.console.write(fmt::format(
                     "{}: `{}`: a second system of this name, not imported\n", path, system));
                 !written) {
                 return written;
@@ -191,31 +191,31 @@ Result<Done> import_systems(const std::string& path,
         }
         GrammarOptions options = import.command.grammar;
         options.system = system;
-        if (Result<Done> written =
+        if (Result<void> written =
                 import_one(path, text, options, prefix + file_name(system), import);
             !written) {
             return written;
         }
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> make_folder(const fs::path& folder) {
+Result<void> make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
-    return error ? Result<Done>(Error{fmt::format("cannot make the folder `{}`: {}",
+    return error ? Result<void>(Error{fmt::format("cannot make the folder `{}`: {}",
                                                   folder.string(), error.message())})
-                 : Done{};
+                 : Result<void>();
 }
 
-ExitStatus end_import(const Result<Done>& result, const FolderImport& import) {
+ExitStatus end_import(const Result<void>& result, const FolderImport& import) {
     if (!result) {
         return report_error(result.error(), import.console);
     }
     if (import.status == ExitStatus::Interrupted) {
         return import.status;
     }
-    const Result<Done> written =
+    const Result<void> written =
         import.console.write(fmt::format("{} imported, {} not\n", import.done, import.lost));
     return written ? import.status : report_error(written.error(), import.console);
 }
@@ -228,7 +228,7 @@ ExitStatus import_folder(const ImportCommand& command, const Console& console) {
     }
     FolderImport import{
         command, console, command.output.empty() ? command.folder : command.output, {}};
-    if (const Result<Done> made = make_folder(import.folder); !made) {
+    if (const Result<void> made = make_folder(import.folder); !made) {
         return report_error(made.error(), console);
     }
     for (const fs::path& path : files.value()) {
@@ -246,7 +246,7 @@ ExitStatus import_folder(const ImportCommand& command, const Console& console) {
         const bool several = has_systems(text.value().dialect) && command.grammar.system.empty() &&
                              systems_in(text.value().dialect, text.value().bytes).size() > 1;
         const std::string name = path.filename().string();
-        const Result<Done> result =
+        const Result<void> result =
             several
                 ? import_systems(path.string(), text.value(), name + ".", import)
                 : import_one(path.string(), std::move(text.value()), command.grammar, name, import);
@@ -254,17 +254,17 @@ ExitStatus import_folder(const ImportCommand& command, const Console& console) {
             return report_error(result.error(), console);
         }
     }
-    return end_import(Done{}, import);
+    return end_import({}, import);
 }
 
 /// `-o FOLDER` of a file of several systems.
 ExitStatus
 import_to_folder(const ImportCommand& command, const GrammarText& text, const Console& console) {
-    if (const Result<Done> made = make_folder(command.output); !made) {
+    if (const Result<void> made = make_folder(command.output); !made) {
         return report_error(made.error(), console);
     }
     FolderImport import{command, console, command.output, {}};
-    const Result<Done> result = import_systems(command.file, text, "", import);
+    const Result<void> result = import_systems(command.file, text, "", import);
     return end_import(result, import);
 }
 

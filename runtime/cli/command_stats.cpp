@@ -220,7 +220,7 @@ ExitStatus run_stats(const StatsCommand& command, const Console& console) {
     const std::string text = command.messages.format == MessageFormat::Json
                                  ? make_json(growth, known)
                                  : make_table(growth, kind);
-    if (const Result<Done> written = write_file("-", text, console); !written) {
+    if (const Result<void> written = write_file("-", text, console); !written) {
         console.error(written.error().message);
         return ExitStatus::Failure;
     }

@@ -45,7 +45,7 @@ Result<SavedState> read_saved(const Plan& plan, const std::string& path, const B
 }
 
 /// Takes over what the saved state fixes: generations, seed, age.
-Result<Done> plan_from_state(const DumpCommand& command,
+Result<void> plan_from_state(const DumpCommand& command,
                              const Bytecode& bytecode,
                              const Console& console,
                              Plan& plan) {
@@ -77,7 +77,7 @@ Result<Done> plan_from_state(const DumpCommand& command,
         return Error{fmt::format("`{}` is of generation {}, past the -n {} that is asked for",
                                  command.from, header.age, plan.derive.generations)};
     }
-    return Done{};
+    return {};
 }
 
 Result<Plan> make_plan(const DumpCommand& command, const Grammar& grammar, const Console& console) {
@@ -92,7 +92,7 @@ Result<Plan> make_plan(const DumpCommand& command, const Grammar& grammar, const
     plan.derive.limits = command.run.limits;
     plan.derive.cancelled = console.io().interrupted;
     if (!command.from.empty()) {
-        if (const Result<Done> taken = plan_from_state(command, bytecode, console, plan); !taken) {
+        if (const Result<void> taken = plan_from_state(command, bytecode, console, plan); !taken) {
             return taken.error();
         }
     }
@@ -109,7 +109,7 @@ public:
 
     [[nodiscard]] bool write(std::string_view text) {
         if (!failed_) {
-            const Result<Done> written = output_.write(text);
+            const Result<void> written = output_.write(text);
             if (!written) {
                 failed_ = written.error();
             }
@@ -118,8 +118,8 @@ public:
     }
     /// What made write() return false.
     [[nodiscard]] const std::optional<Error>& failure() const { return failed_; }
-    [[nodiscard]] Result<Done> commit() {
-        return failed_ ? Result<Done>(*failed_) : output_.commit();
+    [[nodiscard]] Result<void> commit() {
+        return failed_ ? Result<void>(*failed_) : output_.commit();
     }
 
 private:
@@ -173,7 +173,7 @@ ExitStatus derive(Derivation& derivation,
     return report_derivation(derivation.end(), plan.derive.limits, grammar, console);
 }
 
-Result<Done> save_state(const Plan& plan,
+Result<void> save_state(const Plan& plan,
                         const Derivation& derivation,
                         const Bytecode& bytecode,
                         Writer& writer) {
@@ -185,7 +185,7 @@ Result<Done> save_state(const Plan& plan,
 }
 
 /// Opens the outputs that were asked for, so that one that cannot be written is known early.
-Result<Done> open_outputs(const DumpCommand& command,
+Result<void> open_outputs(const DumpCommand& command,
                           const Console& console,
                           std::optional<Writer>& word,
                           std::optional<Writer>& state) {
@@ -201,7 +201,7 @@ Result<Done> open_outputs(const DumpCommand& command,
         }
         state.emplace(std::move(saved.value()));
     }
-    return Done{};
+    return {};
 }
 
 ExitStatus dump_stored(const DumpCommand& command,
@@ -221,7 +221,7 @@ ExitStatus dump_stored(const DumpCommand& command,
     }
     std::optional<Writer> word_writer;
     std::optional<Writer> state_writer;
-    if (const Result<Done> opened = open_outputs(command, console, word_writer, state_writer);
+    if (const Result<void> opened = open_outputs(command, console, word_writer, state_writer);
         !opened) {
         return report_error(opened.error(), console);
     }
@@ -251,7 +251,7 @@ ExitStatus dump_stored(const DumpCommand& command,
         return status;
     }
     static_cast<void>(writer.write(counts));
-    Result<Done> done = writer.commit();
+    Result<void> done = writer.commit();
     if (done && state_writer) {
         done = save_state(plan, derivation, bytecode, *state_writer);
     }
@@ -324,7 +324,7 @@ ExitStatus dump_streamed(const DumpCommand& command,
             return status;
         }
     }
-    if (const Result<Done> done = writer.commit(); !done) {
+    if (const Result<void> done = writer.commit(); !done) {
         return report_error(done.error(), console);
     }
     return ExitStatus::Ok;
@@ -356,7 +356,7 @@ std::optional<ExitStatus> print_predicted_counts(const DumpCommand& command,
     for (std::size_t i = command.all ? 0 : counts->size() - 1; i < counts->size(); ++i) {
         text += fmt::format("{}\n", (*counts)[i]);
     }
-    const Result<Done> written = write_file(command.output, text, console);
+    const Result<void> written = write_file(command.output, text, console);
     return written ? ExitStatus::Ok : report_error(written.error(), console);
 }
 

@@ -15,11 +15,11 @@ constexpr int kMaxAttempts = 20;
 
 /// Attempts the repair until every fix that it applied may stay.
 template <typename Finish>
-Result<Done> repair(const RepairSubject& subject, const Finish& finish) {
+Result<void> repair(const RepairSubject& subject, const Finish& finish) {
     std::set<StatementKey> kept;
     for (int number = 0;; ++number) {
         RepairAttempt attempt(subject, kept, number == kMaxAttempts);
-        Result<Done> done = attempt.run();
+        Result<void> done = attempt.run();
         if (!done) {
             return done;
         }
@@ -29,7 +29,7 @@ Result<Done> repair(const RepairSubject& subject, const Finish& finish) {
         }
         if (back.empty() || subject.project.is_cancelled()) {
             finish(attempt);
-            return Done{};
+            return {};
         }
         kept.merge(back);
     }
@@ -37,7 +37,7 @@ Result<Done> repair(const RepairSubject& subject, const Finish& finish) {
 
 } // namespace
 
-Result<Done> fix_text(const std::string& path,
+Result<void> fix_text(const std::string& path,
                       const GrammarText& text,
                       const GrammarOptions& options,
                       const FixScope& scope,
@@ -49,7 +49,7 @@ Result<Done> fix_text(const std::string& path,
     });
 }
 
-Result<Done> offer_doubtful_fixes(const std::string& path,
+Result<void> offer_doubtful_fixes(const std::string& path,
                                   const GrammarText& text,
                                   const GrammarOptions& options,
                                   const FixScope& scope,
@@ -57,7 +57,7 @@ Result<Done> offer_doubtful_fixes(const std::string& path,
                                   CompiledText& compiled) {
     const std::vector<Diagnostic>& all = compiled.diagnostics.all();
     if (std::none_of(all.begin(), all.end(), has_certain_fix)) {
-        return Done{};
+        return {};
     }
     return repair({path, text, options, scope, project}, [&](RepairAttempt& attempt) {
         attempt.offer_doubtful(compiled.diagnostics, *compiled.grammar.sources);

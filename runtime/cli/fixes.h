@@ -45,7 +45,7 @@ inline constexpr std::size_t kMaxFixLines = 50;
 
 /// Mends `text`, that of `path`, and the files that it includes as far as `scope` has them. A byte
 /// order mark and CRLF line ends stay.
-[[nodiscard]] Result<Done> fix_text(const std::string& path,
+[[nodiscard]] Result<void> fix_text(const std::string& path,
                                     const GrammarText& text,
                                     const GrammarOptions& options,
                                     const FixScope& scope,
@@ -54,7 +54,7 @@ inline constexpr std::size_t kMaxFixLines = 50;
 
 /// Turns the fixes of `compiled`, which `text` was compiled to, that fix_text() does not apply into
 /// offers.
-[[nodiscard]] Result<Done> offer_doubtful_fixes(const std::string& path,
+[[nodiscard]] Result<void> offer_doubtful_fixes(const std::string& path,
                                                 const GrammarText& text,
                                                 const GrammarOptions& options,
                                                 const FixScope& scope,

@@ -18,7 +18,7 @@ public:
 
     ExitStatus operator()(const PrintText& text) const {
         const Console console(io_, {});
-        const Result<Done> written = console.write(text.text);
+        const Result<void> written = console.write(text.text);
         if (!written) {
             console.error(written.error().message);
             return ExitStatus::Failure;

@@ -29,7 +29,7 @@ bool stands_alone(DiagnosticCode code) {
 
 } // namespace
 
-Result<Done> compile_changed(const RepairSubject& subject,
+Result<void> compile_changed(const RepairSubject& subject,
                              const std::map<std::string, std::string>& changed,
                              CompiledText& compiled) {
     const FileLoader from_disk = make_loader(subject.project, subject.project.limits.max_bytes);
@@ -49,13 +49,13 @@ Result<Done> compile_changed(const RepairSubject& subject,
     if (compiled.definition_error) {
         return *compiled.definition_error;
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> RepairAttempt::run() {
+Result<void> RepairAttempt::run() {
     for (int round = 0;; ++round) {
         CompiledText& compiled = fixed_.compiled;
-        if (Result<Done> done = compile_changed(subject_, fixed_.changed, compiled); !done) {
+        if (Result<void> done = compile_changed(subject_, fixed_.changed, compiled); !done) {
             return done;
         }
         fixed_.left.clear();
@@ -66,14 +66,14 @@ Result<Done> RepairAttempt::run() {
         }
         compiled.diagnostics.sort_by_place();
         if (round == kMaxRounds || keeps_all_ || subject_.project.is_cancelled()) {
-            return Done{};
+            return {};
         }
         const ChosenFixes chosen = choose_fixes(compiled.diagnostics, *compiled.grammar.sources,
                                                 [&](const Diagnostic& diagnostic, const Fix& fix) {
                                                     return may_apply(diagnostic, fix);
                                                 });
         if (chosen.fixes.empty()) {
-            return Done{};
+            return {};
         }
         apply(chosen);
     }

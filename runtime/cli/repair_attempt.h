@@ -43,7 +43,7 @@ struct RepairSubject {
 };
 
 /// Compiles the grammar with the files of `changed` in place of those on the disk.
-[[nodiscard]] Result<Done> compile_changed(const RepairSubject& subject,
+[[nodiscard]] Result<void> compile_changed(const RepairSubject& subject,
                                            const std::map<std::string, std::string>& changed,
                                            CompiledText& compiled);
 
@@ -54,7 +54,7 @@ public:
         : subject_(subject), kept_(kept), keeps_all_(keeps_all) {}
 
     /// Applies fixes until none is left.
-    [[nodiscard]] Result<Done> run();
+    [[nodiscard]] Result<void> run();
     /// Repaired statements that are still wrong.
     [[nodiscard]] std::set<StatementKey> wrong() const;
     /// Repaired statements that may have been meant otherwise (repair_rivals.cpp).

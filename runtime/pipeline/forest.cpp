@@ -226,7 +226,7 @@ Outcome<LoadedScene> load_scene(const std::vector<std::string>& files,
         loaded.scene = std::move(*read);
         loaded.folder = std::filesystem::path(path).parent_path().string();
     }
-    if (const Result<Done> applied = apply(overrides, loaded.scene); !applied) {
+    if (const Result<void> applied = apply(overrides, loaded.scene); !applied) {
         return step.fail(applied.error());
     }
     return step.done(std::move(loaded));

@@ -136,9 +136,9 @@ read_grammar(const std::string& path, const std::string& dialect, const Project&
     return step.done(GrammarText{std::move(bytes.value()), found.value()});
 }
 
-Result<Done> check_system(const std::string& path, Dialect dialect, const GrammarOptions& options) {
+Result<void> check_system(const std::string& path, Dialect dialect, const GrammarOptions& options) {
     return options.system.empty() || has_systems(dialect)
-               ? Result<Done>(Done{})
+               ? Result<void>()
                : Error{fmt::format("--system: `{}` is {} and holds one system only",
                                    shown_path(path), row_of(dialect).title)};
 }
@@ -148,7 +148,7 @@ Result<CompiledText> compile_text(const std::string& path,
                                   const GrammarOptions& options,
                                   std::uint64_t max_modules,
                                   const FileLoader& load) {
-    if (Result<Done> ok = check_system(path, text.dialect, options); !ok) {
+    if (Result<void> ok = check_system(path, text.dialect, options); !ok) {
         return ok.error();
     }
     CompiledText compiled;

@@ -70,7 +70,7 @@ struct CompiledText {
 read_grammar(const std::string& path, const std::string& dialect, const Project& project);
 
 /// Error: GrammarOptions::system is set for a dialect with one system per file.
-[[nodiscard]] Result<Done>
+[[nodiscard]] Result<void>
 check_system(const std::string& path, Dialect dialect, const GrammarOptions& options);
 
 /// Compiles the `text` of `path`. Errors: those of check_system().

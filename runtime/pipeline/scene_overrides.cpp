@@ -16,7 +16,7 @@ void take(const std::optional<Value>& option, Target& target) {
 
 } // namespace
 
-Result<Done> apply(const SceneOverrides& overrides, Scene& scene) {
+Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
     for (SceneSpecies& species : scene.species) {
         take(overrides.heroes, species.cache.heroes);
         take(overrides.seed, species.cache.seed);
@@ -66,7 +66,7 @@ Result<Done> apply(const SceneOverrides& overrides, Scene& scene) {
             scene.terrain.region = placement.region;
         }
     }
-    return Done{};
+    return {};
 }
 
 } // namespace lsys

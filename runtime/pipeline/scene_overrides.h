@@ -40,6 +40,6 @@ struct SceneOverrides {
 };
 
 /// Applies the set options to `scene`. Error: a tile with a placement that has none.
-[[nodiscard]] Result<Done> apply(const SceneOverrides& overrides, Scene& scene);
+[[nodiscard]] Result<void> apply(const SceneOverrides& overrides, Scene& scene);
 
 } // namespace lsys

@@ -228,7 +228,7 @@ Result<Domination> Domination::begin(const PlacementOptions& options, const Terr
     return forest;
 }
 
-Result<Done> Domination::step() {
+Result<void> Domination::step() {
     if (year_ == kMaxYears) {
         return Error{fmt::format("a forest grows for at most {} years", kMaxYears)};
     }
@@ -258,7 +258,7 @@ Result<Done> Domination::step() {
                                  [&](const ForestPlant& plant) { return life.is_dead(plant); }),
                   plants_.end());
     ++year_;
-    return Done{};
+    return {};
 }
 
 LargeVector<Tree> Domination::trees() const {

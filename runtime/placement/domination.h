@@ -39,7 +39,7 @@ public:
     /// Advances one year: seeds, growth, domination, death, in time about linear in the plants. The
     /// result is the same for any number of threads. Errors: more than kMaxTrees plants and seeds,
     /// more numbers than 32 bits hold, the end of kMaxYears; the forest is then unchanged.
-    [[nodiscard]] Result<Done> step();
+    [[nodiscard]] Result<void> step();
 
     [[nodiscard]] std::uint32_t year() const { return year_; }
     /// The living plants by number. No two circles of plants that are not dominated meet.

@@ -23,7 +23,7 @@ Result<Placement> grow_forest(const PlacementOptions& options, const Terrain& te
     }
     Domination& forest = begun.value();
     while (forest.year() < options.years) {
-        if (const Result<Done> done = forest.step(); !done) {
+        if (const Result<void> done = forest.step(); !done) {
             return done.error();
         }
     }
@@ -34,17 +34,17 @@ bool has_map(PlacementMethod method) {
     return method == PlacementMethod::DensityMap || method == PlacementMethod::DensityCells;
 }
 
-Result<Done> place_with(const PlacementJob& job, Placement& placement) {
+Result<void> place_with(const PlacementJob& job, Placement& placement) {
     switch (job.options.method) {
     case PlacementMethod::Uniform:
         place_uniform(job, placement);
-        return Done{};
+        return {};
     case PlacementMethod::PoissonDisk:
         place_poisson_disk(job, placement);
-        return Done{};
+        return {};
     case PlacementMethod::DensityMap:
         place_by_error_diffusion(job, placement);
-        return Done{};
+        return {};
     case PlacementMethod::Jittered:
         return place_jittered(job, placement);
     case PlacementMethod::UniformCells:
@@ -56,7 +56,7 @@ Result<Done> place_with(const PlacementJob& job, Placement& placement) {
     case PlacementMethod::Domination:
         break; // see grow_forest()
     }
-    return Done{};
+    return {};
 }
 
 } // namespace
@@ -91,7 +91,7 @@ Result<Placement> place_trees(const PlacementOptions& options, const Terrain& te
     // six standard deviations are hardly ever exceeded, and unused room takes no memory
     placement.trees.reserve(static_cast<std::size_t>(
         expected.value() + kDeviations * std::sqrt(expected.value()) + kDeviations));
-    if (const Result<Done> placed = place_with({options, terrain, maker, workers}, placement);
+    if (const Result<void> placed = place_with({options, terrain, maker, workers}, placement);
         !placed) {
         return placed.error();
     }

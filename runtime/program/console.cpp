@@ -40,9 +40,9 @@ Diagnostics errors_only(const Diagnostics& diagnostics) {
     return errors;
 }
 
-Result<Done> output_result(std::ostream& out) {
+Result<void> output_result(std::ostream& out) {
     if (out.good()) {
-        return Done{};
+        return {};
     }
     const int reason = errno;
     std::string message = "cannot write standard output";
@@ -189,13 +189,13 @@ ExitStatus Console::show(Diagnostics& diagnostics, const SourceMap& sources) con
     return diagnostics.has_errors() ? ExitStatus::AuthorErrors : ExitStatus::Ok;
 }
 
-Result<Done> Console::write(std::string_view text) const {
+Result<void> Console::write(std::string_view text) const {
     errno = 0;
     io_.out.write(text.data(), static_cast<std::streamsize>(text.size()));
     return output_result(io_.out);
 }
 
-Result<Done> Console::flush() const {
+Result<void> Console::flush() const {
     errno = 0;
     io_.out.flush();
     return output_result(io_.out);
@@ -205,7 +205,7 @@ ExitStatus Console::finish(ExitStatus status) const {
     if (!io_.out.good() && status != ExitStatus::Ok) {
         return status; // whoever wrote has reported it
     }
-    const Result<Done> done = flush();
+    const Result<void> done = flush();
     if (done) {
         return status;
     }

@@ -59,9 +59,9 @@ public:
     [[nodiscard]] RenderOptions render_options() const;
 
     /// Writes a result to standard output.
-    [[nodiscard]] Result<Done> write(std::string_view text) const;
+    [[nodiscard]] Result<void> write(std::string_view text) const;
     /// Hands on what standard output still holds back.
-    [[nodiscard]] Result<Done> flush() const;
+    [[nodiscard]] Result<void> flush() const;
 
     /// The exit status of a command that ended as `status`, once standard output has taken all of
     /// its results.

@@ -29,7 +29,7 @@ namespace {
 constexpr std::size_t kPiece = std::size_t{1} << 20;
 
 /// Fine while `size` bytes are within the limit.
-Result<Done> check_size(std::uint64_t size, const ReadLimit& limit) {
+Result<void> check_size(std::uint64_t size, const ReadLimit& limit) {
     if (size > limit.memory && limit.memory < limit.max_bytes) {
         return memory_error("it", limit.memory);
     }
@@ -37,7 +37,7 @@ Result<Done> check_size(std::uint64_t size, const ReadLimit& limit) {
         return Error{
             fmt::format("it has more than {} bytes, the most that can be read", limit.max_bytes)};
     }
-    return Done{};
+    return {};
 }
 
 /// Why a file of this kind is not read; empty: it is.
@@ -77,7 +77,7 @@ Result<std::string> read_descriptor(int descriptor,
         if (count < 0 && reason != EINTR) {
             return Error{reason_text(reason)};
         }
-        if (const Result<Done> checked = check_size(bytes.size(), limit); !checked) {
+        if (const Result<void> checked = check_size(bytes.size(), limit); !checked) {
             return checked.error();
         }
         if (count == 0) {
@@ -147,7 +147,7 @@ Result<std::string> read_standard_input(const ReadLimit& limit, const Console& c
         if (console.interrupted()) {
             return Error{"interrupted"};
         }
-        if (const Result<Done> checked = check_size(bytes.size(), limit); !checked) {
+        if (const Result<void> checked = check_size(bytes.size(), limit); !checked) {
             return checked.error();
         }
     }
@@ -172,7 +172,7 @@ Result<std::string> read_bytes(const std::string& path,
         return Error{std::string(reason)};
     }
     const auto expected = static_cast<std::uint64_t>(std::max<off_t>(facts.st_size, 0));
-    if (const Result<Done> checked = check_size(expected, limit); !checked) {
+    if (const Result<void> checked = check_size(expected, limit); !checked) {
         return checked.error();
     }
     return read_descriptor(file.get(), expected, limit, cancelled);
@@ -219,7 +219,7 @@ void Output::drop_temporary() {
 
 /// Makes an empty file beside target_. One that will replace another is private until it has the
 /// `mode` of that one; the kernel gives a new one the mode that the process has for new files.
-Result<Done> Output::make_temporary(bool exists, unsigned mode) {
+Result<void> Output::make_temporary(bool exists, unsigned mode) {
     constexpr int kAttempts = 100;
     const mode_t first_mode = exists ? 0600 : 0666;
     for (int attempt = 0; attempt < kAttempts && descriptor_ < 0; ++attempt) {
@@ -239,7 +239,7 @@ Result<Done> Output::make_temporary(bool exists, unsigned mode) {
     if (exists && ::fchmod(descriptor_, mode) != 0) {
         return failure(errno);
     }
-    return Done{};
+    return {};
 }
 
 Result<Output> Output::open(const std::string& path, const Console& console) {
@@ -271,7 +271,7 @@ Result<Output> Output::open(const std::string& path, const Console& console) {
         }
         output.target_ = real.get();
     }
-    if (Result<Done> made = output.make_temporary(exists, facts.st_mode & 0777U); !made) {
+    if (Result<void> made = output.make_temporary(exists, facts.st_mode & 0777U); !made) {
         return made.error();
     }
     return output;
@@ -285,13 +285,13 @@ Result<Output> Output::create(const std::string& path, const Console& console) {
     if (::lstat(path.c_str(), &facts) == 0) {
         return output.failure(EEXIST);
     }
-    if (Result<Done> made = output.make_temporary(false, 0); !made) {
+    if (Result<void> made = output.make_temporary(false, 0); !made) {
         return made.error();
     }
     return output;
 }
 
-Result<Done> Output::write(std::string_view text) {
+Result<void> Output::write(std::string_view text) {
     if (descriptor_ < 0) {
         return console_->write(text);
     }
@@ -302,12 +302,12 @@ Result<Done> Output::write(std::string_view text) {
         }
         text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> Output::finish() {
+Result<void> Output::finish() {
     if (std::exchange(is_finished_, true)) {
-        return Done{};
+        return {};
     }
     if (descriptor_ < 0) {
         return console_->flush();
@@ -316,15 +316,15 @@ Result<Done> Output::finish() {
     if (::close(std::exchange(descriptor_, -1)) != 0) {
         return failure(errno);
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> Output::commit() {
-    if (Result<Done> finished = finish(); !finished) {
+Result<void> Output::commit() {
+    if (Result<void> finished = finish(); !finished) {
         return finished;
     }
     if (temporary_.empty()) {
-        return Done{};
+        return {};
     }
     const unsigned flags = must_be_new_ ? RENAME_NOREPLACE : 0;
     int failed = ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), flags);
@@ -335,26 +335,26 @@ Result<Done> Output::commit() {
         return failure(errno);
     }
     drop_temporary();
-    return Done{};
+    return {};
 }
 
 /// Gives the file its name; the temporary name gets the file that was there, so that hide() can
 /// bring it back.
-Result<Done> Output::show() {
+Result<void> Output::show() {
     struct stat facts {};
     const bool replaces = ::lstat(target_.c_str(), &facts) == 0;
     if (temporary_.empty() || must_be_new_ || !replaces || !S_ISREG(facts.st_mode)) {
         const bool has_name = !temporary_.empty();
-        Result<Done> done = commit();
+        Result<void> done = commit();
         shown_ = done && has_name ? Shown::New : Shown::No;
         return done;
     }
     if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) ==
         0) {
         shown_ = Shown::Exchanged;
-        return Done{};
+        return {};
     }
-    Result<Done> done = commit();
+    Result<void> done = commit();
     shown_ = done ? Shown::Replaced : Shown::No;
     return done;
 }
@@ -367,15 +367,15 @@ void Output::hide() {
     }
 }
 
-Result<Done> commit_all(std::vector<Output>& outputs) {
+Result<void> commit_all(std::vector<Output>& outputs) {
     // A full disk is known after these; nothing has changed until then.
     for (Output& output : outputs) {
-        if (Result<Done> finished = output.finish(); !finished) {
+        if (Result<void> finished = output.finish(); !finished) {
             return finished;
         }
     }
     for (std::size_t i = 0; i < outputs.size(); ++i) {
-        if (Result<Done> shown = outputs[i].show(); !shown) {
+        if (Result<void> shown = outputs[i].show(); !shown) {
             while (i > 0) {
                 outputs[--i].hide();
             }
@@ -383,15 +383,15 @@ Result<Done> commit_all(std::vector<Output>& outputs) {
         }
     }
     outputs.clear(); // and with them the files that were replaced
-    return Done{};
+    return {};
 }
 
-Result<Done> write_file(const std::string& path, std::string_view text, const Console& console) {
+Result<void> write_file(const std::string& path, std::string_view text, const Console& console) {
     Result<Output> output = Output::open(path, console);
     if (!output) {
         return output.error();
     }
-    if (Result<Done> written = output.value().write(text); !written) {
+    if (Result<void> written = output.value().write(text); !written) {
         return written;
     }
     return output.value().commit();

@@ -60,21 +60,21 @@ public:
     /// Like open(), but the file must be new: an Error here or at commit() if there is one of its
     /// name, a dangling link included.
     [[nodiscard]] static Result<Output> create(const std::string& path, const Console& console);
-    [[nodiscard]] Result<Done> write(std::string_view text);
+    [[nodiscard]] Result<void> write(std::string_view text);
     /// Ends the writing; the file keeps its temporary name. Idempotent.
-    [[nodiscard]] Result<Done> finish();
+    [[nodiscard]] Result<void> finish();
     /// finish(), then the file gets its name.
-    [[nodiscard]] Result<Done> commit();
+    [[nodiscard]] Result<void> commit();
 
 private:
-    friend Result<Done> commit_all(std::vector<Output>& outputs);
+    friend Result<void> commit_all(std::vector<Output>& outputs);
     enum class Shown : std::uint8_t { No, New, Exchanged, Replaced };
 
     Output(const Console& console, std::string path) : console_(&console), path_(std::move(path)) {}
     [[nodiscard]] Error failure(int reason) const;
-    [[nodiscard]] Result<Done> make_temporary(bool exists, unsigned mode);
+    [[nodiscard]] Result<void> make_temporary(bool exists, unsigned mode);
     void drop_temporary();
-    [[nodiscard]] Result<Done> show();
+    [[nodiscard]] Result<void> show();
     void hide();
 
     const Console* console_;
@@ -90,10 +90,10 @@ private:
 
 /// Commits outputs that belong together: all of them appear or none. A file that was replaced comes
 /// back when a later one fails, except on file systems that cannot exchange two names.
-[[nodiscard]] Result<Done> commit_all(std::vector<Output>& outputs);
+[[nodiscard]] Result<void> commit_all(std::vector<Output>& outputs);
 
 /// open, write, commit.
-[[nodiscard]] Result<Done>
+[[nodiscard]] Result<void>
 write_file(const std::string& path, std::string_view text, const Console& console);
 
 } // namespace lsys

@@ -6,7 +6,7 @@
 
 namespace lsys {
 
-Result<Done> check_region(const Region& region) {
+Result<void> check_region(const Region& region) {
     if (!std::isfinite(region.width) || !std::isfinite(region.depth) || region.width <= 0.0 ||
         region.depth <= 0.0) {
         return Error{fmt::format("a ground of {} by {} m; both sides must be above 0", region.width,
@@ -21,7 +21,7 @@ Result<Done> check_region(const Region& region) {
                                  region.x, region.z, region.x + region.width,
                                  region.z + region.depth, kFarthest)};
     }
-    return Done{};
+    return {};
 }
 
 } // namespace lsys

@@ -26,6 +26,6 @@ struct Region {
 
 /// Checks `region`. Errors: a side that is not a positive number; a corner farther than kFarthest
 /// from the origin.
-[[nodiscard]] Result<Done> check_region(const Region& region);
+[[nodiscard]] Result<void> check_region(const Region& region);
 
 } // namespace lsys

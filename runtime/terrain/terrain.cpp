@@ -27,7 +27,7 @@ bool within(double value, double least, double most) {
     return value >= least && value <= most; // false for NaN
 }
 
-Result<Done> check_noise(const NoiseOptions& options) {
+Result<void> check_noise(const NoiseOptions& options) {
     struct Bound {
         std::string_view name;
         double value;
@@ -49,15 +49,15 @@ Result<Done> check_noise(const NoiseOptions& options) {
                             bound.name, bound.value, bound.least, bound.most)};
         }
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> check_altitude(std::string_view name, double altitude) {
+Result<void> check_altitude(std::string_view name, double altitude) {
     if (!within(altitude, -kFarthest, kFarthest)) {
         return Error{fmt::format("the {} of the terrain is {} m; it must be from {} to {}", name,
                                  altitude, -kFarthest, kFarthest)};
     }
-    return Done{};
+    return {};
 }
 
 /// `cells` within the period of the noise.
@@ -68,10 +68,10 @@ float wrapped(double cells) {
 } // namespace
 
 Result<Terrain> Terrain::flat(const Region& region, double altitude) {
-    if (const Result<Done> checked = check_region(region); !checked) {
+    if (const Result<void> checked = check_region(region); !checked) {
         return checked.error();
     }
-    if (const Result<Done> checked = check_altitude("altitude", altitude); !checked) {
+    if (const Result<void> checked = check_altitude("altitude", altitude); !checked) {
         return checked.error();
     }
     Terrain terrain(region);
@@ -80,10 +80,10 @@ Result<Terrain> Terrain::flat(const Region& region, double altitude) {
 }
 
 Result<Terrain> Terrain::noise(const Region& region, const NoiseOptions& options) {
-    if (const Result<Done> checked = check_region(region); !checked) {
+    if (const Result<void> checked = check_region(region); !checked) {
         return checked.error();
     }
-    if (const Result<Done> checked = check_noise(options); !checked) {
+    if (const Result<void> checked = check_noise(options); !checked) {
         return checked.error();
     }
     Terrain terrain(region);
@@ -110,7 +110,7 @@ Result<Terrain> Terrain::noise(const Region& region, const NoiseOptions& options
 
 Result<Terrain>
 Terrain::height_map(const Region& region, GreyMap map, const HeightMapOptions& options) {
-    if (const Result<Done> checked = check_region(region); !checked) {
+    if (const Result<void> checked = check_region(region); !checked) {
         return checked.error();
     }
     if (map.columns < 2 || map.rows < 2 ||
@@ -122,7 +122,7 @@ Terrain::height_map(const Region& region, GreyMap map, const HeightMapOptions& o
         std::pair{std::string_view("lowest height"), options.lowest},
         std::pair{std::string_view("highest height"), options.highest}};
     for (const auto& [name, altitude] : altitudes) {
-        if (const Result<Done> checked = check_altitude(name, altitude); !checked) {
+        if (const Result<void> checked = check_altitude(name, altitude); !checked) {
             return checked.error();
         }
     }

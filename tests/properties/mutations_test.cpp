@@ -191,7 +191,7 @@ public:
             return;
         }
         lsc::FixedGrammar fixed;
-        const Result<Done> done =
+        const Result<void> done =
             lsc::fix_text(grammar.path, {mutant.text, Dialect::Lsys}, {},
                           lsc::FixScope(grammar.path, {}), disk_project(), fixed);
         REQUIRE(done);

@@ -238,9 +238,9 @@ std::uint64_t ForestPainting::tree_count() const {
     return document_ ? document_->grown.forest.trees.size() : 0;
 }
 
-Result<Done> ForestPainting::save(const std::string& file, const Console& console) {
+Result<void> ForestPainting::save(const std::string& file, const Console& console) {
     if (!painter_) {
-        return Done{}; // what is there is what was read
+        return {}; // what is there is what was read
     }
     Result<std::string> before = read_file(file, {kMaxSourceBytes}, console);
     if (!before) {
@@ -251,13 +251,13 @@ Result<Done> ForestPainting::save(const std::string& file, const Console& consol
     if (!text) {
         return text.error();
     }
-    if (Result<Done> written = write_file(file, text.value(), console); !written) {
+    if (Result<void> written = write_file(file, text.value(), console); !written) {
         return written;
     }
     saved_text_ = std::move(text.value());
     in_file_ = std::move(painting);
     painter_->saved();
-    return Done{};
+    return {};
 }
 
 std::vector<LineVertex>

@@ -48,7 +48,7 @@ public:
     void redo();
     [[nodiscard]] bool is_unsaved() const { return painter_ && painter_->is_changed(); }
     /// Into the scene file, all or nothing.
-    [[nodiscard]] Result<Done> save(const std::string& file, const Console& console);
+    [[nodiscard]] Result<void> save(const std::string& file, const Console& console);
     /// What was saved last takes placed trees away.
     [[nodiscard]] bool has_erased() const { return in_file_ && !in_file_->erased.empty(); }
     /// The text that was saved last.

@@ -175,7 +175,7 @@ void LiveForest::swap(ForestOutcome outcome) {
     const std::shared_ptr<ForestDocument> before = document_;
     const std::shared_ptr<ForestDocument> document = std::move(outcome.document);
     const Camera overall = overview(*document, aspect_);
-    if (Result<Done> shown = renderer_->show_forest(document->model); !shown) {
+    if (Result<void> shown = renderer_->show_forest(document->model); !shown) {
         shader_message_ = shown.error().message;
         console_.error(shader_message_);
         return;
@@ -406,7 +406,7 @@ void LiveForest::save() {
         return;
     }
     const std::lock_guard lock(saved_mutex_);
-    const Result<Done> saved = painting_.save(file(), console_);
+    const Result<void> saved = painting_.save(file(), console_);
     if (!saved) {
         say(fmt::format("not saved: {}", saved.error().message));
         return;

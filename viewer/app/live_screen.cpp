@@ -62,7 +62,7 @@ bool LiveScreen::reload_shaders() {
     if (!shaders_changed_.exchange(false)) {
         return false;
     }
-    const Result<Done> loaded = renderer_->reload(shaders_of(options_.shaders, console_));
+    const Result<void> loaded = renderer_->reload(shaders_of(options_.shaders, console_));
     shader_message_ = loaded ? std::string() : loaded.error().message;
     if (loaded) {
         console_.detail("loaded the shaders");
@@ -108,7 +108,7 @@ void LiveScreen::write_screenshot() {
     picture.width = frame_->width;
     picture.height = frame_->height;
     renderer_->read(picture.texels);
-    const Result<Done> written = write_file(name, encode_png(picture), console_);
+    const Result<void> written = write_file(name, encode_png(picture), console_);
     say(written ? fmt::format("wrote {}", name) : written.error().message);
 }
 

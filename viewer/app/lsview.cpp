@@ -68,7 +68,7 @@ run_forest_pictures(const ViewOptions& options, const Camera& camera, const Cons
     if (status != ExitStatus::Ok) {
         return status;
     }
-    if (const Result<Done> shown = made.renderer->show_forest(std::move(document.model)); !shown) {
+    if (const Result<void> shown = made.renderer->show_forest(std::move(document.model)); !shown) {
         return report_error(shown.error(), console);
     }
     static_cast<void>(made.renderer->make_portraits(std::numeric_limits<double>::infinity()));
@@ -114,7 +114,7 @@ struct Dispatch {
 
     ExitStatus operator()(const PrintText& text) const {
         const Console console(io, {});
-        const Result<Done> written = console.write(text.text);
+        const Result<void> written = console.write(text.text);
         return written ? console.finish(ExitStatus::Ok) : report_error(written.error(), console);
     }
     ExitStatus operator()(const UsageError& usage) const {

@@ -122,7 +122,7 @@ ExitStatus take_series(const ViewOptions& options,
         }
         const std::string path =
             options.frames == 0 ? options.screenshot : numbered(options.screenshot, i + 1);
-        if (const Result<Done> written = write_file(path, bytes, console); !written) {
+        if (const Result<void> written = write_file(path, bytes, console); !written) {
             return report_error(written.error(), console);
         }
         series.write.push_back(milliseconds_since(start));
@@ -134,7 +134,7 @@ ExitStatus take_series(const ViewOptions& options,
 
 ExitStatus
 write_stats_text(const ViewOptions& options, const std::string& text, const Console& console) {
-    const Result<Done> written =
+    const Result<void> written =
         options.stats == "-" ? console.write(text) : write_file(options.stats, text, console);
     return written ? ExitStatus::Ok : report_error(written.error(), console);
 }

@@ -79,9 +79,9 @@ public:
         shadow_.invalidate();
         is_forest_ = false;
     }
-    Result<Done> show_forest(ForestModel model) override {
+    Result<void> show_forest(ForestModel model) override {
         if (!has_forest_shaders_) {
-            if (Result<Done> done = forest_.reload(shaders_); !done) {
+            if (Result<void> done = forest_.reload(shaders_); !done) {
                 return done;
             }
             has_forest_shaders_ = true;
@@ -89,7 +89,7 @@ public:
         forest_.show(std::move(model));
         shadow_.invalidate();
         is_forest_ = true;
-        return Done{};
+        return {};
     }
     bool make_portraits(double seconds) override {
         if (!is_forest_) {
@@ -110,19 +110,19 @@ public:
     }
     void show_lines(std::span<const LineVertex> lines) override { lines_.upload(lines); }
 
-    Result<Done> reload(const ShaderSource& shaders) override {
+    Result<void> reload(const ShaderSource& shaders) override {
         Result<Programs> made = make_programs(device_, shaders);
         if (!made) {
             return made.error();
         }
         if (has_forest_shaders_) {
-            if (Result<Done> done = forest_.reload(shaders); !done) {
+            if (Result<void> done = forest_.reload(shaders); !done) {
                 return done;
             }
         }
         shaders_ = shaders;
         programs_ = std::move(made.value());
-        return Done{};
+        return {};
     }
 
     FrameStats draw(const Frame& frame, const PixelArea& area) override {
@@ -261,7 +261,7 @@ private:
 
 Result<std::unique_ptr<Renderer>> Renderer::make(const ShaderSource& shaders) {
     auto renderer = std::make_unique<GlRenderer>();
-    const Result<Done> loaded = renderer->reload(shaders);
+    const Result<void> loaded = renderer->reload(shaders);
     if (!loaded) {
         return loaded.error();
     }

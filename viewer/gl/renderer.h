@@ -121,7 +121,7 @@ public:
     /// The forest that is shown from now on instead. Its forest and terrain outlive what is shown.
     /// The pictures that stand for far trees are those of the forest before, where there was one,
     /// until make_portraits() has made others. Error: a shader does not compile.
-    [[nodiscard]] virtual Result<Done> show_forest(ForestModel model) = 0;
+    [[nodiscard]] virtual Result<void> show_forest(ForestModel model) = 0;
     /// Makes pictures of far trees that are missing, for about so many seconds; some each time.
     /// Whether all are there.
     [[nodiscard]] virtual bool make_portraits(double seconds) = 0;
@@ -132,7 +132,7 @@ public:
     [[nodiscard]] virtual const Bounds& bounds() const = 0;
 
     /// Compiles the shaders anew. Error: the ones before stay.
-    [[nodiscard]] virtual Result<Done> reload(const ShaderSource& shaders) = 0;
+    [[nodiscard]] virtual Result<void> reload(const ShaderSource& shaders) = 0;
 
     /// Draws what lies within `area` of the picture into memory of the renderer's own.
     virtual FrameStats draw(const Frame& frame, const PixelArea& area) = 0;

@@ -33,7 +33,7 @@ bool within(const Bound& bound) {
     return bound.value >= bound.least && bound.value <= bound.most; // false for NaN
 }
 
-Result<Done> check_growth(std::size_t number, const SpeciesGrowth& growth) {
+Result<void> check_growth(std::size_t number, const SpeciesGrowth& growth) {
     const auto wide = [](float value) { return static_cast<double>(value); };
     const std::array<Bound, 8> bounds{
         Bound{"greatest radius", wide(growth.greatest_radius), 0.01, 1000.0},
@@ -51,10 +51,10 @@ Result<Done> check_growth(std::size_t number, const SpeciesGrowth& growth) {
                                      bound.name, number, bound.value, bound.least, bound.most)};
         }
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> check_species(const PlacementOptions& options) {
+Result<void> check_species(const PlacementOptions& options) {
     if (options.species.empty() || options.species.size() > 65'536) {
         return Error{
             fmt::format("a placement of {} species; it takes 1 to 65,536", options.species.size())};
@@ -79,7 +79,7 @@ Result<Done> check_species(const PlacementOptions& options) {
                 species.lowest, species.highest, species.steepest)};
         }
         if (options.method == PlacementMethod::Domination) {
-            if (const Result<Done> checked = check_growth(i, species.growth); !checked) {
+            if (const Result<void> checked = check_growth(i, species.growth); !checked) {
                 return checked.error();
             }
         }
@@ -87,32 +87,32 @@ Result<Done> check_species(const PlacementOptions& options) {
     if (!(shares > 0.0 && std::isfinite(shares))) {
         return Error{"the shares of all species are 0"};
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> check_map(const PlacementOptions& options) {
+Result<void> check_map(const PlacementOptions& options) {
     const GreyMap* const map = options.density_map;
     if (map == nullptr || map->columns == 0 || map->rows == 0 ||
         map->values.size() != std::uint64_t{map->columns} * map->rows) {
         return Error{"the placement needs a density map, and there is none"};
     }
-    return options.map_region ? check_region(*options.map_region) : Result<Done>(Done{});
+    return options.map_region ? check_region(*options.map_region) : Result<void>();
 }
 
 /// The expected number of trees, or the error. Limits of species are ignored.
 Result<double> expected_trees(const PlacementOptions& options) {
-    const auto check = [](const Bound& bound) -> Result<Done> {
+    const auto check = [](const Bound& bound) -> Result<void> {
         if (!within(bound)) {
             return Error{fmt::format("the {} of the placement is {}; it must be from {} to {}",
                                      bound.name, bound.value, bound.least, bound.most)};
         }
-        return Done{};
+        return {};
     };
     const Bound spacing{"spacing", options.spacing, kLeastSpacing, kFarthest};
     const Bound density{"density", options.density, 1.0 / (kFarthest * kFarthest),
                         1.0 / (kLeastSpacing * kLeastSpacing)};
     const double area = options.region.area();
-    Result<Done> checked = Done{};
+    Result<void> checked;
     double trees = 0.0;
     switch (options.method) {
     case PlacementMethod::Uniform:
@@ -164,14 +164,14 @@ Result<double> expected_trees(const PlacementOptions& options) {
 } // namespace
 
 Result<double> check_placement(const PlacementOptions& options) {
-    if (const Result<Done> checked = check_region(options.region); !checked) {
+    if (const Result<void> checked = check_region(options.region); !checked) {
         return checked.error();
     }
     if (options.region.width < kLeastSide || options.region.depth < kLeastSide) {
         return Error{fmt::format("a region of {} by {} m is too small for trees; the least is {} m",
                                  options.region.width, options.region.depth, kLeastSide)};
     }
-    if (const Result<Done> checked = check_species(options); !checked) {
+    if (const Result<void> checked = check_species(options); !checked) {
         return checked.error();
     }
     Result<double> trees = expected_trees(options);

@@ -39,7 +39,7 @@ Order draw_order(std::uint64_t key, std::uint32_t cell) {
 
 } // namespace
 
-Result<Done> place_density_cells(const PlacementJob& job, Placement& placement) {
+Result<void> place_density_cells(const PlacementJob& job, Placement& placement) {
     const PlacementOptions& options = job.options;
     const GreySampler grey(*options.density_map, options.map_region.value_or(options.region));
     const CellGrid grid(kSquares / std::sqrt(options.density), kPlaceBits);
@@ -72,7 +72,7 @@ Result<Done> place_density_cells(const PlacementJob& job, Placement& placement) 
         }
     };
     collect_trees(job.workers, static_cast<std::uint64_t>(cells.rows), row, placement);
-    return Done{};
+    return {};
 }
 
 } // namespace lsys

@@ -6,7 +6,7 @@
 
 namespace lsys {
 
-Result<Done> place_jittered(const PlacementJob& job, Placement& placement) {
+Result<void> place_jittered(const PlacementJob& job, Placement& placement) {
     const PlacementOptions& options = job.options;
     const CellGrid grid(options.spacing, 0);
     const Result<CellRange> range = cells_of(grid, options.region, 0);
@@ -28,7 +28,7 @@ Result<Done> place_jittered(const PlacementJob& job, Placement& placement) {
         }
     };
     collect_trees(job.workers, static_cast<std::uint64_t>(cells.rows), row, placement);
-    return Done{};
+    return {};
 }
 
 } // namespace lsys

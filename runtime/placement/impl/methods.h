@@ -19,9 +19,9 @@ void place_uniform(const PlacementJob& job, Placement& placement);
 void place_poisson_disk(const PlacementJob& job, Placement& placement);
 void place_by_error_diffusion(const PlacementJob& job, Placement& placement);
 /// Methods on unbounded grids. Error: cells of the region have numbers beyond 32 bits.
-[[nodiscard]] Result<Done> place_jittered(const PlacementJob& job, Placement& placement);
-[[nodiscard]] Result<Done> place_uniform_cells(const PlacementJob& job, Placement& placement);
-[[nodiscard]] Result<Done> place_poisson_cells(const PlacementJob& job, Placement& placement);
-[[nodiscard]] Result<Done> place_density_cells(const PlacementJob& job, Placement& placement);
+[[nodiscard]] Result<void> place_jittered(const PlacementJob& job, Placement& placement);
+[[nodiscard]] Result<void> place_uniform_cells(const PlacementJob& job, Placement& placement);
+[[nodiscard]] Result<void> place_poisson_cells(const PlacementJob& job, Placement& placement);
+[[nodiscard]] Result<void> place_density_cells(const PlacementJob& job, Placement& placement);
 
 } // namespace lsys

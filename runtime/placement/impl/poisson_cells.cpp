@@ -207,7 +207,7 @@ void PoissonBlock::decide(const CellRange& cells) {
 
 } // namespace
 
-Result<Done> place_poisson_cells(const PlacementJob& job, Placement& placement) {
+Result<void> place_poisson_cells(const PlacementJob& job, Placement& placement) {
     const PlacementOptions& options = job.options;
     const CellGrid grid(options.spacing * kCellSide, kPlaceBits);
     const Result<CellRange> range = cells_of(grid, options.region, kHalo);
@@ -244,7 +244,7 @@ Result<Done> place_poisson_cells(const PlacementJob& job, Placement& placement) 
     };
     collect_trees(job.workers, static_cast<std::uint64_t>(blocks_a_row * block_rows), make_block,
                   placement);
-    return Done{};
+    return {};
 }
 
 } // namespace lsys

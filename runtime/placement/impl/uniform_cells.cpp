@@ -40,7 +40,7 @@ std::uint32_t count_of(std::uint32_t word) {
 
 } // namespace
 
-Result<Done> place_uniform_cells(const PlacementJob& job, Placement& placement) {
+Result<void> place_uniform_cells(const PlacementJob& job, Placement& placement) {
     const PlacementOptions& options = job.options;
     const CellGrid grid(std::sqrt(kMeanPlaces / options.density), kPlaceBits);
     const Result<CellRange> range = cells_of(grid, options.region, 0);
@@ -66,7 +66,7 @@ Result<Done> place_uniform_cells(const PlacementJob& job, Placement& placement) 
         }
     };
     collect_trees(job.workers, static_cast<std::uint64_t>(cells.rows), row, placement);
-    return Done{};
+    return {};
 }
 
 } // namespace lsys

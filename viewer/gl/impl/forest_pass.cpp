@@ -69,7 +69,7 @@ ForestPass::ForestPass(Device& device)
     glVertexArrayBindingDivisor(quads_.name(), 0, 1);
 }
 
-Result<Done> ForestPass::reload(const ShaderSource& shaders) {
+Result<void> ForestPass::reload(const ShaderSource& shaders) {
     std::array<ForestPrograms, 2> programs;
     for (const bool windy : {false, true}) {
         Result<ForestPrograms> made = make_forest_programs(*device_, shaders, windy);
@@ -78,14 +78,14 @@ Result<Done> ForestPass::reload(const ShaderSource& shaders) {
         }
         programs[windy ? 1 : 0] = std::move(made.value());
     }
-    if (Result<Done> done = portraits_.reload(shaders); !done) {
+    if (Result<void> done = portraits_.reload(shaders); !done) {
         return done;
     }
-    if (Result<Done> done = terrain_.reload(shaders); !done) {
+    if (Result<void> done = terrain_.reload(shaders); !done) {
         return done;
     }
     programs_ = std::move(programs);
-    return Done{};
+    return {};
 }
 
 void ForestPass::show(ForestModel model) {

@@ -27,7 +27,7 @@ public:
     explicit ForestPass(Device& device);
 
     /// Error: a shader does not compile; those before stay.
-    [[nodiscard]] Result<Done> reload(const ShaderSource& shaders);
+    [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
     /// The forest that is drawn from now on, with the portraits that were there until others are
     /// made. Forest and terrain outlive the pass or the next call.
     void show(ForestModel model);

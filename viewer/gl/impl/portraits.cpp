@@ -85,7 +85,7 @@ ForestLists lists_of(const TreeForm& form,
 
 } // namespace
 
-Result<Done> Portraits::reload(const ShaderSource& shaders) {
+Result<void> Portraits::reload(const ShaderSource& shaders) {
     Result<ProgramObject> solid = make_program(*device_, shaders, "branch.vert.glsl",
                                                "branch.frag.glsl", "#define PORTRAIT\n");
     if (!solid) {
@@ -101,7 +101,7 @@ Result<Done> Portraits::reload(const ShaderSource& shaders) {
     cut_out_ = std::move(cut_out.value());
     keys_.assign(keys_.size(), 0);
     look_for_missing();
-    return Done{};
+    return {};
 }
 
 void Portraits::look_for_missing() {

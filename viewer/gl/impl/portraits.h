@@ -30,7 +30,7 @@ public:
     explicit Portraits(Device& device) : device_(&device), box_buffer_(device) {}
 
     /// Portraits that are there stay until they are drawn anew.
-    [[nodiscard]] Result<Done> reload(const ShaderSource& shaders);
+    [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
     /// From now on the layers are those of a plan. What is in them stays until it is drawn anew;
     /// layers that were not there are empty. Those that are as before are not drawn.
     void begin(const ForestModel& model, PortraitPlan plan, const ForestBuffers& buffers);

@@ -20,9 +20,9 @@ struct Assembly {
 };
 
 /// Puts a file and what it includes, each at most once, behind `assembly`.
-Result<Done> assemble(const ShaderSource& source, std::string_view name, Assembly& assembly) {
+Result<void> assemble(const ShaderSource& source, std::string_view name, Assembly& assembly) {
     if (std::find(assembly.files.begin(), assembly.files.end(), name) != assembly.files.end()) {
-        return Done{};
+        return {};
     }
     const std::optional<std::string> text = source(name);
     if (!text) {
@@ -40,7 +40,7 @@ Result<Done> assemble(const ShaderSource& source, std::string_view name, Assembl
         constexpr std::string_view kInclude = "#include \"";
         if (row.starts_with(kInclude)) {
             const std::string_view rest = row.substr(kInclude.size());
-            const Result<Done> included =
+            const Result<void> included =
                 assemble(source, rest.substr(0, rest.find('"')), assembly);
             if (!included) {
                 return Error{fmt::format("{}:{}: {}", name, line, included.error().message)};
@@ -51,7 +51,7 @@ Result<Done> assemble(const ShaderSource& source, std::string_view name, Assembl
             assembly.text += '\n';
         }
     }
-    return Done{};
+    return {};
 }
 
 struct ShaderKind {
@@ -66,7 +66,7 @@ Result<ShaderObject> compile_shader(Device& device,
                                     std::string_view defines) {
     Assembly assembly;
     assembly.text = fmt::format("#version 450 core\n{}", defines);
-    if (const Result<Done> done = assemble(source, name, assembly); !done) {
+    if (const Result<void> done = assemble(source, name, assembly); !done) {
         return done.error();
     }
     ShaderObject shader(device, glCreateShader(stage));

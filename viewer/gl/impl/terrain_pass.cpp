@@ -79,14 +79,14 @@ TerrainPass::TerrainPass(Device& device)
     : device_(&device), array_(make_vertex_array(device)), corners_(device), indices_(device),
       patches_(device) {}
 
-Result<Done> TerrainPass::reload(const ShaderSource& shaders) {
+Result<void> TerrainPass::reload(const ShaderSource& shaders) {
     Result<ProgramObject> made = make_program(*device_, shaders, "terrain.vert.glsl",
                                               "terrain.frag.glsl", "#define TWO_TAPS\n");
     if (!made) {
         return made.error();
     }
     program_ = std::move(made.value());
-    return Done{};
+    return {};
 }
 
 void TerrainPass::show(const Terrain& terrain, float reach) {

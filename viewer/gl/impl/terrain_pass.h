@@ -17,7 +17,7 @@ public:
     explicit TerrainPass(Device& device);
 
     /// Error: a shader does not compile; the ones before stay.
-    [[nodiscard]] Result<Done> reload(const ShaderSource& shaders);
+    [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
     /// The ground that is drawn from now on; it outlives the pass or the next call.
     void show(const Terrain& terrain, float reach);
     /// Selects for a camera and uploads what is new.
