@@ -1,8 +1,10 @@
 #include "compiler/growth/growth.h"
+#include "tests/compiler/compile_text.h"
 #include "tests/support/bytecode_builder.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -99,6 +101,20 @@ TEST_CASE("deterministic systems are counted exactly") {
 TEST_CASE("conditions over known parameters are decided") {
     check_counts(ageing("A(12)"), {1, 10, 37, 118, 361, 1'090, 3'277, 9'838, 29'521, 88'570,
                                    265'717, 797'158, 2'391'481, 2'391'481});
+}
+
+TEST_CASE("conditions whose deeper operand is computed first are decided") {
+    std::string depth = "x"; // 1 - (1 - (... x)) is x after an even number of levels
+    for (int i = 0; i < 200; ++i) {
+        depth = "(1 - " + depth + ")";
+    }
+    const test::Compiled c =
+        test::compile_text("#w : A(3);\n#p : A(x) : " + depth + " > 0 : A(x - 1) F;\n");
+    CAPTURE(c.said());
+    REQUIRE(c.outcome.bytecode);
+    const std::vector<std::uint32_t>& code = c.outcome.bytecode->instructions;
+    REQUIRE(std::find(code.begin(), code.end(), encode(Opcode::Swap, 0)) != code.end());
+    check_counts(*c.outcome.bytecode, {1, 2, 3, 4, 4});
 }
 
 TEST_CASE("parameters, segments and bytes are predicted with the modules") {
