@@ -281,7 +281,8 @@ TEST_CASE("traits of the program decide what its turtle does, not the profile") 
     const Skeleton relative = draw_with("R(25)F(2)", {.width_is_relative = true, .taper = 0.5F});
     CHECK(relative.segments[0].base_radius == 0.5F);
     CHECK(relative.segments[0].tip_radius == 0.25F);
-    const Skeleton l3d = draw_with("R(25)F(2)", {.l3d_compatible_surface = true});
+    const Skeleton l3d =
+        draw_with("R(25)F(2)", {.width_is_relative = true, .l3d_compatible_surface = true});
     CHECK(l3d.l3d_compatible_surface);
     CHECK(l3d.segments[0].sides == 40);
     const Skeleton turned = draw_with("F(2)F", {.first_turn = -90.0F, .first_colour = 15});
