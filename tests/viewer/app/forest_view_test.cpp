@@ -475,7 +475,7 @@ TEST_CASE("keys and mouse choose and use the tools of a forest") {
                             {{149.0F, 32.0F}, PointerEvent::Kind::Release, false}};
     controls.apply(input, 0.01, area, viewed.views, panels);
     CHECK(viewed.forest().painting().painted_count() == 1);
-    CHECK(viewed.forest().note() == "1 tree came, 0 went; 11 trees");
+    CHECK(viewed.forest().note() == "added 1 tree, removed 0; 11 trees");
     input.pointer_events[0].shift = true;
     settings.brush.radius = 1.0F;
     controls.apply(input, 0.01, area, viewed.views, panels);
