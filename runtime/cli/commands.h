@@ -1,5 +1,4 @@
-// One function a command: does what the options ask and returns the exit status. Each lives in
-// command_<name>.cpp.
+// One function per command, in command_<name>.cpp: runs the command and returns its exit status.
 #pragma once
 
 #include "runtime/cli/options.h"

@@ -12,7 +12,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// The command that each kind of options belongs to.
+/// Runs the command of the parsed options.
 class Dispatch {
 public:
     explicit Dispatch(const Io& io) : io_(io) {}
@@ -49,7 +49,7 @@ private:
     const Io& io_;
 };
 
-/// Without allocating: there is no memory.
+/// Reports without allocations.
 int out_of_memory(const Io& io) {
     io.err << io.program << ": error: out of memory\n" << std::flush;
     return static_cast<int>(ExitStatus::Limit);
@@ -66,7 +66,7 @@ int run(std::span<const std::string> arguments, const Io& io) {
         return static_cast<int>(interrupted ? ExitStatus::Interrupted : status);
     } catch (const std::bad_alloc&) {
         return out_of_memory(io);
-    } catch (const std::length_error&) { // what a string or vector throws when it cannot be so long
+    } catch (const std::length_error&) { // of a string or vector beyond its maximum size
         return out_of_memory(io);
     }
 }
