@@ -96,14 +96,14 @@ const std::map<std::string, Opcode>& functions() {
     return table;
 }
 
-/// Compiles one expression by precedence climbing; all-constant parts are computed at once.
+/// Compiles one expression by precedence climbing and folds constant parts.
 class ExpressionCompiler {
 public:
     explicit ExpressionCompiler(const ExpressionScope& scope)
         : formals_(scope.formals), globals_(scope.globals), draws_(scope.draws),
           uses_steps_(scope.uses_steps) {}
 
-    /// Its instructions; a constant one is a single Literal.
+    /// The instructions; a constant is a single Literal.
     Instructions run(const std::string& text) {
         Reader reader(text);
         Instructions code = binary(reader, 0);

@@ -1,6 +1,6 @@
-// Bytecode from short texts, without the front end and the compiler: tests of the runtime depend on
-// neither. Modules, expressions and productions look as in the language; names are identifiers or
-// single characters, blanks separate, and only what tests need is understood.
+// Bytecode from short texts without front end and compiler, for tests of the runtime. Modules,
+// expressions and productions as in a subset of the language; names are identifiers or single
+// characters, separated by blanks.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -21,15 +21,15 @@ public:
     BytecodeBuilder& axiom(std::string text);
     /// "p : A(x) < B > C [ D ] : x > 0 ~ 0.5 : F(x, {1, 2}) B"
     BytecodeBuilder& production(std::string text);
-    /// "+ -": modules of any count.
+    /// "+ -": modules with any number of parameters.
     BytecodeBuilder& ignore(std::string names);
-    /// A constant that is drawn at the start.
+    /// A random constant, drawn at the start.
     BytecodeBuilder& global(std::string name, std::string value);
     BytecodeBuilder& parameter(std::string name, std::string value, float minimum, float maximum);
-    /// Declares symbols nobody uses, so that codes need two or four bytes.
+    /// Declares unused symbols, so that codes need two or four bytes.
     BytecodeBuilder& unused_symbols(std::uint32_t count);
 
-    /// Verified; a mistake in a text ends the test program.
+    /// The verified bytecode; a mistake in a text ends the test program.
     [[nodiscard]] Bytecode build() const;
 
 private:
