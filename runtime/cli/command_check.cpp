@@ -119,7 +119,7 @@ ExitStatus fix_file(const std::string& path,
 
 } // namespace
 
-ExitStatus run_check(const CheckCommand& command, const Console& console) {
+ExitStatus run_command(const CheckCommand& command, const Console& console) {
     ExitStatus status = ExitStatus::Ok;
     for (const std::string& path : command.files) {
         GrammarText text;

@@ -180,7 +180,7 @@ ExitStatus dump_plant(const DumpCommand& command, Grammar& grammar, const Consol
 
 } // namespace
 
-ExitStatus run_dump(const DumpCommand& command, const Console& console) {
+ExitStatus run_command(const DumpCommand& command, const Console& console) {
     if (const std::string conflict = find_conflict(command); !conflict.empty()) {
         return report_error(Error{conflict}, console);
     }

@@ -62,7 +62,7 @@ std::string explain(const DiagnosticInfo& row, const Explanation& explanation) {
 
 } // namespace
 
-ExitStatus run_explain(const ExplainCommand& command, const Console& console) {
+ExitStatus run_command(const ExplainCommand& command, const Console& console) {
     std::string text;
     if (command.code.empty()) {
         text = list_all();

@@ -225,7 +225,7 @@ ExitStatus write_bent(Export& run) {
 
 } // namespace
 
-ExitStatus run_export(const ExportCommand& command, const Console& console) {
+ExitStatus run_command(const ExportCommand& command, const Console& console) {
     const std::optional<ExportFormat> format =
         command.format ? command.format : format_of_path(command.output);
     if (!format) {

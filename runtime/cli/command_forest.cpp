@@ -344,7 +344,7 @@ ExitStatus write_years(Run& run) {
 
 } // namespace
 
-ExitStatus run_forest(const ForestCommand& command, const Console& console) {
+ExitStatus run_command(const ForestCommand& command, const Console& console) {
     const Result<Target> target = target_of(command);
     if (!target) {
         return report_error(target.error(), console);

@@ -305,7 +305,7 @@ bool is_folder(const std::string& path) {
 
 } // namespace
 
-ExitStatus run_import(const ImportCommand& command, const Console& console) {
+ExitStatus run_command(const ImportCommand& command, const Console& console) {
     if (command.file.empty() == command.folder.empty()) {
         return report_error(Error{command.file.empty() ? "FILE is missing, or --all FOLDER"
                                                        : "FILE and --all do not go together"},

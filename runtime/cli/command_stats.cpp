@@ -191,7 +191,7 @@ std::string make_json(const GrowthPrediction& growth, bool predicted) {
 
 } // namespace
 
-ExitStatus run_stats(const StatsCommand& command, const Console& console) {
+ExitStatus run_command(const StatsCommand& command, const Console& console) {
     Grammar grammar;
     const ExitStatus status = console.take(
         load_grammar(command.file, command.grammar, make_project(console, command.run)), grammar);
