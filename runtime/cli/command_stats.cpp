@@ -150,7 +150,7 @@ ExitStatus count_words(const StatsCommand& command,
                              grammar, console);
 }
 
-/// As a JSON number where it is one exactly, else as text.
+/// A JSON number if it is exact, else a text.
 nlohmann::ordered_json json_count(const Count& count) {
     if (count.at_most(std::numeric_limits<std::uint64_t>::max())) {
         return count.value.low;
