@@ -53,18 +53,10 @@ ModuleCursor::ModuleCursor(const Ast& ast,
                            ModuleList list)
     : ast_(&ast), names_(&names), sources_(&sources), file_(list.span.file), index_(list.first),
       end_(list.first + list.count), call_(0) {
-    // The first call at or after index_.
-    std::size_t low = 0;
-    std::size_t high = list.count == 0 ? 0 : ast.calls.size();
-    while (low < high) {
-        const std::size_t middle = low + (high - low) / 2;
-        if (ast.calls[middle].module < index_) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
+    if (list.count != 0) {
+        call_ = ast.calls.partition_point(
+            [this](const CallNode& call) { return call.module < index_; });
     }
-    call_ = low;
 }
 
 ModuleView ModuleCursor::view() const {

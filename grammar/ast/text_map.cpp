@@ -28,17 +28,8 @@ std::size_t TextMap::edits_ending_by(std::uint32_t offset) const {
             return hint_;
         }
     }
-    std::size_t low = 0;
-    std::size_t high = edits_.size();
-    while (low < high) {
-        const std::size_t middle = low + (high - low) / 2;
-        if (ends_by(middle)) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return hint_ = low;
+    return hint_ = edits_.partition_point(
+               [offset](const Edit& edit) { return edit.text_end <= offset; });
 }
 
 std::uint32_t TextMap::source_begin(std::uint32_t offset) const {

@@ -83,6 +83,21 @@ public:
         const std::size_t at = index % kBlock;
         return {blocks_[index / kBlock].get() + at, std::min({count, size_ - index, kBlock - at})};
     }
+    /// The first index for which `holds(element)` is false. Precondition: it is true for the elements
+    /// before that index and false for all others.
+    template <typename Predicate>
+    [[nodiscard]] std::size_t partition_point(const Predicate& holds) const {
+        std::size_t low = 0;
+        for (std::size_t high = size_; low < high;) {
+            const std::size_t middle = low + (high - low) / 2;
+            if (holds((*this)[middle])) {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        return low;
+    }
     /// Appends up to `count` contiguous elements, for the caller to set.
     [[nodiscard]] std::span<T> extend(std::size_t count) {
         if (size_ / kBlock == blocks_.size()) {

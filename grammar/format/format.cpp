@@ -16,10 +16,10 @@ namespace lsys {
 
 namespace {
 
-/// Between a statement and the comment behind it.
+/// Blanks between a statement and the comment after it.
 constexpr std::uint32_t kCommentGap = 2;
 
-/// Statements on lines that follow one another, with nothing between them.
+/// Formats a text group by group: statements on consecutive lines.
 class Layout {
 public:
     explicit Layout(std::string_view text) : text_(text) {}
@@ -52,7 +52,7 @@ public:
             const LayoutRow& row = rows_.back();
             at = row.comments_end;
             if (text_.substr(row.end, row.comments_end - row.end).find('\n') != text_.npos) {
-                flush(); // a comment of several lines parts its neighbours
+                flush(); // a comment of several lines separates groups
             }
             after_comment = false;
         }
@@ -64,7 +64,7 @@ public:
     }
 
 private:
-    /// The line ends before a group of statements, or before a comment that is not behind one.
+    /// Writes the line ends before a group of statements or a comment of its own.
     void begin_item(const Lexeme& first, bool after_comment) {
         if (out_.empty()) {
             return;
@@ -100,7 +100,7 @@ private:
                                        : text_width(comment.substr(line + 1));
     }
 
-    /// Writes the statements that wait in rows_.
+    /// Writes the statements of rows_.
     void flush() {
         line_up(rows_);
         const bool commented = std::any_of(rows_.begin(), rows_.end(), [](const LayoutRow& row) {
@@ -118,8 +118,8 @@ private:
     }
 
     struct Line {
-        std::uint32_t column = 0; // behind it
-        bool one = false;         // the statement has one line
+        std::uint32_t column = 0; // after the statement
+        bool one = false;         // whether the statement has one line
     };
 
     Line write_statement(const LayoutRow& row, std::string& out) const {
@@ -197,8 +197,8 @@ private:
 
     std::string_view text_;
     std::string out_;
-    std::uint32_t column_ = 0;    // of out_, behind a comment
-    std::vector<LayoutRow> rows_; // of one group, not yet in out_
+    std::uint32_t column_ = 0;    // of out_, after a comment
+    std::vector<LayoutRow> rows_; // the current group, not yet in out_
 };
 
 bool has_crlf(std::string_view text) {

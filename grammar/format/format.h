@@ -1,8 +1,7 @@
-// The formatter behind `lsc fmt`: one layout for every grammar. One statement a line; what
-// neighbouring statements have in common stands in columns, and so do the comments behind them; an
-// author's line ends between modules stay, longer lines are broken; comments and single blank lines
-// stay. It works on tokens, so what a file means cannot change, and formatting twice is formatting
-// once. docs/manual.md gives the rules.
+// The formatter of `lsc fmt`: one statement per line; neighbouring statements and the comments
+// after them aligned in columns; line ends between modules, comments and single blank lines kept;
+// long lines broken. It works on tokens, so it keeps the meaning of a file, and it is idempotent.
+// docs/manual.md gives the rules.
 #pragma once
 
 #include "grammar/lsys/parse.h"
@@ -13,12 +12,12 @@
 
 namespace lsys {
 
-/// The text of `file` in the common layout, with the byte order mark and the line ends that it has
-/// (of mixed line ends the more frequent). Included files are not read. Nothing if the file has
-/// errors; they are in context.diagnostics.
+/// The formatted text of `file`, with its byte order mark and line ends (of mixed ones the more
+/// frequent). Reads no included files. Nothing if the file has errors, which are in
+/// context.diagnostics.
 [[nodiscard]] std::optional<std::string> format_lsys(FileId file, const ParseContext& context);
 
-/// The layout of a text that is known to parse.
+/// Formats a text without syntax errors.
 [[nodiscard]] std::string format_text(std::string_view text);
 
 } // namespace lsys

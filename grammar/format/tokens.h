@@ -1,5 +1,5 @@
-// The tokens of one file as text: `lsc dump --stage tokens`. Place, kind and text of each, comments
-// included.
+// The tokens of a file as text, for `lsc dump --stage tokens`: place, kind and text of each token
+// and comment.
 #pragma once
 
 #include "grammar/base/source.h"

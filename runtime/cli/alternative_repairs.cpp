@@ -13,13 +13,13 @@ namespace lsys::lsc {
 
 namespace {
 
-/// A statement as it is understood.
+/// The meaning of a statement.
 struct Reading {
     std::string tree; // without its parentheses
     std::size_t redundant_groups = 0;
 };
 
-/// `#set names` of a file, as a statement; empty without one.
+/// The statement `#set names` of a file; empty if there is none.
 std::string names_setting(std::string_view text) {
     constexpr std::string_view kBlanks = " \t\r\n";
     for (std::size_t at = text.find("#set"); at != std::string_view::npos;
@@ -34,7 +34,7 @@ std::string names_setting(std::string_view text) {
     return {};
 }
 
-/// Parentheses around one value alone, which nobody writes.
+/// The number of parentheses around a single value, which are not plausible.
 std::size_t count_redundant_groups(const Ast& ast) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < ast.expressions.size(); ++i) {
@@ -70,8 +70,7 @@ bool is_word(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// Spares the parser what cannot be right: parentheses that do not balance, or two pairs of them
-/// side by side.
+/// Whether a text may parse: not with unbalanced or adjacent pairs of parentheses.
 bool may_parse(std::string_view text) {
     std::int64_t open = 0;
     char before = '\0';
@@ -88,14 +87,13 @@ bool may_parse(std::string_view text) {
     return open == 0;
 }
 
-/// Whether as many branches and polygons begin as end.
+/// Whether the brackets of branches and polygons are balanced in number.
 bool has_balanced_modules(std::string_view text) {
     return std::count(text.begin(), text.end(), '[') == std::count(text.begin(), text.end(), ']') &&
            std::count(text.begin(), text.end(), '{') == std::count(text.begin(), text.end(), '}');
 }
 
-/// Whether the value behind the comma that was added at `place` is a number: no product is written
-/// so, and a sum has its sign.
+/// Whether a number follows the comma added at `place`: then no product can be meant.
 bool is_before_number(std::string_view text, std::size_t place) {
     const std::size_t next = text.find_first_not_of(" \t\r\n", place);
     return next != std::string_view::npos &&
@@ -114,7 +112,7 @@ std::vector<std::string> bracket_repairs(std::string_view broken) {
         }
     };
     for (std::size_t at = 0; at <= broken.size(); ++at) {
-        // A name and the function behind it may have grown together, `Fsin(x))`.
+        // A name and a function may have lost the `(` between them, `Fsin(x))`.
         add(at, 0, "(");
         const bool is_in_word =
             at > 0 && at < broken.size() && is_word(broken[at - 1]) && is_word(broken[at]);
@@ -126,7 +124,7 @@ std::vector<std::string> bracket_repairs(std::string_view broken) {
         if (at == broken.size()) {
             break;
         }
-        // An opening bracket too many stands beside another one; a closing one is forgotten sooner.
+        // A superfluous opening bracket is next to another one.
         const bool is_doubled = at > 0 && broken[at - 1] == broken[at];
         if (broken[at] == ')' || broken[at] == '}' ||
             ((broken[at] == '(' || broken[at] == '{') && is_doubled)) {

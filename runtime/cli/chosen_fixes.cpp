@@ -9,10 +9,10 @@ namespace lsys::lsc {
 
 namespace {
 
-/// The places of one file that are taken: begin to end.
+/// The edited places of a file: begin to end.
 using TakenPlaces = std::map<std::uint32_t, std::uint32_t>;
 
-/// Whether an edit of `span` would overlap what is taken or touch an insertion there.
+/// Whether an edit of `span` overlaps an edited place or touches an insertion.
 bool is_taken(const TakenPlaces& taken, SourceSpan span) {
     const auto after = taken.lower_bound(span.begin);
     if (after != taken.end() && (after->first < span.end || after->first == span.begin)) {
@@ -36,7 +36,7 @@ ChosenFixes choose_fixes(const Diagnostics& diagnostics,
         if (fix == diagnostic.fixes.end() || !is_allowed(diagnostic, *fix)) {
             continue;
         }
-        // A file that is included twice is one text, so paths decide, not ids.
+        // By path, not id: a file included twice is one text.
         const bool conflict = std::any_of(fix->edits.begin(), fix->edits.end(), [&](const Edit& e) {
             return is_taken(taken[sources.file(e.span.file).path()], e.span);
         });

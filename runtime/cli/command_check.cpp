@@ -26,7 +26,7 @@ ExitStatus check_text(const std::string& path,
         return report_error(compiled.error(), console);
     }
     if (!compiled.value().definition_error && command.messages.format == MessageFormat::Json) {
-        // Editors apply what is machine applicable.
+        // Editors apply machine-applicable fixes.
         const Result<void> offered = offer_doubtful_fixes(
             path, text, command.grammar, FixScope(path, command.files), project, compiled.value());
         if (!offered) {
@@ -44,8 +44,7 @@ ExitStatus check_text(const std::string& path,
     return status;
 }
 
-/// Writes what the fixes changed, all files or none: files in place, standard input to standard
-/// output.
+/// Writes all changed files in place, or none; a fixed standard input goes to standard output.
 Result<void> write_fixed(const std::string& path,
                          const std::string& bytes,
                          const FixedGrammar& fixed,
@@ -72,7 +71,7 @@ Result<void> write_fixed(const std::string& path,
             return written;
         }
     }
-    if (path == "-") { // last: it cannot be taken back
+    if (path == "-") { // last: it cannot be undone
         const auto mended = fixed.changed.find(root);
         if (Result<void> written = put("-", mended != fixed.changed.end() ? mended->second : bytes);
             !written) {
@@ -120,7 +119,7 @@ ExitStatus fix_file(const std::string& path,
 
 } // namespace
 
-ExitStatus run_check(const CheckCommand& command, const Console& console) {
+ExitStatus run_command(const CheckCommand& command, const Console& console) {
     ExitStatus status = ExitStatus::Ok;
     for (const std::string& path : command.files) {
         GrammarText text;

@@ -8,7 +8,7 @@
 
 namespace lsys::lsc {
 
-ExitStatus run_compile(const CompileCommand& command, const Console& console) {
+ExitStatus run_command(const CompileCommand& command, const Console& console) {
     Grammar grammar;
     const ExitStatus status = console.take(
         load_grammar(command.file, command.grammar, make_project(console, command.run)), grammar);

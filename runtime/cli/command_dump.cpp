@@ -22,7 +22,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Options that do not go together, in words; empty if all is well.
+/// A message about conflicting options; empty if there are none.
 std::string find_conflict(const DumpCommand& command) {
     const bool saves = command.steps || !command.save_state.empty() || !command.from.empty();
     const bool meshes = command.stage == DumpStage::Mesh;
@@ -70,7 +70,7 @@ write_stage(const DumpCommand& command, const std::string& text, const Console& 
     return report_result(write_file(command.output, text, console), console);
 }
 
-/// Tokens and the tree need no compiler, and are there for wrong grammars too.
+/// Prints tokens or syntax tree, which exist for grammars with errors too.
 ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
     const Project project = make_project(console, command.run);
     GrammarText grammar;
@@ -101,7 +101,7 @@ ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
     return worse(console.show(diagnostics, sources), write_stage(command, text, console));
 }
 
-/// What cannot be made from a compiled grammar.
+/// Reports that a compiled grammar has no program.
 ExitStatus lacks_program(const DumpCommand& command, const Console& console) {
     return report_error(
         Error{fmt::format("`{}` is compiled; its program is not in it, --stage bytecode is",
@@ -119,7 +119,7 @@ dump_instanced(const DumpCommand& command, const Grammar& grammar, const Console
     return list ? worse(shown, write_stage(command, *list, console)) : shown;
 }
 
-/// `append` puts line `i` of `lines` to the end of a text.
+/// Writes `lines` lines; `append` adds one of them to a text.
 template <typename Append>
 ExitStatus write_lines(const DumpCommand& command,
                        const Console& console,
@@ -180,7 +180,7 @@ ExitStatus dump_plant(const DumpCommand& command, Grammar& grammar, const Consol
 
 } // namespace
 
-ExitStatus run_dump(const DumpCommand& command, const Console& console) {
+ExitStatus run_command(const DumpCommand& command, const Console& console) {
     if (const std::string conflict = find_conflict(command); !conflict.empty()) {
         return report_error(Error{conflict}, console);
     }
@@ -215,7 +215,7 @@ ExitStatus run_dump(const DumpCommand& command, const Console& console) {
     case DumpStage::Word:
         break;
     }
-    grammar.program.reset(); // the word wants its memory
+    grammar.program.reset(); // frees memory for the word
     return dump_word(command, grammar, console);
 }
 

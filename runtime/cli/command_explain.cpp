@@ -13,7 +13,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Every code with its severity and meaning, in the order of diagnostics.def.
+/// All codes with severity and meaning, in the order of diagnostics.def.
 std::string list_all() {
     std::size_t width = 0;
     for (std::uint32_t i = 0; i < diagnostic_code_count(); ++i) {
@@ -28,7 +28,7 @@ std::string list_all() {
     return text;
 }
 
-/// `text` with four blanks before every line that is not empty.
+/// Appends `text` with each non-empty line indented by four blanks.
 void append_indented(std::string_view text, std::string& out) {
     bool at_start = true;
     for (const char c : text) {
@@ -62,7 +62,7 @@ std::string explain(const DiagnosticInfo& row, const Explanation& explanation) {
 
 } // namespace
 
-ExitStatus run_explain(const ExplainCommand& command, const Console& console) {
+ExitStatus run_command(const ExplainCommand& command, const Console& console) {
     std::string text;
     if (command.code.empty()) {
         text = list_all();

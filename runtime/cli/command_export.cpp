@@ -31,7 +31,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// One export: what all its files share.
+/// The state shared by all files of an export.
 struct Export {
     const ExportCommand& command;
     ExportFormat format;
@@ -41,11 +41,11 @@ struct Export {
     const Plant& plant;
     ExportTiming timing;
     Mesh mesh;                      // of the last file
-    std::set<std::string> pictures; // written so far, which frames share
+    std::set<std::string> pictures; // written so far; shared by all frames
 };
 
-/// What lies beside the file at `path`: pictures, and the materials of an OBJ. `info` gets their
-/// names.
+/// Adds the files beside `path`: pictures, and the materials of an OBJ; puts their names into
+/// `info`.
 ExitStatus
 add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info, OutputSet& files) {
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
@@ -73,8 +73,7 @@ add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info,
                      [&](const ByteSink& sink) { return write_mtl(run.mesh, info, sink); });
 }
 
-/// Whether something can lie beside it: standard output, pipes and devices have no folder of
-/// theirs.
+/// Whether the output is a regular file, which other files can accompany.
 bool is_regular(const std::string& path) {
     std::error_code ignored;
     const auto kind = std::filesystem::status(path, ignored).type();
@@ -82,7 +81,8 @@ bool is_regular(const std::string& path) {
                            kind == std::filesystem::file_type::regular);
 }
 
-/// Meshes `skeleton` and writes it to `path`; with `animation`, whose first pose it is, as a skin.
+/// Meshes `skeleton` and writes it to `path`; as a skin with `animation`, of which it is the first
+/// pose.
 ExitStatus write_plant(Export& run,
                        const Skeleton& skeleton,
                        const std::string& path,
@@ -127,7 +127,7 @@ ExitStatus write_plant(Export& run,
     return status;
 }
 
-/// One file with all frames.
+/// Writes all frames to one file.
 ExitStatus write_animation(Export& run, PlantPhysics& physics) {
     const ExportCommand& command = run.command;
     if (animation_bytes(run.plant.skeleton.segments.size(), command.frames) >
@@ -145,7 +145,7 @@ ExitStatus write_animation(Export& run, PlantPhysics& physics) {
     return write_plant(run, first, command.output, &animation);
 }
 
-/// The plant bent by its weight and by wind: at rest, or at moments of its motion.
+/// Writes the plant bent by weight and wind: at rest, or in frames of its motion.
 ExitStatus write_bent(Export& run) {
     const ExportCommand& command = run.command;
     constexpr double kRadians = 1e-6;
@@ -156,7 +156,7 @@ ExitStatus write_bent(Export& run) {
     options.wind = command.wind.value_or(Wind{});
     options.damping = run.grammar.bytecode.settings.damping;
     options.threads = command.run.threads;
-    // Whole steps from one frame to the next.
+    // A whole number of steps per frame.
     const auto steps = static_cast<std::uint32_t>(
         std::max(1.0F, std::ceil(kStepsPerSecond / command.frames_per_second)));
     options.time_step = 1.0F / (command.frames_per_second * static_cast<float>(steps));
@@ -188,7 +188,7 @@ ExitStatus write_bent(Export& run) {
 
 } // namespace
 
-ExitStatus run_export(const ExportCommand& command, const Console& console) {
+ExitStatus run_command(const ExportCommand& command, const Console& console) {
     const std::optional<ExportFormat> format =
         command.format ? command.format : format_of_path(command.output);
     if (!format) {
@@ -217,7 +217,7 @@ ExitStatus run_export(const ExportCommand& command, const Console& console) {
     if (status != ExitStatus::Ok) {
         return status;
     }
-    grammar.program.reset(); // the plant wants its memory
+    grammar.program.reset(); // frees memory for the plant
     Plant plant;
     PipelineProgress progress(console, project.host);
     Outcome<Plant> grown = grow_plant(plant_options(command), grammar, project);
@@ -232,14 +232,14 @@ ExitStatus run_export(const ExportCommand& command, const Console& console) {
     if (status != ExitStatus::Ok || !command.stats) {
         return status;
     }
-    if (bends) { // what neither meshes nor writes
+    if (bends) { // the time of neither meshing nor writing
         run.timing.physics_seconds =
             seconds_since(start) - run.timing.mesh_seconds - run.timing.write_seconds;
     }
     const std::string text = command.messages.format == MessageFormat::Json
                                  ? export_stats_json(plant, run.mesh, run.timing)
                                  : export_stats_text(plant, run.mesh, run.timing);
-    if (command.output == "-") { // which the plant itself is on
+    if (command.output == "-") { // standard output holds the plant
         console.line(text);
         return status;
     }

@@ -23,11 +23,11 @@ namespace lsys::lsc {
 
 namespace {
 
-constexpr std::uint32_t kGroundCells = 128; // along each side
+constexpr std::uint32_t kGroundCells = 128; // per side
 
 enum class Kind : std::uint8_t { None, Instances, Mesh, Statistics };
 
-/// What the name of the output asks for.
+/// The kind and format of the output, by its extension.
 struct Target {
     Kind kind = Kind::None;
     ExportFormat format = ExportFormat::Glb;
@@ -62,7 +62,7 @@ Result<Target> target_of(const ForestCommand& command) {
     return Target{Kind::Instances, *format};
 }
 
-/// Options that do not go together, in words; empty if all is well.
+/// A message about conflicting options; empty if there are none.
 std::string find_conflict(const ForestCommand& command, const Target& target) {
     if (command.output.empty() && !command.stats && !command.check) {
         return "nothing is asked for; say where to write with -o, or --stats, or --check";
@@ -81,7 +81,7 @@ std::string find_conflict(const ForestCommand& command, const Target& target) {
     return {};
 }
 
-/// Everything that the files of one run share.
+/// The state shared by all files of a run.
 struct Run {
     const ForestCommand& command;
     const Console& console;
@@ -120,7 +120,7 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     info.cell = run.command.cell;
     info.threads = run.command.run.threads;
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
-    OutputSet outputs(run.console); // pictures before the file that names them
+    OutputSet outputs(run.console); // pictures first, then the file with their names
     if (traits_of(run.target.format).pictures != ExportPictures::Inside) {
         info.textures = path != "-";
         std::vector<PictureFile> pictures;
@@ -186,7 +186,7 @@ ExitStatus write_forest(Run& run, const std::string& path) {
     return report_result(write_file(path, text, run.console), run.console);
 }
 
-/// The statistics as a table.
+/// Statistics as a table.
 std::string stats_text(const Run& run, const ForestCounts& counts, double seconds) {
     const Forest& forest = run.grown.forest;
     const std::uint64_t different = count_different_trees(forest, run.command.run.threads);
@@ -221,7 +221,7 @@ std::string stats_text(const Run& run, const ForestCounts& counts, double second
                 "because there was none to take\n",
                 stage.generations, cache.instances.size(), cache.slots.size(),
                 cache.skeleton.segments.size(), hits, misses);
-            // Keys of one id and age together.
+            // The sum over all keys of an id and age.
             std::map<std::pair<std::uint32_t, std::uint32_t>, InstanceSlot> rows;
             for (const InstanceSlot& slot : cache.slots) {
                 InstanceSlot& row = rows[{slot.id, slot.age}];
@@ -255,7 +255,7 @@ ExitStatus print_stats(const Run& run) {
     return report_result(run.console.write(text), run.console);
 }
 
-/// The forest in `frames` of its years, the last one included.
+/// Writes the forest in `frames` of its years, including the last.
 ExitStatus write_years(Run& run) {
     PlacementOptions options = run.scene.placement;
     options.threads = run.project.threads;
@@ -293,7 +293,7 @@ ExitStatus write_years(Run& run) {
 
 } // namespace
 
-ExitStatus run_forest(const ForestCommand& command, const Console& console) {
+ExitStatus run_command(const ForestCommand& command, const Console& console) {
     const Result<Target> target = target_of(command);
     if (!target) {
         return report_error(target.error(), console);

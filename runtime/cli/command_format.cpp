@@ -59,7 +59,7 @@ format_file(const std::string& path, const FormatCommand& command, const Console
 
 } // namespace
 
-ExitStatus run_format(const FormatCommand& command, const Console& console) {
+ExitStatus run_command(const FormatCommand& command, const Console& console) {
     ExitStatus status = ExitStatus::Ok;
     for (const std::string& path : command.files) {
         status = worse(status, format_file(path, command, console));

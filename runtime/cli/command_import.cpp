@@ -95,7 +95,7 @@ write_imported(const std::string& path, const std::string& text, const Console& 
     return report_result(write_file(path, text, console), console);
 }
 
-/// The regular files of a folder by name.
+/// The regular files of a folder, sorted by name.
 Result<std::vector<fs::path>> files_of(const std::string& folder) {
     std::error_code error;
     std::vector<fs::path> files;
@@ -112,7 +112,7 @@ Result<std::vector<fs::path>> files_of(const std::string& folder) {
     return files;
 }
 
-/// An import of several systems, each to a file whose name is made from that of the system.
+/// An import of several systems, each to a file named after it.
 struct FolderImport {
     const ImportCommand& command;
     const Console& console;
@@ -123,7 +123,7 @@ struct FolderImport {
     std::uint64_t failed = 0;
 };
 
-/// `name` as that of a file.
+/// `name` as a file name.
 std::string file_name(std::string_view name) {
     std::string text;
     for (const char c : name) {
@@ -134,8 +134,8 @@ std::string file_name(std::string_view name) {
     return text.starts_with('.') ? "_" + text : text;
 }
 
-/// The path of `stem`.lsys in the folder; of `stem`-2.lsys, ... where this run has a file of that
-/// name: `a/b` and `a_b` are different systems.
+/// The path of `stem`.lsys in the folder, or of `stem`-2.lsys, ... if this run has used the name:
+/// `a/b` and `a_b` are different systems.
 std::string new_path(const std::string& stem, FolderImport& import) {
     std::string name = stem + ".lsys";
     for (std::uint64_t number = 2; !import.names.insert(name).second; ++number) {
@@ -144,7 +144,7 @@ std::string new_path(const std::string& stem, FolderImport& import) {
     return (import.folder / name).string();
 }
 
-/// Writes a file whose name nobody has given, so one that is there stays unless --force is given.
+/// Writes a file with a derived name; an existing one is replaced only with --force.
 ExitStatus
 write_named(const std::string& path, const std::string& text, const FolderImport& import) {
     if (import.command.force) {
@@ -166,7 +166,7 @@ write_named(const std::string& path, const std::string& text, const FolderImport
     return report_result(done, import.console);
 }
 
-/// Imports one system to `stem`.lsys and prints a line about it.
+/// Imports one system to `stem`.lsys and prints one line.
 Result<void> import_one(const std::string& path,
                         GrammarText text,
                         const GrammarOptions& options,
@@ -192,8 +192,8 @@ Result<void> import_one(const std::string& path,
                              : fmt::format("{}: {}, not imported\n", what, title));
 }
 
-/// All systems of a file, each to `prefix`NAME.lsys. Of two with one name, whatever the case of its
-/// letters, only the first can be asked for.
+/// Imports all systems of a file to `prefix`NAME.lsys. Of several with one name, regardless of
+/// letter case, only the first.
 Result<void> import_systems(const std::string& path,
                             const GrammarText& text,
                             const std::string& prefix,
@@ -249,7 +249,8 @@ ExitStatus end_import(const Result<void>& result, const FolderImport& import) {
     return written ? import.status : report_error(written.error(), import.console);
 }
 
-/// A line for each system of the files; what is no grammar of a known dialect is passed over.
+/// Imports all systems of the files of a folder; skips files that are not grammars of a known
+/// dialect.
 ExitStatus import_folder(const ImportCommand& command, const Console& console) {
     const Result<std::vector<fs::path>> files = files_of(command.folder);
     if (!files) {
@@ -286,7 +287,7 @@ ExitStatus import_folder(const ImportCommand& command, const Console& console) {
     return end_import({}, import);
 }
 
-/// `-o FOLDER` of a file of several systems.
+/// Imports all systems of a file to the folder of `-o`.
 ExitStatus
 import_to_folder(const ImportCommand& command, const GrammarText& text, const Console& console) {
     if (const Result<void> made = make_folder(command.output); !made) {
@@ -304,7 +305,7 @@ bool is_folder(const std::string& path) {
 
 } // namespace
 
-ExitStatus run_import(const ImportCommand& command, const Console& console) {
+ExitStatus run_command(const ImportCommand& command, const Console& console) {
     if (command.file.empty() == command.folder.empty()) {
         return report_error(Error{command.file.empty() ? "FILE is missing, or --all FOLDER"
                                                        : "FILE and --all do not go together"},

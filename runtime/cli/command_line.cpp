@@ -275,7 +275,7 @@ void add_explain(CLI::App& app, ExplainCommand& command) {
     app.footer("Example: lsc explain look-alike");
 }
 
-/// The command of that name, or nothing.
+/// The command with the name; null if there is none.
 const CLI::App* find_command(const CLI::App& app, const std::string& name) {
     for (const CLI::App* command : app.get_subcommands({})) {
         if (command->get_name() == name) {
@@ -285,7 +285,7 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name) {
     return nullptr;
 }
 
-/// A first argument that is no command.
+/// The mistake of a first argument that is not a command.
 std::optional<UsageError> unknown_command(std::span<const std::string> arguments,
                                           const CLI::App& app) {
     if (arguments.empty()) {

@@ -1,4 +1,4 @@
-// The command line: what may be written, and what it asks for. The only user of the CLI11 package.
+// The command line of lsc, parsed into the options of one command.
 #pragma once
 
 #include "runtime/cli/options.h"
@@ -23,6 +23,7 @@ using CommandLine = std::variant<PrintText,
                                  FormatCommand,
                                  ExplainCommand>;
 
+/// The command with its options, a text to print, or a mistake.
 [[nodiscard]] CommandLine parse_command_line(std::span<const std::string> arguments);
 
 } // namespace lsys::lsc

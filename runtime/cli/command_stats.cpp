@@ -22,7 +22,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Rows of a table at most; nobody reads more, and counts have left every scale by then.
+/// Maximum rows of a table.
 constexpr std::uint32_t kMaxRows = 10'000;
 
 using Row = std::vector<std::string>;
@@ -33,7 +33,7 @@ std::string bounds_text(const Count& low, const Count& high) {
     return low_text == high_text ? low_text : low_text + " .. " + high_text;
 }
 
-/// How many times the modules of one generation are those of the one before; nothing at 0.
+/// The growth factor of the number of modules from one generation to the next; empty after 0.
 std::string factor_text(const Count& before, const Count& now) {
     if (!before.exceeds && before.value == 0) {
         return {};
@@ -55,7 +55,7 @@ std::string factor_bounds(const GrowthPrediction& growth, std::size_t generation
     return low == high ? low : low + " .. " + high;
 }
 
-/// Columns under each other, numbers to the right.
+/// A table with right-aligned columns.
 std::string lay_out(const std::vector<Row>& rows) {
     std::vector<std::size_t> widths(rows.front().size(), 0);
     for (const Row& row : rows) {
@@ -107,7 +107,7 @@ std::string_view kind_of(const GrowthPrediction& growth) {
                : "bounds: the productions depend on parameters, neighbours or chance\n";
 }
 
-/// What a word holds, as GrowthPrediction counts it.
+/// The size of a word in the terms of GrowthPrediction.
 GenerationSize size_of(const Bytecode& bytecode, const Word& word) {
     std::vector<std::uint64_t> census(bytecode.code_count(), 0);
     for (std::uint64_t i = 0; i < word.module_count(); ++i) {
@@ -124,7 +124,7 @@ GenerationSize size_of(const Bytecode& bytecode, const Word& word) {
             count(word.module_count() * code_width(bytecode.code_count()) + 4 * parameters)};
 }
 
-/// Derives the words, of which nothing is known before, and counts what they hold.
+/// Derives the words and counts their sizes, for grammars without prediction.
 ExitStatus count_words(const StatsCommand& command,
                        std::uint32_t generations,
                        const Grammar& grammar,
@@ -149,7 +149,7 @@ ExitStatus count_words(const StatsCommand& command,
     return report_derivation(derivation.end(), options.limits, grammar, console);
 }
 
-/// As a JSON number where it is one exactly, else as text.
+/// A JSON number if it is exact, else a text.
 nlohmann::ordered_json json_count(const Count& count) {
     if (count.at_most(std::numeric_limits<std::uint64_t>::max())) {
         return count.value.low;
@@ -168,7 +168,7 @@ nlohmann::ordered_json json_size(const GenerationSize& size) {
     return object;
 }
 
-/// One object a generation.
+/// One JSON object per generation.
 std::string make_json(const GrowthPrediction& growth, bool predicted) {
     std::string text;
     for (std::size_t i = 0; i < growth.low.size(); ++i) {
@@ -176,7 +176,7 @@ std::string make_json(const GrowthPrediction& growth, bool predicted) {
         object["generation"] = i;
         object["exact"] = growth.exact;
         if (!predicted) {
-            object["derived"] = true; // the words of one seed
+            object["derived"] = true; // counted in the words of one seed
         }
         object["low"] = json_size(growth.low[i]);
         object["high"] = json_size(growth.high[i]);
@@ -190,7 +190,7 @@ std::string make_json(const GrowthPrediction& growth, bool predicted) {
 
 } // namespace
 
-ExitStatus run_stats(const StatsCommand& command, const Console& console) {
+ExitStatus run_command(const StatsCommand& command, const Console& console) {
     Grammar grammar;
     const ExitStatus status = console.take(
         load_grammar(command.file, command.grammar, make_project(console, command.run)), grammar);

@@ -1,5 +1,4 @@
-// One function a command: does what the options ask and returns the exit status. Each lives in
-// command_<name>.cpp.
+// One overload per command, in command_<name>.cpp: runs the command and returns its exit status.
 #pragma once
 
 #include "runtime/cli/options.h"
@@ -7,14 +6,14 @@
 
 namespace lsys::lsc {
 
-[[nodiscard]] ExitStatus run_check(const CheckCommand& command, const Console& console);
-[[nodiscard]] ExitStatus run_compile(const CompileCommand& command, const Console& console);
-[[nodiscard]] ExitStatus run_dump(const DumpCommand& command, const Console& console);
-[[nodiscard]] ExitStatus run_export(const ExportCommand& command, const Console& console);
-[[nodiscard]] ExitStatus run_forest(const ForestCommand& command, const Console& console);
-[[nodiscard]] ExitStatus run_import(const ImportCommand& command, const Console& console);
-[[nodiscard]] ExitStatus run_stats(const StatsCommand& command, const Console& console);
-[[nodiscard]] ExitStatus run_format(const FormatCommand& command, const Console& console);
-[[nodiscard]] ExitStatus run_explain(const ExplainCommand& command, const Console& console);
+[[nodiscard]] ExitStatus run_command(const CheckCommand& command, const Console& console);
+[[nodiscard]] ExitStatus run_command(const CompileCommand& command, const Console& console);
+[[nodiscard]] ExitStatus run_command(const DumpCommand& command, const Console& console);
+[[nodiscard]] ExitStatus run_command(const ExportCommand& command, const Console& console);
+[[nodiscard]] ExitStatus run_command(const ForestCommand& command, const Console& console);
+[[nodiscard]] ExitStatus run_command(const ImportCommand& command, const Console& console);
+[[nodiscard]] ExitStatus run_command(const StatsCommand& command, const Console& console);
+[[nodiscard]] ExitStatus run_command(const FormatCommand& command, const Console& console);
+[[nodiscard]] ExitStatus run_command(const ExplainCommand& command, const Console& console);
 
 } // namespace lsys::lsc

@@ -1,4 +1,4 @@
-// The message and the exit status of a derivation that the command itself runs.
+// Message and exit status of a derivation run by a command.
 #pragma once
 
 #include "runtime/derive/derive.h"
@@ -7,7 +7,7 @@
 
 namespace lsys::lsc {
 
-/// Shows a diagnostic with places in the grammar; returns `status`.
+/// Prints a diagnostic with places in the grammar; returns `status`.
 ExitStatus show_diagnostic(Diagnostic diagnostic,
                            ExitStatus status,
                            const Grammar& grammar,

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::size_t kPieceOfText = std::size_t{1} << 18;
 
-/// What a run of `dump` does, once command line, grammar and saved state have been put together.
+/// The derivation of a run, from command line, grammar and saved state.
 struct Plan {
     DeriveOptions derive;
     std::uint32_t first_age = 0;
@@ -44,7 +44,7 @@ Result<SavedState> read_saved(const Plan& plan, const std::string& path, const B
     return state;
 }
 
-/// Takes over what the saved state fixes: generations, seed, age.
+/// Reads the saved state and takes generations, seed and age from it.
 Result<void> plan_from_state(const DumpCommand& command,
                              const Bytecode& bytecode,
                              const Console& console,
@@ -102,7 +102,7 @@ Result<Plan> make_plan(const DumpCommand& command, const Grammar& grammar, const
     return plan;
 }
 
-/// Writes to an Output from callbacks that can only say stop.
+/// Writes to an Output from callbacks that return whether to continue.
 class Writer {
 public:
     explicit Writer(Output output) : output_(std::move(output)) {}
@@ -116,7 +116,7 @@ public:
         }
         return !failed_;
     }
-    /// What made write() return false.
+    /// The reason why write() returned false.
     [[nodiscard]] const std::optional<Error>& failure() const { return failed_; }
     [[nodiscard]] Result<void> commit() {
         return failed_ ? Result<void>(*failed_) : output_.commit();
@@ -132,8 +132,8 @@ private:
 
 using OnGeneration = std::function<bool(const Derivation&)>;
 
-/// Runs the derivation of `plan`; `on_generation` sees the words of all ages, or of the last only.
-/// Its false ends the run as Cancelled.
+/// Runs the derivation of `plan` and calls `on_generation` with the words of all ages, or the last
+/// one; false ends the run.
 ExitStatus derive(Derivation& derivation,
                   const DumpCommand& command,
                   const Plan& plan,
@@ -155,7 +155,7 @@ ExitStatus derive(Derivation& derivation,
                                    derivation.word().module_count(),
                                    derivation.word().byte_count()));
         const bool is_last = derivation.age() == plan.last_age;
-        // A word in the middle of a derivation may still find its brackets.
+        // Only the final word must have balanced brackets.
         if (is_last && derivation.age() == plan.derive.generations) {
             stop = derivation.check_brackets();
             if (stop) {
@@ -184,7 +184,7 @@ Result<void> save_state(const Plan& plan,
     return writer.commit();
 }
 
-/// Opens the outputs that were asked for, so that one that cannot be written is known early.
+/// Opens the outputs before the derivation, to detect unwritable ones early.
 Result<void> open_outputs(const DumpCommand& command,
                           const Console& console,
                           std::optional<Writer>& word,
@@ -211,8 +211,7 @@ ExitStatus dump_stored(const DumpCommand& command,
     const Bytecode& bytecode = grammar.bytecode;
     const auto ignore = [](const Derivation&) { return true; };
     if (command.all && !command.count && command.output == "-") {
-        // What is on standard output cannot be taken back, so a first run shows whether there will
-        // be a second.
+        // Standard output cannot be undone, so a first run checks that the derivation succeeds.
         Derivation rehearsal(bytecode, plan.derive);
         const ExitStatus status = derive(rehearsal, command, plan, grammar, console, ignore);
         if (status != ExitStatus::Ok) {
@@ -261,7 +260,7 @@ ExitStatus dump_stored(const DumpCommand& command,
 // -----------------------------------------------------------------------------------------
 // streamed words
 
-/// One streamed run into `consumer`.
+/// Runs one streamed derivation into `consumer`.
 ExitStatus stream(const Plan& plan,
                   const Grammar& grammar,
                   const Console& console,
@@ -282,7 +281,7 @@ ExitStatus dump_streamed(const DumpCommand& command,
     StreamOutcome outcome;
     const auto ignore = [&](const StreamChunk&) { return !console.interrupted(); };
     if (command.count || command.output == "-") {
-        // The rehearsal of standard output, and all that a count needs.
+        // Checks the derivation before standard output is written, and counts.
         const ExitStatus status = stream(plan, grammar, console, ignore, outcome);
         if (status != ExitStatus::Ok) {
             return status;
@@ -299,7 +298,7 @@ ExitStatus dump_streamed(const DumpCommand& command,
         WordPrinter printer(bytecode);
         ModuleLines lines(bytecode);
         std::string text;
-        bool begun = false; // the word has a module
+        bool begun = false; // whether the word has a module
         const auto print = [&](const StreamChunk& chunk) {
             if (command.origins) {
                 lines.append(chunk, text);
@@ -330,8 +329,8 @@ ExitStatus dump_streamed(const DumpCommand& command,
 // -----------------------------------------------------------------------------------------
 // counts without words
 
-/// Prints the counts if they are known without deriving. The start of a derivation still shows
-/// whether the constants can be drawn.
+/// Prints the counts if they are known without deriving. The start of a derivation still checks the
+/// random constants.
 std::optional<ExitStatus> print_predicted_counts(const DumpCommand& command,
                                                  const Plan& plan,
                                                  const Grammar& grammar,
@@ -367,7 +366,7 @@ ExitStatus dump_word(const DumpCommand& command, Grammar& grammar, const Console
     console.detail(
         fmt::format("{} generations, seed {}", plan.derive.generations, plan.derive.seed));
     const bool from_axiom = command.from.empty();
-    if (from_axiom && !command.stream) { // which stores no word of the generations before the last
+    if (from_axiom && !command.stream) { // streaming stores no words
         const std::optional<LimitReport> limit =
             predict_limit(grammar.bytecode, plan.last_age, plan.derive.limits);
         if (limit) {
@@ -382,7 +381,7 @@ ExitStatus dump_word(const DumpCommand& command, Grammar& grammar, const Console
             return *counted;
         }
     }
-    if (from_axiom && command.save_state.empty()) { // a state file has the codes of the grammar
+    if (from_axiom && command.save_state.empty()) { // a state file needs the codes of the grammar
         fold_modules(plan.derive, grammar.bytecode);
     }
     const bool shows = console.shows_progress();

@@ -1,4 +1,4 @@
-// The derived word as text: the part of `lsc dump` that runs a derivation.
+// The derived word as text: `lsc dump --stage word`.
 #pragma once
 
 #include "runtime/cli/options.h"
@@ -7,7 +7,7 @@
 
 namespace lsys::lsc {
 
-/// Derives as `command` asks and writes word, counts and state. Nothing is written if a limit or a
+/// Derives and writes word, counts and state by the options of `command`; nothing if a limit or a
 /// run-time error ends the derivation.
 [[nodiscard]] ExitStatus
 dump_word(const DumpCommand& command, Grammar& grammar, const Console& console);

@@ -12,7 +12,7 @@ bool has_carriage_returns(std::string_view text) {
 
 EditedFile::EditedFile(std::string_view text, std::vector<TextPlace> statements)
     : original_(text), statements_(std::move(statements)) {
-    // A file that is included twice has its statements twice.
+    // A file included twice has its statements twice.
     std::sort(statements_.begin(), statements_.end());
     statements_.erase(std::unique(statements_.begin(), statements_.end()), statements_.end());
 }
@@ -57,7 +57,7 @@ std::vector<std::size_t> EditedFile::statements_at(TextPlace place) const {
 }
 
 std::vector<std::size_t> EditedFile::original_statements_at(TextPlace place) const {
-    // Statements do not overlap, so their ends are in order too.
+    // Statements do not overlap, so their ends ascend too.
     auto statement =
         std::lower_bound(statements_.begin(), statements_.end(), place.begin,
                          [](const TextPlace& each, std::uint32_t from) { return each.end < from; });

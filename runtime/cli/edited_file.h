@@ -1,5 +1,5 @@
-// A file while `lsc check --fix` edits it: finds the statement of the text as it was that a place
-// of the text as it is belongs to.
+// EditedFile: a file during `lsc check --fix`; maps places of the edited text to statements of the
+// original.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -22,22 +22,21 @@ struct TextPlace {
 
 class EditedFile {
 public:
-    /// `statements`: their places, in any order.
+    /// `statements`: places in any order.
     EditedFile(std::string_view text, std::vector<TextPlace> statements);
 
-    /// Takes over a round of edits, in order of place, which do not overlap.
+    /// Adds a round of edits of `text`, which ascend and do not overlap.
     void add_round(std::string_view text, const std::vector<const Edit*>& edits);
 
-    /// A place of the text after all rounds, as one of the text before them. Within an edit it is
-    /// where the edit begins.
+    /// The original place of a place of the edited text; within an edit its begin.
     [[nodiscard]] std::uint32_t original_place(std::uint32_t at) const;
-    /// The statements that the place touches, by number; the place is of the text after all rounds.
+    /// The indices of the statements touched by a place of the edited text.
     [[nodiscard]] std::vector<std::size_t> statements_at(TextPlace place) const;
-    /// The same, where the place is of the text before all rounds.
+    /// The indices of the statements touched by a place of the original.
     [[nodiscard]] std::vector<std::size_t> original_statements_at(TextPlace place) const;
 
     [[nodiscard]] const std::string& original() const { return original_; }
-    /// In order of place.
+    /// Ascending.
     [[nodiscard]] const std::vector<TextPlace>& statements() const { return statements_; }
 
 private:

@@ -9,7 +9,7 @@ constexpr std::string_view kFence = "```";
 constexpr std::string_view kRun = "run: ";
 constexpr std::string_view kFile = "file: ";
 
-/// The next line of `text`, which is taken off, without its end.
+/// Removes the first line of `text` and returns it without its line end.
 std::string_view take_line(std::string_view& text) {
     const std::size_t end = text.find('\n');
     const std::string_view line = text.substr(0, end);
@@ -17,7 +17,7 @@ std::string_view take_line(std::string_view& text) {
     return line;
 }
 
-/// The lines of a fenced block up to its end.
+/// Parses the lines of a fenced block to its end.
 void parse_example(std::string_view& text, Example& example) {
     example.files.emplace_back("example.lsys", std::string());
     bool is_first = true;

@@ -1,5 +1,5 @@
-// The explanations of diagnostics, grammar/explanations.md, which is part of the program. Read by
-// `lsc explain` and by the test that runs every example.
+// The explanations of diagnostics, grammar/explanations.md, compiled into the program. Used by `lsc
+// explain` and the test that runs all examples.
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@ namespace lsys::lsc {
 struct Example {
     bool right = false;     // else wrong
     bool is_sketch = false; // not to be run
-    std::string arguments;  // of `lsc`; empty: `check`
-    /// Name and text of the grammar, `example.lsys`, and of what stands beside it.
+    std::string arguments;  // of `lsc`; `check` if empty
+    /// Name and text of the grammar, `example.lsys`, and of the files beside it.
     std::vector<std::pair<std::string, std::string>> files;
 };
 
@@ -27,7 +27,7 @@ struct Explanation {
     std::vector<Example> examples;
 };
 
-/// All of `markdown`, in its order; its head says which form it has.
+/// The explanations of `markdown` in order; its head describes the form.
 [[nodiscard]] std::vector<Explanation> parse_explanations(std::string_view markdown);
 
 } // namespace lsys::lsc

@@ -1,4 +1,4 @@
-// What `lsc export --stats` prints.
+// The statistics of `lsc export --stats`.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -9,7 +9,7 @@
 
 namespace lsys::lsc {
 
-/// Of all files of an export.
+/// Times and bytes of all files of an export.
 struct ExportTiming {
     double physics_seconds = 0.0;
     double mesh_seconds = 0.0;
@@ -17,10 +17,10 @@ struct ExportTiming {
     std::uint64_t bytes = 0;
 };
 
-/// A table. `mesh` is that of the last file.
+/// The statistics as a table. `mesh`: of the last file.
 [[nodiscard]] std::string
 export_stats_text(const Plant& plant, const Mesh& mesh, const ExportTiming& timing);
-/// The same as one JSON object in a line.
+/// The statistics as a JSON object in one line.
 [[nodiscard]] std::string
 export_stats_json(const Plant& plant, const Mesh& mesh, const ExportTiming& timing);
 

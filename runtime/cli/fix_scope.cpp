@@ -9,7 +9,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Without symbolic links and `..`; empty if there is no such file.
+/// The path without symbolic links and `..`; empty if the file does not exist.
 std::filesystem::path real_path(const std::filesystem::path& path) {
     std::error_code error;
     std::filesystem::path real = std::filesystem::canonical(path, error);

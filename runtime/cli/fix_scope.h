@@ -8,18 +8,17 @@
 
 namespace lsys::lsc {
 
-/// The files that may be written: those that the user named, and those in the folder of the grammar
-/// or below it. A grammar may include any file, which is not to be rewritten for that. Symbolic
-/// links and `..` are resolved.
+/// The files that may be written: files named by the user, and files in the folder of the grammar
+/// or below. Other included files stay unchanged. Symbolic links and `..` are resolved.
 class FixScope {
 public:
-    /// `named`: the files of the command line, `path` one of them; `-` is in the current folder.
+    /// `named`: the files of the command line, including `path`; `-` is in the current folder.
     FixScope(const std::string& path, std::span<const std::string> named);
-    /// `path`: of a file that exists.
+    /// Whether the existing file at `path` may be written.
     [[nodiscard]] bool contains(const std::string& path) const;
 
 private:
-    std::string root_; // as messages name it
+    std::string root_; // as in messages
     std::filesystem::path folder_;
     std::set<std::filesystem::path> named_;
 };

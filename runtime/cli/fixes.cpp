@@ -10,10 +10,10 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Every attempt takes fixes back that the one before applied; after the last nothing is applied.
+/// Maximum attempts, each with fewer fixes than the one before; the last one applies none.
 constexpr int kMaxAttempts = 20;
 
-/// Attempts the repair until every fix that it applied may stay.
+/// Repeats the repair until all applied fixes are certain.
 template <typename Finish>
 Result<void> repair(const RepairSubject& subject, const Finish& finish) {
     std::set<StatementKey> excluded;

@@ -1,19 +1,17 @@
-// `lsc check --fix`: applies the certain fixes of a grammar and of the files it includes, in
-// memory, until none is left. It never makes another grammar than the author meant:
+// `lsc check --fix`: applies the certain fixes of a grammar and its included files in memory until
+// none is left. Rules that keep the meaning intended by the author:
 //
-// 1. A fix is certain (Fix::machine_applicable) where its diagnostic knows of no other repair.
-// 2. A statement with a syntax error that has no certain fix keeps all its errors
+// 1. A fix is certain (Fix::machine_applicable) if its diagnostic has no other plausible repair.
+// 2. A statement with a syntax error without certain fix is not changed
 //    (ParseSession::judge_fixes).
-// 3. Warnings wait until no error is left, since an error may be their cause.
-// 4. The fixes of a statement hold together: if it still has a syntax error after them, or an error
-//    that it had not before, all are taken back; where a bracket or comma is repaired, because of
-//    any error. But typographic characters are replaced in any
-//    case, one by one: the error of another character does not make them doubtful.
-// 5. A bracket or comma is repaired where no other repair is as good: each of them gives a
-//    statement that does not parse or reads the same, or a grammar with more warnings
-//    (alternative_repairs.h).
+// 3. Warnings are fixed after all errors, which may be their cause.
+// 4. The fixes of a statement are applied together: they are undone if it has a syntax error or a
+//    new error afterwards, or any error if a bracket or comma was repaired. Typographic characters
+//    are always replaced, independent of each other.
+// 5. A bracket or comma is repaired only if each alternative gives a statement that does not parse
+//    or reads the same, or a grammar with more warnings (alternative_repairs.h).
 //
-// What is not applied is offered: shown as help, and not machine applicable in JSON.
+// Other fixes become offers: shown as help, and not machine applicable in JSON.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -30,21 +28,20 @@
 namespace lsys::lsc {
 
 struct FixedGrammar {
-    /// The new bytes of every file that changed, by path.
+    /// The new bytes of each changed file, by path.
     std::map<std::string, std::string> changed;
-    /// One line a fix: `tree.lsys:7:26: fixed: write A S(1) [code]`; the first kMaxFixLines.
+    /// The first kMaxFixLines fixes, one per line: `tree.lsys:7:26: fixed: write A S(1) [code]`.
     std::vector<std::string> lines;
     std::uint64_t fix_count = 0;
-    /// Files outside the scope that have certain fixes left.
+    /// Files outside the scope with certain fixes.
     std::set<std::string> out_of_scope;
-    /// What the repaired text compiles to, with the diagnostics that are left; their fixes are
-    /// offers.
+    /// The compiled repaired text with the remaining diagnostics, whose fixes are offers.
     CompiledText compiled;
 };
 inline constexpr std::size_t kMaxFixLines = 50;
 
-/// Mends `text`, that of `path`, and the files that it includes as far as `scope` has them. A byte
-/// order mark and CRLF line ends stay.
+/// Repairs `text`, the text of `path`, and its included files within `scope`. Keeps byte order
+/// marks and CRLF line ends.
 [[nodiscard]] Result<void> fix_text(const std::string& path,
                                     const GrammarText& text,
                                     const GrammarOptions& options,
@@ -52,8 +49,7 @@ inline constexpr std::size_t kMaxFixLines = 50;
                                     const Project& project,
                                     FixedGrammar& fixed);
 
-/// Turns the fixes of `compiled`, which `text` was compiled to, that fix_text() does not apply into
-/// offers.
+/// Makes the fixes of `compiled`, the compiled `text`, that fix_text() does not apply offers.
 [[nodiscard]] Result<void> offer_doubtful_fixes(const std::string& path,
                                                 const GrammarText& text,
                                                 const GrammarOptions& options,

@@ -11,7 +11,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// The command that each kind of options belongs to.
+/// Runs the command of the parsed options.
 class Dispatch {
 public:
     explicit Dispatch(const Io& io) : io_(io) {}
@@ -26,29 +26,17 @@ public:
         console.help(usage.help);
         return ExitStatus::Failure;
     }
-    ExitStatus operator()(const CheckCommand& command) const { return run(run_check, command); }
-    ExitStatus operator()(const CompileCommand& command) const { return run(run_compile, command); }
-    ExitStatus operator()(const DumpCommand& command) const { return run(run_dump, command); }
-    ExitStatus operator()(const ExportCommand& command) const { return run(run_export, command); }
-    ExitStatus operator()(const ForestCommand& command) const { return run(run_forest, command); }
-    ExitStatus operator()(const ImportCommand& command) const { return run(run_import, command); }
-    ExitStatus operator()(const StatsCommand& command) const { return run(run_stats, command); }
-    ExitStatus operator()(const FormatCommand& command) const { return run(run_format, command); }
-    ExitStatus operator()(const ExplainCommand& command) const { return run(run_explain, command); }
-
-private:
     template <typename Command>
-    [[nodiscard]] ExitStatus run(ExitStatus (*run_command)(const Command& command,
-                                                           const Console& console),
-                                 const Command& command) const {
+    ExitStatus operator()(const Command& command) const {
         const Console console(io_, command.messages);
         return console.finish(run_command(command, console));
     }
 
+private:
     const Io& io_;
 };
 
-/// Without allocating: there is no memory.
+/// Reports without allocations.
 int out_of_memory(const Io& io) {
     io.err << io.program << ": error: out of memory\n" << std::flush;
     return static_cast<int>(ExitStatus::Limit);

@@ -1,5 +1,4 @@
-// The `lsc` program as a function, so that tests run it in-process: same arguments, streams and
-// exit status as the executable.
+// The program `lsc` as a function with arguments, streams and exit status, for in-process tests.
 #pragma once
 
 #include "runtime/program/io.h"
@@ -9,8 +8,8 @@
 
 namespace lsys::lsc {
 
-/// Runs `lsc ARGUMENTS...` (without the program's name). Returns the exit status: 0 fine, 1 the
-/// author's errors, 2 usage or environment, 3 a limit, 130 interrupted.
+/// Runs `lsc ARGUMENTS...`, given without the program's name. Returns the exit status: 0 success, 1
+/// errors in a grammar, 2 usage or environment, 3 a limit, 130 interrupted.
 [[nodiscard]] int run(std::span<const std::string> arguments, const Io& io);
 
 } // namespace lsys::lsc

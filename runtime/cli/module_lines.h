@@ -1,4 +1,4 @@
-// A word as text with the origin of each module: one module a line.
+// A word as text with the origin of each module, one module per line.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -19,9 +19,9 @@ public:
     explicit ModuleLines(const Bytecode& bytecode)
         : bytecode_(bytecode), modules_(bytecode), origins_(bytecode) {}
 
-    /// Precondition: the piece has origins.
+    /// Appends the lines of a piece with origins.
     void append(const StreamChunk& piece, std::string& text);
-    /// Hands the text of a whole word to `flush` in pieces; false as soon as flush returns false.
+    /// Passes the text of a word to `flush` in pieces; returns false as soon as `flush` does.
     [[nodiscard]] bool print(const Word& word, const std::function<bool(std::string_view)>& flush);
 
 private:

@@ -1,5 +1,4 @@
-// The options of each command, one struct per command. Made by command_line.cpp, read by the
-// command of the same name.
+// The options of each command, one struct per command. Made by command_line.cpp.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -57,8 +56,8 @@ struct DumpCommand {
     bool all = false;
     bool count = false;
     bool stream = false;
-    std::optional<float> rho;           // of --stage instanced
-    bool origins = false;               // say which production wrote each module, and where
+    std::optional<float> rho; // of --stage instanced
+    bool origins = false;
     std::optional<std::uint32_t> steps; // generations of this run
     std::string save_state;
     std::string from;
@@ -71,12 +70,12 @@ struct ExportCommand {
     std::optional<std::uint64_t> seed;
     std::string file;
     std::string output;
-    std::optional<ExportFormat> format; // none: by the output's name
+    std::optional<ExportFormat> format; // default: by the extension of the output
     MeshOptions mesh;
-    std::optional<float> gravity; // m/s^2; any of these three: the plant bends
+    std::optional<float> gravity; // m/s^2; gravity or wind bend the plant
     std::optional<Wind> wind;
     bool settle = false;
-    std::uint32_t frames = 0; // of an animation or a numbered series; 0: the plant at rest
+    std::uint32_t frames = 0; // of an animation or of numbered files; 0: the plant at rest
     float frames_per_second = 24.0F;
     bool stream = false;
     bool stats = false;
@@ -90,7 +89,7 @@ struct ForestCommand {
     RunOptions run;
     bool expand = false;
     bool bake = false;
-    float cell = 100.0F; // m, of the squares whose instances are one node; 0: all are
+    float cell = 100.0F; // m, side of the ground cells with one node each; 0: one cell
     std::uint32_t frames = 0;
     bool check = false;
     bool stats = false;
@@ -109,9 +108,9 @@ struct ImportCommand {
     GrammarOptions grammar;
     RunOptions run;
     std::string file;   // empty: all of `folder`
-    std::string folder; // whose files are all imported
+    std::string folder; // of --all
     std::string output; // a file, or a folder for --all
-    bool force = false; // replace files whose names come from systems or other files
+    bool force = false; // replace existing files with derived names
 };
 
 struct FormatCommand {
@@ -123,7 +122,7 @@ struct FormatCommand {
 
 struct ExplainCommand {
     MessageOptions messages;
-    std::string code; // empty: the list of all
+    std::string code; // empty: list all codes
 };
 
 } // namespace lsys::lsc

@@ -16,7 +16,7 @@ constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
 constexpr std::uint64_t kWidth = 24;
 constexpr const char* kClearLine = "\r\x1b[K";
 
-/// "830", "12 k", "210 M", "3 G": for a rate, of which nobody reads more digits.
+/// A rate with few digits: "830", "12 k", "210 M", "3 G".
 std::string short_text(double count) {
     constexpr std::array<const char*, 4> kUnits{"", " k", " M", " G"};
     std::size_t unit = 0;
@@ -38,7 +38,7 @@ std::string duration_text(double seconds) {
 
 } // namespace
 
-/// By what is written of all that is to be written, at the rate so far.
+/// The remaining time at the rate so far.
 std::string
 Progress::time_left(std::uint32_t generation, std::uint64_t modules, double seconds) const {
     if (expected_.size() <= generations_) {

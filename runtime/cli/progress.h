@@ -1,5 +1,5 @@
-// A progress bar on a terminal, for what takes more than a second. Fed from a derivation, from any
-// of its threads but never from two at once.
+// A progress bar on a terminal for derivations of more than one second. Updated from any thread,
+// but not from two at once.
 #pragma once
 
 #include "runtime/pipeline/project.h"
@@ -19,9 +19,9 @@ class Progress {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// Draws on `terminal`, or never if it is null. Work began at `begin`. `expected`: modules of
-    /// each generation from 0 to `generations`, or nothing if that is not known, and then nothing
-    /// is said of the time that is left.
+    /// Draws on `terminal` unless it is null. `begin`: the start of the work. `expected`: modules
+    /// of each generation from 0 to `generations`; empty if unknown, which hides the remaining
+    /// time.
     Progress(std::ostream* terminal,
              std::uint32_t generations,
              Clock::time_point begin,
@@ -32,9 +32,9 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// The word of `generation` is being rewritten and `modules` are written so far.
+    /// Shows that `modules` modules of `generation` are written.
     void update(std::uint32_t generation, std::uint64_t modules, Clock::time_point now);
-    /// Takes the bar away.
+    /// Removes the bar.
     void clear();
 
 private:
@@ -48,21 +48,21 @@ private:
     std::vector<double> expected_;
     std::uint32_t generation_ = 0; // of the last update
     std::uint64_t modules_ = 0;    // of that update
-    std::uint64_t before_ = 0;     // of all generations before it
+    std::uint64_t before_ = 0;     // modules of all generations before it
     bool drawn_ = false;
 };
 
 /// The progress bar of the pipeline's derivations.
 class PipelineProgress {
 public:
-    /// Has `host` report progress to this bar, if `console` shows progress. Outlives the work.
+    /// Makes `host` report progress to this bar if `console` shows progress. Outlives the work.
     PipelineProgress(const Console& console, Host& host);
-    /// Takes the bar away.
+    /// Removes the bar.
     void clear() { bar_.reset(); }
 
 private:
     Progress::Clock::time_point begin_ = Progress::Clock::now();
-    std::optional<Progress> bar_; // of the derivation that has begun
+    std::optional<Progress> bar_; // of the current derivation
 };
 
 } // namespace lsys::lsc

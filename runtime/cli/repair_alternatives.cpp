@@ -1,4 +1,4 @@
-// The part of RepairAttempt that compares a repair with others.
+// The comparison of repairs with their alternatives, a part of RepairAttempt.
 #include "compiler/program/program_dump.h"
 #include "runtime/cli/alternative_repairs.h"
 #include "runtime/cli/repair_attempt.h"
@@ -9,12 +9,12 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Repairs that may have rivals, in larger numbers or files, are offered: each is compared with
-/// others, by compiling the file.
+/// Maximum number of compared repairs and maximum size of their files, which are compiled for each
+/// alternative; other repairs are offers.
 constexpr std::size_t kMaxCompared = 100;
 constexpr std::size_t kMaxComparedFile = std::size_t{1} << 20;
 
-/// Name and number of parameters.
+/// The name and the number of parameters of a module.
 using ModuleName = std::pair<std::string, std::uint32_t>;
 
 std::set<ModuleName> modules_of(const Grammar& grammar) {
@@ -37,8 +37,7 @@ std::set<StatementKey> RepairAttempt::ambiguous() const {
         if (candidate == fixes.end() || subject_.project.is_cancelled()) {
             continue;
         }
-        // Of several repairs of one statement each would have to be compared with all of the
-        // others.
+        // Combinations of several repairs are not compared.
         if (fixes.size() > 1 || ++compared > kMaxCompared || has_alternative(key, *candidate)) {
             keys.insert(key);
         }
@@ -46,7 +45,7 @@ std::set<StatementKey> RepairAttempt::ambiguous() const {
     return keys;
 }
 
-/// Whether another repair of the statement is as good as the fix that was applied.
+/// Whether an alternative is as plausible as the applied fix.
 bool RepairAttempt::has_alternative(const StatementKey& key, const AppliedFix& fix) const {
     const EditedFile& file = files_.at(key.first);
     const TextPlace before = file.statements()[key.second];
@@ -88,7 +87,7 @@ bool RepairAttempt::has_alternative(const StatementKey& key, const AppliedFix& f
                 program) {
             return false;
         }
-        // Without the comma a module has a number of parameters that it has nowhere else.
+        // Without the comma a module has a number of parameters that occurs nowhere else.
         const std::set<ModuleName> others_modules = modules_of(alternative_text.grammar);
         return fix.code != DiagnosticCode::MissingComma ||
                others_modules.size() <= modules.size() ||
@@ -97,7 +96,7 @@ bool RepairAttempt::has_alternative(const StatementKey& key, const AppliedFix& f
     });
 }
 
-/// Where the statement lies after all fixes; nothing if it has become several or none.
+/// The place of the statement after all fixes; nothing if it became several or none.
 std::optional<TextPlace> RepairAttempt::present_place(const StatementKey& key) const {
     const EditedFile& file = files_.at(key.first);
     std::optional<TextPlace> found;

@@ -10,8 +10,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// A mistake may hide another, so the text is compiled again after each round; a grammar that needs
-/// more rounds than this keeps its last diagnostics.
+/// Maximum rounds. The text is compiled again after each, because mistakes may hide others.
 constexpr int kMaxRounds = 100;
 
 std::string describe(const Diagnostic& diagnostic, const Fix& fix, const SourceMap& sources) {
@@ -22,7 +21,7 @@ std::string describe(const Diagnostic& diagnostic, const Fix& fix, const SourceM
                        info(diagnostic.code).name);
 }
 
-/// Whether the repair holds whatever else is wrong with its statement.
+/// Whether the repair is independent of other errors of its statement.
 bool stands_alone(DiagnosticCode code) {
     return code == DiagnosticCode::LookAlike;
 }
@@ -80,7 +79,7 @@ Result<void> RepairAttempt::run() {
     }
 }
 
-/// Takes up the files that are new in this round.
+/// Adds the new files of this round.
 void RepairAttempt::read_files() {
     const SourceMap& sources = *fixed_.compiled.grammar.sources;
     std::map<std::string, std::vector<TextPlace>> statements;
@@ -99,7 +98,7 @@ void RepairAttempt::read_files() {
     }
 }
 
-/// Precondition: the diagnostics are not sorted yet.
+/// Precondition: the diagnostics are in order of discovery.
 void RepairAttempt::read_syntax_errors() {
     with_syntax_errors_.clear();
     const std::vector<Diagnostic>& all = fixed_.compiled.diagnostics.all();
@@ -158,7 +157,7 @@ void RepairAttempt::apply(const ChosenFixes& chosen) {
             applied_[key].push_back(applied);
         }
     }
-    std::set<std::string> done; // a file that is included twice is one text
+    std::set<std::string> done; // a file included twice is one text
     for (std::uint32_t i = 0; i < sources.file_count(); ++i) {
         const SourceFile& file = sources.file(static_cast<FileId>(i));
         const auto found = chosen.edits.find(file.path());
@@ -220,8 +219,8 @@ std::set<StatementKey> RepairAttempt::wrong() const {
             const auto before = first_errors_.find(key);
             const bool is_new = before == first_errors_.end() ||
                                 before->second.count({diagnostic.code, diagnostic.message}) == 0;
-            // The first text was read as if its brackets had been repaired, so that an error which
-            // a bracket causes is in both.
+            // The parser reads the original as if its brackets were repaired, so an error caused by
+            // a bracket is in both texts.
             if ((is_new || has_bracket_repair(key)) && is_repaired(key)) {
                 keys.insert(key);
             }

@@ -1,5 +1,5 @@
-// One attempt of `lsc check --fix` to repair a grammar, and what it finds to be wrong with it. Made
-// by fixes.cpp, which tries again without the statements that were not repaired well.
+// RepairAttempt: one attempt of `lsc check --fix`, and its doubtful statements. fixes.cpp repeats
+// it without these.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -24,16 +24,16 @@ namespace lsys::lsc {
 
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// A statement of the text before all fixes: path and number.
+/// A statement of the original text: path and index.
 using StatementKey = std::pair<std::string, std::size_t>;
 
 struct AppliedFix {
     DiagnosticCode code{};
     std::string path;        // of the first edit
-    std::uint32_t place = 0; // of the first edit, in the text before all fixes
+    std::uint32_t place = 0; // of the first edit, in the original text
 };
 
-/// What is repaired, and how it is read.
+/// The grammar to repair and its options.
 struct RepairSubject {
     const std::string& path;
     const GrammarText& text;
@@ -42,12 +42,12 @@ struct RepairSubject {
     const Project& project;
 };
 
-/// Compiles the grammar with the files of `changed` in place of those on the disk.
+/// Compiles the grammar with the files of `changed` in place of those on disk.
 [[nodiscard]] Result<void> compile_changed(const RepairSubject& subject,
                                            const std::map<std::string, std::string>& changed,
                                            CompiledText& compiled);
 
-/// The repair of a grammar without the fixes of some statements.
+/// The repair of a grammar, except of excluded statements.
 class RepairAttempt {
 public:
     RepairAttempt(const RepairSubject& subject,
@@ -59,10 +59,9 @@ public:
     [[nodiscard]] Result<void> run();
     /// Repaired statements that are still wrong.
     [[nodiscard]] std::set<StatementKey> wrong() const;
-    /// Repaired statements that may have been meant otherwise (repair_alternatives.cpp).
+    /// Repaired statements with plausible alternatives (repair_alternatives.cpp).
     [[nodiscard]] std::set<StatementKey> ambiguous() const;
-    /// Offers the fixes of `diagnostics`, those of the text before all fixes, that were not
-    /// applied.
+    /// Makes the fixes of `diagnostics`, of the original text, that were not applied offers.
     void offer_doubtful(Diagnostics& diagnostics, const SourceMap& sources) const;
     [[nodiscard]] FixedGrammar take() { return std::move(fixed_); }
 

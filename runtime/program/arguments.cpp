@@ -107,7 +107,7 @@ Result<Definition> parse_definition(std::string_view text) {
     const std::string_view number = text.substr(equals + 1);
     const Parsed<float> parsed = parse_all<float>(number);
     if (parsed.error == std::errc::result_out_of_range) {
-        // Too large is an error; too small is the number next to it, or zero.
+        // A number too large is an error; one too small becomes the nearest, or zero.
         const Parsed<double> wide = parse_all<double>(number);
         if (wide.error == std::errc() && std::abs(wide.value) < 1.0) {
             definition.value = static_cast<float>(wide.value);

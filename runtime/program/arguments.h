@@ -1,4 +1,4 @@
-// The values of options as text: numbers, sizes, definitions. Every message says what is allowed.
+// Values of options: numbers, sizes, definitions. Error messages state the allowed values.
 #pragma once
 
 #include "compiler/program/compile_options.h"
@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// The most generations that can be asked for (docs/language.md section 2).
+/// Maximum number of generations (docs/language.md section 2).
 inline constexpr std::uint64_t kMaxGenerations = 0xFFFF'FFFEu;
 
 /// A whole number from `low` to `high`, in decimal digits.
@@ -21,11 +21,11 @@ parse_whole(std::string_view text, std::uint64_t low, std::uint64_t high);
 /// A number from `low` to `high`.
 [[nodiscard]] Result<float> parse_number(std::string_view text, float low, float high);
 
-/// `x,y,z` or `x,y,z,gust`: metres a second, and the gusts' part of it.
+/// `x,y,z` or `x,y,z,gust`: metres per second, and the fraction of gusts.
 [[nodiscard]] Result<Wind> parse_wind(std::string_view text);
 
-/// Bytes: a whole number, or one with a fraction and a suffix K, M, G or T (powers of 1024; `KiB`
-/// and `KB` mean the same as `K`).
+/// Bytes: a whole number, or a number with a suffix K, M, G or T (powers of 1024; also `KiB`,
+/// `KB`).
 [[nodiscard]] Result<std::uint64_t> parse_size(std::string_view text);
 
 /// `NAME=number`.

@@ -29,7 +29,7 @@ bool wants_colour(const Io& io, ColourMode mode) {
     return io.err_is_terminal && (no_colour == nullptr || *no_colour == '\0');
 }
 
-/// Without what --quiet leaves out.
+/// The diagnostics that --quiet prints.
 Diagnostics errors_only(const Diagnostics& diagnostics) {
     Diagnostics errors;
     for (const Diagnostic& diagnostic : diagnostics.all()) {
@@ -207,7 +207,7 @@ Result<void> Console::flush() const {
 
 ExitStatus Console::finish(ExitStatus status) const {
     if (!io_.out.good() && status != ExitStatus::Ok) {
-        return status; // whoever wrote has reported it
+        return status; // the failed write is already reported
     }
     const Result<void> done = flush();
     if (done) {

@@ -1,5 +1,5 @@
-// Console: writes results to standard output and messages to standard error, in the form the user
-// asked for. Programs print through nothing else.
+// Console: the only output of programs. Results go to standard output, messages to standard error
+// in the format of the options.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -24,23 +24,23 @@ public:
     [[nodiscard]] const Io& io() const { return io_; }
     [[nodiscard]] const MessageOptions& options() const { return options_; }
     [[nodiscard]] bool interrupted() const;
-    /// A progress bar may be drawn.
+    /// Whether a progress bar may be drawn.
     [[nodiscard]] bool shows_progress() const;
 
-    /// `lsc: error: message`; a JSON object where messages are JSON.
+    /// Prints `lsc: error: message`, or a JSON object.
     void error(std::string_view message) const;
-    /// `lsc: help: message`, after an error. Nothing in JSON.
+    /// Prints `lsc: help: message` after an error; nothing in JSON.
     void help(std::string_view message) const;
-    /// What has been done to the user's files; not if quiet.
+    /// Prints a note, for example about written files, unless quiet.
     void info(std::string_view message) const;
-    /// A line of its own, `file:line:col: ...`; not if quiet.
+    /// Prints a line, `file:line:col: ...`, unless quiet.
     void line(std::string_view text) const;
-    /// What is going on; only if verbose.
+    /// Prints a note about the work if verbose.
     void detail(std::string_view message) const;
 
     /// Prints the messages of a step.
     void show(const Messages& messages) const;
-    /// Prints the messages of a step and moves its value, if there is one, to `value`.
+    /// Prints the messages of a step and moves its value to `value`; returns its exit status.
     template <typename T>
     [[nodiscard]] ExitStatus take(Outcome<T> outcome, T& value) const {
         show(outcome.messages());
@@ -64,11 +64,10 @@ public:
 
     /// Writes a result to standard output.
     [[nodiscard]] Result<void> write(std::string_view text) const;
-    /// Hands on what standard output still holds back.
+    /// Flushes standard output.
     [[nodiscard]] Result<void> flush() const;
 
-    /// The exit status of a command that ended as `status`, once standard output has taken all of
-    /// its results.
+    /// Flushes standard output; returns the exit status of a command that ended with `status`.
     [[nodiscard]] ExitStatus finish(ExitStatus status) const;
 
 private:
@@ -79,7 +78,7 @@ private:
     MessageOptions options_;
 };
 
-/// What a Console of `program` prints of the messages, without colour.
+/// The text that a Console of `program` prints for the messages, without colour.
 [[nodiscard]] std::string
 messages_text(const Messages& messages, const MessageOptions& options, const char* program);
 

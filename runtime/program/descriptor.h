@@ -1,11 +1,11 @@
-// A file descriptor that closes itself.
+// Descriptor: owns a file descriptor.
 #pragma once
 
 #include <unistd.h>
 
 namespace lsys {
 
-/// Closes what it holds.
+/// Closes the descriptor at the end of its life.
 class Descriptor {
 public:
     explicit Descriptor(int descriptor) : descriptor_(descriptor) {}

@@ -8,7 +8,7 @@
 
 namespace lsys {
 
-/// The worst last but for Interrupted, which overrides all.
+/// In ascending order of severity; Interrupted overrides all.
 enum class ExitStatus : std::uint8_t {
     Ok = 0,
     AuthorErrors = 1,

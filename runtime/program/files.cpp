@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 20;
 
-/// Fine while `size` bytes are within the limit.
+/// An Error if `size` bytes exceed the limit.
 Result<void> check_size(std::uint64_t size, const ReadLimit& limit) {
     if (size > limit.memory && limit.memory < limit.max_bytes) {
         return memory_error("it", limit.memory);
@@ -40,7 +40,7 @@ Result<void> check_size(std::uint64_t size, const ReadLimit& limit) {
     return {};
 }
 
-/// Why a file of this kind is not read; empty: it is.
+/// The reason why a file of this kind is not read; empty if it is.
 std::string_view reason_against(const struct stat& facts, int descriptor, FileKind kind) {
     if (S_ISDIR(facts.st_mode)) {
         return "it is a directory";
@@ -65,7 +65,7 @@ Result<std::string> read_descriptor(int descriptor,
     bytes.reserve(expected + 1);
     while (true) {
         const std::size_t size = bytes.size();
-        // One byte more than expected, so that the end is seen without growing.
+        // One byte more than expected, to see the end without growing.
         const std::size_t room = std::max<std::size_t>(bytes.capacity() - size, 1);
         bytes.resize(size + std::min(room, kPiece));
         const ssize_t count = ::read(descriptor, bytes.data() + size, bytes.size() - size);
@@ -90,12 +90,12 @@ Result<std::string> read_descriptor(int descriptor,
     }
 }
 
-/// Six letters that nobody can foretell.
+/// Six unpredictable letters.
 std::string random_letters() {
     constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789";
     std::uint64_t bits = 0;
     if (::getrandom(&bits, sizeof bits, GRND_NONBLOCK) != sizeof bits) {
-        // Only O_EXCL counts then: the name need not be secret, but another for each attempt.
+        // With O_EXCL the name need not be secret, only different for each attempt.
         static std::atomic<std::uint64_t> count{0};
         bits = (static_cast<std::uint64_t>(::getpid()) << 20) + ++count;
     }
@@ -110,7 +110,7 @@ std::string random_letters() {
 } // namespace
 
 std::string errno_text(int reason) {
-    if (reason == EBADF) { // a standard stream that the process was started without
+    if (reason == EBADF) { // a standard stream closed at the start of the process
         return "it is closed";
     }
     std::string text = std::strerror(reason);
@@ -161,7 +161,7 @@ Result<std::string> read_bytes(const std::string& path,
                                FileKind kind,
                                const ReadLimit& limit,
                                const std::atomic<bool>* cancelled) {
-    // A pipe without a writer is not waited for where it is refused anyway.
+    // Does not wait for the writer of a pipe, which is refused.
     const int mode = kind == FileKind::Regular ? O_NONBLOCK : 0;
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | mode));
     struct stat facts {};
@@ -217,8 +217,8 @@ void Output::clear_temporary() {
     }
 }
 
-/// Makes an empty file beside target_. One that will replace another is private until it has the
-/// `mode` of that one; the kernel gives a new one the mode that the process has for new files.
+/// Makes an empty file beside target_: with `mode` if it replaces an existing file (private before
+/// that), else with the mode of the umask.
 Result<void> Output::make_temporary(bool exists, unsigned mode) {
     constexpr int kAttempts = 100;
     const mode_t first_mode = exists ? 0600 : 0666;
@@ -329,7 +329,7 @@ Result<void> Output::commit() {
     const unsigned flags = must_be_new_ ? RENAME_NOREPLACE : 0;
     int failed = ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), flags);
     if (failed != 0 && flags != 0 && (errno == EINVAL || errno == ENOSYS)) {
-        failed = ::rename(temporary_.c_str(), target_.c_str()); // open() saw none of its name
+        failed = ::rename(temporary_.c_str(), target_.c_str()); // create() found no such file
     }
     if (failed != 0) {
         return failure(errno);
@@ -338,8 +338,8 @@ Result<void> Output::commit() {
     return {};
 }
 
-/// Gives the file its name; the temporary name gets the file that was there, so that unpublish()
-/// can bring it back.
+/// Gives the file its name; the existing file gets the temporary name, from which unpublish()
+/// restores it.
 Result<void> Output::publish() {
     struct stat facts {};
     const bool replaces = ::lstat(target_.c_str(), &facts) == 0;
@@ -368,7 +368,7 @@ void Output::unpublish() {
 }
 
 Result<void> commit_all(std::vector<Output>& outputs) {
-    // A full disk is known after these; nothing has changed until then.
+    // Detects a full disk before any change.
     for (Output& output : outputs) {
         if (Result<void> finished = output.finish(); !finished) {
             return finished;
@@ -382,7 +382,7 @@ Result<void> commit_all(std::vector<Output>& outputs) {
             return published;
         }
     }
-    outputs.clear(); // and with them the files that were replaced
+    outputs.clear(); // removes the replaced files
     return {};
 }
 

@@ -1,5 +1,5 @@
-// Files, whole: read at once, written beside their name and renamed when complete. `-` is standard
-// input or output. Everything the environment refuses comes back as an Error that names the file.
+// Complete files: read at once; written to a temporary file and renamed when complete. `-` is
+// standard input or output. Failures of the environment are Errors with the name of the file.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -15,38 +15,38 @@
 
 namespace lsys {
 
-/// The bytes of `path`, or of standard input for `-`: a file that the user names, which may be a
-/// pipe or a terminal. Other devices are refused: they have no end.
+/// The bytes of a file that the user named, or of standard input for `-`. Pipes and terminals are
+/// allowed, other devices are not.
 [[nodiscard]] Result<std::string>
 read_file(const std::string& path, const ReadLimit& limit, const Console& console);
 
-/// The two kinds of files that are read.
+/// The kinds of files that may be read.
 enum class FileKind : std::uint8_t {
-    Named,   // by the user: it may be a pipe or a terminal
-    Regular, // named by another file: a regular one or /dev/null, so that nobody waits for it
+    Named,   // by the user; may be a pipe or a terminal
+    Regular, // named by another file; only a regular file or /dev/null, which never block
 };
-/// The bytes of a file; its Error is the reason alone. `cancelled` may be null.
+/// The bytes of a file; its Error is only the reason. `cancelled` may be null.
 [[nodiscard]] Result<std::string> read_bytes(const std::string& path,
                                              FileKind kind,
                                              const ReadLimit& limit,
                                              const std::atomic<bool>* cancelled);
-/// The bytes of standard input; its Error is the reason alone.
+/// The bytes of standard input; its Error is only the reason.
 [[nodiscard]] Result<std::string> read_standard_input(const ReadLimit& limit,
                                                       const Console& console);
 
-/// What `errno` means, lower case.
+/// The text of an errno, in lower case.
 [[nodiscard]] std::string errno_text(int reason);
 
-/// The name of a file of a series: tree.glb and 12 give tree.0012.glb.
+/// The path of a numbered file: tree.0012.glb for tree.glb and 12.
 [[nodiscard]] std::string numbered_path(const std::string& path, std::uint32_t number);
-/// Says which files of a series that ended early are there: the first `done` of `count`.
+/// Prints that the first `done` of `count` numbered files are complete.
 void report_complete_frames(const std::string& path,
                             std::uint32_t done,
                             std::uint32_t count,
                             const Console& console);
 
-/// A file while it is written. A regular file appears under its name, or replaces the one of that
-/// name, only at commit(); until then, and if it is never called, nothing has changed. Move only.
+/// A file being written. A regular file appears under its name, or replaces an existing one, only
+/// at commit(); without it nothing changes. Move only.
 class Output {
 public:
     Output(const Output&) = delete;
@@ -55,15 +55,14 @@ public:
     Output& operator=(Output&&) = delete;
     ~Output();
 
-    /// `-` is standard output.
+    /// Opens `path`; `-` is standard output.
     [[nodiscard]] static Result<Output> open(const std::string& path, const Console& console);
-    /// Like open(), but the file must be new: an Error here or at commit() if there is one of its
-    /// name, a dangling link included.
+    /// Opens a file that must not exist, not even as a dangling link: an Error here or at commit().
     [[nodiscard]] static Result<Output> create(const std::string& path, const Console& console);
     [[nodiscard]] Result<void> write(std::string_view text);
-    /// Ends the writing; the file keeps its temporary name. Idempotent.
+    /// Closes the file under its temporary name. Idempotent.
     [[nodiscard]] Result<void> finish();
-    /// finish(), then the file gets its name.
+    /// Closes the file and gives it its name.
     [[nodiscard]] Result<void> commit();
 
 private:
@@ -78,21 +77,21 @@ private:
     void unpublish();
 
     const Console* console_;
-    std::string path_;              // as the user wrote it
+    std::string path_;              // as given by the user
     std::string target_;            // with links resolved
-    std::string temporary_;         // beside target_; empty where the file is written in place
+    std::string temporary_;         // beside target_; empty for devices and pipes
     TemporaryName* slot_ = nullptr; // of temporary_
-    int descriptor_ = -1;           // none: standard output, or finished
+    int descriptor_ = -1;           // -1: standard output, or finished
     bool is_finished_ = false;
     bool must_be_new_ = false;
-    State state_ = State::Unpublished; // by commit_all()
+    State state_ = State::Unpublished; // set by commit_all()
 };
 
-/// Commits outputs that belong together: all of them appear or none. A file that was replaced comes
-/// back when a later one fails, except on file systems that cannot exchange two names.
+/// Commits all outputs or none. If one fails, replaced files are restored, except on file systems
+/// that cannot exchange two names.
 [[nodiscard]] Result<void> commit_all(std::vector<Output>& outputs);
 
-/// open, write, commit.
+/// Opens, writes and commits a file.
 [[nodiscard]] Result<void>
 write_file(const std::string& path, std::string_view text, const Console& console);
 

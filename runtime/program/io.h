@@ -1,4 +1,4 @@
-// Streams and state of the process around a program, so that tests run programs in-process.
+// Streams and state of the process, passed to programs so that tests run them in-process.
 #pragma once
 
 #include <atomic>
@@ -6,15 +6,15 @@
 
 namespace lsys {
 
-/// Where a run reads and writes. Standard output carries results only.
+/// The streams of a run. Standard output is for results only.
 struct Io {
     std::istream& in;
     std::ostream& out;
     std::ostream& err;
-    bool err_is_terminal = false; // colour and progress on `auto`
-    /// Becomes true on Ctrl-C; the run then ends with 130 as soon as it can.
+    bool err_is_terminal = false; // enables colour and progress
+    /// True after Ctrl-C, which ends the run with status 130; may be null.
     const std::atomic<bool>* interrupted = nullptr;
-    const char* program = "lsc"; // the name that its messages begin with
+    const char* program = "lsc"; // prefix of messages
 };
 
 } // namespace lsys

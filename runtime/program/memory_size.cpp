@@ -15,15 +15,15 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
-/// The number in a file; "max", and no file: no limit.
+/// The number in a file; kNoLimit for "max" and for a missing file.
 std::uint64_t limit_in(const fs::path& path) {
     std::ifstream file(path);
     std::uint64_t bytes = kNoLimit;
     return file >> bytes ? bytes : kNoLimit;
 }
 
-/// The least limit of a group and of those above it. `base`: the folder of the topmost that is
-/// visible here; a group of another name space is not, then only that one counts.
+/// The least limit of a group and its parents. `base`: the folder of the topmost visible group, the
+/// only one that counts for a group of another name space.
 std::uint64_t least_limit(const fs::path& base, std::string_view group, const char* file) {
     fs::path folder = base;
     std::uint64_t least = limit_in(folder / file);
@@ -34,7 +34,7 @@ std::uint64_t least_limit(const fs::path& base, std::string_view group, const ch
     return least;
 }
 
-/// Whether a list such as `cpu,memory` has `memory`.
+/// Whether a list like `cpu,memory` contains `memory`.
 bool names_memory(std::string_view controllers) {
     while (!controllers.empty()) {
         const std::string_view name = controllers.substr(0, controllers.find(','));

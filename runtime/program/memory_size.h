@@ -1,5 +1,4 @@
-// The memory of the machine, or of the container that the process runs in: what the default of
-// --max-memory is made from.
+// The memory of the machine or container, for the default of --max-memory.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +6,12 @@
 
 namespace lsys {
 
-/// The least limit that cgroups set to the memory of this process, in bytes: memory.max of cgroup
-/// v2 and memory.limit_in_bytes of v1, of its own group and of all above. 2^64 - 1: none. `root`:
-/// the folder that holds proc/ and sys/.
+/// The least memory limit of the cgroups of this process in bytes, 2^64 - 1 without any: memory.max
+/// of cgroup v2 and memory.limit_in_bytes of v1, of its group and all parents. `root`: the folder
+/// with proc/ and sys/.
 [[nodiscard]] std::uint64_t cgroup_memory(const std::filesystem::path& root);
 
-/// Half of the physical memory, or of cgroup_memory() where that is less, in bytes.
+/// Half of the physical memory or of cgroup_memory(), whichever is less, in bytes.
 [[nodiscard]] std::uint64_t half_of_memory();
 
 } // namespace lsys

@@ -1,4 +1,4 @@
-// How a program shows its messages.
+// The options of messages.
 #pragma once
 
 #include "grammar/rendering/render_diagnostic.h"
@@ -9,13 +9,13 @@ namespace lsys {
 
 enum class ColourMode : std::uint8_t { Auto, Always, Never };
 
-/// How messages are shown; every command has these.
+/// Options of every command for its messages.
 struct MessageOptions {
     MessageFormat format = MessageFormat::Human;
     ColourMode colour = ColourMode::Auto;
     bool deny_warnings = false;
     bool quiet = false;   // errors only, no progress
-    bool verbose = false; // what is done, and how large it is
+    bool verbose = false; // steps and sizes too
 };
 
 } // namespace lsys

@@ -1,4 +1,4 @@
-// What the options of several commands share: how values are read, and the options themselves.
+// Options shared by several commands, and the parsers of their values.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -26,13 +26,13 @@ struct PrintText {
     std::string text;
 };
 
-/// What is wrong with a command line.
+/// A mistake in a command line.
 struct UsageError {
     std::string message;
     std::string help;
 };
 
-/// An option whose value `parse` reads into `target`.
+/// Adds an option whose value `parse` reads into `target`.
 template <typename Target, typename Parse>
 CLI::Option*
 add_parsed(CLI::App& app, const std::string& name, Target& target, Parse parse, const char* text) {
@@ -49,7 +49,7 @@ add_parsed(CLI::App& app, const std::string& name, Target& target, Parse parse, 
         text);
 }
 
-/// An option that takes one of a few words.
+/// Adds an option with one of several words as its value.
 template <typename Target>
 CLI::Option* add_choice(CLI::App& app,
                         const std::string& name,
@@ -82,8 +82,8 @@ inline Result<float> fraction(const std::string& text) {
     return parse_number(text, 0.0F, 1.0F);
 }
 
-/// The message that CLI11 has for a mistake, in this program's words, with the nearest name.
-/// `command` is what is written before the options of `app`.
+/// The mistake found by CLI11 in words of this program, with the nearest name. `command`: the words
+/// before the options of `app`.
 [[nodiscard]] UsageError
 describe(const CLI::ParseError& error, const CLI::App& app, const std::string& command);
 
@@ -92,12 +92,12 @@ void add_deny(CLI::App& app, MessageOptions& options);
 void add_dialect(CLI::App& app, std::string& dialect);
 void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run);
 void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed);
-/// What make_mesh() is asked for.
+/// The options of make_mesh().
 void add_mesh(CLI::App& app, MeshOptions& mesh);
 void add_run_limits(CLI::App& app, RunOptions& run);
 
-/// The options of forests that take the place of what a scene says: key, placement, instances.
-/// `size`: the name of the one for the side of the ground.
+/// Options that override a scene: key, placement, instances. `size`: the name of the option for the
+/// side of the ground.
 void add_scene_overrides(CLI::App& app, SceneOverrides& overrides, const char* size);
 
 } // namespace lsys

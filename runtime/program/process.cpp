@@ -18,17 +18,17 @@ namespace lsys {
 
 namespace {
 
-// Shells show a process that a signal ended as 128 and the signal's number.
+// The exit status of shells for a process ended by a signal: 128 plus its number.
 constexpr int kSignalStatus = 128;
 static_assert(kSignalStatus + SIGINT == static_cast<int>(ExitStatus::Interrupted));
 
-// Seconds to end in after SIGTERM or SIGHUP; a run that waits for a pipe does not see them.
+// Seconds from SIGTERM or SIGHUP to the end of a run, which may be blocked by a pipe.
 constexpr unsigned kShutdownSeconds = 2;
 
 std::atomic<bool> interrupted{false};
-std::atomic<int> first_signal{0}; // that asked the process to end
+std::atomic<int> first_signal{0}; // to end the process
 std::atomic<bool> has_alarm{false};
-// Or a handler may not touch them.
+// Required for use in a signal handler.
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 extern "C" void on_end_signal(int signal) {
@@ -36,12 +36,11 @@ extern "C" void on_end_signal(int signal) {
     first_signal.compare_exchange_strong(none, signal);
     const bool again = interrupted.exchange(true);
     if (signal != SIGINT) {
-        // Sent twice by timeout(1) and by shells that lose their terminal, so a second one says
-        // nothing new.
+        // A second one has no meaning: timeout(1) and shells that lose their terminal send two.
         if (!has_alarm.exchange(true)) {
             ::alarm(kShutdownSeconds);
         }
-    } else if (again) { // the second Ctrl-C does not wait
+    } else if (again) { // the second Ctrl-C ends at once
         remove_temporaries();
         std::signal(signal, SIG_DFL);
         std::raise(signal);
@@ -60,26 +59,26 @@ void handle_signals() {
     for (const int signal : {SIGTERM, SIGHUP}) {
         struct sigaction before {};
         ::sigaction(signal, nullptr, &before);
-        if (before.sa_handler != SIG_IGN) { // as nohup(1) has it
+        if (before.sa_handler != SIG_IGN) { // which nohup(1) sets
             ::sigaction(signal, &action, nullptr);
         }
     }
     action.sa_handler = on_alarm;
     ::sigaction(SIGALRM, &action, nullptr);
-    // A file that grows beyond `ulimit -f` is an error of the write, which is reported.
+    // Makes a file beyond `ulimit -f` an error of the write.
     std::signal(SIGXFSZ, SIG_IGN);
 }
 
-/// Opens the standard streams that are closed, or the first files of the run would take their
-/// numbers and get what is meant for them. What they become can be neither read nor written, nor
-/// opened anew as /dev/stdout: /dev/null would swallow the output.
+/// Opens closed standard streams, whose descriptors the first files of the run would get otherwise.
+/// They can be neither read nor written, nor reopened as /dev/stdout; /dev/null would hide lost
+/// output.
 void fill_standard_streams() {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) {
             continue;
         }
         if (::open("/", O_PATH | O_DIRECTORY) != descriptor) {
-            ::_exit(static_cast<int>(ExitStatus::Failure)); // nowhere to say why
+            ::_exit(static_cast<int>(ExitStatus::Failure)); // no stream for a message
         }
     }
 }

@@ -1,4 +1,4 @@
-// The process around a program of ours: its streams, its terminal and the signals that end it.
+// The process of a program: streams, terminal and signals.
 #pragma once
 
 #include "runtime/program/io.h"
@@ -8,10 +8,10 @@
 
 namespace lsys {
 
-/// Calls `run` with the arguments after the program's name and the streams of the process, and
-/// returns its exit status: after SIGINT, SIGTERM and SIGHUP 130, 143 and 129. Once a process.
-/// `program`: the name that messages begin with. Standard streams that are closed become files that
-/// can be neither read nor written.
+/// Calls `run` with the arguments after the program's name and the streams of the process; returns
+/// its exit status, or 130, 143 and 129 after SIGINT, SIGTERM and SIGHUP. At most once per process.
+/// `program`: the prefix of messages. Closed standard streams become files that cannot be read or
+/// written.
 [[nodiscard]] int run_process(int argc,
                               char** argv,
                               const char* program,

@@ -1,4 +1,4 @@
-// Limits of a run, as the options of every command that compiles or derives give them.
+// Limits of a run, from the options of commands that compile or derive.
 #pragma once
 
 #include "runtime/base/limits.h"

@@ -9,7 +9,7 @@ namespace lsys {
 
 namespace {
 
-/// `column,row,size`.
+/// Parses `column,row,size`.
 Result<ForestTile> parse_tile(const std::string& text) {
     const Error wrong{
         fmt::format("`{}` is not column,row,size: two whole numbers and metres", text)};

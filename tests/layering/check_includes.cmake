@@ -1,5 +1,5 @@
-# Fails on an include that cmake/Layers.cmake does not allow, on OpenGL, GLFW and ImGui outside of the
-# viewer, and where a library prints or ends the process. Usage: cmake -D ROOT=<folder> -P check_includes.cmake
+# Fails on includes that cmake/Layers.cmake does not allow, on OpenGL, GLFW and ImGui outside of the
+# viewer, and on libraries that print or end the process. Usage: cmake -D ROOT=<folder> -P check_includes.cmake
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/../../cmake/Layers.cmake")
 
@@ -24,10 +24,10 @@ foreach(path ${sources})
         continue() # written by Bison and Flex
       endif()
       lsys_layer("${included}" owner)
-      # Another folder's headers are public only where they lie directly in it.
+      # Only headers directly in another folder are public.
       string(REGEX REPLACE "/[^/]*$" "" place "${included}")
       if(NOT owner STREQUAL folder AND NOT (owner IN_LIST allowed AND owner STREQUAL place))
-        # file(STRINGS) drops empty lines, so the line is found again in the text.
+        # file(STRINGS) drops empty lines, so the line number comes from the text.
         file(READ "${ROOT}/${path}" text)
         string(FIND "${text}" "\"${included}\"" offset)
         string(SUBSTRING "${text}" 0 ${offset} before)

@@ -1,5 +1,5 @@
-# Fails where two headers define a class, struct or enumeration of the same name in the same namespace: a program
-# that has both is wrong in ways that no compiler sees. Usage: cmake -D ROOT=<folder> -P check_names.cmake
+# Fails if two headers define a class, struct or enumeration of one name in one namespace, a violation of the
+# one-definition rule that compilers do not report. Usage: cmake -D ROOT=<folder> -P check_names.cmake
 file(GLOB_RECURSE headers RELATIVE "${ROOT}"
   "${ROOT}/grammar/*.h" "${ROOT}/compiler/*.h" "${ROOT}/runtime/*.h" "${ROOT}/viewer/*.h")
 set(failures "")

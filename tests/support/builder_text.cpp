@@ -92,14 +92,14 @@ Opcode function_named(const std::string& name) {
     mistake("unknown function", name);
 }
 
-/// Compiles one expression by precedence climbing; all-constant parts are computed at once.
+/// Compiles one expression by precedence climbing and folds constant parts.
 class ExpressionCompiler {
 public:
     explicit ExpressionCompiler(const ExpressionScope& scope)
         : formals_(scope.formals), globals_(scope.globals), draws_(scope.draws),
           uses_steps_(scope.uses_steps) {}
 
-    /// Its instructions; a constant one is a single Literal.
+    /// The instructions; a constant is a single Literal.
     Instructions run(const std::string& text) {
         Reader reader(text);
         Instructions code = binary(reader, 0);

@@ -33,23 +33,23 @@ struct ProductionText {
 /// "p : A(x) < B > C [ D ] : x > 0 ~ 0.5 : F(x, {1, 2}) B"
 [[nodiscard]] ProductionText read_production(const std::string& text);
 
-/// The name of a formal, without blanks.
+/// The name of a formal parameter without blanks.
 [[nodiscard]] std::string formal_name(std::string_view text);
 
 using Instructions = std::vector<std::uint32_t>;
 using NameTable = std::map<std::string, std::uint32_t>;
 
-/// What an expression may name, and what it adds to.
+/// The names in scope of an expression, and the tables it extends.
 struct ExpressionScope {
     const NameTable& formals;
     const NameTable& globals;
     std::uint32_t& draws;
     bool& uses_steps;
 };
-/// Its instructions; parts that are constant are computed, so that a constant is one Literal.
+/// The instructions of an expression with constant parts folded; a constant is one Literal.
 [[nodiscard]] Instructions compile_expression(const std::string& text,
                                               const ExpressionScope& scope);
-/// The value of instructions that are one Literal.
+/// The value of instructions that consist of one Literal.
 [[nodiscard]] std::optional<float> constant_of(const Instructions& code);
 
 } // namespace lsys::test

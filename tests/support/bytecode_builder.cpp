@@ -13,7 +13,7 @@ namespace lsys::test {
 
 namespace {
 
-/// Fills the tables in the order that bytecode.h promises.
+/// Fills the tables in the order required by bytecode.h.
 class Assembler {
 public:
     Assembler(bool fold, std::uint32_t unused) : fold_(fold) {
@@ -41,7 +41,7 @@ public:
         return static_cast<SymbolId>(at->second);
     }
 
-    /// Symbols get the low codes, so all must be known before any word is.
+    /// Symbols have the lowest codes, so all are declared before the first word.
     void see_symbols(const std::string& modules) {
         for (const ModuleText& module : read_modules(modules)) {
             symbol(module.name, module.arguments.size());
@@ -58,7 +58,7 @@ public:
         return static_cast<std::uint32_t>(bytecode_.sites.size() - 1);
     }
 
-    /// Appends the instructions of one value and what takes it.
+    /// Appends the instructions of one value and their consumer.
     void emit(const Instructions& code, Opcode taker) {
         bytecode_.site_ranges.push_back({next(), site()});
         bytecode_.instructions.insert(bytecode_.instructions.end(), code.begin(), code.end());
@@ -163,7 +163,7 @@ private:
     std::map<std::vector<std::uint32_t>, Code> folded_;
 };
 
-/// The names and counts of a pattern: what rules and groups compare.
+/// The names and parameter counts of a pattern, compared by rules and groups.
 std::string shape_of(const std::optional<std::string>& text) {
     std::string shape = text ? "present " : "absent ";
     for (const ModuleText& module : read_modules(text.value_or(""))) {

@@ -21,9 +21,9 @@ public:
     BytecodeBuilder& axiom(std::string text);
     /// "p : A(x) < B > C [ D ] : x > 0 ~ 0.5 : F(x, {1, 2}) B"
     BytecodeBuilder& production(std::string text);
-    /// "+ -": modules of any count.
+    /// "+ -": modules with any number of parameters.
     BytecodeBuilder& ignore(std::string names);
-    /// A constant that is drawn at the start.
+    /// A random constant, drawn at the start.
     BytecodeBuilder& global(std::string name, std::string value);
     BytecodeBuilder& parameter(std::string name, std::string value, float minimum, float maximum);
     /// "A(x) B": symbols before those of the texts, so that a test knows their numbers.
@@ -31,7 +31,7 @@ public:
     /// Declares symbols nobody uses, so that codes need two or four bytes.
     BytecodeBuilder& unused_symbols(std::uint32_t count);
 
-    /// Verified; a mistake in a text ends the test program.
+    /// The verified bytecode; a mistake in a text ends the test program.
     [[nodiscard]] Bytecode build() const;
 
 private:

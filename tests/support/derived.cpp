@@ -31,7 +31,7 @@ DeriveOptions options_for(std::uint32_t generations,
     return options;
 }
 
-/// The text of the last word, and the origins of its modules if they are asked for.
+/// The text of the last word, with the origins of its modules if asked for.
 std::string
 derived_with(const Bytecode& bytecode, const DeriveOptions& options, std::vector<Origin>& origins) {
     Derivation derivation(bytecode, options);
@@ -68,7 +68,7 @@ bool same(const RuntimeError& a, const RuntimeError& b) {
            a.parameters == b.parameters && a.in_condition == b.in_condition;
 }
 
-/// Calls `visit` for the program, and for the one with what it can reach folded.
+/// Calls `visit` for the program, and for the program with reachable modules folded.
 template <typename Visit>
 void for_each_program(const Bytecode& bytecode,
                       std::uint32_t generations,

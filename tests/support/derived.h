@@ -1,5 +1,5 @@
-// Derived words as text, by every way the runtime has: any number of threads, any size of chunks,
-// stored or streamed, modules that can be reached folded or not. All must agree.
+// Derived words as text, by all methods of the runtime: any number of threads, any size of chunks,
+// stored or streamed, reachable modules folded or not. All must agree.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -10,14 +10,14 @@
 
 namespace lsys::test {
 
-/// The text of a word, after a check that its parameters are as many as its codes store.
+/// The text of a word; checks that the number of parameters fits the codes.
 [[nodiscard]] std::string text_of(const Bytecode& bytecode, const Word& word);
 
-/// Derives `generations` generations with one thread and the usual chunks. Requires success.
+/// Derives with one thread and default chunks. Requires success.
 [[nodiscard]] std::string
 derived(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t seed);
 
-/// The same, and checks that all other ways give the same word, and with origins the same origins.
+/// Derives and checks that all other methods give the same word, and the same origins if asked for.
 [[nodiscard]] std::string
 derived_every_way(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t seed);
 

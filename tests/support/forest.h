@@ -1,4 +1,4 @@
-// Caches and trees from texts of grammars, for tests of the instanced system.
+// Instance caches and trees from grammar texts, for tests of instancing.
 #pragma once
 
 #include "compiler/instancing/instance.h"
@@ -38,7 +38,7 @@ struct TreeSegment {
 segments_of(const InstanceCache& cache, const Tree& tree, std::uint64_t key);
 [[nodiscard]] std::vector<TreeSegment> segments_of(const Skeleton& skeleton);
 
-/// How many segments of `a` are no segment of `b`, within `distance` (m).
+/// The number of segments of `a` without an equal one of `b` within `distance` (m).
 [[nodiscard]] std::size_t count_strangers(const std::vector<TreeSegment>& a,
                                           const std::vector<TreeSegment>& b,
                                           double distance);

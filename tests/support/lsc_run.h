@@ -1,4 +1,4 @@
-// `lsc` run in-process by tests, and small things that such tests share.
+// In-process runs of `lsc`, and helpers of their tests.
 #pragma once
 
 #include <filesystem>
@@ -17,14 +17,14 @@ struct LscRun {
 /// Runs `lsc ARGUMENTS` with `input` as standard input.
 [[nodiscard]] LscRun run_lsc(const std::vector<std::string>& arguments, const std::string& input);
 
-/// The number in a row of `lsc export --stats`; -1: no such row.
+/// The number in a row of `lsc export --stats`; -1 if the row is missing.
 [[nodiscard]] long stated(const std::string& stats, const std::string& row);
 
-/// The whole file; it must be there.
+/// The bytes of a file, which must exist.
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);
 void write_text(const std::filesystem::path& path, std::string_view text);
 
-/// A folder for what a test writes, gone in the end.
+/// A temporary folder, removed at the end of its life.
 class ScratchFolder {
 public:
     ScratchFolder();
@@ -32,7 +32,7 @@ public:
     ScratchFolder& operator=(const ScratchFolder&) = delete;
     ~ScratchFolder();
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    /// The name of a file in it, as an argument.
+    /// The path of a file in it, as an argument.
     [[nodiscard]] std::string operator/(std::string_view name) const;
 
 private:

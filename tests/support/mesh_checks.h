@@ -1,4 +1,4 @@
-// What is true of every mesh, and the sizes that tests compare.
+// Invariants of all meshes, and sizes for comparison.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -20,7 +20,7 @@ inline glm::dvec3 twice_area(const glm::vec3& a, const glm::vec3& b, const glm::
     return glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
 }
 
-/// Triangles whose front is not the side that the normals at its corners are on.
+/// The number of triangles with normals on the back.
 inline std::size_t turned_over(const Mesh& mesh) {
     std::size_t turned = 0;
     const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
@@ -112,7 +112,7 @@ inline double area_of(const Mesh& mesh) {
     return sum;
 }
 
-/// What is enclosed, for closed meshes.
+/// The enclosed volume of a closed mesh.
 inline double volume_of(const Mesh& mesh) {
     double sum = 0.0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -135,7 +135,7 @@ struct Topology {
     }
 };
 
-/// `place` numbers the vertex of an index.
+/// `place`: the number of the vertex of an index.
 template <typename Place>
 Topology count_edges(const Mesh& mesh, const Place& place) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<int, 2>> edges;
@@ -158,7 +158,7 @@ Topology count_edges(const Mesh& mesh, const Place& place) {
     return topology;
 }
 
-/// With equal positions taken for one vertex.
+/// With equal positions as one vertex.
 inline Topology topology_of(const Mesh& mesh) {
     std::map<std::array<float, 3>, std::uint32_t> places;
     return count_edges(mesh, [&](std::uint32_t index) {

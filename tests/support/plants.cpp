@@ -12,7 +12,7 @@ namespace lsys::test {
 
 namespace {
 
-/// The turn that takes +Y to `unit`.
+/// The rotation from +Y to `unit`.
 glm::quat aimed(const glm::vec3& unit) {
     if (unit.y < -0.9999F) {
         return {0.0F, 0.0F, 0.0F, 1.0F};

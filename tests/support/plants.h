@@ -1,4 +1,4 @@
-// Skeletons for tests, and how much of a picture a mesh covers.
+// Skeletons for tests, and the coverage of pictures by meshes.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -8,7 +8,7 @@
 
 namespace lsys::test {
 
-/// Draws segments one after another, each from the tip of its parent.
+/// Draws segments, each from the tip of its parent.
 class Plant {
 public:
     struct Look {
@@ -20,7 +20,7 @@ public:
         float roll = 0.0F; // radians
     };
 
-    /// A segment along `direction` (of any length but 0), from the parent's tip or the origin.
+    /// Adds a segment along `direction` (not zero) from the parent's tip or the origin.
     std::uint32_t
     add(std::uint32_t parent, const glm::vec3& direction, float length, const Look& look);
     std::uint32_t add(std::uint32_t parent, const glm::vec3& direction, float length) {
@@ -33,7 +33,7 @@ private:
     Skeleton skeleton_;
 };
 
-/// The same numbers from every standard library.
+/// Random numbers, equal with every standard library.
 class Numbers {
 public:
     explicit Numbers(std::uint32_t seed) : engine_(seed) {}
@@ -52,8 +52,8 @@ private:
 /// A tree with `orders` levels of branches, as tapering axes of several segments.
 [[nodiscard]] Skeleton random_tree(std::uint32_t seed, std::uint32_t orders);
 
-/// How many of size x size pixels of the square around `frame` a mesh covers, seen along -z after
-/// the plant was turned about +Y by `turn` radians.
+/// The number of pixels of a size x size picture of the square around `frame` that a mesh covers,
+/// seen along -Z after a turn about +Y by `turn` radians.
 [[nodiscard]] std::size_t
 coverage(const Mesh& mesh, const Bounds& frame, std::uint32_t size, float turn);
 

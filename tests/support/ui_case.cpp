@@ -40,7 +40,7 @@ bool parse_number(std::string_view text, Number& value) {
     return error == std::errc() && end == text.data() + text.size();
 }
 
-/// Takes `[code]` off the end of `text`.
+/// Removes `[code]` from the end of `text`; returns the code.
 std::string take_code(std::string_view& text) {
     const std::size_t open = text.rfind('[');
     if (!text.ends_with(']') || open == std::string_view::npos) {
@@ -79,7 +79,7 @@ void add_header(std::string_view line, UiCase& found) {
     }
 }
 
-/// The annotation after `//~` or `/*~`; `text` begins behind these.
+/// The annotation in `text`, which begins after `//~` or `/*~`.
 void add_annotation(std::string_view text, std::uint32_t line, UiCase& found) {
     UiAnnotation annotation;
     annotation.written_at = line;
@@ -126,7 +126,7 @@ void add_annotations(std::string_view line,
     }
 }
 
-/// `file:line:col: severity: text [code]`, or `lsc: severity: text [code]`.
+/// Parses `file:line:col: severity: text [code]` or `lsc: severity: text [code]`.
 std::optional<UiDiagnostic> parse_head(std::string_view line) {
     for (const std::string_view severity : kSeverities) {
         const std::string mark = ": " + std::string(severity) + ": ";

@@ -1,5 +1,5 @@
-// A golden case: a grammar whose first lines say how it is run and whose comments say which
-// diagnostics belong to which line. tests/README.md describes the form. Read by the runner.
+// A golden case: a grammar with its runs in the first lines and its diagnostics in annotations.
+// tests/README.md describes the form.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace lsys::tests {
 
-/// `// run: dump -n 3`, and the `// exit: 1` after it.
+/// A run: `// run: dump -n 3` and the `// exit: 1` after it.
 struct UiRun {
     std::vector<std::string> words; // with `%` and `%t` as written
     std::string input;              // file of standard input, after `<`; may be empty
     int exit_status = 0;
 };
 
-/// `//~ error: part of the text [code]`.
+/// An annotation: `//~ error: part of the text [code]`.
 struct UiAnnotation {
     std::uint32_t line = 0;       // of the diagnostic; 0: anywhere
     std::uint32_t written_at = 0; // line of the annotation
@@ -33,10 +33,10 @@ struct UiCase {
     std::vector<std::string> mistakes; // of the case itself
 };
 
-/// Reads what a case says about itself.
+/// Reads the runs and annotations of a case.
 [[nodiscard]] UiCase parse_ui_case(const std::filesystem::path& file, std::string_view text);
 
-/// A diagnostic as it was printed, in whichever format.
+/// A printed diagnostic of any format.
 struct UiDiagnostic {
     std::string file; // empty: no place
     std::uint32_t line = 0;
@@ -45,10 +45,10 @@ struct UiDiagnostic {
     std::string code;
 };
 
-/// The diagnostics that standard error shows: heads of frames, short lines, JSON objects.
+/// The diagnostics of standard error: heads of frames, short lines, JSON objects.
 [[nodiscard]] std::vector<UiDiagnostic> parse_diagnostics(std::string_view text);
 
-/// Whether the annotation speaks of the diagnostic; `name` is the file name of the case.
+/// Whether the annotation matches the diagnostic; `name`: the file name of the case.
 [[nodiscard]] bool
 matches(const UiAnnotation& annotation, const UiDiagnostic& diagnostic, std::string_view name);
 

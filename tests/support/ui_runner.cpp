@@ -39,7 +39,7 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
     }
 }
 
-/// A folder that is gone in the end. The working directory is restored too.
+/// A temporary folder, removed at the end of its life, which also restores the working directory.
 class Scratch {
 public:
     Scratch() : before_(fs::current_path()) {
@@ -78,7 +78,7 @@ Printed run_lsc(const std::vector<std::string>& arguments, const std::string& in
     return printed;
 }
 
-/// One case while it is run.
+/// The run of one case.
 class CaseRun {
 public:
     CaseRun(const UiCase& the_case, const UiOptions& options, UiOutcome& outcome)
@@ -127,7 +127,7 @@ private:
         return run.input.empty() ? line : line + " < " + run.input;
     }
 
-    /// `%` is the case, `%t` a folder for what is written; `%-` stands for no file at all.
+    /// Replaces `%` by the case and `%t` by a folder for output; removes `%-`.
     std::string expand(std::string word, const std::string& scratch) const {
         replace_all(word, "%t", scratch);
         return word == "%" ? name_ : word;
@@ -183,8 +183,8 @@ private:
         }
     }
 
-    /// What `check --fix` makes of a copy of the case; empty if it changes nothing, or if the case
-    /// is not about `check`. After it no fix may be left.
+    /// The result of `check --fix` on a copy of the case; empty if unchanged or if the first run is
+    /// not `check`. Checks that no certain fix is left.
     std::string fix(const fs::path& scratch) {
         if (case_.runs.empty() || case_.runs.front().words.empty() ||
             case_.runs.front().words.front() != "check") {
@@ -246,7 +246,7 @@ private:
     std::string name_;
 };
 
-/// Expected files that no case owns.
+/// Expected files without a case.
 void check_strays(const fs::path& feature, const UiOptions& options, UiOutcome& outcome) {
     for (const fs::directory_entry& entry : fs::directory_iterator(feature)) {
         const std::string extension = entry.path().extension().string();

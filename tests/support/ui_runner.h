@@ -1,4 +1,4 @@
-// Runs golden cases in-process and compares what they print with the files beside them.
+// Runs golden cases in-process and compares their output with the files beside them.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct UiOutcome {
     std::set<std::string> codes;       // of all annotations
 };
 
-/// Every case below `root` that passes a filter: `<feature>/<fact>.lsys`, without what lies deeper.
+/// The cases `<feature>/<fact>.lsys` below `root` that pass a filter.
 [[nodiscard]] UiOutcome run_ui_cases(const UiOptions& options);
 
 } // namespace lsys::tests

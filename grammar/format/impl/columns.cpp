@@ -8,10 +8,10 @@ namespace lsys {
 
 namespace {
 
-/// A cell that is so much wider than the median, or than which the widest is so much wider, stands
-/// alone.
+/// Maximum difference of a cell from the median, and of the widest cell from it; beyond it the cell
+/// is not aligned.
 constexpr std::uint32_t kWidestGap = 24;
-/// A longer head leaves too little of the line for modules that do not fit.
+/// A longer head leaves too little of the line for modules.
 constexpr std::uint32_t kLongHead = 50;
 
 bool has_columns(const LayoutRow& row) {
@@ -38,7 +38,7 @@ void line_up_block(std::span<LayoutRow> rows, std::vector<std::uint32_t>& widths
             }
             if (blanks == kAlone) {
                 blanks = 0;
-                row.cell_count = static_cast<std::uint8_t>(cell); // nor does it follow later ones
+                row.cell_count = static_cast<std::uint8_t>(cell); // no later cell is aligned
             }
             row.cells[cell] = blanks;
         }
@@ -48,7 +48,7 @@ void line_up_block(std::span<LayoutRow> rows, std::vector<std::uint32_t>& widths
         for (const std::uint32_t blanks : row.cells) {
             added += blanks;
         }
-        // No line is broken for the sake of columns.
+        // Columns must not break a line.
         const bool too_long = row.first_line <= kColumns && row.first_line + added > kColumns;
         if (too_long || row.head + added + row.first_module > kColumns) {
             row.cells.fill(0);
@@ -71,8 +71,8 @@ LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column
     bool in_head = true;
     bool has_modules = false;
     bool in_first_module = false;
-    bool has_outer_place = false; // on the first line, to break it outside of branches
-    // What follows the first line, or is too far right on it, is not asked for.
+    bool has_outer_place = false; // the first line can be broken outside of branches
+    // Pieces after the first line or beyond its last column need no measures.
     const auto is_measured = [&] {
         return has_modules && !in_first_module && (!in_first_line || now > kColumns);
     };

@@ -109,7 +109,7 @@ void LexemeReader::keyword() {
     }
 }
 
-/// What follows blanks and comments; NUL at the end.
+/// The next character outside of blanks and comments; NUL at the end.
 char LexemeReader::next_character() const {
     std::size_t at = at_;
     while (at < text_.size()) {
@@ -125,7 +125,7 @@ char LexemeReader::next_character() const {
     return '\0';
 }
 
-/// Productions: `#name :` head `:` condition `:` successor.
+/// Enters the next part of a production, `#name :` head `:` condition `:` successor.
 void LexemeReader::next_part() {
     if (part_ == 0) {
         return;
@@ -145,7 +145,7 @@ void LexemeReader::token() {
     }
 }
 
-/// A file name, or a module; the module `"` is no beginning of a name.
+/// A file name or a module; a single `"` is a module.
 void LexemeReader::quoted() {
     const std::size_t end = text_[at_] == '"' ? text_.find_first_of("\"\n", at_ + 1) : text_.npos;
     if (end != text_.npos && text_[end] == '"') {
@@ -160,7 +160,7 @@ void LexemeReader::module() {
     if (is_letter(c)) {
         take(LexemeKind::Module, word_length(at_));
     } else if (c == '`') {
-        // Side by side they are one text, or modules that stay side by side.
+        // Adjacent ones are one text, or modules that must stay adjacent.
         std::size_t end = text_.find('`', at_ + 1);
         while (end != text_.npos && end + 1 < text_.size() && text_[end + 1] == '`') {
             end = text_.find('`', end + 2);
@@ -179,8 +179,7 @@ void LexemeReader::module() {
 
 void LexemeReader::value(LexemeKind kind, std::size_t length) {
     take(kind, length);
-    // In `#set`, values stand in a row, and the name of a constant is followed by its
-    // expression.
+    // Values of `#set` are adjacent, and an expression follows the name of a constant.
     after_value_ = !((area_ == Area::Set && depth_ == 0) || area_ == Area::Name);
     if (area_ == Area::Name) {
         area_ = Area::Expression;
@@ -202,7 +201,7 @@ void LexemeReader::expression() {
         ++depth_;
         after_value_ = false;
     } else if (c == ')' || c == '}') {
-        // The parenthesis of a module opened at depth 0.
+        // Parentheses of modules are at depth 0.
         const bool module = depth_ == 1 && (area_ == Area::Modules || area_ == Area::Object);
         take(module ? LexemeKind::Close : LexemeKind::Right, 1);
         depth_ -= depth_ > 0 ? 1U : 0U;

@@ -1,5 +1,5 @@
-// The tokens of a correct .lsys text as the formatter wants them: with comments, and with what
-// stood before. Read one by one, because a text may have a hundred million.
+// The tokens of a .lsys text without errors, for the formatter: with comments and the blanks before
+// them. Read one by one, because a text may have a hundred million.
 #pragma once
 
 #include <cstddef>
@@ -19,11 +19,11 @@ enum class LexemeKind : std::uint8_t {
     Context,      // `<` or `>` of a production's head
     Colon,
     Semicolon,
-    Word,     // a name where an expression or value stands
-    Number,   //
+    Word, // a name in an expression or value
+    Number,
     Quoted,   // "file"
-    Operator, // of an expression, `~` of a condition included
-    Any,      // the `*` of a condition
+    Operator, // of an expression; also `~` of a condition
+    Any,      // the condition `*`
     Unary,    // `-` or `!` before its operand
     Left,     // `(` or `{` of an expression
     Right,    // `)` or `}`
@@ -35,11 +35,11 @@ struct Lexeme {
     std::string_view text;
     std::uint32_t newlines_before = 0;
     bool blank_before = false;
-    bool call = false;   // Left: follows the name of a function
+    bool call = false;   // Left: of a function call
     bool bounds = false; // Left: the `{` after the value of a `#param`
 };
 
-/// What a statement is made of, as far as its layout goes.
+/// The form of a statement for its layout.
 enum class StatementShape : std::uint8_t {
     Production,  // three colons, then modules
     List,        // `#w`, `#ignore`, `#consider`: a colon, then modules
@@ -53,16 +53,16 @@ enum class StatementShape : std::uint8_t {
     return lexeme.kind == LexemeKind::LineComment || lexeme.kind == LexemeKind::BlockComment;
 }
 
-/// Reads tokens from a place between two statements on.
+/// Reads tokens from a place between two statements.
 class LexemeReader {
 public:
     LexemeReader(std::string_view text, std::size_t begin) : text_(text), at_(begin) {}
 
     /// False at the end of the text.
     bool next(Lexeme& lexeme);
-    /// Where the last token ends.
+    /// The end of the last token.
     [[nodiscard]] std::size_t offset() const { return at_; }
-    /// Of the statement whose keyword was read last.
+    /// The shape of the current statement.
     [[nodiscard]] StatementShape shape() const { return shape_; }
 
 private:

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t kIndent = 4;
 constexpr std::uint32_t kDeepestLevel = 4;
-/// Lines are not broken left of this column if they can be right of it.
+/// Lines are not broken left of this column if they can be broken right of it.
 constexpr std::uint32_t kShortLine = 40;
 
 std::uint32_t indent_of(std::uint32_t depth) {
@@ -62,7 +62,7 @@ void LineWriter::new_line(std::uint32_t depth) {
     one_line_ = false;
 }
 
-/// Of the places that leave a line short enough the best, of equal ones the last; else the first.
+/// The best place that makes the line short enough, of equals the last; else the first place.
 std::size_t LineWriter::best_place() const {
     std::size_t best = places_.size();
     std::size_t last_short = places_.size();

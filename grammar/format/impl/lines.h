@@ -1,6 +1,5 @@
-// Writes the pieces of a statement as lines: line ends of the author's are kept, longer lines are
-// broken where that is least bad. What stands in brackets that an earlier line opened is indented
-// deeper.
+// Writes the pieces of a statement as lines: keeps the author's line ends, breaks long lines at the
+// best place and indents by the brackets open from earlier lines.
 #pragma once
 
 #include "grammar/format/impl/pieces.h"
@@ -16,20 +15,19 @@ inline constexpr std::uint32_t kColumns = 100;
 
 class LineWriter {
 public:
-    /// Appends to `out`, whose last line has `column` columns.
+    /// Appends to `out`, with `column` columns in its last line.
     LineWriter(std::string& out, std::uint32_t column) : out_(out), column_(column) {}
 
-    /// `blanks` stand before the piece unless it begins a line.
+    /// Adds a piece, after `blanks` unless it begins a line.
     void add(const Piece& piece, std::uint32_t blanks, bool may_break);
-    /// After the last piece.
+    /// Ends the statement.
     void finish();
     [[nodiscard]] bool one_line() const { return one_line_; }
-    /// Of the last line.
+    /// The columns of the last line.
     [[nodiscard]] std::uint32_t column() const { return column_; }
 
 private:
-    /// Where the line may be broken: before the byte `begin` of it, with what was before ending at
-    /// byte `end`.
+    /// A place to break the line: bytes [end, begin) of it are dropped.
     struct Place {
         std::size_t end = 0;
         std::size_t begin = 0;
@@ -44,7 +42,7 @@ private:
     [[nodiscard]] std::size_t best_place() const;
 
     std::string& out_;
-    std::string line_; // what is not in out_ yet
+    std::string line_; // the current line, not yet in out_
     std::uint32_t column_;
     std::vector<Place> places_; // ascending
     bool at_begin_ = true;

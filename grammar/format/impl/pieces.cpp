@@ -25,8 +25,8 @@ bool closes_bracket(const Lexeme& lexeme) {
     return is_module(lexeme, ']') || is_module(lexeme, '}');
 }
 
-/// Whether a blank stands between two tokens of one statement. A comment keeps its distance, so
-/// that no `/` makes another comment of it.
+/// Whether a blank separates two tokens of a statement. Comments always have one, so that no
+/// adjacent `/` changes them.
 bool blank_between(const Lexeme& before, const Lexeme& after) {
     using enum LexemeKind;
     if (before.kind == BlockComment) {
@@ -99,7 +99,7 @@ bool PieceReader::next(Piece& piece) {
     }
     end_ = reader_.offset();
     if (piece.break_class == BreakClass::Fine && piece.text.starts_with("//")) {
-        piece.break_class = BreakClass::Poor; // a line that begins so would look like a comment
+        piece.break_class = BreakClass::Poor; // a line with this begin looks like a comment
     }
     const std::string_view written = piece.text;
     piece.several_lines = has_comment_ && written.find('\n') != written.npos;
@@ -181,7 +181,7 @@ BreakClass PieceReader::break_class() const {
     }
 }
 
-/// Whether `after` stands beside symbols like itself.
+/// Whether `after` repeats the symbol before it.
 bool PieceReader::continues_row(const Lexeme& after) const {
     return after.kind == LexemeKind::Module && before_.kind == LexemeKind::Module &&
            !after.blank_before && after.text[0] == before_.text[0] && after.text.size() == 1 &&

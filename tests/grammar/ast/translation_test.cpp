@@ -1,4 +1,4 @@
-// Texts of translations, and places in the original.
+// Translations: texts and places in the original.
 #include "grammar/ast/translation.h"
 #include "grammar/dialects/dialect.h"
 #include "grammar/lsys/parse.h"

@@ -1,4 +1,4 @@
-// What the parser makes of correct grammars.
+// Syntax trees of grammars without errors.
 #include "tests/grammar/lsys/parsed.h"
 
 #include <catch2/catch.hpp>
@@ -25,7 +25,7 @@ std::string modules_of(const Parsed& parsed, ModuleList list) {
     return out;
 }
 
-/// The text of each module of a list, between bars.
+/// The texts of the modules of a list, between bars.
 std::string texts_of(const Parsed& parsed, ModuleList list) {
     std::string out;
     for (ModuleCursor cursor(parsed.ast, parsed.names, parsed.sources, list); !cursor.done();
@@ -223,7 +223,7 @@ TEST_CASE("a statement after an include owns nothing of the included file") {
     CHECK(after.codes().empty());
     REQUIRE(after.ast.sets.size() == 2);
     CHECK(after.ast.sets[1].values.count == 1);
-    // A broken statement takes back its own nodes only.
+    // The rollback of a broken statement removes only its own nodes.
     Parsed broken("#include \"a.lsys\"; #w : F : ~ ;", files);
     CHECK(broken.ast.productions.size() == 1);
     REQUIRE(broken.ast.modules.size() >= 3);

@@ -9,7 +9,7 @@
 
 namespace lsys {
 
-/// The file "main.lsys" and those that it may include.
+/// The file "main.lsys" and the files that it may include.
 class Parsed {
 public:
     explicit Parsed(std::string text, std::map<std::string, std::string> files = {})
@@ -26,7 +26,7 @@ public:
         ast = parse_lsys(root, context);
     }
 
-    /// "line:column code" of every diagnostic, in order of place, separated by ", ".
+    /// "line:column code" of all diagnostics in order of place, separated by ", ".
     [[nodiscard]] std::string codes() {
         diagnostics.sort_by_place();
         std::string out;
@@ -40,7 +40,7 @@ public:
         return out;
     }
 
-    /// The file with the fixes of all diagnostics that are machine applicable.
+    /// The file after all machine-applicable fixes.
     [[nodiscard]] std::string fixed() {
         diagnostics.sort_by_place();
         std::map<std::uint32_t, Edit> edits; // by place

@@ -18,7 +18,7 @@ using lsys::RenderOptions;
 using lsys::SourceMap;
 using lsys::SourceSpan;
 
-/// A file and a span over the first place where `needle` stands in it.
+/// A file, with spans of the first occurrence of a text in it.
 struct Fixture {
     SourceMap sources;
     FileId file;
@@ -266,7 +266,7 @@ TEST_CASE("fifty of a hundred thousand diagnostics on one long line are shown fa
     const auto stride = static_cast<std::uint32_t>(f.sources.file(f.file).text().size() / kCount);
     lsys::Diagnostics all;
     for (std::uint32_t i = 0; i < kCount + 7; ++i) {
-        // Late ones first, so that the fifty that are shown lie at the far end.
+        // In descending order, so that the fifty shown are the last ones of the text.
         const std::uint32_t at = (kCount - 1 - i % kCount) * stride;
         all.add(DiagnosticCode::SyntaxError, {f.file, at, at + 1}, "this is wrong");
     }

@@ -70,7 +70,7 @@ TEST_CASE("pictures lie beside an OBJ or USDA, of all frames once, and with it o
         CHECK(read_text(frames / name).find("map_Kd a.bark.png\n") != std::string::npos);
     }
 
-    // What cannot be replaced is found before anything is to be seen.
+    // A file that cannot be replaced is detected before any file appears.
     const ScratchFolder blocked;
     std::filesystem::create_directory(blocked / "a.obj");
     CHECK(run_lsc({"export", "-", "-o", blocked / "a.obj"}, kTree).status == 2);
@@ -236,7 +236,7 @@ TEST_CASE("dump --stage mesh prints the mesh that export writes") {
         const LscRun run = run_lsc(dump, kTree);
         REQUIRE(run.status == 0);
         REQUIRE(run_lsc(written, kTree).status == 0);
-        // Lines of both name the same numbers in the same order.
+        // Both have the same numbers in the same order.
         std::istringstream lines(run.out);
         std::istringstream file(read_text(folder / "a.off"));
         std::string word;

@@ -69,7 +69,7 @@ TEST_CASE("what cannot be read is named with its reason") {
           "cannot read `" + f.folder / "large" +
               "`: it has more than 4 bytes, the most that can be read");
     CHECK(read_file(f.folder / "large", {5}, f.console).value() == "12345");
-    // Without an end, and without a size.
+    // A device without end and size.
     CHECK(!read_file("/dev/zero", {3'000'000}, f.console).ok());
 }
 

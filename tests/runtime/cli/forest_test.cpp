@@ -1,4 +1,4 @@
-// `lsc forest` as a user runs it.
+// `lsc forest`, run in-process.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -21,7 +21,7 @@ const char* const kBush = "#n = 5; #set names letters; #set angle 25; #w : A;"
                           "#p : A : ~ 0.5 : F[+A][-A]/A; #q : A : ~ 0.3 : F[+A]//A;"
                           "#r : A : ~ 0.2 : FF[&A]F;";
 
-/// The number behind `name` in statistics, at base 10 or 16.
+/// The number after `name` in statistics, with base 10 or 16.
 std::uint64_t number_of(const std::string& text, const std::string& name, int base) {
     const std::size_t at = text.find(name);
     REQUIRE(at != std::string::npos);

@@ -1,5 +1,4 @@
-// `lsc fmt` and the bytes of a file that golden cases cannot show: its byte order mark and line
-// ends.
+// `lsc fmt` and bytes that golden cases cannot show: byte order marks and line ends.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>

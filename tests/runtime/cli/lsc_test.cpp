@@ -1,5 +1,4 @@
-// The program as a whole, where no golden case reaches: interrupts, terminals, streams that fail,
-// no memory.
+// The program beyond golden cases: interrupts, terminals, failing streams, exhausted memory.
 #include "runtime/cli/lsc.h"
 #include "tests/support/lsc_run.h"
 
@@ -39,7 +38,7 @@ std::size_t file_count(const ScratchFolder& folder) {
     return count;
 }
 
-/// Has no memory for what is read from it.
+/// A stream whose reads run out of memory.
 class NoMemory : public std::streambuf {
 protected:
     int_type underflow() override { throw std::bad_alloc(); }
@@ -192,7 +191,7 @@ TEST_CASE("check --fix leaves included files outside the folder of the grammar a
                              folder / "way/a.lsys" + "`\n") != std::string::npos);
         CHECK(fixed.err.find(path + ":1:") != std::string::npos); // its mistakes are shown
     }
-    // A file that is named is to be written.
+    // A named file is written.
     CHECK(fix({folder / "home/a.lsys", folder / "absolute.lsys"}).status == 1);
     CHECK(read_text(folder / "absolute.lsys") == right);
     CHECK(read_text(folder / "target.lsys") == wrong);

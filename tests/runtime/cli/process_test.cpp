@@ -1,5 +1,5 @@
-// The executable as a process: signals, standard streams that are closed, a full disk, limits on
-// memory and on the size of files.
+// The executable as a process: signals, closed standard streams, a full disk, limits of memory and
+// of the size of files.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -143,7 +143,7 @@ TEST_CASE("a run that waits for a pipe ends soon after SIGTERM") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 12; #w : F; #p : F : * : F F F;");
     REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
-    // Open at both ends, so that a write into it waits for a reader.
+    // Open at both ends, so that a write waits for a reader.
     const int both = ::open((folder / "pipe").c_str(), O_RDWR | O_CLOEXEC);
     REQUIRE(both >= 0);
     const Clock::time_point begin = Clock::now();
@@ -290,7 +290,7 @@ TEST_CASE("files that belong together are written all or not at all") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 6; #set names letters; #w : A; #object L LEAF;"
                                   "#p : A : ~ 0.5 : F[+A][-A]/A L; #q : A : ~ 0.5 : F[+A]//A L;");
-    // The pictures fit, the forest and the plant that they belong to do not.
+    // The pictures fit, their forest and plant do not.
     for (const std::vector<std::string>& command :
          {std::vector<std::string>{"forest", folder / "a.lsys", "--count", "100"},
           {"export", folder / "a.lsys", "-n", "8"}}) {
@@ -399,7 +399,7 @@ TEST_CASE("pictures and meshes of files are within the limit on memory") {
     CHECK(refused.status == 3);
     CHECK(refused.peak_kib < 200L << 10);
     CHECK(read_text(folder / "err").find("limit-reached") != std::string::npos);
-    // STL has no pictures, so this is what reading takes: one picture for all objects.
+    // STL has no pictures, so this is the memory for reading: one picture for all objects.
     const Ended read = run("300M", "a.stl");
     CHECK(read.status == 0);
     CHECK(read.peak_kib < 450L << 10);
