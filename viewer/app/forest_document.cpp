@@ -46,7 +46,7 @@ Outcome<void> make_model(const ViewOptions& options,
         step.diagnose(no_memory_diagnostic("the mesh of the heroes"), nullptr);
         return step.end(Stop::OutOfMemory);
     }
-    return step.done({});
+    return step.done();
 }
 
 /// `edits` and `known` may be null.
