@@ -16,13 +16,13 @@ using namespace lsys::view;
 namespace {
 
 /// A tree that is drawn, by its place, and as what: branches of a level, or kTreeLevels.
-using Drawn = std::array<float, 4>;
+using DrawnTree = std::array<float, 4>;
 
-std::vector<Drawn> drawn_by(ForestLod& lod, const Camera& camera) {
+std::vector<DrawnTree> drawn_by(ForestLod& lod, const Camera& camera) {
     LodOptions options = wood_lod();
     options.cluster_pixels = 0.0F;
     const DrawLists& lists = lod.select(make_frustum(camera, 640, 480), options);
-    std::vector<Drawn> drawn;
+    std::vector<DrawnTree> drawn;
     const auto add = [&](std::uint32_t number, std::uint32_t level) {
         const glm::vec3& at = lod.lod_tree(number).position;
         drawn.push_back({at.x, at.y, at.z, static_cast<float>(level)});
@@ -101,17 +101,17 @@ TEST_CASE("a tree in the place of another is drawn as itself") {
     tree.position = {20.0F, 0.0F, 0.0F};
     tree.number = kFirstPainted;
     static_cast<void>(lod.change_tree(100, tree, true));
-    const std::vector<Drawn> first = drawn_by(lod, camera);
+    const std::vector<DrawnTree> first = drawn_by(lod, camera);
     REQUIRE(first.size() > before);
     static_cast<void>(lod.change_tree(100, tree, false));
     CHECK(drawn_by(lod, camera).size() == before);
     tree.position = {22.0F, 0.0F, 2.0F};
     tree.number = kFirstPainted + 5;
     static_cast<void>(lod.change_tree(100, tree, true));
-    const std::vector<Drawn> second = drawn_by(lod, camera);
+    const std::vector<DrawnTree> second = drawn_by(lod, camera);
     const auto stands = [&second](float x) {
         return std::any_of(second.begin(), second.end(),
-                           [x](const Drawn& drawn) { return drawn[0] == x; });
+                           [x](const DrawnTree& drawn) { return drawn[0] == x; });
     };
     CHECK(stands(22.0F));
     CHECK_FALSE(stands(20.0F));
