@@ -67,7 +67,10 @@ bool LineReader::expect(bool fits,
                                                         : "the end of the line");
     if (found.kind == LinePieceKind::Text) {
         at_ = std::min(text_.find('\n', at_), text_.size());
-        static_cast<void>(next(nullptr));
+        const bool has_line_ends = format_.blanks.find('\n') == std::string_view::npos;
+        if (has_line_ends) {
+            static_cast<void>(next(nullptr)); // no piece is in front of it
+        }
     }
     return false;
 }

@@ -291,7 +291,7 @@ TEST_CASE("traits of the program decide what its turtle does, not the profile") 
 }
 
 TEST_CASE("room is made for exactly what the operations of a word draw") {
-    Bytecode bytecode = BytecodeBuilder().axiom("FFTf+[L]S{.F.f.}").build();
+    Bytecode bytecode = BytecodeBuilder().axiom("F F T f + [ L ] S { . F . f . }").build();
     give_operations(bytecode);
     Derivation derivation(bytecode, {});
     REQUIRE_FALSE(derivation.start());
