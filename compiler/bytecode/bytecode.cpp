@@ -100,7 +100,7 @@ ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index) {
     if (index - bytecode.axiom.codes.first < bytecode.axiom.codes.count) {
         return kNoProduction;
     }
-    // Of several productions that begin there only the last has a successor with modules.
+    // If several productions begin there, only the last has a successor with modules.
     const auto after = std::upper_bound(
         bytecode.productions.begin(), bytecode.productions.end(), index,
         [](std::uint32_t at, const BytecodeProduction& p) { return at < p.successor.codes.first; });

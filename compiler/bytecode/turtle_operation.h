@@ -35,9 +35,9 @@ struct TurtleInfo {
     enum Trait : std::uint16_t {
         Inverse = 1,           // turns against yaw(), pitch() and roll() of the turtle's pose.h
         ChangesAngle = 2,      // the angle of turns without a parameter is not a constant
-        SecondHeading = 4,     // moves along the second heading, which turns of the first keep
-        DependsOnVertical = 8, // another drawing where the branch is turned
-        DependsOnPlace = 16,   // another drawing where the branch is moved
+        SecondHeading = 4,     // moves along the second heading, which a turn of the first keeps
+        DependsOnVertical = 8, // draws differently when the branch is turned
+        DependsOnPlace = 16,   // draws differently when the branch is moved
         AddsCorners = 32,      // its ends are corners of a polygon without vertices
         PreparesDrawing = 64,  // has a purpose only beside modules that draw
         OneIsDefault = 128,    // the program L3D takes a parameter of 1 for none

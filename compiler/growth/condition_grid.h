@@ -34,7 +34,7 @@ struct GridSample {
 /// One parameter that the conditions depend on.
 struct GridAxis {
     std::uint32_t parameter = 0;
-    bool compared = false;           // with another parameter, in some condition
+    bool compared = false;           // a condition compares it with another one
     std::vector<GridCell> cells;     // ascending, without gaps
     std::vector<GridSample> samples; // ascending; one per cell, up to three if compared
 };

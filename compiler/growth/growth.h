@@ -23,7 +23,7 @@ namespace lsys {
 /// An unsigned count: exact up to 2^128 - 1, a binary64 logarithm beyond.
 struct Count {
     Uint128 value;
-    bool exceeds = false; // 2^128 - 1: log2 is the count instead of value
+    bool exceeds = false; // the count exceeds 2^128 - 1: use log2, not value
     double log2 = 0.0;
 
     [[nodiscard]] double approximate_log2() const;

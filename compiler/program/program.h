@@ -122,7 +122,7 @@ struct Constant {
     NameId name = kNoName;
     SourceSpan span;
     bool is_param = false;
-    bool is_drawn = false; // its value is `global` if drawn, else `value`
+    bool is_drawn = false; // random: its value is `global`, else `value`
     bool is_used = false;
     float value = 0.0F;
     std::uint32_t global = kNone;
@@ -155,7 +155,7 @@ struct Program {
     /// No error was found while the program was made. Checks that need the whole program require
     /// it.
     bool complete = false;
-    /// No statement was left out, so that a missing statement is missing in the grammar too.
+    /// No statement was dropped: a statement missing here is missing in the grammar too.
     bool has_all_statements = false;
     Settings settings;
     std::optional<std::uint32_t> generations;
@@ -232,9 +232,9 @@ void for_each_value(const Program& program, std::vector<ValueId> roots, Visit&& 
 [[nodiscard]] std::vector<ValueId> expressions_of(const Program& program,
                                                   const Production& production);
 
-/// By symbol: the productions with a module of it in their predecessor, once for each.
+/// Per symbol: the productions with a module of it in their predecessor, each once.
 [[nodiscard]] GroupedLists rewriters_of(const Program& program);
-/// By symbol: the productions whose successor holds it.
+/// Per symbol: the productions whose successor contains it.
 [[nodiscard]] GroupedLists writers_of(const Program& program);
 
 } // namespace lsys

@@ -152,7 +152,7 @@ constexpr Commands kFractint = joined(commands({bare("F", Forward),
                                                 {">", SubtractColour}}),
                                       kBranches);
 
-// Houdini's own turtle. All its turns are those of ABOP the other way round.
+// Houdini's own turtle. All its turns are opposite to those of ABOP.
 constexpr Commands kSidefx = joined(
     commands({segment("F", Forward), segment("H", HalfForward), segment("G", MoveWithoutVertex),
               segment("f", Move), segment("h", HalfMove), leaf("J"), leaf("K"), leaf("M")}),

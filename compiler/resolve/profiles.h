@@ -40,7 +40,7 @@ struct TurtleCommand {
 /// `[ ]` mean the same in every profile, `{ } .` in all but those of L3D, which has no polygons;
 /// they take no parameters and no #object binds them.
 [[nodiscard]] bool is_structural(TurtleProfile profile, std::string_view name);
-/// Whether docs/language.md section 3 has it among the modules that take no parameters.
+/// Whether a module of this name takes no parameters (docs/language.md section 3).
 [[nodiscard]] bool takes_no_parameters(std::string_view name);
 [[nodiscard]] SymbolKind kind_of(TurtleProfile profile, std::string_view name);
 

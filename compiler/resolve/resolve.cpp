@@ -24,7 +24,7 @@ namespace lsys {
 
 namespace {
 
-/// By name: whether it is known (docs/language.md section 3).
+/// Per name: whether it is known (docs/language.md section 3).
 std::vector<bool> known_names(const Resolution& resolution) {
     std::vector<bool> known(resolution.names.count());
     const auto add = [&](ModuleList list) {

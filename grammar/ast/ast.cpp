@@ -21,7 +21,7 @@ const char* spelling(BinaryOperation operation) {
 
 namespace {
 
-/// The end of the name at `begin` of a text, with its back quotes.
+/// End of the name at `begin` in `text`, including its back quotes.
 std::uint32_t name_end(std::string_view text, std::uint32_t begin, std::string_view name) {
     const std::size_t quotes = text.substr(begin).starts_with('`') && name != "`" ? 2 : 0;
     return static_cast<std::uint32_t>(std::min(begin + name.size() + quotes, text.size()));

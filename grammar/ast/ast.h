@@ -249,7 +249,7 @@ struct AstFile {
     SourceSpan included_at; // the path in the #include; kNoFile for the root
 };
 
-/// The place of a module name that its file spells otherwise: with typographic characters, or in
+/// Place of a module name that the file spells differently: with typographic characters, or in
 /// another dialect.
 struct WrittenName {
     FileId file = kNoFile;

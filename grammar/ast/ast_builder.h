@@ -78,7 +78,7 @@ public:
     // --- statements
     void generations(ExpressionId value);
     void define(NameId name, SourceSpan name_span, ExpressionId value);
-    /// The bounds are the last `bound_count` arguments; reports another count than two.
+    /// The bounds are the last `bound_count` arguments; reports a count other than two.
     void param(NameId name,
                SourceSpan name_span,
                ExpressionId value,

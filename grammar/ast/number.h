@@ -21,7 +21,7 @@ struct Literal {
 /// Precondition: `text` is a number of the language: digits with an optional point and exponent.
 [[nodiscard]] Literal read_literal(std::string_view text);
 
-/// Length of the longest number at the begin of `text`; 0 if there is none.
+/// Length of the longest number at the start of `text`; 0 if there is none.
 [[nodiscard]] std::size_t literal_length(std::string_view text);
 
 } // namespace lsys

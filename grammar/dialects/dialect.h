@@ -44,14 +44,14 @@ struct DialectRow {
 /// All dialects, .lsys first.
 [[nodiscard]] std::span<const DialectRow> dialects();
 [[nodiscard]] const DialectRow& row_of(Dialect dialect);
-/// By DialectRow::name.
+/// Finds a dialect by DialectRow::name.
 [[nodiscard]] std::optional<Dialect> find_dialect(std::string_view name);
 
 struct DetectedDialect {
-    std::optional<Dialect> dialect; // none: neither the text nor the path tells
+    std::optional<Dialect> dialect; // none: not recognised by text or path
     std::string_view by;            // evidence: "its first line is `LSYSTEM`"
 };
-/// By the content of `text`, else by the extension of `path`.
+/// Detects the dialect from the content of `text`, else from the extension of `path`.
 [[nodiscard]] DetectedDialect detect_dialect(std::string_view path, std::string_view text);
 
 /// DialectRow::systems and DialectRow::has_systems of a dialect.

@@ -12,8 +12,8 @@
 
 namespace lsys {
 
-/// The formatted text of `file`, with its byte order mark and line ends (of mixed ones the more
-/// frequent). Reads no included files. Nothing if the file has errors, which are in
+/// The formatted text of `file`, with its byte order mark and line ends (if mixed, the more
+/// frequent kind). Reads no included files. Nothing if the file has errors, which are in
 /// context.diagnostics.
 [[nodiscard]] std::optional<std::string> format_lsys(FileId file, const ParseContext& context);
 

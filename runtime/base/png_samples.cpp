@@ -132,7 +132,7 @@ void append(png_structp png, png_bytep bytes, png_size_t count) {
 void ignore_flush(png_structp /*png*/) {}
 
 /// Writes all rows as differences to the row above, into one IDAT: for small pictures of noise
-/// nearly as small as the best filter for each row, and much faster. False: failed.
+/// nearly as small as the best filter for each row, and much faster. Returns false on failure.
 bool write_rows(png_structp png, png_infop info, const PngSize& size, png_const_bytep rgba) {
     constexpr int kLevel = 2; // higher ones save less than 5 %
     const std::size_t row_bytes = std::size_t{4} * size.columns;
@@ -146,7 +146,7 @@ bool write_rows(png_structp png, png_infop info, const PngSize& size, png_const_
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_set_compression_level(png, kLevel);
     png_set_compression_strategy(png, 0); // the default of zlib
-    // No smaller than what deflate makes of bytes that it cannot compress.
+    // At least the size of deflate's output for incompressible bytes.
     png_set_compression_buffer_size(png, row_bytes * size.rows / 1000 * 1001 + 1024);
     png_write_info(png, info);
     if (opaque) {

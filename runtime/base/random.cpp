@@ -78,7 +78,7 @@ philox_rounds(Lanes& first, Lanes& second, std::uint64_t seed) {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(words), low_halves(first.x0, second.x0));
 }
 
-/// Eight positions.
+/// Draws for eight positions at once.
 [[gnu::target("avx2")]] void
 draw_eight(const DrawKey& key, const std::uint64_t* positions, float* units) {
     const __m256i generation = _mm256_set1_epi64x(key.generation);

@@ -34,7 +34,7 @@ std::string names_setting(std::string_view text) {
     return {};
 }
 
-/// The number of parentheses around a single value, which are not plausible.
+/// Count of parentheses around a single value; they make a repair less plausible.
 std::size_t count_redundant_groups(const Ast& ast) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < ast.expressions.size(); ++i) {

@@ -36,7 +36,7 @@ ChosenFixes choose_fixes(const Diagnostics& diagnostics,
         if (fix == diagnostic.fixes.end() || !is_allowed(diagnostic, *fix)) {
             continue;
         }
-        // By path, not id: a file included twice is one text.
+        // Keyed by path, not by id: a file included twice is one text.
         const bool conflict = std::any_of(fix->edits.begin(), fix->edits.end(), [&](const Edit& e) {
             return is_taken(taken[sources.file(e.span.file).path()], e.span);
         });

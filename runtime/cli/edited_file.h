@@ -28,7 +28,7 @@ public:
     /// Adds a round of edits of `text`, which ascend and do not overlap.
     void add_round(std::string_view text, const std::vector<const Edit*>& edits);
 
-    /// The original place of a place of the edited text; within an edit its begin.
+    /// Maps a position of the edited text to the original; within an edit, to its begin.
     [[nodiscard]] std::uint32_t original_place(std::uint32_t at) const;
     /// The indices of the statements touched by a place of the edited text.
     [[nodiscard]] std::vector<std::size_t> statements_at(TextPlace place) const;

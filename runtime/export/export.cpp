@@ -19,7 +19,7 @@ constexpr std::array kFormats{
 #undef LSYS_EXPORT_FORMAT
 };
 
-/// By ExportFormat.
+/// Indexed by ExportFormat.
 constexpr std::array<FormatTraits, kFormats.size()> kTraits{{
 #define LSYS_EXPORT_FORMAT(enumerator, function, ...) {__VA_ARGS__, .write = function},
 #include "runtime/export/formats.def"

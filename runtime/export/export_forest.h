@@ -16,7 +16,7 @@ namespace lsys {
 /// A forest to export. References outlive the calls below.
 struct ForestScene {
     const Forest& forest;
-    /// By species and stage, as ForestSpecies::stages.
+    /// Indexed by species, then by stage as in ForestSpecies::stages.
     const std::vector<std::vector<InstanceMeshes>>& meshes;
     const Mesh* ground = nullptr; // may be null
 };

@@ -92,7 +92,7 @@ struct CacheOptions {
     std::uint32_t cap = 0;  // most instances of one key; 0: any number
     /// Tolerance of values of one key, as a part of the first value of their kind; 0: equal values.
     float tolerance = 0.0F;
-    /// By id: whether the drawing depends on the direction of up, which is then part of the key.
+    /// Per id: whether the drawing depends on the up direction, which is then part of the key.
     std::vector<bool> depends_on_vertical;
     std::uint32_t threads = 0;
     Limits limits;                               // of each word
@@ -131,7 +131,7 @@ public:
     TreeExpander(const InstanceCache& cache, std::uint64_t key) : cache_(cache), key_(key) {}
 
     /// Calls visit(BranchInstance) for each instance of the tree, depth first, exits in their
-    /// order. A function of cache, key and tree alone. Returns how many.
+    /// order. Depends on cache, key and tree alone. Returns the count.
     template <typename Visit>
     std::uint32_t expand(const Tree& tree, Visit&& visit);
     /// Calls visit(instance) for the instances of expand(), without places: in a third of the time.

@@ -58,7 +58,7 @@ bool draws_at_entry(const InstanceCache& cache, const Instance& instance) {
     return false;
 }
 
-/// By slot: whether its instances begin with a segment, their own or that of an instance at one of
+/// Per slot: whether its instances begin with a segment, their own or that of an instance at one of
 /// their exits.
 std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
     std::vector<bool> begins(cache.slots.size());
@@ -102,7 +102,7 @@ Skeleton number_what_was_drawn(const InstanceCache& cache) {
     return skeleton;
 }
 
-/// Triangles of each thing, in the order of the mesh.
+/// Triangles of each segment, object and polygon, in the order of the mesh.
 struct Owners {
     LargeVector<std::uint32_t> first; // of each thing; at its end, the number of triangles
     LargeVector<std::uint32_t> triangles;

@@ -54,7 +54,7 @@ public:
     /// time. Returns whether, within `max_rounds`, no segment turned by more than
     /// `tolerance` (radians) in a round.
     bool settle(double tolerance, std::uint32_t max_rounds);
-    /// Back to rest, at time 0.
+    /// Returns the plant to rest, at time 0.
     void reset();
 
     [[nodiscard]] double time() const; // s, of all steps

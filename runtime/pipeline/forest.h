@@ -34,8 +34,7 @@ struct GrownForest {
     std::optional<Terrain> terrain;
     std::optional<GreyMap> density_map;
     PlacementReport placed;
-    /// By species: the index in the known forest from which the heroes were taken; none: they were
-    /// grown.
+    /// Per species: its index in the known forest whose heroes are reused; none: heroes were grown.
     std::vector<std::optional<std::size_t>> known;
     std::vector<Messages> messages; // by species
     double cache_seconds = 0.0;     // to derive and draw the heroes

@@ -173,7 +173,7 @@ Result<CompiledText> compile_text(const std::string& path,
     CompileOutcome outcome = compile(std::move(ast), grammar.names, *grammar.sources,
                                      compile_options, compiled.diagnostics);
     if (foreign) {
-        compiled.diagnostics.drop_repairs("`#"); // repairs written in .lsys
+        compiled.diagnostics.drop_repairs("`#"); // they are .lsys text, invalid in the dialect
     }
     grammar.program = std::move(outcome.program);
     if (outcome.bytecode) {

@@ -55,8 +55,8 @@ struct SceneOverrides {
     std::optional<double> hill_height;  // m
     std::optional<double> hill_spacing; // m
     std::optional<std::uint64_t> hill_seed;
-    /// By name, and stronger than the values for all species. Names missing in the scene do
-    /// nothing.
+    /// Per species name; overrides the values for all species. Names missing in the scene are
+    /// ignored.
     std::map<std::string, SpeciesOverrides> species;
 
     friend bool operator==(const SceneOverrides&, const SceneOverrides&) = default;

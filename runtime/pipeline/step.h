@@ -37,7 +37,7 @@ public:
         value = std::move(outcome.value());
         return true;
     }
-    /// The same for a step without a value.
+    /// Overload for a step without a value.
     [[nodiscard]] bool take(Outcome<void> outcome) {
         messages.append(std::move(outcome.messages()));
         if (!outcome) {
@@ -46,8 +46,8 @@ public:
         return outcome.ok();
     }
 
-    /// Ends the step: done() with a value, end(stop) without one, end() like the inner step that
-    /// take() has refused.
+    /// Ends the step: done() with a value, end(stop) without one, end() with the stop of the
+    /// inner step for which take() returned false.
     template <typename T>
     [[nodiscard]] Outcome<T> done(T value) {
         return {std::move(value), std::move(messages)};

@@ -50,7 +50,7 @@ public:
         value = std::move(outcome.value());
         return ExitStatus::Ok;
     }
-    /// The same for a step without a value.
+    /// Overload for a step without a value.
     [[nodiscard]] ExitStatus take(const Outcome<void>& outcome) const {
         show(outcome.messages());
         return outcome ? ExitStatus::Ok : status_of(outcome.stop());

@@ -19,7 +19,7 @@ constexpr double kPeriod = 256.0; // cells after which stb's noise repeats
 /// Fraction of the finest feature over which slopes are measured. Coordinates in the noise are
 /// exact to 2^-17 of a cell, which leaves an error of 1 in 2,000.
 constexpr double kSlopePart = 1.0 / 32.0;
-constexpr double kLeastSlopeStep = 0.05; // m; less is finer than binary32 far out
+constexpr double kLeastSlopeStep = 0.05; // m; binary32 resolves no less far from the origin
 /// Generation of the draws of terrains, beyond those of derivations.
 constexpr std::uint32_t kTerrainGeneration = 0xFFFFFFFCu;
 

@@ -5,13 +5,13 @@
 
 namespace lsys {
 
-/// Draws if nothing is in the way; false: nothing has happened, and forward() finds out why.
+/// Draws the common case; returns false without effect where forward() must find a fault or limit.
 [[gnu::always_inline]] inline bool
 Turtle::State::quick_forward(const Action& action, const float* arguments, Pose& pose) {
     const float length = action.given > 0 ? arguments[0] : now.step;
     Pose tip = pose;
     advance(tip, static_cast<double>(length));
-    // Also false for what is not a number.
+    // Also false for NaN.
     const bool fits = std::abs(tip.x) + std::abs(tip.y) + std::abs(tip.z) <= kMaxFloat &&
                       now.width <= std::numeric_limits<float>::max() && length >= 0.0F;
     if (!fits || skeleton.segments.size() == skeleton.segments.capacity()) {

@@ -23,7 +23,7 @@
 
 namespace lsys {
 
-/// Faults of a word, which a turtle cannot draw or only in part. The first three end the drawing.
+/// Faults of a word that the turtle cannot draw, or only in part. The first three end the drawing.
 enum class TurtleFaultKind : std::uint8_t {
     Unbalanced,       // a `]` without its `[`
     NotFinite,        // position, length or width is infinite or not a number

@@ -19,7 +19,7 @@ turtle_diagnostics(const std::array<TurtleFault, kTurtleFaultKinds>& faults,
 
 /// A plant that does not fit into `max_bytes`, of which `what` ("the skeleton") needs more.
 [[nodiscard]] Diagnostic plant_limit_diagnostic(std::string_view what, std::uint64_t max_bytes);
-/// The same for another limit, in words, with a help.
+/// Overload for another limit, given in words, with a help text.
 [[nodiscard]] Diagnostic
 plant_limit_diagnostic(std::string_view what, std::string_view limit, std::string help);
 

@@ -115,11 +115,11 @@ private:
     bool is_moving_ = false;
 };
 
-/// Sets the seed after the one shown.
+/// Increments the plant's seed.
 void next_seed(PlantView& view);
 /// Adds `step` to the generations.
 void step_generations(PlantView& view, int step);
-/// Sets the key after the one shown.
+/// Increments the forest's key.
 void next_key(ForestView& view);
 
 } // namespace lsys::view

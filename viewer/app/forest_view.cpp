@@ -76,7 +76,7 @@ ForestView::~ForestView() {
     renderer_->show_plant(Mesh{}); // releases the plant
 }
 
-/// Runs on a thread of the watch.
+/// Called on the file watch's thread.
 void ForestView::files_changed(const std::vector<std::string>& files,
                                SteadyClock::time_point since) {
     const auto shaders = std::count_if(files.begin(), files.end(),

@@ -11,7 +11,7 @@ namespace lsys::view {
 
 /// Shaders of `folder`; built-in ones if it is empty.
 [[nodiscard]] ShaderSource shaders_of(const std::string& folder, const Console& console);
-/// Possible shaders in `folder`.
+/// Paths of all `.glsl` files in `folder`, sorted.
 [[nodiscard]] std::vector<std::string> shader_files(const std::string& folder);
 
 } // namespace lsys::view

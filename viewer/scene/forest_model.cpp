@@ -94,7 +94,7 @@ void find_impostors(TreeForm& form, std::uint64_t key, std::size_t most) {
     }
 }
 
-/// Measures the bounding cylinder and the mean count of branches of the impostors. `seen`: surfaces
+/// Measures the bounding cylinder and the mean count of branches of the impostors. `seen`: meshes
 /// of the branches.
 void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& seen) {
     const LargeVector<std::uint32_t> indices = seen.mesh.indices.expanded();

@@ -26,7 +26,7 @@ out vec3 fog_light;
 out vec3 world_normal;
 flat out vec3 tint;
 flat out uint kind;
-out vec3 crown_position; // from the centre of the crown, in its axes
+out vec3 crown_position; // relative to the crown's centre, in crown axes
 #endif
 #if defined(BAKE)
 out vec3 world_position;

@@ -91,7 +91,7 @@ float crown_sunlight(vec3 crown_position) {
     return clamp(0.58 + 0.45 * dot(crown_position, frame.to_sun.xyz), 0.12, 0.97);
 }
 
-// Air between the eye and a position: x: part of the sun's glow in it, y: transmittance.
+// Fog between the eye and a position. x: share of scattered sunlight, y: transmittance.
 vec2 fog_to(vec3 world_position) {
     vec3 way = world_position - frame.eye_time.xyz;
     float away = length(way);

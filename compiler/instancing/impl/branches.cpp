@@ -325,7 +325,7 @@ private:
             return;
         }
         Open& outer = open_.back();
-        constexpr SymbolId kBranch{0xFFFFFFFEu}; // no symbol has it
+        constexpr SymbolId kBranch{0xFFFFFFFEu}; // not the id of any symbol
         append_bytes(outer.key, kBranch);
         append_bytes(outer.key, known->second);
         outer.valid = outer.valid || open.valid;

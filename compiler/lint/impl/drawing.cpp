@@ -30,7 +30,7 @@ void check_drawing(const CheckInput& input, Diagnostics& diagnostics) {
                    (reachable.occurs(symbol) && info(operation).has(TurtleInfo::PreparesDrawing));
     }
     if (drawn == kNoSymbol) {
-        // Other checks report modules that never occur; a grammar may also be meant for its words.
+        // Other checks report modules that never occur; a grammar may be meant for words alone.
         if (out_of_reach || !prepared) {
             return;
         }

@@ -38,7 +38,7 @@ void check_extra_parameters(const CheckInput& input, Diagnostics& diagnostics) {
     if (!program.has_all_statements) {
         return;
     }
-    // By symbol that is not rewritten: the command of its name with fewer parameters.
+    // Per symbol that is not rewritten: the command of its name with fewer parameters.
     std::vector<const TurtleCommand*> exceeded(program.symbols.size(), nullptr);
     bool any = false;
     for (std::size_t i = 0; i < program.symbols.size(); ++i) {

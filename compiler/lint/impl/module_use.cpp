@@ -20,7 +20,7 @@ ModuleUse find_module_use(const Program& program) {
         use.by_name[static_cast<std::uint32_t>(program.symbols[s].name)].push_back(SymbolId{s});
     }
     const auto add_places = [&](const ProgramWord& word, bool occurs) {
-        // A first place is also any place.
+        // A place in a reachable word also counts as a place in any word.
         std::vector<ModuleMention>& known = occurs ? use.first_place : use.any_place;
         for_each_symbol(program, word, [&](std::size_t index, SymbolId symbol) {
             const auto s = static_cast<std::size_t>(symbol);

@@ -21,10 +21,10 @@ struct ModuleMention {
 
 struct ModuleUse {
     Reachable reachable;
-    /// By symbol: its first place in a reachable word, and its first place in any word.
+    /// Per symbol: its first place in a reachable word, and its first place in any word.
     std::vector<ModuleMention> first_place;
     std::vector<ModuleMention> any_place;
-    std::vector<std::uint32_t> first_production; // by symbol: which rewrites it, or kNone
+    std::vector<std::uint32_t> first_production; // per symbol: the first that rewrites it, or kNone
     std::vector<bool> in_context;                // by symbol
     std::vector<bool> declared;                  // by symbol: has a #module
     std::unordered_map<std::uint32_t, std::vector<SymbolId>> by_name;

@@ -79,7 +79,7 @@ void CodeEmitter::begin_site(std::uint32_t site) {
     const auto here = static_cast<std::uint32_t>(bytecode_.instructions.size());
     std::vector<SiteRange>& ranges = bytecode_.site_ranges;
     if (!ranges.empty() && ranges.back().instruction == here) {
-        ranges.back().site = site; // the range before it is empty
+        ranges.back().site = site; // the last range is empty: reuse it
     } else {
         ranges.push_back({here, site});
     }

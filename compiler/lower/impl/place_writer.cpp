@@ -78,8 +78,8 @@ void PlaceWriter::word(const ProgramWord& word, std::uint32_t first) {
             if (code == first) {
                 start(sources_.file(word.file), module.begin);
             }
-            // Modules of a translated grammar may share a place, and may have another order than
-            // the text.
+            // Modules of a translated grammar may share a place, and need not be in the order
+            // of the text.
             const bool ascends = module.begin >= offset_;
             if (!ascends) {
                 start(sources_.file(word.file), module.begin);

@@ -32,7 +32,7 @@ private:
     struct Spelling {
         std::uint32_t length = 0; // of the name
         bool has_arguments = false;
-        bool may_be_quoted = true; // the name has no back quote
+        bool may_be_quoted = true; // the name itself contains no back quote
     };
 
     const Program& program_;

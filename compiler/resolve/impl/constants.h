@@ -15,7 +15,7 @@ namespace lsys {
 enum class ConstantState : std::uint8_t {
     Unknown, // no statement defines it
     Later,   // a later statement defines it
-    Known,   // constant() has it
+    Known,   // constant() returns it
     Failed,  // its definition is in error, which has been reported
 };
 

@@ -7,7 +7,7 @@ namespace lsys {
 
 namespace {
 
-/// By name: whether a module has it.
+/// Per name: whether a module uses it.
 std::vector<std::uint8_t> names_of_modules(const Resolution& resolution) {
     std::vector<std::uint8_t> used(resolution.names.count());
     const ChunkedVector<ModuleNode>& modules = resolution.ast.modules;

@@ -18,7 +18,7 @@ struct ModuleReading {
     NameSplitter& splitter;
     ExpressionResolver& expressions;
     SplitReport splits;
-    /// By name that is never split: the symbol of its modules without arguments, once found.
+    /// Cache per unsplit name: the symbol of its modules without arguments.
     std::vector<SymbolId> bare;
 };
 

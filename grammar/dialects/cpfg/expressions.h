@@ -30,8 +30,8 @@ struct CpfgConstant {
 
 /// Place where random numbers of a production are drawn.
 enum class CpfgDraws : std::uint8_t {
-    Inline,    // where they stand
-    Bound,     // before: the module has them as parameters
+    Inline,    // in the expression that uses them
+    Bound,     // in advance, as parameters of the module
     Elsewhere, // by another statement; terms made here do not depend on them
 };
 

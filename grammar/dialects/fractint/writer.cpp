@@ -163,7 +163,7 @@ void FractintWriter::check_texts(const FractintLine& line) {
         if (words == 2 && !equals && is_rule) {
             warn_quirk(text,
                        "Fractint takes a text with blanks for a mistake; here they mean nothing");
-            ++words; // once
+            ++words; // warn only once
         }
         begun = begun || !equals;
     }

@@ -148,7 +148,7 @@ void HoudiniWriter::write_rule(const HoudiniRule& rule, std::size_t index) {
     }
 }
 
-/// `(x, y)` of a module of a head, in which names that are missing are made up.
+/// Writes the formals `(x, y)` of a module of a head; missing names are generated.
 void HoudiniWriter::write_formals(const HoudiniModule& head, std::uint32_t count, bool has_age) {
     const SourceSpan place = head.arguments.empty() ? head.symbol : head.parentheses;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -223,7 +223,7 @@ void HoudiniWriter::write_form(const HoudiniRule& rule, const Form& form, const 
     translation_.put(";\n", {rule.span.file, rule.span.end, rule.span.end});
 }
 
-/// Writes the rule by which a symbol that no other rule matches grows older.
+/// Writes the rule that ages a symbol matched by no other rule.
 void HoudiniWriter::write_ageing(const HoudiniRule& rule, std::size_t index) {
     const HoudiniModule& head = rule.predecessor.front();
     const HoudiniSymbol& symbol = symbols_.of(head);

@@ -85,7 +85,7 @@ public:
     [[nodiscard]] static std::uint32_t length_of_key(std::string_view text);
     [[nodiscard]] bool wants_modules() const { return wants_modules_; }
     void open() { ++depth_; }
-    /// True: modules go on.
+    /// Returns true if more modules follow.
     bool close();
     void begin_tail() { tail_ = true; }
     /// A `=` behind a condition; true: modules follow.

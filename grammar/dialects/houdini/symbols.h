@@ -12,7 +12,7 @@
 namespace lsys {
 
 struct HoudiniSymbol {
-    bool is_command = false; // of the turtle: a parameter that is left out has a value of its own
+    bool is_command = false; // turtle command: an omitted parameter has its own default
     bool is_rewritten = false;
     bool has_age = false;        // a rule of it asks for `g`
     std::uint64_t counts = 0;    // bit k: occurs in a word with k parameters

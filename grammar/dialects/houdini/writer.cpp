@@ -34,7 +34,7 @@ void HoudiniWriter::read_settings() {
         const HoudiniSettingRow* const row = find_houdini_setting(houdini_key(text(setting.key)));
         SourceSpan value = setting.value;
         value.end = value.begin + static_cast<std::uint32_t>(trimmed(text(value)).size());
-        if (row == nullptr) { // never, by the scanner
+        if (row == nullptr) { // unreachable: the scanner only passes known keys
             continue;
         }
         if (row->kind != HoudiniSettingKind::Ignore && !is_number(text(value), "+-")) {

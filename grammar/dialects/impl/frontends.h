@@ -10,7 +10,7 @@
 
 namespace lsys {
 
-/// For dialects whose files hold one system: no names.
+/// Returns no names: for dialects whose files hold one system.
 std::vector<std::string> one_system(std::string_view text);
 
 #define LSYS_DIALECT(enumerator, name, folder, title, extensions, turtle, systems)                 \

@@ -160,7 +160,7 @@ void LexemeReader::module() {
     if (is_letter(c)) {
         take(LexemeKind::Module, word_length(at_));
     } else if (c == '`') {
-        // Adjacent ones are one text, or modules that must stay adjacent.
+        // Adjacent quoted names are one text, or modules that must stay adjacent.
         std::size_t end = text_.find('`', at_ + 1);
         while (end != text_.npos && end + 1 < text_.size() && text_[end + 1] == '`') {
             end = text_.find('`', end + 2);

@@ -21,12 +21,12 @@ struct Piece {
     std::uint32_t width = 0;      // of the first line
     std::uint32_t last_width = 0; // of the last line
     bool several_lines = false;   // a comment within has line ends
-    bool blank = false;           // before the piece
+    bool blank = false;           // a blank precedes the piece
     bool begins_cell = false;
     bool in_list = false;  // of modules, after the last colon
     bool own_line = false; // the author began a line here
     BreakClass break_class = BreakClass::Never;
-    std::uint32_t rank = 0;  // of breaks of one class; the least is best
+    std::uint32_t rank = 0;  // of breaks of one class; the lowest is best
     std::uint32_t depth = 0; // open brackets before the piece; a `]` is counted as closed
     bool ends_statement = false;
     bool semicolon_only = false; // the `;` of an empty list
@@ -59,7 +59,7 @@ private:
     std::size_t end_ = 0;
     bool done_ = false;
     StatementShape shape_ = StatementShape::Other;
-    std::uint32_t index_ = 0; // of now_ among the tokens without comments
+    std::uint32_t index_ = 0; // of now_, comments not counted
     std::uint32_t colons_ = 0;
     std::uint32_t parentheses_ = 0;
     std::uint32_t brackets_ = 0;

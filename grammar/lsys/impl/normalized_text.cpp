@@ -296,7 +296,7 @@ void normalize_quoted(ParseSession& session, std::string_view text) {
         const auto begin = session.scan.begin + static_cast<std::uint32_t>(at);
         if (confusable != nullptr && !is_translation) {
             note_stray(session, begin, true);
-        } else if (confusable != nullptr && point.value > 0xA0) { // blanks are no names anyway
+        } else if (confusable != nullptr && point.value > 0xA0) { // a blank is no name
             report_foreign_confusable(session, session.scanned.span(begin, begin + point.length),
                                       point.value, *confusable);
         }

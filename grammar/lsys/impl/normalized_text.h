@@ -15,7 +15,7 @@ struct NormalizedText {
     std::unique_ptr<std::string> own;
     std::unique_ptr<TextMap> map;
     ScannedText scanned;
-    /// By the first `#set names` of the file.
+    /// Value of the first `#set names` of the file.
     ModuleNames names = ModuleNames::Words;
 };
 

@@ -91,11 +91,11 @@ private:
     /// behind `//`. Statements that may belong together are judged together.
     void judge_fixes();
 
-    /// The diagnostics of statements that may belong together, by their numbers in the sink.
+    /// Range of indices in the sink: diagnostics of statements that may belong together.
     struct JudgedDiagnostics {
         std::size_t first = 0;
-        std::size_t end = 0;     // those before are judged
-        bool is_partial = false; // an error without a certain fix is among them
+        std::size_t end = 0;     // diagnostics before this index are judged
+        bool is_partial = false; // one of the errors has no certain fix
     };
 
     Ast& ast_;

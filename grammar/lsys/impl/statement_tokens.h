@@ -32,7 +32,7 @@ Token colon_in_expression(ParseSession& session);
 /// The current `;`; nothing for a reported one between statements.
 std::optional<Token> semicolon(ParseSession& session);
 
-/// Begins the insertion of the tokens that are missing before the event `kind`; returns the first.
+/// Starts to insert the tokens missing before the event `kind`; returns the first of them.
 /// `written`: the span of the current `:` or `;`, if any.
 Token begin_insertion(ParseSession& session, Insertion kind, SourceSpan written);
 /// The next token of the insertion, at the end the written one.

@@ -1,5 +1,5 @@
-// A diagnostic as a JSON object, for editors and other tools. Byte offsets are of the file on disk,
-// byte order mark included, so that edits apply to it directly.
+// A diagnostic as a JSON object, for editors and other tools. Byte offsets count from the
+// start of the file on disk, including a byte order mark, so that edits apply to it directly.
 #pragma once
 
 #include "grammar/base/diagnostic.h"

@@ -119,7 +119,7 @@ void ContextTables::build_right(const C* codes) {
     };
     std::vector<Closed> closed;
     std::uint64_t next = kNowhere;
-    std::uint64_t seen = count_; // the gap of the first thing that is not ignored
+    std::uint64_t seen = count_; // gap of the first module or bracket not ignored
     next_.set(count_, kNowhere);
     for (std::uint64_t i = count_; i-- > 0;) {
         switch (sights_[codes[i]]) {

@@ -9,7 +9,7 @@
 
 namespace lsys {
 
-/// What an expression may read, beside random ranges.
+/// Inputs of an expression besides random ranges.
 struct EvalFrame {
     const float* formals = nullptr;
     const float* globals = nullptr;
@@ -19,7 +19,7 @@ struct EvalFrame {
 
 inline constexpr std::uint64_t kFirstBranchDraw = std::uint64_t{4} << 31;
 
-/// Where random ranges take their draws from: one module, or the start of the derivation.
+/// Source of the draws of random ranges: one module, or the start of the derivation.
 class RangeDraws {
 public:
     /// Range i is draw `first + i` of the module.
@@ -34,7 +34,7 @@ public:
         return {seed, kStartGeneration, position, 0};
     }
     [[nodiscard]] float draw(std::uint32_t range);
-    /// Of a module: whether branch `branch` of its successor is taken has draws of its own, from
+    /// Decides whether branch `branch` of the module's successor is taken: draws of their own, from
     /// block 2^31 on.
     [[nodiscard]] float draw_branch(std::uint32_t branch);
 
@@ -55,7 +55,7 @@ private:
 
 enum class Fault : std::uint8_t { None, NotFinite, RangeReversed, RangeTooWide };
 
-/// What stopped an evaluation, and at which instruction.
+/// The fault that stopped an evaluation, and its instruction.
 struct EvalFault {
     Fault kind = Fault::None;
     std::uint32_t instruction = 0;

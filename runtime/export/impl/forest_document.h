@@ -43,7 +43,7 @@ public:
     [[nodiscard]] std::uint64_t data_bytes() const { return bytes_; }
     /// Writes all members of the document but `buffers`.
     void put_members(JsonWriter& json) const;
-    /// Hands over the buffer.
+    /// Writes the buffer to the sink.
     void put_data(const GltfSink& write) const;
 
 private:

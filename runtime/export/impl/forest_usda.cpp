@@ -74,7 +74,7 @@ private:
                              scene_.forest.key, scene_.forest.trees.size(), plan_.branches()));
     }
 
-    /// Names of the materials of the parts. `materials`: numbers of their mesh's among all.
+    /// Material names of the parts. `materials`: index in names_ of each material of their mesh.
     [[nodiscard]] std::vector<std::string>
     names_of(std::span<const MeshPart> parts, const std::vector<std::uint32_t>& materials) const {
         std::vector<std::string> names;

@@ -39,7 +39,7 @@ struct GltfData {
     std::vector<GltfView> views;
     std::vector<std::string> images; // PNG
     std::uint64_t bytes = 0;         // of the buffer, a multiple of 4
-    /// By part: vertices have colours that differ from the material's.
+    /// Per part: whether vertices have colours that differ from the material's.
     std::vector<bool> coloured;
 
     /// The number of the first view of the array; views.size() without one.

@@ -17,7 +17,7 @@ struct Attribute {
     const char* type;
     bool normalized = false;
 };
-/// By GltfArray.
+/// Indexed by GltfArray.
 constexpr std::array<Attribute, 7> kAttributes{{
     {"POSITION", kGltfFloat, "VEC3"},
     {"NORMAL", kGltfFloat, "VEC3"},

@@ -38,7 +38,7 @@ public:
     }
 
     [[nodiscard]] bool stopped() const { return stopped_; }
-    /// Hands over the rest. Returns false if the sink has stopped.
+    /// Passes the remaining bytes to the sink. Returns false if the sink has stopped.
     [[nodiscard]] bool finish();
 
 private:

@@ -15,7 +15,7 @@ class Workers;
 inline constexpr std::uint32_t kForked = kNoSegment - 1;
 
 struct Axes {
-    /// By segment: the segment that continues it, kForked, or kNoSegment.
+    /// Per segment: the segment that continues it, kForked, or kNoSegment.
     LargeVector<std::uint32_t> next;
     std::vector<std::uint16_t> colours; // in use, rising
 };

@@ -78,7 +78,7 @@ public:
     void set_pictures(std::vector<std::shared_ptr<const Texture>> pictures) {
         pictures_ = std::move(pictures);
     }
-    /// Ok until a limit was met.
+    /// Ok until a limit is exceeded.
     [[nodiscard]] MeshStatus status() const { return status_; }
     [[nodiscard]] std::uint64_t vertex_count() const { return vertices_; }
     /// Segments of all vertices so far; empty if the options leave them out.

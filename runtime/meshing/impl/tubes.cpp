@@ -289,9 +289,15 @@ void append_tubes(const Skeleton& skeleton, const MeshOptions& options, MeshBuil
         return;
     }
     const std::vector<Task> tasks = make_tasks(pieces, vertices);
-    workers.for_each(tasks.size(), [&](std::uint64_t i) noexcept { // tasks wait for one another
-        TaskWriter(skeleton, block, options, workers.count() == 1, tasks[i]).write();
-    });
+    const bool alone = workers.count() == 1;
+    const auto write = [&](std::uint64_t i) {
+        TaskWriter(skeleton, block, options, alone, tasks[i]).write();
+    };
+    if (alone) {
+        workers.for_each(tasks.size(), write);
+    } else { // tasks wait for one another: one that fails must not leave others waiting
+        workers.for_each(tasks.size(), [&](std::uint64_t i) noexcept { write(i); });
+    }
 }
 
 } // namespace lsys

@@ -21,7 +21,7 @@ namespace lsys {
 
 namespace {
 
-constexpr double kShown = 0.5; // part of a sheet across the wind
+constexpr double kShown = 0.5; // share of a sheet's area facing the wind
 
 double magnitude(float value) {
     const auto greatest = static_cast<double>(std::numeric_limits<float>::max());

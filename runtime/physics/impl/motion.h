@@ -57,7 +57,7 @@ struct Reduced {
     Symmetric velocity_velocity;
     glm::dvec3 spin{0.0};
     glm::dvec3 velocity{0.0};
-    glm::dvec3 wind{0.0}; // N, on all of it
+    glm::dvec3 wind{0.0}; // N, on the body and all beyond it
 };
 
 struct PlantBodies {
@@ -86,7 +86,7 @@ struct Energies {
     double position = 0.0; // springs and weight; 0 at rest
     double terms = 0.0;    // sum of the magnitudes of the terms of `position`
     double work = 0.0;     // by the wind
-    double turn = 0.0;     // rad, greatest
+    double turn = 0.0;     // rad, max
 };
 /// Turns each body by `duration` seconds of the solved spins, into next_poses, and fills Motion for
 /// that place and `speed` times these spins.

@@ -75,7 +75,7 @@ struct Symmetric {
     return least >= 0.0 && d1 > least && a.zz - a.xz * a.xz / a.xx - e21 * e21 / d1 > least;
 }
 
-/// The least eigenvalue of `a`, by Smith 1961, "Eigenvalues of a symmetric 3 x 3 matrix".
+/// The smallest eigenvalue of `a`, by Smith 1961, "Eigenvalues of a symmetric 3 x 3 matrix".
 [[nodiscard]] inline double least_eigenvalue(const Symmetric& a) {
     const double mean = a.trace() / 3.0;
     const double x = a.xx - mean;

@@ -1,4 +1,4 @@
-// TreeMaker: from a place and a number to a tree: the species that lives there, direction, scale.
+// TreeMaker: makes a tree from a place and a number: its species, direction and scale.
 #pragma once
 
 #include "runtime/base/random.h"

@@ -78,7 +78,7 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
         names[i] = kMethods[i].name;
     }
     const auto found = reader.choice("method", names);
-    const bool any = reader.has("method") && !found; // then no key can be wrong
+    const bool any = reader.has("method") && !found; // invalid method: accept all keys
     placement.method = static_cast<PlacementMethod>(found.value_or(0));
     placement.region = scene.terrain.region;
     const MethodRow& method = kMethods[found.value_or(0)];

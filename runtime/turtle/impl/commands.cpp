@@ -13,7 +13,7 @@ void Turtle::State::note(TurtleFaultKind kind) {
 
 bool Turtle::State::is_finite_pose() {
     const Pose& p = now.pose;
-    // The comparison is false for what is not a number, too.
+    // The comparison is also false for NaN.
     if (std::abs(p.x) <= kMaxFloat && std::abs(p.y) <= kMaxFloat && std::abs(p.z) <= kMaxFloat) {
         return true;
     }

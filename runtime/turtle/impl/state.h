@@ -58,7 +58,7 @@ struct PendingCommand {
     std::string text;
 };
 
-/// Two parts that are copied apart, since one of them lives in registers.
+/// Brush and pose. They are copied separately, since the walk keeps the pose in registers.
 struct TurtleState : Brush {
     Pose pose;
 };
@@ -113,7 +113,7 @@ struct Turtle::State {
     bool take_character(const Action& action, Code character, const float* arguments);
     bool obey_pending();
     bool take_origin(const Origin& origin);
-    /// False: the drawing has ended as `end.stop`.
+    /// Executes one action. Returns false if the drawing has ended; `end.stop` is the reason.
     bool obey(const Action& action, const float* arguments);
     bool forward(const Action& action, const float* arguments, float part);
     bool tapered(const Action& action, const float* arguments);

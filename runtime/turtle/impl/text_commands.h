@@ -1,4 +1,4 @@
-// The numbers of words that are texts.
+// Numbers in words that are texts (L3D).
 #pragma once
 
 #include <string_view>
