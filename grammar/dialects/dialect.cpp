@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array kRows{
     DialectRow{Dialect::Lsys, "lsys", "lsys", ".lsys", "lsys", "docs/language.md", nullptr, nullptr,
-               one_system, false},
+               one_system},
 #define LSYS_DIALECT(enumerator, name, folder, title, extensions, turtle, systems)                 \
     DialectRow{Dialect::enumerator,                                                                \
                #name,                                                                              \
@@ -22,8 +22,7 @@ constexpr std::array kRows{
                "docs/dialects/" #folder ".md",                                                     \
                recognise_##folder,                                                                 \
                translate_##folder,                                                                 \
-               systems,                                                                            \
-               (systems) != one_system},
+               systems},
 #include "grammar/dialects/dialects.def"
 #undef LSYS_DIALECT
 };
@@ -89,7 +88,7 @@ DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
 }
 
 bool has_systems(Dialect dialect) {
-    return row_of(dialect).has_systems;
+    return row_of(dialect).systems != one_system;
 }
 
 std::vector<std::string> systems_in(Dialect dialect, std::string_view text) {

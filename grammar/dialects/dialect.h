@@ -37,9 +37,8 @@ struct DialectRow {
     void (*translate)(const DialectRow& row,
                       const ParseContext& context,
                       Translation& out) = nullptr;
-    /// Names of the systems of a file, in order; none where a file is one system.
+    /// Names of the systems of a file, in order. one_system: a file is one system without a name.
     std::vector<std::string> (*systems)(std::string_view text) = nullptr;
-    bool has_systems = false; // whether a file may hold several, each with a name
 };
 /// All dialects, .lsys first.
 [[nodiscard]] std::span<const DialectRow> dialects();
@@ -54,8 +53,9 @@ struct DetectedDialect {
 /// Detects the dialect from the content of `text`, else from the extension of `path`.
 [[nodiscard]] DetectedDialect detect_dialect(std::string_view path, std::string_view text);
 
-/// DialectRow::systems and DialectRow::has_systems of a dialect.
+/// Names of the systems of `text`, in order; none for dialects whose files hold one system.
 [[nodiscard]] std::vector<std::string> systems_in(Dialect dialect, std::string_view text);
+/// Whether a file may hold several systems, each with a name.
 [[nodiscard]] bool has_systems(Dialect dialect);
 
 /// Translates the file `root` to .lsys text. Reports mistakes where they stand; after errors the
