@@ -79,9 +79,16 @@ private:
     std::vector<std::uint32_t> offsets_; // of the characters of the line and of its end
 };
 
-SceneValue convert(const toml::node& node, Places& places);
+/// Levels of values that are kept. No key of a scene has as many, so a key that is not known or a
+/// wrong value is reported above; this bounds the recursion here and in ~SceneValue().
+constexpr std::uint32_t kMaxLevels = 32;
 
-void convert_table(const toml::table& table, Places& places, SceneValue& value) {
+SceneValue convert(const toml::node& node, std::uint32_t level, Places& places);
+
+void convert_table(const toml::table& table,
+                   std::uint32_t level,
+                   Places& places,
+                   SceneValue& value) {
     std::vector<std::pair<const toml::key*, const toml::node*>> entries;
     for (auto&& [key, child] : table) {
         entries.emplace_back(&key, &child);
@@ -93,22 +100,27 @@ void convert_table(const toml::table& table, Places& places, SceneValue& value) 
     });
     for (const auto& [key, child] : entries) {
         const SourceSpan span = places.span(key->source());
-        value.entries.push_back({std::string(key->str()), span, convert(*child, places)});
+        value.entries.push_back({std::string(key->str()), span, convert(*child, level, places)});
     }
 }
 
-SceneValue convert(const toml::node& node, Places& places) {
+/// `level`: of the node, 0 for the document.
+SceneValue convert(const toml::node& node, std::uint32_t level, Places& places) {
     SceneValue value;
     value.span = places.span(node.source());
     switch (node.type()) {
     case toml::node_type::table:
         value.kind = SceneValueKind::Table;
-        convert_table(*node.as_table(), places, value);
+        if (level < kMaxLevels) {
+            convert_table(*node.as_table(), level + 1, places, value);
+        }
         break;
     case toml::node_type::array:
         value.kind = SceneValueKind::List;
-        for (const toml::node& item : *node.as_array()) {
-            value.items.push_back(convert(item, places));
+        if (level < kMaxLevels) {
+            for (const toml::node& item : *node.as_array()) {
+                value.items.push_back(convert(item, level + 1, places));
+            }
         }
         break;
     case toml::node_type::string:
@@ -289,7 +301,7 @@ read_toml(FileId file, const SourceMap& sources, Diagnostics& diagnostics) {
         report_syntax(result.error(), places, diagnostics);
         return std::nullopt;
     }
-    return convert(result.table(), places);
+    return convert(result.table(), 0, places);
 }
 
 } // namespace lsys
