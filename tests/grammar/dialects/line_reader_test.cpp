@@ -98,6 +98,14 @@ TEST_CASE("a piece that does not fit is reported, and its line skipped") {
     CHECK(read.diagnostics.all()[2].message == "expected a word, saw the end of the file");
 }
 
+TEST_CASE("without ends of lines too, a piece that does not fit ends its line") {
+    Read read("a = b\n c", {" \n"});
+    CHECK(read.reader.next(word_length).text == "a");
+    CHECK(!read.reader.expect(false, read.reader.next(word_length), {"a word"}));
+    CHECK(read.reader.next(word_length).text == "c");
+    CHECK(read.reader.next(word_length).kind == LinePieceKind::TextEnd);
+}
+
 TEST_CASE("a part of a file is read with places of the file") {
     Read read("x { a } y", {" "});
     LineReader inner({read.file, 3, 5}, {" "}, read.context);
