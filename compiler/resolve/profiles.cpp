@@ -55,105 +55,104 @@ constexpr Commands<size> characters(std::string_view names,
 constexpr Commands<6> turns(const std::array<TurtleOperation, 6>& operations) {
     return characters("+-&^\\/", operations);
 }
-constexpr Commands kTurnsLeft = turns({YawLeft, YawRight, PitchDown, PitchUp, RollLeft, RollRight});
+constexpr auto kTurnsLeft = turns({YawLeft, YawRight, PitchDown, PitchUp, RollLeft, RollRight});
 
-constexpr Commands kBranches = commands({{"[", Save}, {"]", Restore}});
-constexpr Commands kPolygons =
+constexpr auto kBranches = commands({{"[", Save}, {"]", Restore}});
+constexpr auto kPolygons =
     joined(kBranches, commands({{"{", PolygonBegin}, {".", PolygonVertex}, {"}", PolygonEnd}}));
-constexpr Commands kPolygonsAndCut = joined(kPolygons, commands({{"%", Cut}}));
+constexpr auto kPolygonsAndCut = joined(kPolygons, commands({{"%", Cut}}));
 
-constexpr Commands kPaths = commands({{"F", Forward}, {"f", Move}});
-constexpr Commands kPens = joined(commands({{"|", TurnAround},
-                                            {"$", RollUpright},
-                                            {"!", SetWidth},
-                                            {"\"", ScaleStep},
-                                            {"'", SetColour}}),
-                                  kPolygonsAndCut);
+constexpr auto kPaths = commands({{"F", Forward}, {"f", Move}});
+constexpr auto kPens = joined(commands({{"|", TurnAround},
+                                        {"$", RollUpright},
+                                        {"!", SetWidth},
+                                        {"\"", ScaleStep},
+                                        {"'", SetColour}}),
+                              kPolygonsAndCut);
 
-constexpr Commands kLsys =
+constexpr auto kLsys =
     joined(kPaths, turns({YawRight, YawLeft, PitchDown, PitchUp, RollLeft, RollRight}), kPens);
-constexpr Commands kAbop = joined(kPaths, kTurnsLeft, kPens);
+constexpr auto kAbop = joined(kPaths, kTurnsLeft, kPens);
 
 // Crankshaw 2019, table 5.1.
-constexpr Commands kThesis =
-    joined(kPaths,
-           turns({YawRight, YawLeft, RollLeft, RollRight, PitchDown, PitchUp}),
-           commands({{"!", SetWidth}}),
-           kPolygonsAndCut);
+constexpr auto kThesis = joined(kPaths,
+                                turns({YawRight, YawLeft, RollLeft, RollRight, PitchDown, PitchUp}),
+                                commands({{"!", SetWidth}}),
+                                kPolygonsAndCut);
 
 // Carey 2019: the symbols of Houdini that his forest generator has, then those of the appendix and
 // others of Houdini of the same kind.
-constexpr Commands kCarey =
+constexpr auto kCarey =
     joined(commands({length("F", Forward), length("f", Move)}),
            turns({YawRight, YawLeft, PitchUp, PitchDown, RollLeft, RollRight}),
            commands({{"!", ScaleWidth}, {"\"", ScaleStep}, {";", ScaleAngle}, {"J", Leaf}}),
            kPolygons);
-constexpr Commands kHoudini = joined(kCarey,
-                                     commands({length("H", HalfForward),
-                                               length("h", HalfMove),
-                                               length("G", Move),
-                                               {"|", TurnAround},
-                                               {"*", RollAround},
-                                               {"$", RollUpright},
-                                               {"'", SetColour},
-                                               {"K", Leaf},
-                                               {"M", Leaf},
-                                               {"%", Cut}}));
+constexpr auto kHoudini = joined(kCarey,
+                                 commands({length("H", HalfForward),
+                                           length("h", HalfMove),
+                                           length("G", Move),
+                                           {"|", TurnAround},
+                                           {"*", RollAround},
+                                           {"$", RollUpright},
+                                           {"'", SetColour},
+                                           {"K", Leaf},
+                                           {"M", Leaf},
+                                           {"%", Cut}}));
 
 // A word of L3D is a text: a parenthesis behind a command holds its parameter, character by
 // character.
 constexpr std::array<TurtleOperation, 12> kTexts{Text, Text, Text, Text, Text, Text,
                                                  Text, Text, Text, Text, Text, Text};
-constexpr Commands kText = joined(kBranches,
-                                  commands({{"(", ParameterBegin}, {")", ParameterEnd}}),
-                                  characters(" .0123456789", kTexts));
-constexpr Commands kL3dTurtle = joined(
+constexpr auto kText = joined(kBranches,
+                              commands({{"(", ParameterBegin}, {")", ParameterEnd}}),
+                              characters(" .0123456789", kTexts));
+constexpr auto kL3dTurtle = joined(
     commands({length("F", Forward), length("f", Forward), length("g", Move)}), kTurnsLeft, kText);
-constexpr Commands kL3dTurns = commands({{"<", RollLeft}, {">", RollRight}});
-constexpr Commands kLplusWidths = commands({length("G", Move),
-                                            {"<", ThickenWidth},
-                                            {">", ThinWidth},
-                                            {"=", SetRelativeWidth},
-                                            {"%", SetTaper},
-                                            {"*", Leaf}});
+constexpr auto kL3dTurns = commands({{"<", RollLeft}, {">", RollRight}});
+constexpr auto kLplusWidths = commands({length("G", Move),
+                                        {"<", ThickenWidth},
+                                        {">", ThinWidth},
+                                        {"=", SetRelativeWidth},
+                                        {"%", SetTaper},
+                                        {"*", Leaf}});
 // The program takes pi for degrees.
-constexpr Commands kTurn = commands({{"|", TurnAround}});
-constexpr Commands kBuggyTurn = commands({{"|", TurnByPi}});
-constexpr Commands kL3d = joined(kL3dTurtle, kL3dTurns, kTurn);
-constexpr Commands kLplus = joined(kL3dTurtle, kLplusWidths, kTurn);
-constexpr Commands kL3dBugCompatible = joined(kL3dTurtle, kL3dTurns, kBuggyTurn);
-constexpr Commands kLplusBugCompatible = joined(kL3dTurtle, kLplusWidths, kBuggyTurn);
+constexpr auto kTurn = commands({{"|", TurnAround}});
+constexpr auto kBuggyTurn = commands({{"|", TurnByPi}});
+constexpr auto kL3d = joined(kL3dTurtle, kL3dTurns, kTurn);
+constexpr auto kLplus = joined(kL3dTurtle, kLplusWidths, kTurn);
+constexpr auto kL3dBugCompatible = joined(kL3dTurtle, kL3dTurns, kBuggyTurn);
+constexpr auto kLplusBugCompatible = joined(kL3dTurtle, kLplusWidths, kBuggyTurn);
 
-constexpr Commands kSys = joined(commands({{"F", TaperedForward},
-                                           {"<", YawRight},
-                                           {">", YawLeft},
-                                           {"&", PitchDown},
-                                           {"@", PitchUp},
-                                           {"%", RollRight},
-                                           {"#", RollLeft},
-                                           {"|", TurnAround}}),
-                                 kPolygons);
+constexpr auto kSys = joined(commands({{"F", TaperedForward},
+                                       {"<", YawRight},
+                                       {">", YawLeft},
+                                       {"&", PitchDown},
+                                       {"@", PitchUp},
+                                       {"%", RollRight},
+                                       {"#", RollLeft},
+                                       {"|", TurnAround}}),
+                             kPolygons);
 
 // Fractint's turtle in the plane: `F G + - |` have a heading of whole angles, `D M \\ /` another
 // one.
-constexpr Commands kFractint = joined(commands({bare("F", Forward),
-                                                bare("G", Move),
-                                                {"D", SecondaryForward},
-                                                {"M", SecondaryMove},
-                                                bare("+", YawLeft),
-                                                bare("-", YawRight),
-                                                {"|", HalfTurnSnapped},
-                                                {"\\", SecondaryLeft},
-                                                {"/", SecondaryRight},
-                                                {"!", Mirror},
-                                                {"@", ScaleStep},
-                                                {"C", SetColour},
-                                                {"<", AddColour},
-                                                {">", SubtractColour}}),
-                                      kBranches);
+constexpr auto kFractint = joined(commands({bare("F", Forward),
+                                            bare("G", Move),
+                                            {"D", SecondaryForward},
+                                            {"M", SecondaryMove},
+                                            bare("+", YawLeft),
+                                            bare("-", YawRight),
+                                            {"|", HalfTurnSnapped},
+                                            {"\\", SecondaryLeft},
+                                            {"/", SecondaryRight},
+                                            {"!", Mirror},
+                                            {"@", ScaleStep},
+                                            {"C", SetColour},
+                                            {"<", AddColour},
+                                            {">", SubtractColour}}),
+                                  kBranches);
 
 // Houdini's own turtle. All its turns are opposite to those of ABOP.
-constexpr Commands kSidefx = joined(
+constexpr auto kSidefx = joined(
     commands({segment("F", Forward), segment("H", HalfForward), segment("G", MoveWithoutVertex),
               segment("f", Move), segment("h", HalfMove), leaf("J"), leaf("K"), leaf("M")}),
     turns({YawRight, YawLeft, PitchUp, PitchDown, RollRight, RollLeft}),
