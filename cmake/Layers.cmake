@@ -34,7 +34,7 @@ set(LSYS_LAYERS
   "runtime/cli: grammar/base grammar/rendering grammar/ast grammar/lsys grammar/format grammar/dialects compiler/bytecode compiler/growth compiler/program compiler/instancing runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/forest runtime/terrain runtime/placement runtime/scene runtime/export runtime/pipeline runtime/program"
   "viewer/scene: grammar/base runtime/base runtime/turtle runtime/physics runtime/forest runtime/terrain runtime/scene"
   "viewer/gl: grammar/base runtime/meshing runtime/physics viewer/scene"
-  "viewer/app: grammar/base runtime/turtle runtime/meshing runtime/physics runtime/scene runtime/pipeline runtime/program viewer/scene viewer/gl")
+  "viewer/app: grammar/base runtime/base runtime/turtle runtime/meshing runtime/physics runtime/scene runtime/pipeline runtime/program viewer/scene viewer/gl")
 
 # lsys_layer(PATH RESULT): the folder of the table that PATH lies in, the longest that fits.
 function(lsys_layer path result)

@@ -3,6 +3,7 @@
 #include "runtime/base/memory_border.h"
 #include "runtime/cli/command_line.h"
 #include "runtime/cli/commands.h"
+#include "runtime/program/process.h"
 
 #include <ostream>
 #include <variant>
@@ -36,12 +37,6 @@ private:
     const Io& io_;
 };
 
-/// Reports without allocations.
-int out_of_memory(const Io& io) {
-    io.err << io.program << ": error: out of memory\n" << std::flush;
-    return static_cast<int>(ExitStatus::Limit);
-}
-
 } // namespace
 
 int run(std::span<const std::string> arguments, const Io& io) {
@@ -52,7 +47,7 @@ int run(std::span<const std::string> arguments, const Io& io) {
         io.err << (interrupted ? "lsc: interrupted\n" : "") << std::flush;
         return static_cast<int>(interrupted ? ExitStatus::Interrupted : status);
     };
-    return catch_no_memory(run_line, [&] { return out_of_memory(io); });
+    return catch_no_memory(run_line, [&] { return report_out_of_memory(io); });
 }
 
 } // namespace lsys::lsc

@@ -82,7 +82,7 @@ Outcome<void> export_mesh(const Mesh& mesh,
                           ExportFormat format,
                           const ExportInfo& info,
                           const ByteSink& sink) {
-    return catch_no_memory("the file", [&] {
+    return run_within_memory("the file", [&] {
         const FormatTraits& traits = traits_of(format);
         const std::uint64_t triangles = triangle_count(mesh);
         if (traits.uses_mesh ? triangles == 0

@@ -13,7 +13,7 @@ Outcome<void> export_forest(const ForestScene& scene,
                             const ForestExportInfo& info,
                             const ByteSink& sink) {
     LSYS_CHECK(traits_of(format).write_forest != nullptr, static_cast<int>(format));
-    return catch_no_memory("the file", [&] {
+    return run_within_memory("the file", [&] {
         const ForestPlan plan(scene, info.cell, info.threads);
         const bool has_ground = scene.ground != nullptr && triangle_count(*scene.ground) > 0;
         if (plan.branches() == 0 && !has_ground) {
@@ -27,7 +27,7 @@ Outcome<void> export_forest(const ForestScene& scene,
 Outcome<std::vector<PictureFile>> make_forest_picture_files(const ForestScene& scene,
                                                             ExportFormat format,
                                                             const ForestExportInfo& info) {
-    return catch_no_memory("the pictures", [&] {
+    return run_within_memory("the pictures", [&] {
         ExportInfo pictures;
         pictures.textures = info.textures;
         pictures.picture_prefix = info.picture_prefix;

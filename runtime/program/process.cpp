@@ -105,4 +105,9 @@ int run_process(int argc,
     return was_ended ? kSignalStatus + first_signal : status;
 }
 
+int report_out_of_memory(const Io& io) {
+    io.err << io.program << ": error: out of memory\n" << std::flush;
+    return static_cast<int>(ExitStatus::Limit);
+}
+
 } // namespace lsys

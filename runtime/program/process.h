@@ -17,4 +17,7 @@ namespace lsys {
                               const char* program,
                               int (*run)(std::span<const std::string> arguments, const Io& io));
 
+/// Reports that memory ran out, without allocations; returns the exit status.
+[[nodiscard]] int report_out_of_memory(const Io& io);
+
 } // namespace lsys

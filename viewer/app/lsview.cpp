@@ -1,7 +1,9 @@
 #include "viewer/app/lsview.h"
 
+#include "runtime/base/memory_border.h"
 #include "runtime/program/console.h"
 #include "runtime/program/host.h"
+#include "runtime/program/process.h"
 #include "viewer/app/forest_document.h"
 #include "viewer/app/forest_pictures.h"
 #include "viewer/app/options.h"
@@ -16,9 +18,7 @@
 
 #include <limits>
 #include <memory>
-#include <new>
 #include <ostream>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 
@@ -130,22 +130,12 @@ struct Dispatch {
     }
 };
 
-/// Must not allocate.
-int out_of_memory(const Io& io) {
-    io.err << io.program << ": error: out of memory\n" << std::flush;
-    return static_cast<int>(ExitStatus::Limit);
-}
-
 } // namespace
 
 int run(std::span<const std::string> arguments, const Io& io) {
-    try {
-        return static_cast<int>(std::visit(Dispatch{io}, parse_options(arguments)));
-    } catch (const std::bad_alloc&) {
-        return out_of_memory(io);
-    } catch (const std::length_error&) { // strings and vectors that are too long
-        return out_of_memory(io);
-    }
+    return catch_no_memory(
+        [&] { return static_cast<int>(std::visit(Dispatch{io}, parse_options(arguments))); },
+        [&] { return report_out_of_memory(io); });
 }
 
 } // namespace lsys::view

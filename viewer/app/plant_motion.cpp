@@ -1,13 +1,13 @@
 #include "viewer/app/plant_motion.h"
 
+#include "runtime/base/memory_border.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <mutex>
-#include <new>
 #include <optional>
-#include <stdexcept>
 #include <thread>
 #include <utility>
 
@@ -99,11 +99,7 @@ struct PlantMotion::State {
     }
 
     void run() {
-        try {
-            move_on();
-        } catch (const std::bad_alloc&) { // keep the last moment
-        } catch (const std::length_error&) {
-        }
+        catch_no_memory([this] { move_on(); }, [] {}); // without memory the last moment stays
     }
 };
 

@@ -2,11 +2,10 @@
 #pragma once
 
 #include "grammar/base/outcome.h"
+#include "runtime/base/memory_border.h"
 #include "runtime/export/export.h"
 #include "runtime/turtle/turtle_diagnostic.h"
 
-#include <new>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,16 +19,12 @@ Outcome<void> too_large_for_format(ExportSubject subject);
 /// Done, or Cancelled where the sink has stopped.
 Outcome<void> finish(PieceWriter& out);
 
-/// The outcome of `run()`, or OutOfMemory with a message about `what` if it throws bad_alloc or
-/// length_error.
+/// The outcome of `run()`, or OutOfMemory with a message about `what`.
 template <typename Run>
-auto catch_no_memory(std::string_view what, const Run& run) -> decltype(run()) {
-    try {
-        return run();
-    } catch (const std::bad_alloc&) {
-    } catch (const std::length_error&) {
-    }
-    return {Stop::OutOfMemory, messages_of(no_memory_diagnostic(what))};
+auto run_within_memory(std::string_view what, const Run& run) -> decltype(run()) {
+    return catch_no_memory(run, [what]() -> decltype(run()) {
+        return {Stop::OutOfMemory, messages_of(no_memory_diagnostic(what))};
+    });
 }
 
 } // namespace lsys

@@ -225,8 +225,8 @@ private:
 
 Outcome<Mesh>
 bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads) {
-    return catch_no_memory("the baked forest",
-                           [&] { return Baker(scene, threads).bake(max_bytes); });
+    return run_within_memory("the baked forest",
+                             [&] { return Baker(scene, threads).bake(max_bytes); });
 }
 
 } // namespace lsys

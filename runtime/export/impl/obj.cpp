@@ -97,7 +97,7 @@ Outcome<void> write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink
     if (triangle_count(mesh) == 0) {
         return nothing_to_draw(info.subject);
     }
-    return catch_no_memory("the file", [&] {
+    return run_within_memory("the file", [&] {
         PieceWriter out(sink);
         out.put(fmt::format("# {}\n# {}\n", one_line(info.generator), origin_line(info)));
         const std::vector<std::string> names = material_names(mesh);

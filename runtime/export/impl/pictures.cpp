@@ -146,7 +146,7 @@ std::vector<std::string> encode_pictures(const std::vector<Picture>& pictures,
 
 Outcome<std::vector<PictureFile>>
 make_picture_files(const Mesh& mesh, ExportFormat format, const ExportInfo& info) {
-    return catch_no_memory("the pictures", [&]() -> Outcome<std::vector<PictureFile>> {
+    return run_within_memory("the pictures", [&]() -> Outcome<std::vector<PictureFile>> {
         std::vector<PictureFile> files;
         const ExportPictures kind = traits_of(format).pictures;
         if (kind != ExportPictures::Inside) {
