@@ -309,4 +309,6 @@ TEST_CASE("all mutants", "[.]") {
         }
     }
     std::printf("%s%s", census.kept().c_str(), census.table().c_str());
+    CHECK(census.total().wrong == 0);
+    CHECK(census.total().unfinished == 0);
 }
