@@ -90,7 +90,7 @@ public:
     /// vertices, counted from 0 in `triangles`. Returns false, without effect, if they do not fit.
     [[nodiscard]] bool
     place_parts(std::vector<WholePart> parts, std::uint64_t vertices, MeshBlock& block);
-    /// As place_parts(), with room for the indices of each part.
+    /// Does the same as place_parts(), and also makes room for the indices of each part.
     [[nodiscard]] bool reserve_parts(std::span<const PartSize> parts,
                                      std::uint64_t vertices,
                                      MeshBlock& block,

@@ -146,7 +146,7 @@ TEST_CASE("settings change the digest where they change the word") {
     CHECK(changed([](Settings& s) { s.random = RandomSource::Glibc; }));
     CHECK(changed([](Settings& s) { s.at_depth = AtDepth::Stop; }));
     CHECK(changed([](Settings& s) { s.decompose_depth = 7; }));
-    // What is drawn, printed or checked, and defaults of the derivation.
+    // Settings of drawing, printing and checking, and defaults of the derivation.
     CHECK_FALSE(changed([](Settings& s) { s.turtle = TurtleProfile::Abop; }));
     CHECK_FALSE(changed([](Settings& s) { s.weights = WeightRule::Any; }));
     CHECK_FALSE(changed([](Settings& s) { s.print_letters = true; }));
