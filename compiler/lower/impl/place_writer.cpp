@@ -49,15 +49,14 @@ bool PlaceWriter::move_to(std::uint32_t offset) {
     return plain && ascii;
 }
 
-std::uint32_t PlaceWriter::length_of(const ProgramWord& word, const ProgramModule& module) const {
+/// Inlined, as it runs for every module.
+inline std::uint32_t PlaceWriter::length_of(const ProgramWord& word,
+                                            const ProgramModule& module) const {
     constexpr std::uint32_t kQuotes = 2;
     const Spelling& spelling = spellings_[static_cast<std::size_t>(module.symbol)];
     std::uint32_t name = spelling.length;
     if (!program_.written_names.empty()) {
-        const SourceSpan span = module_name_span(sources_, word.file, module.begin,
-                                                 names_.text(program_.symbol(module.symbol).name),
-                                                 program_.written_names);
-        name = span.end - span.begin;
+        name = written_length(word, module);
     } else if (spelling.may_be_quoted && text_[module.begin] == '`') {
         name += kQuotes;
     }
@@ -65,6 +64,15 @@ std::uint32_t PlaceWriter::length_of(const ProgramWord& word, const ProgramModul
         return name;
     }
     return static_cast<std::uint32_t>(end_of_arguments(text_, module.begin + name)) - module.begin;
+}
+
+/// Length of the name as its file spells it, in bytes.
+std::uint32_t PlaceWriter::written_length(const ProgramWord& word,
+                                          const ProgramModule& module) const {
+    const SourceSpan span = module_name_span(sources_, word.file, module.begin,
+                                             names_.text(program_.symbol(module.symbol).name),
+                                             program_.written_names);
+    return span.end - span.begin;
 }
 
 void PlaceWriter::word(const ProgramWord& word, std::uint32_t first) {

@@ -28,6 +28,8 @@ private:
     [[nodiscard]] bool move_to(std::uint32_t offset);
     [[nodiscard]] std::uint32_t length_of(const ProgramWord& word,
                                           const ProgramModule& module) const;
+    [[nodiscard]] std::uint32_t written_length(const ProgramWord& word,
+                                               const ProgramModule& module) const;
 
     struct Spelling {
         std::uint32_t length = 0; // of the name
