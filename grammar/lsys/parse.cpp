@@ -48,6 +48,9 @@ void ParseSession::judge_fixes() {
     if (judged_.first != scan.first_diagnostic) {
         judged_ = {scan.first_diagnostic, scan.first_diagnostic, false};
     }
+    if (judged_.end == diagnostics.all().size()) {
+        return;
+    }
     if (is_commented_out(scan.statement_begin)) {
         diagnostics.offer_fixes_from(judged_.end);
     }

@@ -69,9 +69,9 @@ inline std::uint32_t PlaceWriter::length_of(const ProgramWord& word,
 /// Length of the name as its file spells it, in bytes.
 std::uint32_t PlaceWriter::written_length(const ProgramWord& word,
                                           const ProgramModule& module) const {
-    const SourceSpan span = module_name_span(sources_, word.file, module.begin,
-                                             names_.text(program_.symbol(module.symbol).name),
-                                             program_.written_names);
+    const SourceSpan span =
+        module_name_span(sources_, word.file, module.begin,
+                         names_.text(program_.symbol(module.symbol).name), program_.written_names);
     return span.end - span.begin;
 }
 
