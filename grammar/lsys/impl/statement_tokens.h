@@ -39,7 +39,7 @@ Token begin_insertion(ParseSession& session, Insertion kind, SourceSpan written)
 Token insert_token(ParseSession& session);
 
 /// Discards the statement and skips its rest.
-Token lose_statement(ParseSession& session);
+Token discard_statement(ParseSession& session);
 /// Whether the current production has too few `:`. Reports it at the current match, with `inserted`
 /// as the fix unless it is empty.
 bool lacks_colon(ParseSession& session, std::string_view inserted);
