@@ -129,7 +129,7 @@ private:
         std::size_t cell = 0;
         bool in_head = true;
         for (Piece piece; reader.next(piece);) {
-            std::uint32_t blanks = piece.blank ? 1 : 0;
+            std::uint32_t blanks = piece.blank_before ? 1 : 0;
             if (piece.begins_cell && cell + 1 < kCells) {
                 blanks += row.cells[cell];
                 ++cell;

@@ -96,7 +96,7 @@ LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column
         has_outer_place =
             has_outer_place || (piece.in_list && !in_first_module && piece.depth == 0 &&
                                 piece.break_class == BreakClass::Fine && now <= kColumns);
-        const std::uint32_t width = piece.width + (piece.blank ? 1U : 0U);
+        const std::uint32_t width = piece.width + (piece.blank_before ? 1U : 0U);
         now += width;
         row.first_module += in_first_module ? width : 0;
         row.head = in_head ? now : row.head;

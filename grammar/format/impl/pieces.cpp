@@ -126,7 +126,7 @@ bool PieceReader::skip_rest() {
 
 void PieceReader::describe(Piece& piece) {
     const bool first = index_ == 0;
-    piece.blank = !first && blank_between(before_, now_);
+    piece.blank_before = !first && blank_between(before_, now_);
     piece.begins_cell = !first && begins_cell();
     piece.in_list = in_list_;
     const bool keeps_line = now_.kind != LexemeKind::Semicolon;
@@ -136,7 +136,7 @@ void PieceReader::describe(Piece& piece) {
     piece.rank = 0;
     if (in_list_) {
         // Outer levels first, then blanks, then branches.
-        piece.rank = brackets_ * 4 + (piece.blank ? 0 : 2) + (is_module(now_, '[') ? 0 : 1);
+        piece.rank = brackets_ * 4 + (piece.blank_before ? 0 : 2) + (is_module(now_, '[') ? 0 : 1);
     }
     piece.ends_statement = false;
     piece.semicolon_only = now_.kind == LexemeKind::Semicolon;

@@ -21,7 +21,7 @@ struct Piece {
     std::uint32_t width = 0;      // of the first line
     std::uint32_t last_width = 0; // of the last line
     bool several_lines = false;   // a comment within has line ends
-    bool blank = false;           // a blank precedes the piece
+    bool blank_before = false;
     bool begins_cell = false;
     bool in_list = false;  // of modules, after the last colon
     bool own_line = false; // the author began a line here
