@@ -18,7 +18,7 @@ enum class HoudiniPlace : std::uint8_t { Premise, Successor, Condition, Probabil
 struct HoudiniScope {
     HoudiniPlace place{};
     const HoudiniRule* rule = nullptr;            // null in the premise
-    const std::vector<std::string_view>* zeros{}; // parameters that this form of the rule lacks
+    const std::vector<std::string_view>* zeros{}; // parameters that this variant of the rule lacks
 };
 
 class HoudiniExpressions {

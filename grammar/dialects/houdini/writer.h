@@ -23,8 +23,8 @@ public:
     void write(std::string_view turtle);
 
 private:
-    /// A form of a rule: how many parameters each symbol of the turtle in its head has.
-    using Form = std::vector<std::uint32_t>;
+    /// A variant of a rule: the number of parameters of each symbol of the turtle in its head.
+    using ParameterCounts = std::vector<std::uint32_t>;
 
     [[nodiscard]] std::string_view text(SourceSpan span) const {
         return session_.context.sources.text(span);
@@ -37,12 +37,14 @@ private:
     [[nodiscard]] bool reads_variable(std::string_view value) const;
 
     void write_rule(const HoudiniRule& rule, std::size_t index);
-    void write_form(const HoudiniRule& rule, const Form& form, const std::string& name);
     void
-    write_pattern(const std::vector<HoudiniModule>& modules, const Form& form, std::size_t& slot);
+    write_variant(const HoudiniRule& rule, const ParameterCounts& counts, const std::string& name);
+    void write_pattern(const std::vector<HoudiniModule>& modules,
+                       const ParameterCounts& counts,
+                       std::size_t& slot);
     void write_formals(const HoudiniModule& head, std::uint32_t count, bool has_age);
     void write_ageing(const HoudiniRule& rule, std::size_t index);
-    [[nodiscard]] std::vector<Form> forms_of(const HoudiniRule& rule) const;
+    [[nodiscard]] std::vector<ParameterCounts> all_parameter_counts(const HoudiniRule& rule) const;
     [[nodiscard]] std::string group_of(const HoudiniRule& rule) const;
     void find_chances();
     [[nodiscard]] std::string chance_of(int condition) const;
