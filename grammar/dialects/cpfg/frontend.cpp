@@ -109,7 +109,7 @@ void translate_cpfg(const DialectRow& row, const ParseContext& context, Translat
                                                      : "the file has no line `Axiom: ...`");
         return;
     }
-    CpfgWriter(session, translation).run(row.turtle);
+    CpfgWriter(session, translation).write(row.turtle);
 }
 
 } // namespace lsys

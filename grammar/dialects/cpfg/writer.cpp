@@ -21,18 +21,18 @@ CpfgWriter::CpfgWriter(CpfgSession& session, Translation& out)
     : session_(session), context_(session.context), out_(out), header_{out.file(), 0, 1},
       expressions_(session, view_.curves) {}
 
-void CpfgWriter::run(std::string_view turtle) {
+void CpfgWriter::write(std::string_view turtle) {
     find_names();
-    view();
+    read_view_file();
     expressions_.read_header();
     find_bindings();
     expressions_.begin({}, Stage::Rewrite);
-    settings(turtle);
+    write_settings(turtle);
     out_.put("\n#w : ", *session_.axiom_span);
-    modules(session_.axiom);
+    write_modules(session_.axiom);
     out_.put(";\n\n", header_);
     for (std::size_t i = 0; i < session_.productions.size(); ++i) {
-        production(i);
+        write_production(i);
     }
 }
 
@@ -45,7 +45,7 @@ bool CpfgWriter::is_always(const CpfgProduction& each) const {
 }
 
 /// Returns true when the production is chosen among others by chance.
-bool CpfgWriter::chosen(const CpfgProduction& each) const {
+bool CpfgWriter::is_random_choice(const CpfgProduction& each) const {
     return session_.seed >= 0 && each.stage == Stage::Rewrite && !each.predecessor.empty() &&
            alternatives_.at(key_of(each)) > 1;
 }
@@ -66,7 +66,7 @@ void CpfgWriter::find_bindings() {
         probe.run(each.before);
         const bool drawn_test = each.condition >= 0 && probe.term(each.condition).is_random;
         bool weighted = false;
-        if (chosen(each) && each.weight >= 0) {
+        if (is_random_choice(each) && each.weight >= 0) {
             const std::string text = probe.term(each.weight).text;
             weighted = !is_cpfg_number(text);
         }
@@ -117,7 +117,7 @@ void CpfgWriter::bind_group(const std::vector<std::size_t>& members) {
             return;
         }
     }
-    draws += chosen(session_.productions[members.front()]) ? 1 : 0;
+    draws += is_random_choice(session_.productions[members.front()]) ? 1 : 0;
     int first = 0;
     for (const std::size_t i : members) {
         const int own = bindings_[i].draws;
@@ -139,7 +139,7 @@ std::vector<std::string> CpfgWriter::formals_of(const CpfgProduction& each) cons
     return names;
 }
 
-void CpfgWriter::put_name(const CpfgModule& module) {
+void CpfgWriter::write_name(const CpfgModule& module) {
     const std::string name = spelled(module.name, module.has_arguments);
     out_.put(name, module.span);
     if (name[0] != '`' && name != module.name && used_.count(name) == 0) {
@@ -147,10 +147,10 @@ void CpfgWriter::put_name(const CpfgModule& module) {
     }
 }
 
-void CpfgWriter::modules(const std::vector<CpfgModule>& list) {
+void CpfgWriter::write_modules(const std::vector<CpfgModule>& list) {
     for (const CpfgModule& module : list) {
         const bool polygon = module.name == "{" || module.name == "}";
-        put_name(module);
+        write_name(module);
         if (!module.has_arguments || polygon) {
             continue;
         }
@@ -164,13 +164,13 @@ void CpfgWriter::modules(const std::vector<CpfgModule>& list) {
 }
 
 /// Predecessor or context: its parameters are names.
-void CpfgWriter::pattern(const std::vector<CpfgModule>& list) {
+void CpfgWriter::write_pattern(const std::vector<CpfgModule>& list) {
     for (const CpfgModule& module : list) {
         const CpfgModule* const next = &module == &list.back() ? nullptr : &module + 1;
         if (module.name == "=" && next != nullptr && next->name == "]") {
             continue; // what follows in the branch does not matter, and so it is in .lsys
         }
-        put_name(module);
+        write_name(module);
         for (std::size_t i = 0; i < module.arguments.size(); ++i) {
             const CpfgExpression& formal = expression(module.arguments[i]);
             if (formal.kind != CpfgKind::Name) {
@@ -210,17 +210,17 @@ bool CpfgWriter::check(const CpfgProduction& each) {
 }
 
 /// `#p1 : left < module > right : `
-void CpfgWriter::head(const CpfgProduction& each, const std::string& label) {
+void CpfgWriter::write_head(const CpfgProduction& each, const std::string& label) {
     const bool rewrites = each.stage == Stage::Rewrite;
     out_.put(label + " : ", each.span);
     if (!each.left.empty() && rewrites) {
-        pattern(each.left);
+        write_pattern(each.left);
         out_.put(" < ", each.span);
     }
-    pattern(each.predecessor);
+    write_pattern(each.predecessor);
     if (!each.right.empty() && rewrites) {
         out_.put(" > ", each.span);
-        pattern(each.right);
+        write_pattern(each.right);
     }
     out_.put(" : ", each.span);
 }
@@ -248,7 +248,7 @@ std::string CpfgWriter::drawing_module(std::size_t index) const {
     return "`random" + std::to_string(index + 1) + "`";
 }
 
-void CpfgWriter::formals(const std::vector<std::string>& names, int count, SourceSpan span) {
+void CpfgWriter::write_formals(const std::vector<std::string>& names, int count, SourceSpan span) {
     std::string text;
     for (const std::string& name : names) {
         text += (text.empty() ? "(" : ", ") + name;
@@ -259,7 +259,7 @@ void CpfgWriter::formals(const std::vector<std::string>& names, int count, Sourc
     out_.put(text.empty() ? text : text + ")", span);
 }
 
-void CpfgWriter::draws(const std::vector<std::string>& names, int count, SourceSpan span) {
+void CpfgWriter::write_draws(const std::vector<std::string>& names, int count, SourceSpan span) {
     std::string text;
     for (const std::string& name : names) {
         text += (text.empty() ? "(" : ", ") + name;
@@ -270,7 +270,7 @@ void CpfgWriter::draws(const std::vector<std::string>& names, int count, SourceS
     out_.put(text.empty() ? text : text + ")", span);
 }
 
-void CpfgWriter::production(std::size_t index) {
+void CpfgWriter::write_production(std::size_t index) {
     const CpfgProduction& each = session_.productions[index];
     const Binds& binds = bindings_[index];
     if (!check(each)) {
@@ -278,25 +278,25 @@ void CpfgWriter::production(std::size_t index) {
     }
     if (binds.binding == Binding::Group) {
         if (groups_.count(index) != 0) {
-            group(index);
+            write_group(index);
         }
         return;
     }
     const std::vector<std::string> names = formals_of(each);
-    head(each, label_of(each.stage, index));
+    write_head(each, label_of(each.stage, index));
     const bool own = binds.binding == Binding::Own;
     expressions_.begin({names.begin(), names.end()}, each.stage,
                        own ? CpfgDraws::Elsewhere : CpfgDraws::Inline);
     expressions_.run(each.before);
-    condition(each);
-    weight(each);
+    write_condition(each);
+    write_weight(each);
     if (own) {
-        bound(index);
+        write_bound_production(index);
         return;
     }
     expressions_.run(each.after);
     out_.put(" : ", each.arrow);
-    modules(each.successor);
+    write_modules(each.successor);
     out_.put(";\n", each.arrow);
 }
 
@@ -335,33 +335,33 @@ std::vector<std::string> CpfgWriter::read_formals(const CpfgProduction& each) {
 }
 
 /// Draws the random numbers of a production that matches, and writes its successor with them.
-void CpfgWriter::bound(std::size_t index) {
+void CpfgWriter::write_bound_production(std::size_t index) {
     const CpfgProduction& each = session_.productions[index];
     const int count = bindings_[index].draws;
     const std::vector<std::string> names = read_formals(each);
     out_.put(" : " + drawing_module(index), each.arrow);
-    draws(names, count, each.arrow);
+    write_draws(names, count, each.arrow);
     out_.put(";\n" + bound_label(each.stage, "b" + std::to_string(index + 1)) + " : " +
                  drawing_module(index),
              each.arrow);
     begin_bound(each, 0);
-    formals(names, count, each.arrow);
+    write_formals(names, count, each.arrow);
     out_.put(" : * : ", each.arrow);
     expressions_.run(each.before);
     expressions_.run(each.after);
-    modules(each.successor);
+    write_modules(each.successor);
     out_.put(";\n", each.arrow);
 }
 
 /// Draws random numbers for a module; which of its productions it takes depends on them.
-void CpfgWriter::group(std::size_t index) {
+void CpfgWriter::write_group(std::size_t index) {
     const std::vector<std::size_t>& members = groups_.at(index);
     const CpfgProduction& first = session_.productions[index];
     const int count = bindings_[index].draws;
     const std::vector<std::string> names = formals_of(first);
-    head(first, label_of(first.stage, index));
+    write_head(first, label_of(first.stage, index));
     out_.put("* : " + drawing_module(index), first.arrow);
-    draws(names, count, first.arrow);
+    write_draws(names, count, first.arrow);
     out_.put(";\n", first.arrow);
     bool always = false;
     for (const std::size_t member : members) {
@@ -371,20 +371,20 @@ void CpfgWriter::group(std::size_t index) {
                      drawing_module(index),
                  each.span);
         begin_bound(each, bindings_[member].first_draw);
-        formals(own, count, each.span);
+        write_formals(own, count, each.span);
         out_.put(" : ", each.span);
-        if (chosen(each)) {
-            weighted(each, index);
+        if (is_random_choice(each)) {
+            write_weighted_condition(each, index);
             begin_bound(each, bindings_[member].first_draw);
             expressions_.run(each.before);
         } else {
             expressions_.run(each.before);
-            condition(each);
+            write_condition(each);
         }
         always = always || is_always(each);
         expressions_.run(each.after);
         out_.put(" : ", each.arrow);
-        modules(each.successor);
+        write_modules(each.successor);
         out_.put(";\n", each.arrow);
     }
     if (!always) { // without a match the module stays
@@ -392,16 +392,16 @@ void CpfgWriter::group(std::size_t index) {
                      drawing_module(index),
                  first.span);
         begin_bound(first, 0);
-        formals(names, count, first.span);
+        write_formals(names, count, first.span);
         out_.put(" : * : " + spelled(first.predecessor.front().name,
                                      first.predecessor.front().has_arguments),
                  first.span);
-        draws(names, 0, first.span);
+        write_draws(names, 0, first.span);
         out_.put(";\n", first.span);
     }
 }
 
-void CpfgWriter::condition(const CpfgProduction& each) {
+void CpfgWriter::write_condition(const CpfgProduction& each) {
     if (each.condition < 0) {
         out_.put("*", each.span);
         return;
@@ -413,13 +413,13 @@ void CpfgWriter::condition(const CpfgProduction& each) {
     out_.put(always ? "*" : test.text, span);
 }
 
-void CpfgWriter::weight(const CpfgProduction& each) {
+void CpfgWriter::write_weight(const CpfgProduction& each) {
     if (each.weight >= 0 && session_.seed < 0) {
         expressions_.warn_left_out(
             expression(each.weight).span, "weight",
             "without `seed:` the first production that matches is taken: this is left out");
     }
-    if (!chosen(each)) {
+    if (!is_random_choice(each)) {
         return;
     }
     if (!each.left.empty() || !each.right.empty()) {
@@ -438,7 +438,7 @@ void CpfgWriter::weight(const CpfgProduction& each) {
 
 /// Writes the condition of the choice: the last random number, times the sum of the weights of all
 /// matching productions, falls into the weight of this one.
-void CpfgWriter::weighted(const CpfgProduction& each, std::size_t index) {
+void CpfgWriter::write_weighted_condition(const CpfgProduction& each, std::size_t index) {
     const std::vector<std::string> own = formals_of(each);
     std::string until;
     std::string all;
