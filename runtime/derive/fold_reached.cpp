@@ -122,7 +122,7 @@ private:
         std::vector<float> values(successor.parameter_count);
         EvalFault fault;
         const bool known =
-            knows && !is_drawn(program_, successor) &&
+            knows && !has_random_parameters(program_, successor) &&
             !contains(program_, successor.arguments, Opcode::Step) &&
             evaluate(program_, successor.arguments, frame(own), nullptr, values.data(), fault);
         take(successor, known ? values.data() : nullptr);

@@ -81,7 +81,7 @@ void draw_constant(PlantViewSettings& settings, const Constant& constant, const 
     float value = is_set ? set->value : constant.value;
     ImGui::PushID(name.c_str());
     bool changed = false;
-    if (constant.is_drawn && !is_set) {
+    if (constant.is_random && !is_set) {
         // Random in each run, unless the user sets it.
         changed = ImGui::Button("Random: set");
         value = constant.is_param ? 0.5F * (constant.minimum + constant.maximum) : 0.0F;

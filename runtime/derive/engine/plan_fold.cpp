@@ -42,7 +42,7 @@ bool Plan::fold(Code code, Entry& entry) {
 /// or kNone if the program lacks one of these modules.
 std::uint32_t Plan::folded_template(const Candidate& candidate, const float* own) {
     const WordTemplate& successor = bytecode_.productions[candidate.production].successor;
-    if (candidate.gathers || is_drawn(bytecode_, successor) ||
+    if (candidate.gathers || has_random_parameters(bytecode_, successor) ||
         folding_.codes.size() + successor.codes.count > kMostFoldedTemplateCodes ||
         contains(bytecode_, successor.arguments, Opcode::Step)) {
         return kNone;

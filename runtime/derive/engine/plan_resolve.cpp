@@ -342,7 +342,7 @@ bool Plan::bake(const Row& row, Entry& entry) const {
     if (entry.general) {
         const bool steady =
             each_generation_ || !contains(bytecode_, production.successor.arguments, Opcode::Step);
-        if (is_drawn(bytecode_, production.successor) || !steady) {
+        if (has_random_parameters(bytecode_, production.successor) || !steady) {
             return false;
         }
         const EvalFrame frame{own, inputs_.globals, static_cast<float>(generation_), inputs_.steps};
