@@ -1,6 +1,6 @@
 #include "runtime/base/workers.h"
 
-#include "runtime/base/memory_border.h"
+#include "runtime/base/out_of_memory.h"
 
 #include <algorithm>
 #include <atomic>
@@ -164,7 +164,7 @@ void Workers::for_each(std::uint64_t pieces, const std::function<void(std::uint6
         return true;
     };
     team_->run([&] {
-        if (!catch_no_memory(take_pieces, [] { return false; })) {
+        if (!catch_out_of_memory(take_pieces, [] { return false; })) {
             has_memory = false;
         }
     });

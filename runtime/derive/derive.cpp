@@ -1,7 +1,7 @@
 #include "runtime/derive/derive.h"
 
 #include "grammar/base/contract.h"
-#include "runtime/base/memory_border.h"
+#include "runtime/base/out_of_memory.h"
 #include "runtime/derive/brackets.h"
 #include "runtime/derive/engine/depth_limit.h"
 #include "runtime/derive/engine/origins.h"
@@ -304,7 +304,7 @@ struct Derivation::State {
     /// Runs `work` for a public function and keeps how it ended.
     template <typename Work>
     [[nodiscard]] std::optional<Stop> run(const Work& work) {
-        end.stop = catch_no_memory(work, [this]() -> std::optional<Stop> {
+        end.stop = catch_out_of_memory(work, [this]() -> std::optional<Stop> {
             if (passes) {
                 passes->forget();
             }

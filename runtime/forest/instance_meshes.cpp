@@ -1,7 +1,7 @@
 #include "runtime/forest/instance_meshes.h"
 
 #include "grammar/base/contract.h"
-#include "runtime/base/memory_border.h"
+#include "runtime/base/out_of_memory.h"
 #include "runtime/base/workers.h"
 
 #include <algorithm>
@@ -291,8 +291,8 @@ InstanceMeshStatus make_instance_meshes(const InstanceCache& cache,
                                         InstanceMeshes& meshes) {
     meshes = {};
     const InstanceMeshStatus status =
-        catch_no_memory([&] { return build(cache, user_meshes, options, meshes); },
-                        [] { return InstanceMeshStatus::OutOfMemory; });
+        catch_out_of_memory([&] { return build(cache, user_meshes, options, meshes); },
+                            [] { return InstanceMeshStatus::OutOfMemory; });
     if (status != InstanceMeshStatus::Ok) {
         meshes = {};
     }

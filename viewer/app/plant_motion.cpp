@@ -1,6 +1,6 @@
 #include "viewer/app/plant_motion.h"
 
-#include "runtime/base/memory_border.h"
+#include "runtime/base/out_of_memory.h"
 
 #include <algorithm>
 #include <chrono>
@@ -99,7 +99,7 @@ struct PlantMotion::State {
     }
 
     void run() {
-        catch_no_memory([this] { move_on(); }, [] {}); // without memory the last moment stays
+        catch_out_of_memory([this] { move_on(); }, [] {}); // without memory the last moment stays
     }
 };
 

@@ -79,7 +79,7 @@ Passes::run(const Word& in, Word& out, const PassKeys& keys, std::uint64_t other
     });
 }
 
-std::optional<Stop> Passes::no_memory(const Word& in, std::uint64_t bytes) {
+std::optional<Stop> Passes::report_out_of_memory(const Word& in, std::uint64_t bytes) {
     census_known_ = false;
     limit_.kind = LimitKind::Memory;
     limit_.predicted_modules = std::max(modules_, in.module_count());
@@ -108,7 +108,7 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
     }
     if (!records_.reserve(record_bytes + sizeof(R)) ||
         (searches && !contexts_.prepare(plan_, in))) {
-        return no_memory(in, before);
+        return report_out_of_memory(in, before);
     }
     cut(word);
     mask_.prepare(plan_, contexts());
@@ -129,7 +129,7 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
         return Stop::Limit;
     }
     if (!out.resize(modules_, parameters_)) {
-        return no_memory(in, limit_.predicted_bytes);
+        return report_out_of_memory(in, limit_.predicted_bytes);
     }
     if (const std::optional<Stop> stop = write<C, R>(word, out, keys)) {
         census_known_ = false;

@@ -79,7 +79,7 @@ private:
                                                    const PassKeys& keys,
                                                    ModulePlace begin,
                                                    std::uint64_t end);
-    [[nodiscard]] std::optional<Stop> no_memory(const Word& in, std::uint64_t bytes);
+    [[nodiscard]] std::optional<Stop> report_out_of_memory(const Word& in, std::uint64_t bytes);
     [[nodiscard]] bool cancelled() const;
     void report_progress(std::uint32_t generation, std::uint64_t modules);
     template <typename R>
