@@ -59,7 +59,7 @@ public:
     [[nodiscard]] Result<void> run();
     /// Repaired statements that are still wrong.
     [[nodiscard]] std::set<StatementKey> wrong() const;
-    /// Repaired statements with plausible alternatives (repair_alternatives.cpp).
+    /// Repaired statements with plausible alternatives (repair_attempt_ambiguous.cpp).
     [[nodiscard]] std::set<StatementKey> ambiguous() const;
     /// Makes the fixes of `diagnostics`, of the original text, that were not applied offers.
     void offer_doubtful(Diagnostics& diagnostics, const SourceMap& sources) const;

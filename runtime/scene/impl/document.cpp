@@ -63,9 +63,10 @@ private:
     void read_line(std::uint32_t line) {
         line_ = line;
         offsets_.clear();
-        const std::uint32_t shown = std::min(line, source_.line_count());
-        std::uint32_t at = source_.line_begin(shown);
-        const std::uint32_t end = at + static_cast<std::uint32_t>(source_.line_text(shown).size());
+        const std::uint32_t clamped = std::min(line, source_.line_count());
+        std::uint32_t at = source_.line_begin(clamped);
+        const std::uint32_t end =
+            at + static_cast<std::uint32_t>(source_.line_text(clamped).size());
         while (at < end) {
             offsets_.push_back(at);
             at += character_length(source_.text().substr(at, end - at));
@@ -128,9 +129,9 @@ SceneValue convert(const toml::node& node, std::uint32_t level, Places& places) 
         value.text = node.as_string()->get();
         break;
     case toml::node_type::integer:
-        value.kind = SceneValueKind::Whole;
-        value.whole = node.as_integer()->get();
-        value.real = static_cast<double>(value.whole);
+        value.kind = SceneValueKind::Integer;
+        value.integer = node.as_integer()->get();
+        value.real = static_cast<double>(value.integer);
         break;
     case toml::node_type::floating_point:
         value.kind = SceneValueKind::Real;
@@ -269,7 +270,7 @@ std::string_view kind_text(SceneValueKind kind) {
         return "a list";
     case SceneValueKind::Text:
         return "a text";
-    case SceneValueKind::Whole:
+    case SceneValueKind::Integer:
         return "a whole number";
     case SceneValueKind::Real:
         return "a number with a fraction";

@@ -60,10 +60,10 @@ void check_disk(TableReader& reader, const PlacementOptions& placement) {
         kDiskTrees * placement.region.area() / (placement.spacing * placement.spacing);
     if (placement.method == PlacementMethod::PoissonDisk &&
         trees > static_cast<double>(kMaxTrees)) {
-        reader.bad(reader.span_of("spacing"),
-                   fmt::format("about {} trees; one placement has at most {}",
-                               grouped_digits(static_cast<std::uint64_t>(trees)),
-                               grouped_digits(kMaxTrees)));
+        reader.report_bad_value(reader.span_of("spacing"),
+                                fmt::format("about {} trees; one placement has at most {}",
+                                            grouped_digits(static_cast<std::uint64_t>(trees)),
+                                            grouped_digits(kMaxTrees)));
     }
 }
 
@@ -89,8 +89,8 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
         if (!wanted) {
             static_cast<void>(reader.entry(key));
             if (!any) {
-                reader.refuse(key, because,
-                              reader.has("method") ? reader.span_of("method") : SourceSpan{});
+                reader.report_conflicting_key(
+                    key, because, reader.has("method") ? reader.span_of("method") : SourceSpan{});
             }
         }
         return wanted;
@@ -100,7 +100,7 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
     placement.density = kUsualDensity;
     placement.years = kUsualYears;
     if (reads(method.count, "count")) {
-        placement.count = reader.whole("count", {1, kMaxTrees}).value_or(kUsualCount);
+        placement.count = reader.integer("count", {1, kMaxTrees}).value_or(kUsualCount);
     }
     if (reads(method.spacing, "spacing")) {
         if (const auto spacing = reader.number("spacing", {kLeastSpacing, kFarthest, false, "m"})) {
@@ -119,14 +119,14 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
         if (auto map = reader.file("map")) {
             scene.density_map = std::move(*map);
         } else if (!reader.has("map")) {
-            reader.missing("map", fmt::format("the method is `{}`", method.name))
+            reader.report_missing("map", fmt::format("the method is `{}`", method.name))
                 .help.emplace_back("name a picture beside the scene: `map = \"density.png\"`");
         }
         placement.map_region = placement.region;
     }
     if (reads(method.years, "years")) {
-        placement.years =
-            static_cast<std::uint32_t>(reader.whole("years", {0, kMaxYears}).value_or(kUsualYears));
+        placement.years = static_cast<std::uint32_t>(
+            reader.integer("years", {0, kMaxYears}).value_or(kUsualYears));
     }
     reader.finish();
 }

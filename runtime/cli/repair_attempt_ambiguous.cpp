@@ -1,4 +1,4 @@
-// The comparison of repairs with their alternatives, a part of RepairAttempt.
+// RepairAttempt::ambiguous(): comparison of repairs with their alternatives.
 #include "compiler/program/program_dump.h"
 #include "runtime/cli/alternative_repairs.h"
 #include "runtime/cli/repair_attempt.h"
