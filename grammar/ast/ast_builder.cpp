@@ -282,15 +282,15 @@ void AstBuilder::recover() {
 /// Whether 32-bit ids suffice for one more statement, which has less than 2^31 nodes of each kind;
 /// reports if not.
 bool AstBuilder::has_room(SourceSpan span) {
-    constexpr std::size_t kMostNodes = std::size_t{1} << 31;
+    constexpr std::size_t kMaxNodes = std::size_t{1} << 31;
     const std::size_t most =
         std::max({ast_.expressions.size(), ast_.expression_lists.size(), ast_.modules.size(),
                   ast_.calls.size(), ast_.set_values.size(), ast_.statements.size()});
-    if (most > kMostNodes && diagnostics_.admits(DiagnosticCode::ProgramTooLarge)) {
+    if (most > kMaxNodes && diagnostics_.admits(DiagnosticCode::ProgramTooLarge)) {
         diagnostics_.add(DiagnosticCode::ProgramTooLarge, span,
                          "with this the grammar has more than 2,147,483,648 modules or values");
     }
-    return most <= kMostNodes;
+    return most <= kMaxNodes;
 }
 
 bool AstBuilder::finish_statement(SourceSpan span, bool keep) {

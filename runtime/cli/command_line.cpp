@@ -193,8 +193,8 @@ void add_forest(CLI::App& app, ForestCommand& command) {
         "Side of the ground cells whose trees share one instance node; 0: one cell (default 100)")
         ->type_name("METRES");
     add_scene_overrides(app, command.overrides, "--size");
-    constexpr std::uint64_t kMostFrames = 10'000;
-    add_parsed(app, "--frames", command.frames, whole(0, kMostFrames),
+    constexpr std::uint64_t kMaxStages = 10'000;
+    add_parsed(app, "--frames", command.frames, whole(0, kMaxStages),
                "Write N stages of a growing domination forest as numbered files")
         ->type_name("N")
         ->group("Placement");

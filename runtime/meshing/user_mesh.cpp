@@ -262,7 +262,7 @@ private:
                                   : leading != std::string_view::npos && digits[leading] == '.';
             value = tiny ? 0.0 : std::numeric_limits<double>::infinity();
         }
-        if (!(std::abs(value) <= static_cast<double>(kLargest))) {
+        if (!(std::abs(value) <= static_cast<double>(kMaxCoordinate))) {
             return std::nullopt;
         }
         return static_cast<float>(value);
@@ -445,7 +445,7 @@ private:
         }
     }
 
-    static constexpr float kLargest = 1e18F; // so that areas and lengths stay finite
+    static constexpr float kMaxCoordinate = 1e18F; // so that areas and lengths stay finite
 
     std::string_view text_;
     std::uint64_t max_bytes_;

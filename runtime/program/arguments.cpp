@@ -87,9 +87,9 @@ Result<std::uint64_t> parse_size(std::string_view text) {
     }
     const Parsed<double> parsed = parse_all<double>(digits);
     const double bytes = parsed.value * unit;
-    constexpr double kMost = 9.2e18;
+    constexpr double kMaxBytes = 9.2e18;
     const bool whole = unit > 1.0 || bytes == std::floor(bytes);
-    if (parsed.error != std::errc() || !(bytes >= 1.0) || !(bytes < kMost) || !whole) {
+    if (parsed.error != std::errc() || !(bytes >= 1.0) || !(bytes < kMaxBytes) || !whole) {
         return Error{fmt::format("`{}` is not a size such as 500M, 1.5G or 1048576", text)};
     }
     return static_cast<std::uint64_t>(bytes);

@@ -25,9 +25,9 @@ Result<ForestTile> parse_tile(const std::string& text) {
     }
     const Result<float> size =
         parse_number(std::string_view(at, static_cast<std::size_t>(end - at)), 0.0F, 1e6F);
-    constexpr std::int64_t kMost = 1'000'000;
-    if (!size || size.value() == 0.0F || tile.column < -kMost || tile.column > kMost ||
-        tile.row < -kMost || tile.row > kMost) {
+    constexpr std::int64_t kMaxTileIndex = 1'000'000;
+    if (!size || size.value() == 0.0F || tile.column < -kMaxTileIndex ||
+        tile.column > kMaxTileIndex || tile.row < -kMaxTileIndex || tile.row > kMaxTileIndex) {
         return wrong;
     }
     tile.size = static_cast<double>(size.value());

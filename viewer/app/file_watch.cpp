@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kLongest = 10; // in quiet times
+constexpr int kMaxDelay = 10; // of a report, in quiet times
 
 /// Identity of a file's contents.
 struct Stamp {
@@ -262,7 +262,7 @@ struct FileWatch::State {
             }
             // Report when quiet, or late in folders with constant writes.
             const auto first = first_change();
-            if (first && ((in_change && ready == 0) || now - *first > kLongest * options.quiet)) {
+            if (first && ((in_change && ready == 0) || now - *first > kMaxDelay * options.quiet)) {
                 report(now);
             }
         }

@@ -21,7 +21,7 @@ constexpr std::uint32_t kMaxExpansions = 1000;
 // Slower pictures, s, are reduced in quality during motion, and redrawn after a rest, s.
 constexpr double kSlowPicture = 0.12;
 constexpr double kRest = 0.25;
-constexpr std::uint64_t kFewestTriangles = 20'000;
+constexpr std::uint64_t kMinTriangles = 20'000;
 
 ForestViewSettings first_settings(const ViewOptions& options) {
     ForestViewSettings settings;
@@ -250,7 +250,7 @@ void ForestView::shown(double draw_seconds) {
     if (!is_coarse_) {
         is_slow_ = draw_seconds > kSlowPicture;
     } else if (draw_seconds > kSlowPicture) {
-        coarse_triangles_ = std::max(coarse_triangles_ / 2, kFewestTriangles);
+        coarse_triangles_ = std::max(coarse_triangles_ / 2, kMinTriangles);
     } else if (draw_seconds < 0.25 * kSlowPicture) {
         coarse_triangles_ = std::min(coarse_triangles_ * 2, settings.max_triangles);
     }

@@ -61,10 +61,10 @@ void add_picture(CLI::App& app, ViewOptions& options) {
                    "is in view)")
         ->type_name("LINE")
         ->group("Picture");
-    constexpr float kLongest = 86'400.0F;
+    constexpr float kMaxTime = 86'400.0F;
     add_parsed(
         app, "--time", options.time,
-        [](const std::string& text) { return parse_number(text, 0.0F, kLongest); },
+        [](const std::string& text) { return parse_number(text, 0.0F, kMaxTime); },
         "Seconds since the wind began (default 0)")
         ->type_name("SECONDS")
         ->group("Picture");

@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kLongestLeap = 0.1; // s: slower plants move in slow motion
+constexpr double kMaxTimeStep = 0.1; // s: slower plants move in slow motion
 
 } // namespace
 
@@ -73,7 +73,7 @@ struct PlantMotion::State {
             const Clock::time_point now = Clock::now();
             const double step = static_cast<double>(physics->options().time_step);
             const double passed =
-                std::min(std::chrono::duration<double>(now - last).count(), kLongestLeap);
+                std::min(std::chrono::duration<double>(now - last).count(), kMaxTimeStep);
             if (passed < step) {
                 std::this_thread::sleep_for(std::chrono::duration<double>(step - passed));
                 continue;

@@ -51,18 +51,18 @@ void DefinitionResolver::generations(const GenerationsNode& node, SourceSpan sta
     if (value == kPoison) {
         return;
     }
-    constexpr std::uint64_t kMost = 0xFFFFFFFE;
+    constexpr std::uint64_t kMaxGenerations = 0xFFFFFFFE;
     const SourceSpan span = resolution_.ast.expression(node.value).span();
     const float number = expressions_.constant_value(value).value_or(-1.0F);
     std::optional<std::uint64_t> count = exact_whole_number(resolution_, node.value);
     if (!count && number == std::floor(number) && number >= 0.0F && number < 0x1p32F) {
         count = static_cast<std::uint64_t>(number);
     }
-    if (!count || *count > kMost) {
+    if (!count || *count > kMaxGenerations) {
         Diagnostic& error = resolution_.diagnostics.add(
             DiagnosticCode::BadGenerations, span,
             count || number >= 0x1p32F
-                ? fmt::format("more than {} generations cannot be counted", kMost)
+                ? fmt::format("more than {} generations cannot be counted", kMaxGenerations)
                 : fmt::format("{} is not a number of generations", number));
         error.help.emplace_back("generations are a whole number from 0 on");
         return;

@@ -7,12 +7,12 @@ namespace lsys {
 namespace {
 
 constexpr std::uint32_t kIndent = 4;
-constexpr std::uint32_t kDeepestLevel = 4;
+constexpr std::uint32_t kMaxIndentLevel = 4;
 /// Lines are not broken left of this column if they can be broken right of it.
 constexpr std::uint32_t kShortLine = 40;
 
 std::uint32_t indent_of(std::uint32_t depth) {
-    return kIndent * (1 + std::min(depth, kDeepestLevel));
+    return kIndent * (1 + std::min(depth, kMaxIndentLevel));
 }
 
 } // namespace

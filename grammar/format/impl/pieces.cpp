@@ -8,7 +8,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kLongestRow = 16;
+constexpr std::uint32_t kMaxRowLength = 16;
 
 bool is_tight(const Lexeme& lexeme) {
     return lexeme.kind == LexemeKind::Operator &&
@@ -186,7 +186,7 @@ bool PieceReader::continues_row(const Lexeme& after) const {
     return after.kind == LexemeKind::Module && before_.kind == LexemeKind::Module &&
            !after.blank_before && after.text[0] == before_.text[0] && after.text.size() == 1 &&
            before_.text.size() == 1 && !opens_bracket(after) && !closes_bracket(after) &&
-           row_ < kLongestRow;
+           row_ < kMaxRowLength;
 }
 
 bool PieceReader::ends_before(const Lexeme& after) const {

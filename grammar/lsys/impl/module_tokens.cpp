@@ -14,7 +14,7 @@ namespace lsys::lsys_grammar {
 
 namespace {
 
-constexpr std::size_t kLongestQuotedName = 16;
+constexpr std::size_t kMaxQuotedNameLength = 16;
 
 /// A symbol of other programs and its replacement in this language.
 struct ForeignSymbol {
@@ -231,14 +231,14 @@ NameId quoted_name(ParseSession& session, std::string_view text, SourceSpan span
     const std::string_view name = text.substr(1, text.size() - 2);
     std::size_t count = 0;
     bool printable = true;
-    for (std::size_t at = 0; at < name.size() && count <= kLongestQuotedName;) {
+    for (std::size_t at = 0; at < name.size() && count <= kMaxQuotedNameLength;) {
         const CodePoint point = decode_utf8(name.substr(at));
         printable =
             printable && point.value > 0x20 && !(point.value >= 0x7F && point.value <= 0xA0);
         at += point.length;
         ++count;
     }
-    if ((count == 0 || count > kLongestQuotedName || !printable) &&
+    if ((count == 0 || count > kMaxQuotedNameLength || !printable) &&
         session.wants(DiagnosticCode::BadQuotedName)) {
         Diagnostic& diagnostic = session.report(
             DiagnosticCode::BadQuotedName, span,

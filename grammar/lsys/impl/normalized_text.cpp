@@ -113,7 +113,7 @@ void replace_strays(std::string_view valid,
 void normalize_source(const ParseContext& context,
                       Diagnostics& diagnostics,
                       NormalizedText& normalized) {
-    constexpr int kMostScans = 8; // only malicious texts need more
+    constexpr int kMaxScans = 8; // only malicious texts need more
     const std::string_view valid = normalized.scanned.text;
     std::vector<StrayCharacter> strays;
     for (int scan = 1;; ++scan) {
@@ -122,7 +122,7 @@ void normalize_source(const ParseContext& context,
         if (strays.size() == known) {
             break;
         }
-        if (scan == kMostScans) {
+        if (scan == kMaxScans) {
             strays = all_beyond_ascii(valid);
             break;
         }

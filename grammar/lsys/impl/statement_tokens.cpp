@@ -385,8 +385,8 @@ void report_unclosed(ParseSession& session) {
                                    " are open, one inside the other");
     }
     std::string closing;
-    constexpr std::size_t kMostInserted = 100;
-    for (std::size_t i = scan.open.size(); i > 0 && closing.size() < kMostInserted; --i) {
+    constexpr std::size_t kMaxInserted = 100;
+    for (std::size_t i = scan.open.size(); i > 0 && closing.size() < kMaxInserted; --i) {
         closing += scan.open[i - 1].kind == OpenBracket::Kind::Brace ? '}' : ')';
     }
     if (closing.size() == scan.open.size()) {

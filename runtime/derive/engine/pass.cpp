@@ -23,7 +23,7 @@ constexpr Code kCensusCodes = 4096;
 constexpr std::uint64_t kCountedInParallel = 1U << 22;
 /// Threads end at about the same time if each has several chunks, none of them too small.
 constexpr std::uint64_t kChunksPerThread = 6;
-constexpr std::uint64_t kLeastChunk = 1U << 14;
+constexpr std::uint64_t kMinChunk = 1U << 14;
 /// Shorter words take one thread less time than two need to synchronize. Threads are started a few
 /// generations before, because that takes as long as a word of kWorthStarting modules.
 constexpr std::uint64_t kWorthSharing = 1U << 17;
@@ -146,14 +146,14 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
 template <typename C>
 void Passes::cut(const WordView<C>& word) {
     std::uint64_t size = std::max(options_.chunk_modules, 1U);
-    if (workers_.count() > 1 && size > kLeastChunk) {
+    if (workers_.count() > 1 && size > kMinChunk) {
         if (word.count >= kWorthStarting) {
             workers_.start();
         }
         size =
             word.count < kWorthSharing
                 ? kWorthSharing
-                : std::clamp(word.count / (workers_.count() * kChunksPerThread), kLeastChunk, size);
+                : std::clamp(word.count / (workers_.count() * kChunksPerThread), kMinChunk, size);
     }
     chunks_.assign((word.count + size - 1) / size, {});
     for (std::uint64_t i = 0; i < chunks_.size(); ++i) {

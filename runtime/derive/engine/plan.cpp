@@ -19,7 +19,7 @@ void append_code(Code code, std::uint32_t width, std::vector<std::byte>& pool) {
 }
 
 /// Programs with more codes are rewritten without folded templates.
-constexpr Code kMostFoldedCodes = 4096;
+constexpr Code kMaxFoldedCodes = 4096;
 
 bool uses_step(const Bytecode& bytecode, std::uint32_t first) {
     return first != kNone && contains(bytecode, first, Opcode::Step);
@@ -45,7 +45,7 @@ Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generat
     make_guards();
     make_entries();
     if (parallel_) {
-        if (has_parameters_ && bytecode_.code_count() <= kMostFoldedCodes) {
+        if (has_parameters_ && bytecode_.code_count() <= kMaxFoldedCodes) {
             folding_.index.emplace(bytecode_);
         }
         for (const Candidate& candidate : candidates_) {
@@ -192,9 +192,9 @@ void Plan::make_families() {
 /// If every candidate of a family has a left context, a look at the left neighbour settles most
 /// modules; likewise on the right.
 void Plan::make_guards() {
-    constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 22;
+    constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 22;
     const Code codes = bytecode_.code_count();
-    if (std::uint64_t{codes} * families_.size() * 2 > kMostBytes) {
+    if (std::uint64_t{codes} * families_.size() * 2 > kMaxBytes) {
         return;
     }
     const auto accept = [&](std::uint32_t& guard, SymbolId symbol) {

@@ -198,7 +198,7 @@ void Plan::resolve(std::uint32_t family_index, Code code) {
 /// Makes the tests of a row if single comparisons alone decide: no contexts, no chance, no other
 /// conditions. Returns whether they do.
 bool Plan::resolve_tests(const Family& family, Code code) {
-    constexpr std::size_t kMostTests = 16;
+    constexpr std::size_t kMaxTests = 16;
     Row& row = rows_[code];
     if (row.constants != kNone) {
         return false;
@@ -210,7 +210,7 @@ bool Plan::resolve_tests(const Family& family, Code code) {
         if (candidate.condition == ConditionKind::Never) {
             continue;
         }
-        if (candidate.has_context || candidate.stochastic || found.size() == kMostTests ||
+        if (candidate.has_context || candidate.stochastic || found.size() == kMaxTests ||
             candidate.condition == ConditionKind::Expression ||
             (candidate.condition == ConditionKind::Comparisons && all.size() != 1)) {
             return false;

@@ -14,8 +14,8 @@ namespace lsys {
 
 namespace {
 
-constexpr double kLeastSide = 0.25;     // m, of a region: several steps of binary32 anywhere
-constexpr double kLeastSpacing = 0.001; // m
+constexpr double kMinSide = 0.25;     // m, of a region: several steps of binary32 anywhere
+constexpr double kMinSpacing = 0.001; // m
 /// Max places to sample in a density map, which may be black nearly everywhere.
 constexpr double kMaxMapPlaces = 1.0e9;
 /// Trees of a Poisson disk sample in a square of the spacing: random sequential adsorption covers
@@ -108,9 +108,9 @@ Result<double> expected_trees(const PlacementOptions& options) {
         }
         return {};
     };
-    const Bound spacing{"spacing", options.spacing, kLeastSpacing, kFarthest};
-    const Bound density{"density", options.density, 1.0 / (kFarthest * kFarthest),
-                        1.0 / (kLeastSpacing * kLeastSpacing)};
+    const Bound spacing{"spacing", options.spacing, kMinSpacing, kMaxCoordinate};
+    const Bound density{"density", options.density, 1.0 / (kMaxCoordinate * kMaxCoordinate),
+                        1.0 / (kMinSpacing * kMinSpacing)};
     const double area = options.region.area();
     Result<void> checked;
     double trees = 0.0;
@@ -167,9 +167,9 @@ Result<double> check_placement(const PlacementOptions& options) {
     if (const Result<void> checked = check_region(options.region); !checked) {
         return checked.error();
     }
-    if (options.region.width < kLeastSide || options.region.depth < kLeastSide) {
+    if (options.region.width < kMinSide || options.region.depth < kMinSide) {
         return Error{fmt::format("a region of {} by {} m is too small for trees; the least is {} m",
-                                 options.region.width, options.region.depth, kLeastSide)};
+                                 options.region.width, options.region.depth, kMinSide)};
     }
     if (const Result<void> checked = check_species(options); !checked) {
         return checked.error();

@@ -198,7 +198,7 @@ void report_syntax(const toml::parse_error& error, Places& places, Diagnostics& 
 
 /// toml++ and the reader of its tables recurse over the parts of a key. toml++ limits the depth of
 /// values, but not of keys.
-constexpr std::uint32_t kMostKeyParts = 16;
+constexpr std::uint32_t kMaxKeyParts = 16;
 
 bool is_bare(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -247,7 +247,7 @@ std::optional<SourceSpan> find_long_key(FileId file, std::string_view text) {
         if (is_part) {
             begin = after_dot ? begin : at;
             parts = after_dot ? parts + 1 : 1;
-            if (parts > kMostKeyParts) {
+            if (parts > kMaxKeyParts) {
                 return SourceSpan{file, static_cast<std::uint32_t>(begin),
                                   static_cast<std::uint32_t>(end)};
             }
@@ -294,7 +294,7 @@ read_toml(FileId file, const SourceMap& sources, Diagnostics& diagnostics) {
     Places places(file, source);
     if (const std::optional<SourceSpan> key = find_long_key(file, source.text())) {
         diagnostics.add(DiagnosticCode::SceneSyntax, *key,
-                        fmt::format("a key of more than {} parts", kMostKeyParts));
+                        fmt::format("a key of more than {} parts", kMaxKeyParts));
         return std::nullopt;
     }
     const toml::parse_result result = toml::parse(source.text());

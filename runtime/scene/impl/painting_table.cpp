@@ -14,8 +14,8 @@ namespace lsys {
 namespace {
 
 constexpr std::size_t kNumbersOfTree = 5;
-constexpr double kLeastScale = 1e-3;
-constexpr double kGreatestScale = 1e3;
+constexpr double kMinScale = 1e-3;
+constexpr double kMaxScale = 1e3;
 
 /// One row of `trees`: species, x, z, yaw, scale.
 void read_tree(const SceneValue& row,
@@ -37,13 +37,13 @@ void read_tree(const SceneValue& row,
         }
         return;
     }
-    const NumberRange place{-kFarthest, kFarthest, false, "m"};
+    const NumberRange place{-kMaxCoordinate, kMaxCoordinate, false, "m"};
     const auto x = reader.number_of(row.items[1], "x of a painted tree", place);
     const auto z = reader.number_of(row.items[2], "z of a painted tree", place);
     const auto yaw = reader.number_of(row.items[3], "the yaw of a painted tree",
                                       {-360.0, 360.0, false, "degrees"});
     const auto scale = reader.number_of(row.items[4], "the scale of a painted tree",
-                                        {kLeastScale, kGreatestScale, false, {}});
+                                        {kMinScale, kMaxScale, false, {}});
     if (x && z && yaw && scale) {
         painting.trees.push_back({static_cast<std::uint16_t>(species - names.begin()),
                                   static_cast<float>(*x), static_cast<float>(*z),

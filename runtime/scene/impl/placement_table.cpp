@@ -36,8 +36,8 @@ constexpr std::uint64_t kUsualCount = 1000;
 constexpr double kUsualSpacing = 5.0;  // m
 constexpr double kUsualDensity = 0.04; // 400 per hectare
 constexpr std::uint32_t kUsualYears = 100;
-constexpr double kLeastSpacing = 0.001; // m
-constexpr double kDiskTrees = 0.7;      // PoissonDisk: trees per square of the spacing
+constexpr double kMinSpacing = 0.001; // m
+constexpr double kDiskTrees = 0.7;    // PoissonDisk: trees per square of the spacing
 
 /// The sentence about keys that the method does not read.
 std::string keys_of(const MethodRow& method) {
@@ -103,15 +103,16 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
         placement.count = reader.integer("count", {1, kMaxTrees}).value_or(kUsualCount);
     }
     if (reads(method.spacing, "spacing")) {
-        if (const auto spacing = reader.number("spacing", {kLeastSpacing, kFarthest, false, "m"})) {
+        if (const auto spacing =
+                reader.number("spacing", {kMinSpacing, kMaxCoordinate, false, "m"})) {
             placement.spacing = *spacing;
             check_disk(reader, placement);
         }
     }
     if (reads(method.density, "density")) {
         placement.density = reader
-                                .number("density", {1.0 / (kFarthest * kFarthest),
-                                                    1.0 / (kLeastSpacing * kLeastSpacing), false,
+                                .number("density", {1.0 / (kMaxCoordinate * kMaxCoordinate),
+                                                    1.0 / (kMinSpacing * kMinSpacing), false,
                                                     "trees a square metre"})
                                 .value_or(kUsualDensity);
     }

@@ -13,27 +13,28 @@ namespace {
 constexpr std::string_view kKinds[] = {"flat", "noise",
                                        "height-map"};            // in the order of TerrainKind
 constexpr std::string_view kFilters[] = {"bilinear", "bicubic"}; // in the order of HeightFilter
-constexpr NumberRange kAltitude{-kFarthest, kFarthest, false, "m"};
-constexpr double kLeastSide = 0.25; // m, on which trees can be placed
-constexpr double kMostOfSide = static_cast<double>(kMaxMapPixels) / 2.0; // pixels
+constexpr NumberRange kAltitude{-kMaxCoordinate, kMaxCoordinate, false, "m"};
+constexpr double kMinSide = 0.25; // m, on which trees can be placed
+constexpr double kMaxMapSide = static_cast<double>(kMaxMapPixels) / 2.0; // pixels
 
 void read_region(TableReader& reader, Region& region) {
-    if (const auto origin = reader.pair("origin", {-kFarthest, kFarthest, false, "m"}, false)) {
+    if (const auto origin =
+            reader.pair("origin", {-kMaxCoordinate, kMaxCoordinate, false, "m"}, false)) {
         region.x = (*origin)[0];
         region.z = (*origin)[1];
     }
-    const auto size = reader.pair("size", {kLeastSide, 2.0 * kFarthest, false, "m"}, true);
+    const auto size = reader.pair("size", {kMinSide, 2.0 * kMaxCoordinate, false, "m"}, true);
     if (!size) {
         return;
     }
     region.width = (*size)[0];
     region.depth = (*size)[1];
-    if (region.x + region.width > kFarthest || region.z + region.depth > kFarthest) {
+    if (region.x + region.width > kMaxCoordinate || region.z + region.depth > kMaxCoordinate) {
         reader.report_bad_value(
             reader.span_of("size"),
             fmt::format("the ground reaches farther than {:.0f} km from the origin, where "
                         "places are no longer exact",
-                        kFarthest / 1000.0));
+                        kMaxCoordinate / 1000.0));
     }
 }
 
@@ -44,15 +45,16 @@ void read_noise(TableReader& reader, NoiseOptions& noise) {
         reader.number("lacunarity", {1.0, 8.0, false, {}}).value_or(noise.lacunarity);
     noise.gain = reader.number("gain", {0.0, 1.0, false, {}}).value_or(noise.gain);
     noise.feature =
-        reader.number("feature", {1.0e-3, kFarthest, false, "m"}).value_or(noise.feature);
-    noise.height = reader.number("height", {0.0, kFarthest, false, "m"}).value_or(noise.height);
+        reader.number("feature", {1.0e-3, kMaxCoordinate, false, "m"}).value_or(noise.feature);
+    noise.height =
+        reader.number("height", {0.0, kMaxCoordinate, false, "m"}).value_or(noise.height);
     noise.seed =
         reader.integer("seed", {0, std::numeric_limits<std::int64_t>::max()}).value_or(noise.seed);
 }
 
 void read_map_size(TableReader& reader, SceneTerrain& terrain) {
     const bool raw = terrain.map.path.ends_with(".raw") || terrain.map.path.ends_with(".r16");
-    const auto size = reader.pair("map_size", {2.0, kMostOfSide, false, "pixels"}, true);
+    const auto size = reader.pair("map_size", {2.0, kMaxMapSide, false, "pixels"}, true);
     if (!size) {
         if (raw && !reader.has("map_size")) {
             reader.report_missing("map_size", "the terrain has a map of raw samples")

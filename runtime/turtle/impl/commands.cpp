@@ -229,8 +229,8 @@ void Turtle::State::set_sides(float sides) {
 }
 
 void Turtle::State::set_colour(double index) {
-    constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
-    const double fitting = std::clamp(std::round(index), 0.0, kMost);
+    constexpr double kMaxColour = std::numeric_limits<std::uint16_t>::max();
+    const double fitting = std::clamp(std::round(index), 0.0, kMaxColour);
     if (fitting != std::round(index)) {
         note(TurtleFaultKind::ColourOutOfRange);
     }

@@ -48,7 +48,7 @@ struct Brush {
 /// Where words are texts: the last command, which is obeyed when what follows is known, and the
 /// text of its parameter.
 struct PendingCommand {
-    static constexpr std::size_t kLongest = 1023;
+    static constexpr std::size_t kMaxLength = 1023;
     bool there = false;
     bool in_parameter = false;
     Action action;
@@ -160,8 +160,8 @@ struct Turtle::State {
     bool has_room(Items& items);
     bool is_finite_pose();
     [[nodiscard]] std::uint16_t order() const {
-        constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
-        return static_cast<std::uint16_t>(std::min(stack.size(), kMost));
+        constexpr std::size_t kMaxOrder = std::numeric_limits<std::uint16_t>::max();
+        return static_cast<std::uint16_t>(std::min(stack.size(), kMaxOrder));
     }
 
     const Bytecode& bytecode;

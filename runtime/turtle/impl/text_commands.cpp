@@ -37,7 +37,7 @@ bool Turtle::State::obey_pending() {
 bool Turtle::State::take_character(const Action& action, Code character, const float* arguments) {
     if (pending.in_parameter) {
         if (action.operation != TurtleOperation::ParameterEnd) {
-            if (pending.text.size() < PendingCommand::kLongest) {
+            if (pending.text.size() < PendingCommand::kMaxLength) {
                 pending.text += action.character == '\0' ? '?' : action.character;
             }
             return true;
