@@ -105,7 +105,7 @@ void Turtle::State::run_some(std::span<const C> codes,
         if constexpr (kOrigins) {
             origin = origins[at - begin];
         }
-        if (cut != 0 ? !skip(action) : !obey(action, arguments)) {
+        if (cut != 0 ? !skip(action) : !execute(action, arguments)) {
             return;
         }
         if constexpr (kOrigins) {
@@ -270,7 +270,7 @@ std::optional<Stop> Turtle::feed(std::span<const Code> codes,
 std::optional<Stop> Turtle::finish() {
     State& state = *state_;
     if (!state.end.stop && state.pending.there && !state.pending.in_parameter) {
-        if (state.obey_pending() && state.keeps_origins) {
+        if (state.execute_pending() && state.keeps_origins) {
             static_cast<void>(state.take_origin(state.pending.origin));
         }
     }

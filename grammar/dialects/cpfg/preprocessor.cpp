@@ -130,11 +130,11 @@ private:
         std::string_view rest = trimmed(std::string_view(line).substr(1));
         const std::string_view word = rest.substr(0, name_length(rest));
         rest = trimmed(rest.substr(word.size()));
-        obey(word, rest, span);
+        execute(word, rest, span);
         return at;
     }
 
-    void obey(std::string_view word, std::string_view rest, SourceSpan span) {
+    void execute(std::string_view word, std::string_view rest, SourceSpan span) {
         const std::string name(rest.substr(0, name_length(rest)));
         if (word == "ifdef" || word == "ifndef") {
             const bool known = macros_.count(name) != 0;

@@ -242,7 +242,7 @@ void Turtle::State::scale_angle(float factor) {
     now.turn = half_angle(static_cast<double>(now.angle));
 }
 
-bool Turtle::State::obey(const Action& action, const float* arguments) {
+bool Turtle::State::execute(const Action& action, const float* arguments) {
     const Settings& settings = bytecode.settings;
     // The angle of a turn that is not constant: from the word, or the setting as it is now.
     const auto turn = [&]() -> HalfAngle {

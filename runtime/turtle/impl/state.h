@@ -45,8 +45,7 @@ struct Brush {
     bool moved = false; // since the segment was drawn
 };
 
-/// Where words are texts: the last command, which is obeyed when what follows is known, and the
-/// text of its parameter.
+/// The last command of a word that is text, executed once the text of its parameter is complete.
 struct PendingCommand {
     static constexpr std::size_t kMaxLength = 1023;
     bool there = false;
@@ -111,10 +110,10 @@ struct Turtle::State {
     template <typename C>
     void run_text(std::span<const C> codes, const float*& parameters, const Origin* origins);
     bool take_character(const Action& action, Code character, const float* arguments);
-    bool obey_pending();
+    bool execute_pending();
     bool take_origin(const Origin& origin);
     /// Executes one action. Returns false if the drawing has ended; `end.stop` is the reason.
-    bool obey(const Action& action, const float* arguments);
+    bool execute(const Action& action, const float* arguments);
     bool forward(const Action& action, const float* arguments, float part);
     bool tapered(const Action& action, const float* arguments);
     bool draw(double length, float base_width, float tip_width, float spring, const float* mass);

@@ -1,6 +1,5 @@
 // Words that are texts (L3D): a `(` right behind a command begins the text of its parameter, up to
-// the first `)`. So a command is obeyed when the module behind it, or that parenthesis, has been
-// seen.
+// the first `)`. So a command is executed when the module behind it, or that parenthesis, is read.
 #include "runtime/turtle/impl/text_commands.h"
 
 #include "runtime/turtle/impl/state.h"
@@ -24,13 +23,13 @@ float leading_number(std::string_view text) {
     return value;
 }
 
-bool Turtle::State::obey_pending() {
+bool Turtle::State::execute_pending() {
     pending.there = false;
     position = pending.position;
     code = pending.code;
     origin = pending.origin;
     const Action& action = pending.action;
-    return cut != 0 ? skip(action) : obey(action, action.arguments.data());
+    return cut != 0 ? skip(action) : execute(action, action.arguments.data());
 }
 
 /// False: the drawing has ended.
@@ -50,7 +49,7 @@ bool Turtle::State::take_character(const Action& action, Code character, const f
             pending.action.given = 1;
             pending.action.arguments[0] = value;
         }
-        return obey_pending();
+        return execute_pending();
     }
     if (pending.there) {
         if (action.operation == TurtleOperation::ParameterBegin) {
@@ -58,7 +57,7 @@ bool Turtle::State::take_character(const Action& action, Code character, const f
             pending.text.clear();
             return true;
         }
-        if (!obey_pending()) {
+        if (!execute_pending()) {
             return false;
         }
     }
@@ -66,7 +65,7 @@ bool Turtle::State::take_character(const Action& action, Code character, const f
     if (action.operation == TurtleOperation::SaveBranch) { // it may have any number of arguments
         pending.action = {};
         code = character;
-        return cut != 0 ? skip(action) : obey(action, arguments);
+        return cut != 0 ? skip(action) : execute(action, arguments);
     }
     pending.action = action;
     for (std::uint32_t i = 0; i < action.given; ++i) {
