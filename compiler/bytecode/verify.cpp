@@ -148,7 +148,7 @@ private:
             const SiteRange range = bytecode_.site_ranges[i];
             if (range.site >= bytecode_.sites.size() || range.instruction < next ||
                 range.instruction >= bytecode_.instructions.size()) {
-                return fail("site mark {} is out of place", i);
+                return fail("site range {} is out of place", i);
             }
             next = std::uint64_t{range.instruction} + 1;
         }
