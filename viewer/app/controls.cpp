@@ -60,7 +60,7 @@ void step_generations(PlantView& view, int step) {
     }
 }
 
-void next_key(ForestView& view) {
+void next_forest_key(ForestView& view) {
     const std::uint64_t shown =
         view.document() == nullptr ? 0 : view.document()->scene.placement.key;
     view.settings.edits.key = shown + 1;
@@ -282,7 +282,7 @@ void Controls::press(const KeyPress& press, ForestView& view, PanelState& panels
         settings.shadows = !settings.shadows;
         break;
     case Key::N:
-        next_key(view);
+        next_forest_key(view);
         break;
     default:
         break;

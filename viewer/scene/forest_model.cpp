@@ -94,11 +94,11 @@ void find_impostors(TreeForm& form, std::uint64_t key, std::size_t most) {
     }
 }
 
-/// Measures the bounding cylinder and the mean count of branches of the impostors. `seen`: meshes
-/// of the branches.
-void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& seen) {
-    const LargeVector<std::uint32_t> indices = seen.mesh.indices.expanded();
-    const LargeVector<glm::vec3>& positions = seen.mesh.positions;
+/// Measures the bounding cylinder and the mean count of branches of the impostors from the meshes of
+/// their branches.
+void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& meshes) {
+    const LargeVector<std::uint32_t> indices = meshes.mesh.indices.expanded();
+    const LargeVector<glm::vec3>& positions = meshes.mesh.positions;
     TreeExpander expander(*form.cache, key);
     const auto count = static_cast<double>(form.impostor_trees.size());
     float radius2 = 0.0F;
@@ -107,7 +107,7 @@ void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& 
             form.branches += 1.0 / count;
             const InstancePose pose = pose_of(branch, form.cache->instances[branch.instance]);
             const glm::mat3 turn = pose.scale * glm::mat3_cast(pose.rotation);
-            for (const MeshPart& part : seen.parts_of(branch.instance)) {
+            for (const MeshPart& part : meshes.parts_of(branch.instance)) {
                 for (std::uint64_t i = 0; i < part.index_count; ++i) {
                     const glm::vec3 at =
                         turn * positions[indices[part.first_index + i]] + pose.translation;

@@ -35,7 +35,6 @@ public:
     [[nodiscard]] bool bake_impostors(double seconds, MaterialTextures& textures);
     /// Adds or removes a tree: ForestLod::change_tree().
     void change_tree(std::uint32_t index, const Tree& tree, bool alive);
-    [[nodiscard]] bool shows() const { return lod_ != nullptr; }
     [[nodiscard]] const Bounds& bounds() const { return lod_->bounds(); }
 
     /// Box of the shadow map for a camera; changes only in large steps of the camera.
