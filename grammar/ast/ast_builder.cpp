@@ -283,14 +283,14 @@ void AstBuilder::recover() {
 /// reports if not.
 bool AstBuilder::has_room(SourceSpan span) {
     constexpr std::size_t kMaxNodes = std::size_t{1} << 31;
-    const std::size_t most =
+    const std::size_t max_count =
         std::max({ast_.expressions.size(), ast_.expression_lists.size(), ast_.modules.size(),
                   ast_.calls.size(), ast_.set_values.size(), ast_.statements.size()});
-    if (most > kMaxNodes && diagnostics_.admits(DiagnosticCode::ProgramTooLarge)) {
+    if (max_count > kMaxNodes && diagnostics_.admits(DiagnosticCode::ProgramTooLarge)) {
         diagnostics_.add(DiagnosticCode::ProgramTooLarge, span,
                          "with this the grammar has more than 2,147,483,648 modules or values");
     }
-    return most <= kMaxNodes;
+    return max_count <= kMaxNodes;
 }
 
 bool AstBuilder::finish_statement(SourceSpan span, bool keep) {

@@ -26,7 +26,7 @@ public:
         : program_(bytecode), globals_(std::move(globals)), generations_(generations),
           index_(program_), seen_(program_.code_count(), false) {
         const std::uint32_t width = code_width(bytecode.code_count());
-        most_codes_ = std::min(width == 1 ? 256U : 65'536U, kMaxCodes);
+        max_codes_ = std::min(width == 1 ? 256U : 65'536U, kMaxCodes);
         by_symbol_.resize(bytecode.symbols.size());
         parts_.resize(bytecode.symbols.size());
         for (std::uint32_t i = 0; i < bytecode.productions.size(); ++i) {
@@ -150,7 +150,7 @@ private:
             return known;
         }
         const Code code = program_.code_count();
-        if (code >= most_codes_) {
+        if (code >= max_codes_) {
             ok_ = false;
             return 0;
         }
@@ -190,7 +190,7 @@ private:
     std::vector<Code> next_; // first written at the next age
     Table by_symbol_;
     Table parts_; // productions of #decompose
-    std::uint32_t most_codes_ = 0;
+    std::uint32_t max_codes_ = 0;
     std::uint64_t trials_ = 0;
     bool bare_axiom_ = false; // the axiom stored parameters and no longer does
     bool ok_ = true;

@@ -468,11 +468,11 @@ private:
 } // namespace
 
 float UserMesh::length() const {
-    float greatest = 0.0F;
+    float height = 0.0F;
     for (const glm::vec3& position : positions) {
-        greatest = std::max(greatest, position.y);
+        height = std::max(height, position.y);
     }
-    return greatest;
+    return height;
 }
 
 std::uint64_t UserMesh::byte_count() const {

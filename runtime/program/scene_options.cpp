@@ -34,8 +34,8 @@ Result<ForestTile> parse_tile(const std::string& text) {
     return tile;
 }
 
-auto metres(float least) {
-    return [least](const std::string& text) { return parse_number(text, least, 1e6F); };
+auto metres(float min) {
+    return [min](const std::string& text) { return parse_number(text, min, 1e6F); };
 }
 
 void add_placement(CLI::App& app, SceneOverrides& overrides, const char* size) {

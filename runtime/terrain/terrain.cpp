@@ -23,16 +23,16 @@ constexpr double kMinSlopeStep = 0.05; // m; binary32 resolves no less far from 
 /// Generation of the draws of terrains, beyond those of derivations.
 constexpr std::uint32_t kTerrainGeneration = 0xFFFFFFFCu;
 
-bool within(double value, double least, double most) {
-    return value >= least && value <= most; // false for NaN
+bool within(double value, double min, double max) {
+    return value >= min && value <= max; // false for NaN
 }
 
 Result<void> check_noise(const NoiseOptions& options) {
     struct Bound {
         std::string_view name;
         double value;
-        double least;
-        double most;
+        double min;
+        double max;
     };
     const std::array<Bound, 6> bounds{
         Bound{"octaves", static_cast<double>(options.octaves), 1.0, kMaxOctaves},
@@ -43,10 +43,10 @@ Result<void> check_noise(const NoiseOptions& options) {
         Bound{"base", options.base, -kMaxCoordinate, kMaxCoordinate},
     };
     for (const Bound& bound : bounds) {
-        if (!within(bound.value, bound.least, bound.most)) {
+        if (!within(bound.value, bound.min, bound.max)) {
             return Error{
                 fmt::format("the {} of the terrain's noise is {}; it must be from {} to {}",
-                            bound.name, bound.value, bound.least, bound.most)};
+                            bound.name, bound.value, bound.min, bound.max)};
         }
     }
     return {};

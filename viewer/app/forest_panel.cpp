@@ -35,23 +35,23 @@ void draw_edit(const char* name, Value shown, std::optional<Value>& edit, const 
 void edit_whole(const char* name,
                 std::uint64_t shown,
                 std::optional<std::uint64_t>& edit,
-                std::uint64_t least,
-                std::uint64_t most) {
+                std::uint64_t min,
+                std::uint64_t max) {
     draw_edit(name, shown, edit, [&](std::uint64_t& value) {
         const float speed = std::max(0.01F * static_cast<float>(value), 0.2F);
-        return ImGui::DragScalar("##value", ImGuiDataType_U64, &value, speed, &least, &most,
-                                 nullptr, ImGuiSliderFlags_AlwaysClamp);
+        return ImGui::DragScalar("##value", ImGuiDataType_U64, &value, speed, &min, &max, nullptr,
+                                 ImGuiSliderFlags_AlwaysClamp);
     });
 }
 
 void edit_whole(const char* name,
                 std::uint32_t shown,
                 std::optional<std::uint32_t>& edit,
-                std::uint32_t least,
-                std::uint32_t most,
+                std::uint32_t min,
+                std::uint32_t max,
                 const char* format = "%u") {
     draw_edit(name, shown, edit, [&](std::uint32_t& value) {
-        return ImGui::SliderScalar("##value", ImGuiDataType_U32, &value, &least, &most, format,
+        return ImGui::SliderScalar("##value", ImGuiDataType_U32, &value, &min, &max, format,
                                    ImGuiSliderFlags_AlwaysClamp);
     });
 }
@@ -59,13 +59,13 @@ void edit_whole(const char* name,
 void edit_length(const char* name,
                  double shown,
                  std::optional<double>& edit,
-                 double least,
-                 double most,
+                 double min,
+                 double max,
                  const char* format) {
     draw_edit(name, shown, edit, [&](double& value) {
         const float speed = std::max(0.01F * static_cast<float>(value), 1e-4F);
-        return ImGui::DragScalar("##value", ImGuiDataType_Double, &value, speed, &least, &most,
-                                 format, ImGuiSliderFlags_AlwaysClamp);
+        return ImGui::DragScalar("##value", ImGuiDataType_Double, &value, speed, &min, &max, format,
+                                 ImGuiSliderFlags_AlwaysClamp);
     });
 }
 
@@ -135,15 +135,15 @@ void draw_painting(ForestView& view) {
             for (std::size_t i = 0; i < species.size(); ++i) {
                 if (ImGui::Selectable(species[i].name.c_str(), i == brush.species)) {
                     brush.species = static_cast<std::uint16_t>(i);
-                    brush.least_scale = document->scene.placement.species[i].least_scale;
-                    brush.greatest_scale = document->scene.placement.species[i].greatest_scale;
+                    brush.min_scale = document->scene.placement.species[i].min_scale;
+                    brush.max_scale = document->scene.placement.species[i].max_scale;
                 }
             }
             ImGui::EndCombo();
         }
     }
-    ImGui::DragFloatRange2("Scale", &brush.least_scale, &brush.greatest_scale, 0.005F, 0.01F,
-                           100.0F, "%.2f", nullptr, ImGuiSliderFlags_AlwaysClamp);
+    ImGui::DragFloatRange2("Scale", &brush.min_scale, &brush.max_scale, 0.005F, 0.01F, 100.0F,
+                           "%.2f", nullptr, ImGuiSliderFlags_AlwaysClamp);
     if (ImGui::Button("Undo")) {
         view.undo();
     }
@@ -181,8 +181,8 @@ std::string draw_species(ForestView& view) {
             return ImGui::DragFloat("##value", &value, 0.005F, 0.01F, 100.0F, "%.3g",
                                     ImGuiSliderFlags_AlwaysClamp);
         };
-        draw_edit("Scale min", placed.least_scale, edit.min_scale, scale);
-        draw_edit("Scale max", placed.greatest_scale, edit.max_scale, scale);
+        draw_edit("Scale min", placed.min_scale, edit.min_scale, scale);
+        draw_edit("Scale max", placed.max_scale, edit.max_scale, scale);
         edit_whole("Heroes", species.cache.heroes, edit.heroes, 1U, 50U);
         draw_edit("Reuse (rho)", species.rho, edit.rho, [](float& value) {
             return ImGui::SliderFloat("##value", &value, 0.0F, 1.0F, "%.2f",

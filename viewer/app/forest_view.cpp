@@ -194,8 +194,8 @@ void ForestView::swap(ForestOutcome outcome) {
         std::min<std::size_t>(settings.brush.species, document_->scene.species.size() - 1));
     if (before == nullptr) {
         const PlacementSpecies& first = placement.species.front();
-        settings.brush.least_scale = first.least_scale;
-        settings.brush.greatest_scale = first.greatest_scale;
+        settings.brush.min_scale = first.min_scale;
+        settings.brush.max_scale = first.max_scale;
     }
     stats_.caches = cache_numbers(document_->grown.forest);
     stats_.upload_seconds = seconds_since(start);

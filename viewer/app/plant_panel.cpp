@@ -162,10 +162,10 @@ void draw_mesh(PlantViewSettings& settings) {
     if (ImGui::Combo("Method", &method, "Tubes\0Cylinders\0Boxes\0")) {
         mesh.method = static_cast<MeshMethod>(method);
     }
-    const auto slide = [](const char* name, std::uint32_t& value, std::uint32_t most,
+    const auto slide = [](const char* name, std::uint32_t& value, std::uint32_t max,
                           const char* format) {
         constexpr std::uint32_t kMin = 0;
-        ImGui::SliderScalar(name, ImGuiDataType_U32, &value, &kMin, &most, format,
+        ImGui::SliderScalar(name, ImGuiDataType_U32, &value, &kMin, &max, format,
                             ImGuiSliderFlags_AlwaysClamp);
     };
     constexpr std::uint32_t kMaxLevels = 5;

@@ -207,13 +207,13 @@ float ForestLod::detail_in_budget(const LodOptions& options) const {
         return 1.0F;
     }
     // Bisection, so that a small move of the camera changes the level of few trees.
-    float most = 0.0F; // fits: no tree has branches
-    float least = 1.0F;
+    float fitting = 0.0F; // fits: no tree has branches
+    float excessive = 1.0F;
     for (int step = 0; step < kDetailSteps; ++step) {
-        const float middle = 0.5F * (most + least);
-        (fits(middle) ? most : least) = middle;
+        const float middle = 0.5F * (fitting + excessive);
+        (fits(middle) ? fitting : excessive) = middle;
     }
-    return most;
+    return fitting;
 }
 
 void ForestLod::cull_branches(const PoolSpan& span,

@@ -75,18 +75,18 @@ bool find_impostor(const InstanceCache& cache,
     return false;
 }
 
-void find_impostors(TreeForm& form, std::uint64_t key, std::size_t most) {
+void find_impostors(TreeForm& form, std::uint64_t key, std::size_t max_count) {
     const InstanceCache& cache = *form.cache;
     const InstanceSlot& whole = cache.slots[0];
     form.impostor_of.assign(cache.instances.size(), 0);
     for (std::uint32_t v = 0; v < whole.variant_count; ++v) {
         const std::uint32_t instance = cache.variants[whole.first_variant + v];
         Tree tree;
-        if (form.impostor_trees.size() < most && find_impostor(cache, key, instance, tree)) {
+        if (form.impostor_trees.size() < max_count && find_impostor(cache, key, instance, tree)) {
             form.impostor_of[instance] = static_cast<std::uint32_t>(form.impostor_trees.size());
             form.impostor_trees.push_back(tree);
         } else {
-            form.impostor_of[instance] = static_cast<std::uint32_t>(v % most);
+            form.impostor_of[instance] = static_cast<std::uint32_t>(v % max_count);
         }
     }
     for (std::uint32_t& impostor : form.impostor_of) {
@@ -94,7 +94,7 @@ void find_impostors(TreeForm& form, std::uint64_t key, std::size_t most) {
     }
 }
 
-/// Measures the bounding cylinder and the mean count of branches of the impostors from the meshes of
+/// Measures the bounding cylinder and the mean count of branches of the impostors. `meshes`: of
 /// their branches.
 void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& meshes) {
     const LargeVector<std::uint32_t> indices = meshes.mesh.indices.expanded();

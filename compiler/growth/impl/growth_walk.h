@@ -75,7 +75,7 @@ private:
     void reserve();
     void index_by_symbol();
     void drop_absent();
-    [[nodiscard]] GenerationSize total(const std::vector<Count>& counts, bool least) const;
+    [[nodiscard]] GenerationSize total(const std::vector<Count>& counts, bool is_low) const;
 
     ModuleClasses* classes_;
     std::uint32_t age_ = 0;

@@ -136,10 +136,10 @@ void pad(std::vector<std::uint32_t>& widths) {
     std::vector<std::uint32_t> sorted = widths;
     const auto median = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
     std::nth_element(sorted.begin(), median, sorted.end());
-    const std::uint32_t most = *median + kWidestGap;
+    const std::uint32_t max_width = *median + kWidestGap;
     std::uint32_t column = 0;
     for (const std::uint32_t width : widths) {
-        column = width <= most ? std::max(column, width) : column;
+        column = width <= max_width ? std::max(column, width) : column;
     }
     for (std::uint32_t& width : widths) {
         width = width > column || column - width > kWidestGap ? kAlone : column - width;

@@ -25,8 +25,8 @@ constexpr std::uint64_t kBlocksBytes = std::uint64_t{8} << 20;
 template <typename C, typename R>
 Levels<C, R>::Levels(const LevelSteps& steps, const LevelOptions& options, Sink sink)
     : steps_(steps), options_(options), sink_(std::move(sink)), last_(steps.count()) {
-    std::uint64_t most_codes = options.least_codes;
-    std::uint64_t most_parameters = options.least_parameters;
+    std::uint64_t max_codes = options.min_codes;
+    std::uint64_t max_parameters = options.min_parameters;
     bool has_parameters = false;
     for (const Plan* const plan : {steps.rewriting, steps.passes}) {
         if (plan == nullptr) {
@@ -34,8 +34,8 @@ Levels<C, R>::Levels(const LevelSteps& steps, const LevelOptions& options, Sink 
         }
         has_parameters = has_parameters || plan->has_parameters();
         for (const Entry& entry : plan->entries()) {
-            most_codes = std::max<std::uint64_t>(most_codes, entry.code_count);
-            most_parameters = std::max<std::uint64_t>(most_parameters, entry.parameter_count);
+            max_codes = std::max<std::uint64_t>(max_codes, entry.code_count);
+            max_parameters = std::max<std::uint64_t>(max_parameters, entry.parameter_count);
         }
     }
     for (const Plan* const plan : {steps.rewriting, steps.passes}) {
@@ -44,8 +44,8 @@ Levels<C, R>::Levels(const LevelSteps& steps, const LevelOptions& options, Sink 
     }
     const std::uint64_t block =
         std::clamp(kBlocksBytes / (last_ + 1) / (sizeof(C) + sizeof(float)), kMinBlock, kMaxBlock);
-    room_codes_ = std::max(block, most_codes);
-    room_parameters_ = std::max(has_parameters ? block : 0, most_parameters);
+    room_codes_ = std::max(block, max_codes);
+    room_parameters_ = std::max(has_parameters ? block : 0, max_parameters);
     records_.resize(room_codes_);
 }
 

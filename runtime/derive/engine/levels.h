@@ -62,8 +62,8 @@ struct LevelBlock {
 struct LevelOptions {
     bool origins = false;
     std::uint64_t max_bytes = ~std::uint64_t{0};
-    std::uint64_t least_codes = 0; // min room of a block
-    std::uint64_t least_parameters = 0;
+    std::uint64_t min_codes = 0; // min room of a block
+    std::uint64_t min_parameters = 0;
     const std::atomic<bool>* cancelled = nullptr;
 };
 

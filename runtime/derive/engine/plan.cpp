@@ -70,22 +70,22 @@ void Plan::make_codes() {
     }
     codes_.pool.resize(codes_.pool.size() + kWordSlack);
 
-    std::uint32_t most_stored = 0;
+    std::uint32_t max_stored = 0;
     for (const BytecodeSymbol& symbol : bytecode_.symbols) {
-        most_stored = std::max(most_stored, symbol.parameter_count);
+        max_stored = std::max(max_stored, symbol.parameter_count);
         has_structure_ = has_structure_ || symbol.ignored ||
                          symbol.kind == SymbolKind::BranchOpen ||
                          symbol.kind == SymbolKind::BranchClose;
     }
-    has_parameters_ = most_stored != 0;
-    mixes_inputs_ = most_stored > 1;
+    has_parameters_ = max_stored != 0;
+    mixes_inputs_ = max_stored > 1;
     for (const BytecodeProduction& production : bytecode_.productions) {
         if (std::uint64_t{production.successor.codes.count} * codes_.width > codes_.wide_bytes) {
             codes_.wide_bytes = 32;
         }
     }
-    terms_.resize(most_stored); // for every copied module
-    for (std::uint32_t i = 0; i < most_stored; ++i) {
+    terms_.resize(max_stored); // for every copied module
+    for (std::uint32_t i = 0; i < max_stored; ++i) {
         terms_[i].input = i;
     }
 
@@ -139,13 +139,13 @@ void Plan::make_families() {
         family_of_production.push_back(index);
     }
     std::uint32_t first = 0;
-    std::uint32_t largest = 0;
+    std::uint32_t max_count = 0;
     for (Family& family : families_) {
         family.first = first;
         first += family.count;
-        largest = std::max(largest, family.count);
+        max_count = std::max(max_count, family.count);
     }
-    record_width_ = largest <= 0xFF ? 1 : 4;
+    record_width_ = max_count <= 0xFF ? 1 : 4;
 
     candidates_.resize(productions_.count);
     std::vector<std::uint32_t> filled(families_.size(), 0);

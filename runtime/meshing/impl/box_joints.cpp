@@ -95,9 +95,9 @@ private:
     };
     /// Half sides of the box of a segment.
     [[nodiscard]] Widths widths(const Segment& segment) const {
-        const float least = kMinTaper * std::max(segment.base_radius, segment.tip_radius);
-        return {width_ * std::max(segment.base_radius, least),
-                width_ * std::max(segment.tip_radius, least)};
+        const float min_radius = kMinTaper * std::max(segment.base_radius, segment.tip_radius);
+        return {width_ * std::max(segment.base_radius, min_radius),
+                width_ * std::max(segment.tip_radius, min_radius)};
     }
 
     void give(std::uint32_t segment, const BoxSocket& socket) {

@@ -57,8 +57,8 @@ void Droop::bend(const ShapePart& part,
     across = length > 1e-5F ? across / length : glm::vec3(0.0F, 0.0F, -1.0F);
     const glm::vec3 axis(across.z, 0.0F, -across.x);
     // Sideways a blade is stiff, and would fold at its inner edge.
-    const float most = glm::mix(std::numbers::pi_v<float>, kSidewaysTurn, std::abs(across.x));
-    const float whole = amount * std::min(std::atan2(length, down.y), most);
+    const float max_turn = glm::mix(std::numbers::pi_v<float>, kSidewaysTurn, std::abs(across.x));
+    const float whole = amount * std::min(std::atan2(length, down.y), max_turn);
 
     struct Row {
         glm::vec3 centre;

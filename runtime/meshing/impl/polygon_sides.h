@@ -23,14 +23,14 @@ public:
     explicit SideCounts(float deviation);
 
     /// The smallest odd number for which radius * (1 - cos(pi / sides)) is at most the deviation,
-    /// and `most` if that is less. Does not fall where the radius rises. Widened, the polygon
+    /// and `max_sides` if that is less. Does not fall where the radius rises. Widened, the polygon
     /// deviates by less: its corners from outside, its sides from inside.
-    [[nodiscard]] std::uint32_t at(float radius, std::uint32_t most) const {
+    [[nodiscard]] std::uint32_t at(float radius, std::uint32_t max_sides) const {
         std::uint32_t sides = kMinSides;
-        while (sides < most && !(radius <= reach_[sides])) {
+        while (sides < max_sides && !(radius <= reach_[sides])) {
             sides += 2;
         }
-        return sides < most ? sides : most;
+        return sides < max_sides ? sides : max_sides;
     }
 
     /// widening() from a table.

@@ -24,9 +24,9 @@ namespace {
 constexpr double kExposedShare = 0.5; // of a sheet's area facing the wind
 
 double magnitude(float value) {
-    const auto greatest = static_cast<double>(std::numeric_limits<float>::max());
+    const auto max_float = static_cast<double>(std::numeric_limits<float>::max());
     const auto given = static_cast<double>(value);
-    return given > 0.0 ? std::min(given, greatest) : 0.0;
+    return given > 0.0 ? std::min(given, max_float) : 0.0;
 }
 
 double finite_or_0(double value) {

@@ -156,7 +156,7 @@ void eliminate(const Own& own,
     Symmetric sum = inertia;
     sum += joint;
     if (forces.exactness > 0.0 && !is_positive(sum)) {
-        const double more = 2.0 * std::abs(least_eigenvalue(sum));
+        const double more = 2.0 * std::abs(min_eigenvalue(sum));
         inertia.add_diagonal(more);
         sum.add_diagonal(more);
     }

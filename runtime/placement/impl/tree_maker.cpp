@@ -63,7 +63,7 @@ Tree TreeMaker::dress(std::uint32_t number, std::uint16_t species, const PhiloxB
     const PlacementSpecies& kind = options_.species[species];
     Tree tree;
     tree.yaw = kTurn * unit_interval(words[1]);
-    tree.scale = draw_in_range(kind.least_scale, kind.greatest_scale, unit_interval(words[2]));
+    tree.scale = draw_in_range(kind.min_scale, kind.max_scale, unit_interval(words[2]));
     tree.number = number;
     tree.species = species;
     return tree;

@@ -155,8 +155,8 @@ void read_place(SpeciesReader& from) {
     PlacementSpecies& placed = from.placed;
     placed.share = from.reader.number("share", {0.0, 1.0e9, false, {}}).value_or(placed.share);
     if (const auto scale = from.reader.ordered_pair("scale", {1.0e-3, 1000.0, false, {}})) {
-        placed.least_scale = float_of((*scale)[0]);
-        placed.greatest_scale = float_of((*scale)[1]);
+        placed.min_scale = float_of((*scale)[0]);
+        placed.max_scale = float_of((*scale)[1]);
     }
     if (const auto altitude =
             from.reader.ordered_pair("altitude", {-kUnbounded, kUnbounded, false, "m"})) {
@@ -180,7 +180,7 @@ void read_growth(const SceneValue* table, PlacementSpecies& placed, Diagnostics&
     const auto integer = [&](std::string_view key, IntegerRange range, std::uint32_t& value) {
         value = static_cast<std::uint32_t>(reader.integer(key, range).value_or(value));
     };
-    number("greatest_radius", {0.01, 1000.0, false, "m"}, growth.greatest_radius);
+    number("greatest_radius", {0.01, 1000.0, false, "m"}, growth.max_radius);
     number("rate", {1.0e-4, 1000.0, false, "m a year"}, growth.rate);
     number("shade_tolerance", {0.0, 1.0, false, {}}, growth.tolerance);
     number("vigour_spread", {0.0, 0.9, false, {}}, growth.vigour_spread);
@@ -188,12 +188,12 @@ void read_growth(const SceneValue* table, PlacementSpecies& placed, Diagnostics&
     integer("maturity", {1, std::uint64_t{2} * kMaxYears}, growth.maturity);
     number("seeds", {0.0, kMaxSeedsOfYear, false, "a year"}, growth.seeds);
     number("seed_distance", {0.0, 1.0e5, false, "m"}, growth.seed_distance);
-    if (growth.rate > growth.greatest_radius) {
+    if (growth.rate > growth.max_radius) {
         const SourceSpan at = reader.span_of(reader.has("rate") ? "rate" : "greatest_radius");
         reader.report_bad_value(
             at, fmt::format("plants grow by {} m in a year, farther than their greatest "
                             "radius of {} m",
-                            growth.rate, growth.greatest_radius));
+                            growth.rate, growth.max_radius));
     }
     reader.finish();
 }
