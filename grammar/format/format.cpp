@@ -26,7 +26,7 @@ public:
 
     std::string run() {
         std::size_t at = 0;
-        bool after_comment = false; // that began its line
+        bool after_comment = false; // a block comment that began its line
         for (;;) {
             LexemeReader reader(text_, at);
             Lexeme first;

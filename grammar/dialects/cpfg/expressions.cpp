@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// Functions of both, with one argument.
+/// Functions of one argument that both cpfg and .lsys have.
 struct Function {
     std::string_view name;
     std::string_view lsys;

@@ -37,7 +37,7 @@ enum class CpfgDraws : std::uint8_t {
 
 /// Needs of a production beyond one expression per value.
 struct CpfgNeeds {
-    bool bound_draws = false; // a random number is used twice, or something is chosen by it
+    bool bound_draws = false; // a random number is used twice or decides a choice
     int draws = 0;            // random numbers, where they are bound
 };
 

@@ -110,11 +110,11 @@ public:
         at_ += length;
         return text.origin(at_ - length, at_);
     }
-    /// The last `length` bytes are read again.
-    void give_back(std::uint32_t length) { at_ -= length; }
+    /// Puts the last `length` bytes back, to be read again.
+    void put_back(std::uint32_t length) { at_ -= length; }
 
     // --- for the parser
-    /// Nesting beyond the limit is reported and left out.
+    /// Adds a node; reports and drops nesting beyond the limit.
     int add(CpfgExpression expression);
     int add(CpfgStatement statement);
     void report_unsupported(SourceSpan span, std::string message) const {

@@ -101,7 +101,7 @@ bool HoudiniWriter::check_head(const HoudiniRule& rule) {
             }
         }
     }
-    const HoudiniSymbol& symbol = symbols_.of(rule.predecessor.front());
+    const HoudiniSymbol& symbol = symbols_.symbol(rule.predecessor.front());
     if (symbol.has_age && symbol.is_command) {
         report_unsupported(rule.span,
                            "the age `g` of a symbol that the turtle obeys is not known to lsc");
@@ -116,7 +116,7 @@ HoudiniWriter::all_parameter_counts(const HoudiniRule& rule) const {
     std::vector<ParameterCounts> variants{{}};
     for (const std::vector<HoudiniModule>* const modules : rule.head()) {
         for (const HoudiniModule& module : *modules) {
-            const HoudiniSymbol& symbol = symbols_.of(module);
+            const HoudiniSymbol& symbol = symbols_.symbol(module);
             if (!symbol.is_command) {
                 continue;
             }
@@ -177,7 +177,7 @@ void HoudiniWriter::write_pattern(const std::vector<HoudiniModule>& modules,
                                   const ParameterCounts& counts,
                                   std::size_t& slot) {
     for (const HoudiniModule& module : modules) {
-        const HoudiniSymbol& symbol = symbols_.of(module);
+        const HoudiniSymbol& symbol = symbols_.symbol(module);
         write_symbol(module);
         const std::uint32_t all = symbol.max_count + (symbol.has_age ? 1U : 0U);
         write_formals(module, symbol.is_command ? counts[slot++] : all, false);
@@ -196,7 +196,7 @@ void HoudiniWriter::write_variant(const HoudiniRule& rule,
         translation_.put(" < ", rule.span);
     }
     const HoudiniModule& head = rule.predecessor.front();
-    const HoudiniSymbol& symbol = symbols_.of(head);
+    const HoudiniSymbol& symbol = symbols_.symbol(head);
     write_symbol(head);
     write_formals(head, symbol.is_command ? counts[slot++] : symbol.max_count, symbol.has_age);
     if (!rule.right.empty()) {
@@ -229,7 +229,7 @@ void HoudiniWriter::write_variant(const HoudiniRule& rule,
 /// Writes the rule that ages a symbol matched by no other rule.
 void HoudiniWriter::write_ageing(const HoudiniRule& rule, std::size_t index) {
     const HoudiniModule& head = rule.predecessor.front();
-    const HoudiniSymbol& symbol = symbols_.of(head);
+    const HoudiniSymbol& symbol = symbols_.symbol(head);
     if (!symbol.has_age || symbol.is_command || aged_[text(head.symbol)]) {
         return;
     }

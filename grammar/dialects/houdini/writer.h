@@ -51,11 +51,12 @@ private:
     bool check_head(const HoudiniRule& rule);
 
     void write_word(const std::vector<HoudiniModule>& word, const HoudiniScope& scope);
-    void write_module(const HoudiniModule& it, const HoudiniScope& scope);
-    bool write_special(const HoudiniModule& it, char symbol, const HoudiniScope& scope);
-    void write_arguments(const HoudiniModule& it, std::uint32_t skip, const HoudiniScope& scope);
-    void write_left_out(const HoudiniModule& it, std::uint32_t index, SourceSpan place);
-    void write_symbol(const HoudiniModule& it);
+    void write_module(const HoudiniModule& module, const HoudiniScope& scope);
+    bool write_special(const HoudiniModule& module, char symbol, const HoudiniScope& scope);
+    void
+    write_arguments(const HoudiniModule& module, std::uint32_t skip, const HoudiniScope& scope);
+    void write_left_out(const HoudiniModule& module, std::uint32_t index, SourceSpan place);
+    void write_symbol(const HoudiniModule& module);
     void warn_lost(char symbol, SourceSpan place);
 
     void report_syntax(SourceSpan place, const std::string& message) const;

@@ -50,7 +50,7 @@ bool blank_between(const Lexeme& before, const Lexeme& after) {
     case Module:
         return before.kind != Module && before.kind != Close ? true : after.blank_before;
     case Left:
-        if (after.call) {
+        if (after.opens_call) {
             return false;
         }
         break;
@@ -150,7 +150,7 @@ bool PieceReader::begins_cell() const {
     case StatementShape::Production:
         return now_.kind == LexemeKind::Colon && colons_ < 3;
     case StatementShape::Definition:
-        return index_ <= 2 || now_.bounds;
+        return index_ <= 2 || now_.opens_bounds;
     case StatementShape::Setting:
     case StatementShape::Declaration:
         return index_ <= 2;

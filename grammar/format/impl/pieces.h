@@ -34,10 +34,10 @@ struct Piece {
 
 class PieceReader {
 public:
-    /// `begin`: the begin of a statement.
+    /// `begin`: offset of the first byte of a statement.
     PieceReader(std::string_view text, std::size_t begin);
 
-    /// False after the last piece.
+    /// Reads the next piece; returns false after the last.
     bool next(Piece& piece);
     /// Skips the remaining pieces; returns whether a comment among them has line ends.
     bool skip_rest();

@@ -14,7 +14,7 @@ namespace lsys::lsys_grammar {
 bool is_hash_comment(ParseSession& session, std::string_view text);
 /// `#word`, between statements.
 Token start_statement(ParseSession& session, std::string_view text);
-/// A word, or another character if `word` is empty, in place of a `#`.
+/// The first token of a statement without `#`: at `word`, or another character if it is empty.
 Token start_without_hash(ParseSession& session, std::string_view word);
 
 /// After `#word`: enters the part after the `:`; the token of a `=` or `,`; the missing sign before
