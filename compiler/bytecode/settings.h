@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// How a generation rewrites the word (docs/language.md section 5).
+/// Rewriting mode of a generation (docs/language.md section 5).
 LSYS_COUNTED_ENUM(RewritingMode, Parallel, Sequential, Cyclic, Leftmost);
 /// Whether each module draws its production, or all modules of a rule share one draw a generation.
 LSYS_COUNTED_ENUM(ChoiceScope, Module, Generation);
@@ -57,7 +57,7 @@ struct TurtleTraits {
 /// A direction x y z and the susceptibility e.
 using Tropism = std::array<float, 4>;
 
-/// The largest of both depths.
+/// Max of `decompose_depth` and `interpret_depth`.
 inline constexpr std::uint32_t kMaxDepth = 100'000;
 /// The minimum of settings without one.
 inline constexpr float kAnyNumber = std::numeric_limits<float>::lowest();

@@ -32,7 +32,7 @@ std::uint32_t number(SymbolId id) {
     return static_cast<std::uint32_t>(id);
 }
 
-/// Place of code, which decides what it may use.
+/// Place of code, which decides the instructions allowed in it.
 enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Successor };
 
 /// One walk over the tables in the order that bytecode.h promises. Every function returns false

@@ -23,7 +23,7 @@ struct StreamChunk {
 /// Returns false to end the derivation with Stop::Cancelled.
 using StreamConsumer = std::function<bool(const StreamChunk&)>;
 
-/// How a streamed derivation ended, and the size of what the consumer was given.
+/// End of a streamed derivation, and the size of the words given to the consumer.
 struct StreamOutcome {
     DerivationEnd end;
     std::uint64_t modules = 0;

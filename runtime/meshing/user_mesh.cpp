@@ -28,7 +28,7 @@ constexpr std::uint32_t kNotGiven = 0xFFFFFFFFu;
 // Every vertex and every corner of a face takes two bytes at least, so indices fit into 32 bits.
 constexpr std::uint64_t kMaxBytes = 0x1FFFFFFF0u;
 
-/// A corner of a face: indices from 0 into what was read so far.
+/// A corner of a face: indices from 0 of elements read so far.
 struct Corner {
     std::uint32_t position = kNotGiven;
     std::uint32_t texture = kNotGiven;

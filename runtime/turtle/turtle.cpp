@@ -26,7 +26,7 @@ Turtle::State::quick_forward(const Action& action, const float* arguments, Pose&
     return true;
 }
 
-/// Gives what the module at hand has drawn, which is one thing at most, its origin.
+/// Sets the origin of the item that the current module has drawn, one at most.
 [[gnu::always_inline]] inline bool Turtle::State::take_origin(const Origin& from) {
     const auto add = [this](const auto& items, LargeVector<Origin>& origins, const Origin& each) {
         if (origins.size() == items.size()) {
@@ -51,7 +51,7 @@ void Turtle::State::run_some(std::span<const C> codes,
     const std::uint64_t first = position;
     const C* const begin = codes.data();
     const bool plain = !has_tropism && !traits.width_is_relative;
-    Pose pose = now.pose; // in registers; now.pose is kept for all that is not quick
+    Pose pose = now.pose; // in registers; now.pose is valid for other than quick actions
     for (const C* at = begin; at != begin + codes.size(); ++at) {
         const Action& action = actions[*at];
         const float* const arguments = action.stored != 0 ? parameters : action.arguments.data();
@@ -173,7 +173,7 @@ std::optional<Stop> Turtle::State::run(std::span<const C> codes,
     return end.stop;
 }
 
-/// Draws what the modules are interpreted as.
+/// Draws the modules that `#interpret` makes of others.
 template <typename C>
 std::optional<Stop> Turtle::State::interpret(std::span<const C> codes,
                                              std::span<const float> parameters,

@@ -79,7 +79,7 @@ void Controls::apply(const WindowInput& input,
     } else if (PlantView* const plant = switcher.plant()) {
         apply(input, seconds, static_cast<float>(area.height), *plant, panels);
     }
-    if (input.closes || panels.quits) {
+    if (input.close_requested || panels.quits) {
         panels.quits = !switcher.shown().is_unsaved() || panels.asked_to_quit;
         if (!panels.quits) {
             panels.asked_to_quit = true;

@@ -96,7 +96,7 @@ struct FileWatch::State {
         static_cast<void>(::write(wake.get(), &one, sizeof one));
     }
 
-    /// False: stop.
+    /// Watches the files asked for; returns false to stop the thread.
     bool take_asked() {
         std::optional<std::vector<std::string>> paths;
         {
@@ -116,11 +116,11 @@ struct FileWatch::State {
         std::vector<Watched> before = std::move(files);
         files.clear();
         for (const std::string& path : paths) {
-            const auto is_it = [&path](const Watched& file) { return file.path == path; };
-            if (std::any_of(files.begin(), files.end(), is_it)) {
+            const auto is_same = [&path](const Watched& file) { return file.path == path; };
+            if (std::any_of(files.begin(), files.end(), is_same)) {
                 continue;
             }
-            const auto known = std::find_if(before.begin(), before.end(), is_it);
+            const auto known = std::find_if(before.begin(), before.end(), is_same);
             if (known != before.end()) {
                 files.push_back(std::move(*known));
                 files.back().names = names_of(path);

@@ -49,7 +49,7 @@ struct PlantMotion::State {
         }
     }
 
-    /// False: stop.
+    /// Waits until the last moment is taken; returns false to stop the thread.
     bool wait_for_room() {
         std::optional<Bending> bending;
         {

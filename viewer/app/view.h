@@ -29,7 +29,7 @@ public:
     View& operator=(const View&) = delete;
     virtual ~View() = default;
 
-    /// Call between two pictures: takes finished work and requests what the settings need. Returns
+    /// Takes finished work and requests work for changed settings, between two pictures. Returns
     /// whether messages changed.
     virtual bool update() = 0;
     /// Draws unless nothing changed. Returns whether it drew.

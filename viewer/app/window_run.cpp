@@ -36,7 +36,7 @@ class WindowRun {
 public:
     WindowRun(Window& window, ViewSwitcher& switcher) : window_(window), switcher_(switcher) {}
 
-    /// False: quit.
+    /// Handles input and draws a picture if needed; returns false to quit.
     bool step() {
         const double wait = pictures_left_ > 0 || controls_.is_moving() ? 0.0
                             : switcher_.shown().is_busy()               ? kBusy
@@ -55,7 +55,7 @@ public:
         if (panels_.quits) {
             return false;
         }
-        if (input.closes) {
+        if (input.close_requested) {
             window_.stay_open();
         }
         const bool has_news = switcher_.shown().update();

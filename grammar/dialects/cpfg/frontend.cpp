@@ -97,7 +97,7 @@ void translate_cpfg(const DialectRow& row, const ParseContext& context, Translat
     if (!context.diagnostics.has_errors()) {
         const CpfgScanning scanning(session, text.text());
         cpfg_grammar::Parser parser(session, scanning.scanner());
-        static_cast<void>(parser.parse()); // what is wrong has been reported
+        static_cast<void>(parser.parse()); // errors have been reported
     }
     if (context.diagnostics.has_errors()) {
         return;

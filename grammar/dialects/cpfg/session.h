@@ -32,7 +32,7 @@ struct CpfgExpression {
     std::string text;
     std::vector<int> parts; // in CpfgSession::expressions
     SourceSpan span;
-    int depth = 1; // of what is nested in it
+    int depth = 1; // of nested expressions
 };
 
 enum class CpfgStatementKind : std::uint8_t { Assign, Call, If, Loop, Array };

@@ -31,7 +31,7 @@ struct HoudiniNode {
 
 struct HoudiniModule {
     SourceSpan symbol;
-    SourceSpan parentheses;     // with what they hold; empty: there are none
+    SourceSpan parentheses;     // with their contents; empty: none
     std::vector<int> arguments; // in HoudiniSession::nodes; Missing ones count
 };
 
@@ -80,7 +80,7 @@ public:
     /// Puts the last `length` bytes of the last match back.
     void put_back(std::uint32_t length);
     [[nodiscard]] SourceSpan last() const { return last_; }
-    /// The token of the key `text`, the first word of a line, with blanks behind it; 0 if it is no key.
+    /// The token of a line's first word with the blanks behind it; 0 if it is no key.
     int key_token(std::string_view text);
     [[nodiscard]] static std::uint32_t length_of_key(std::string_view text);
     [[nodiscard]] bool wants_modules() const { return wants_modules_; }

@@ -71,7 +71,7 @@ public:
     }
 
     static constexpr std::uint8_t kStores = 0x80;
-    /// The group of modules that are rewritten whatever their neighbours are.
+    /// The group of modules that are rewritten with any neighbours.
     static constexpr std::uint8_t kAnywhere = 0x01;
     /// Lookup tables by code, a byte of group bits each: the groups of productions that may rewrite
     /// a module, and the groups that accept it as a left or as a right neighbour.

@@ -154,7 +154,7 @@ struct Turtle::State {
         note(kind);
         return stop(Stop::Diagnosed);
     }
-    /// Makes room in `items` for one more; false: the drawing has ended.
+    /// Makes room in `items` for one more; returns false after stopping the drawing.
     template <typename Items>
     bool has_room(Items& items);
     bool is_finite_pose();

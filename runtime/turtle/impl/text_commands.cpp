@@ -32,7 +32,7 @@ bool Turtle::State::execute_pending() {
     return cut != 0 ? skip(action) : execute(action, action.arguments.data());
 }
 
-/// False: the drawing has ended.
+/// Returns false once the drawing has ended.
 bool Turtle::State::take_character(const Action& action, Code character, const float* arguments) {
     if (pending.in_parameter) {
         if (action.operation != TurtleOperation::ParameterEnd) {

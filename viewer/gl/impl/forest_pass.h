@@ -39,7 +39,7 @@ public:
 
     /// Box of the shadow map for a camera; changes only in large steps of the camera.
     [[nodiscard]] Bounds shadow_bounds(const Frame& frame) const;
-    /// Selects what is drawn for the frame and uploads it.
+    /// Selects trees and branches for the frame and uploads them.
     void prepare(const Frame& frame);
     /// Draws all casters into the bound shadow map.
     void draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats);
