@@ -119,7 +119,7 @@ private:
 
     struct Line {
         std::uint32_t column = 0; // after the statement
-        bool one = false;         // whether the statement has one line
+        bool is_one_line = false; // the statement
     };
 
     Line write_statement(const LayoutRow& row, std::string& out) const {
@@ -154,7 +154,7 @@ private:
         std::vector<std::uint32_t> gaps(rows_.size(), kCommentGap);
         for (std::size_t i = 0; i < rows_.size();) {
             std::size_t end = i;
-            while (end < rows_.size() && lines[end].one) {
+            while (end < rows_.size() && lines[end].is_one_line) {
                 ++end;
             }
             line_up_comments(i, end, lines, gaps);

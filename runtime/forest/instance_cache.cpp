@@ -105,7 +105,7 @@ private:
         std::uint32_t instance = kNone;
         DrawnCounts range_begin;
         std::size_t suspended_below = 0; // suspended_ before it, if it suspends
-        bool suspends = false;           // the enclosing instances
+        bool suspends = false;           // suspends the enclosing instances
     };
 
     void start(std::uint32_t slot, const TurtlePlace& place, const DrawnCounts& drawn) {

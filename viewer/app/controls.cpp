@@ -80,10 +80,10 @@ void Controls::apply(const WindowInput& input,
         apply(input, seconds, static_cast<float>(area.height), *plant, panels);
     }
     if (input.close_requested || panels.quits) {
-        panels.quits = !switcher.shown().is_unsaved() || panels.asked_to_quit;
+        panels.quits = !switcher.current().is_unsaved() || panels.asked_to_quit;
         if (!panels.quits) {
             panels.asked_to_quit = true;
-            switcher.shown().set_note(
+            switcher.current().set_note(
                 "what was painted is not saved: Ctrl+S saves it, Ctrl+Q leaves it");
         }
     } else if (!input.presses.empty()) {

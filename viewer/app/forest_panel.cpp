@@ -86,14 +86,14 @@ void draw_numbers(const ForestView& view) {
 }
 
 void draw_years(ForestView& view) {
-    const std::uint32_t usual = view.default_years();
-    if (usual == 0) {
+    const std::uint32_t default_years = view.default_years();
+    if (default_years == 0) {
         return;
     }
     ForestViewSettings& settings = view.settings;
     auto years = static_cast<int>(view.years());
     if (ImGui::SliderInt("Years", &years, 0,
-                         static_cast<int>(std::max({2 * usual, view.years(), 1U})))) {
+                         static_cast<int>(std::max({2 * default_years, view.years(), 1U})))) {
         view.set_years(static_cast<std::uint32_t>(std::max(years, 0)));
     }
     if (ImGui::Button(settings.plays ? "Pause" : "Play")) {

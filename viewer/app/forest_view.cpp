@@ -245,7 +245,7 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
     return true;
 }
 
-void ForestView::shown(double draw_seconds) {
+void ForestView::picture_shown(double draw_seconds) {
     stats_.draw_seconds = draw_seconds;
     if (!is_coarse_) {
         is_slow_ = draw_seconds > kSlowPicture;

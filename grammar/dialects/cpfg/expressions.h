@@ -48,12 +48,12 @@ public:
 
     /// Runs `define:`, `Start:` and the other blocks of the header.
     void read_header();
-    /// Begins a production: its formals, and no variable. `stage` is that of the statement of .lsys
-    /// that is written.
+    /// Begins a production with its formals and without variables. `stage`: of the .lsys statement
+    /// to be written.
     void begin(std::set<std::string> formals, Stage stage, CpfgDraws draws = CpfgDraws::Inline);
-    /// The next random number is that one, where they are bound.
+    /// Sets the index of the next bound random number.
     void draw_from(int index) { needs_.draws = index; }
-    /// In this production the name stands for a value.
+    /// Defines a variable of the production.
     void let(const std::string& name, const std::string& value);
     void run(const std::vector<int>& statements);
     [[nodiscard]] CpfgTerm term(int expression);

@@ -17,7 +17,7 @@ namespace lsys {
 
 namespace {
 
-/// The stages behind the parser go through nodes by recursion.
+/// Max nesting, since the stages after the parser recurse.
 constexpr int kMaxDepth = 1000;
 
 } // namespace

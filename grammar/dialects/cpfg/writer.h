@@ -88,8 +88,8 @@ private:
     std::vector<Binds> bindings_;                            // of each production
     std::map<std::size_t, std::vector<std::size_t>> groups_; // by the first of its productions
     std::set<Stage> bound_;                                  // stages with bindings
-    std::set<std::string> used_;
-    std::set<std::string> matched_;
+    std::set<std::string> used_;                             // names of all modules
+    std::set<std::string> matched_;                          // names in predecessors and contexts
     std::set<std::string> surfaces_;
     std::map<std::string, int> alternatives_;
 };

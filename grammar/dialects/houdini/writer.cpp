@@ -46,9 +46,9 @@ void HoudiniWriter::read_settings() {
 }
 
 /// A setting as it is written, or the default of lsc.
-std::string HoudiniWriter::number(std::string_view name, const char* usual) const {
+std::string HoudiniWriter::number(std::string_view name, const char* fallback) const {
     const auto found = settings_.find(name);
-    std::string digits = found != settings_.end() ? std::string(text(found->second)) : usual;
+    std::string digits = found != settings_.end() ? std::string(text(found->second)) : fallback;
     return digits.starts_with('+') ? digits.substr(1) : digits;
 }
 

@@ -29,7 +29,7 @@ private:
     [[nodiscard]] std::string_view text(SourceSpan span) const {
         return session_.context.sources.text(span);
     }
-    [[nodiscard]] std::string number(std::string_view name, const char* usual) const;
+    [[nodiscard]] std::string number(std::string_view name, const char* fallback) const;
 
     void read_settings();
     void write_settings(std::string_view turtle);

@@ -1,5 +1,5 @@
 // Writes texts of a file of L3D as .lsys modules in back quotes, character by character, and warns
-// where L3D does not do what the author means.
+// of quirks of L3D.
 #pragma once
 
 #include "grammar/ast/parse_context.h"

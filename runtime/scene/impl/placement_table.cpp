@@ -32,10 +32,10 @@ constexpr std::array<MethodRow, 8> kMethods{{
     {.name = "density-cells", .density = true, .map = true},
 }};
 
-constexpr std::uint64_t kUsualCount = 1000;
-constexpr double kUsualSpacing = 5.0;  // m
-constexpr double kUsualDensity = 0.04; // 400 per hectare
-constexpr std::uint32_t kUsualYears = 100;
+constexpr std::uint64_t kDefaultCount = 1000;
+constexpr double kDefaultSpacing = 5.0;  // m
+constexpr double kDefaultDensity = 0.04; // 400 per hectare
+constexpr std::uint32_t kDefaultYears = 100;
 constexpr double kMinSpacing = 0.001; // m
 constexpr double kDiskTrees = 0.7;    // PoissonDisk: trees per square of the spacing
 
@@ -95,12 +95,12 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
         }
         return wanted;
     };
-    placement.count = kUsualCount;
-    placement.spacing = kUsualSpacing;
-    placement.density = kUsualDensity;
-    placement.years = kUsualYears;
+    placement.count = kDefaultCount;
+    placement.spacing = kDefaultSpacing;
+    placement.density = kDefaultDensity;
+    placement.years = kDefaultYears;
     if (reads(method.count, "count")) {
-        placement.count = reader.integer("count", {1, kMaxTrees}).value_or(kUsualCount);
+        placement.count = reader.integer("count", {1, kMaxTrees}).value_or(kDefaultCount);
     }
     if (reads(method.spacing, "spacing")) {
         if (const auto spacing =
@@ -114,7 +114,7 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
                                 .number("density", {1.0 / (kMaxCoordinate * kMaxCoordinate),
                                                     1.0 / (kMinSpacing * kMinSpacing), false,
                                                     "trees a square metre"})
-                                .value_or(kUsualDensity);
+                                .value_or(kDefaultDensity);
     }
     if (reads(method.map, "map")) {
         if (auto map = reader.file("map")) {
@@ -127,7 +127,7 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
     }
     if (reads(method.years, "years")) {
         placement.years = static_cast<std::uint32_t>(
-            reader.integer("years", {0, kMaxYears}).value_or(kUsualYears));
+            reader.integer("years", {0, kMaxYears}).value_or(kDefaultYears));
     }
     reader.finish();
 }

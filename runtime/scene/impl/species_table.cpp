@@ -38,12 +38,12 @@ struct SpeciesReader {
     SceneSpecies& species;
     PlacementSpecies& placed;
 
-    float number(std::string_view key, const NumberRange& range, float usual) {
+    float number(std::string_view key, const NumberRange& range, float fallback) {
         const std::optional<double> value = reader.number(key, range);
-        return value ? float_of(*value) : usual;
+        return value ? float_of(*value) : fallback;
     }
-    std::uint32_t integer(std::string_view key, IntegerRange range, std::uint32_t usual) {
-        return static_cast<std::uint32_t>(reader.integer(key, range).value_or(usual));
+    std::uint32_t integer(std::string_view key, IntegerRange range, std::uint32_t fallback) {
+        return static_cast<std::uint32_t>(reader.integer(key, range).value_or(fallback));
     }
 };
 

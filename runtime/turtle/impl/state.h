@@ -185,11 +185,11 @@ struct Turtle::State {
     TurtleTraits traits;
     bool has_tropism = false;
     bool has_second_heading = false; // some module moves along it
-    // The last segment whose mass was worked out.
-    double massed_length = -1.0;
-    float massed_base = -1.0F;
-    float massed_tip = -1.0F;
-    float massed = 0.0F;
+    // The mass of the last segment, kept for equal ones.
+    double kept_length = -1.0;
+    float kept_base = -1.0F;
+    float kept_tip = -1.0F;
+    float kept_mass = 0.0F;
 };
 
 template <typename Items>
@@ -217,17 +217,17 @@ bool Turtle::State::has_room(Items& items) {
 
 /// Volume of a truncated cone times the density.
 inline float Turtle::State::mass_of(double length, float base_width, float tip_width) {
-    if (length != massed_length || base_width != massed_base || tip_width != massed_tip) {
-        massed_length = length;
-        massed_base = base_width;
-        massed_tip = tip_width;
+    if (length != kept_length || base_width != kept_base || tip_width != kept_tip) {
+        kept_length = length;
+        kept_base = base_width;
+        kept_tip = tip_width;
         const double a = 0.5 * static_cast<double>(base_width);
         const double b = 0.5 * static_cast<double>(tip_width);
         const double volume = std::numbers::pi / 3.0 * std::abs(length) * (a * a + a * b + b * b);
-        massed = static_cast<float>(
+        kept_mass = static_cast<float>(
             std::min(volume * static_cast<double>(bytecode.settings.density), kMaxFloat));
     }
-    return massed;
+    return kept_mass;
 }
 
 /// The next segment of the path, for which there is room.

@@ -55,10 +55,10 @@ public:
 
     /// One picture, as a window makes it. `seconds` that it is said to have taken.
     bool step(double seconds = 0.0) {
-        views.shown().update();
-        const bool drew = views.shown().draw(kWidth, kHeight);
+        views.current().update();
+        const bool drew = views.current().draw(kWidth, kHeight);
         if (drew) {
-            views.shown().shown(seconds);
+            views.current().picture_shown(seconds);
         }
         return drew;
     }
