@@ -19,7 +19,7 @@ LSYS_COUNTED_ENUM(ChoiceScope, Module, Generation);
 LSYS_COUNTED_ENUM(RandomSource, Philox, Glibc);
 /// Whether unconditional groups must sum to 1.
 LSYS_COUNTED_ENUM(WeightRule, One, Any);
-/// Treatment of a module that `#decompose` or `#interpret` still matches at the greatest depth: it
+/// Treatment of a module that `#decompose` or `#interpret` still matches at the max depth: it
 /// ends the run, or it stays as it is.
 LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
 /// The table of docs/language.md section 7 that gives modules their meaning for the turtle. It has

@@ -47,7 +47,7 @@ AstBuilder::AstBuilder(const ScannedText& scanned, Ast& ast, const ParseContext&
     finish_statement({}, true); // sets the watermark
 }
 
-// ------------------------------------------------------------------------------------- expressions
+// --- expressions
 
 ExpressionId AstBuilder::add(const Expression& expression) {
     const auto id = static_cast<ExpressionId>(ast_.expressions.size());
@@ -151,7 +151,7 @@ ListRange AstBuilder::take_arguments(std::uint32_t count) {
     return range;
 }
 
-// -------------------------------------------------------------------------------------- statements
+// --- statements
 
 void AstBuilder::begin_node(StatementKind kind, std::size_t index) {
     statement_.kind = kind;

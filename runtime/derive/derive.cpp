@@ -219,7 +219,7 @@ struct Derivation::State {
         return std::nullopt;
     }
 
-    /// The error that a module can still be decomposed, if there is such a module.
+    /// The error for the first module that can still be decomposed, if any.
     [[nodiscard]] std::optional<RuntimeError> undecomposed(const Word& in, const PassKeys& keys) {
         return visit_view(in, [&](const auto& view) -> std::optional<RuntimeError> {
             Chooser chooser(*decompose_plan, keys, view, nullptr);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kTreesOfPiece = 4096;
 
-/// Mixes the bits of a branch so that sums of them tell sets of branches apart.
+/// Hash of a branch; sums of hashes distinguish sets of branches.
 std::uint64_t digest_of(const Tree& tree, std::uint32_t node, const BranchInstance& branch) {
     const auto bits = [](float a, float b) {
         return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 |

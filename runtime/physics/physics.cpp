@@ -130,7 +130,7 @@ struct PlantPhysics::State {
 
     struct Step {
         double share = 0.0; // part of the solved motion that was taken
-        double turn = 0.0;  // rad, greatest
+        double turn = 0.0;  // rad, max
     };
     /// Makes a step, which ends at standstill without `keep_velocity`.
     Step advance(const Forces& now, bool keep_velocity) {

@@ -271,7 +271,7 @@ LargeVector<Tree> Domination::trees() const {
         for (std::uint64_t i = piece * kPiece; i < end; ++i) {
             const ForestPlant& plant = plants_[i];
             const std::vector<float>& open = open_radii_[plant.species];
-            Tree tree = maker.looks_of(plant.number, plant.species);
+            Tree tree = maker.appearance_of(plant.number, plant.species);
             tree.position = {plant.place.x, terrain_->height(plant.place.x, plant.place.y),
                              plant.place.y};
             tree.scale *= plant.radius / open[std::min<std::size_t>(plant.age, open.size() - 1)];

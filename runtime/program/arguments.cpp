@@ -31,7 +31,7 @@ Parsed<T> parse_all(std::string_view text) {
 
 } // namespace
 
-Result<std::uint64_t> parse_whole(std::string_view text, std::uint64_t low, std::uint64_t high) {
+Result<std::uint64_t> parse_integer(std::string_view text, std::uint64_t low, std::uint64_t high) {
     const Parsed<std::uint64_t> parsed = parse_all<std::uint64_t>(text);
     if (parsed.error != std::errc() || parsed.value < low || parsed.value > high) {
         return Error{fmt::format("`{}` is not a whole number from {} to {}", text, low, high)};

@@ -101,7 +101,7 @@ struct Bounds {
 struct SkeletonStats {
     Bounds bounds;            // bounds of axes, object positions and corners, without radii
     double height = 0.0;      // m, from the lowest to the highest point
-    double crown_width = 0.0; // m, the greatest horizontal distance from the start, twice
+    double crown_width = 0.0; // m, twice the max horizontal distance from the start
     double length = 0.0;      // m, of all segments
     double volume = 0.0;      // m^3, of truncated cones
     double mass = 0.0;        // kg, of the segments

@@ -155,7 +155,7 @@ std::optional<Stop> Turtle::State::run(std::span<const C> codes,
         if (options.cancelled != nullptr && options.cancelled->load(std::memory_order_relaxed)) {
             return end.stop = Stop::Cancelled;
         }
-        const std::size_t count = std::min(codes.size(), kModulesBetweenLooks);
+        const std::size_t count = std::min(codes.size(), kModulesBetweenChecks);
         if (table.reads_text) {
             run_text(codes.first(count), next, origins.empty() ? nullptr : origins.data());
             origins = origins.empty() ? origins : origins.subspan(count);
@@ -189,7 +189,7 @@ std::optional<Stop> Turtle::State::interpret(std::span<const C> codes,
                    std::span<const Origin> from) { return !run(some, values, from); });
     }
     while (!codes.empty() && !end.stop) {
-        const std::size_t count = std::min(codes.size(), kModulesBetweenLooks);
+        const std::size_t count = std::min(codes.size(), kModulesBetweenChecks);
         piece.assign(codes.begin(), codes.begin() + static_cast<std::ptrdiff_t>(count));
         std::size_t stored = 0;
         for (const Code each : piece) {

@@ -120,7 +120,7 @@ private:
     Variables variables_;
     Variables globals_;
     std::map<Stage, Variables> states_;     // globals that steps change, as productions see them
-    std::map<std::string, int> increments_; // what each step adds to a global: an expression
+    std::map<std::string, int> increments_; // by global: the expression that each step adds to it
     std::set<std::string> reset_;           // globals that each step makes anew
     std::vector<CpfgConstant> constants_;
     std::map<std::string, Array> arrays_;

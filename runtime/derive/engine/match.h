@@ -42,7 +42,7 @@ struct ModulePlace {
 template <typename C>
 class Matcher {
 public:
-    /// `contexts` may be null if no production in force has a context.
+    /// `contexts` may be null if no active production has a context.
     Matcher(const Plan& plan, const WordView<C>& word, const ContextTables* contexts)
         : plan_(plan), word_(word), contexts_(contexts) {}
 

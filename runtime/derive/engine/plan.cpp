@@ -49,10 +49,10 @@ Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generat
             folding_.index.emplace(bytecode_);
         }
         for (const Candidate& candidate : candidates_) {
-            in_force_.predecessor_count = std::max(in_force_.predecessor_count, candidate.modules);
+            active_.predecessor_count = std::max(active_.predecessor_count, candidate.modules);
         }
         for (std::uint32_t i = 0; i < families_.size(); ++i) {
-            put_in_force(i);
+            activate_family(i);
         }
     }
 }
@@ -300,8 +300,8 @@ void Plan::finish(Entry& entry) {
 
 void Plan::set_kind(Code code, RowKind kind) {
     Row& row = rows_[code];
-    in_force_.dynamic_rows -= row.kind != RowKind::Fixed ? 1 : 0;
-    in_force_.dynamic_rows += kind != RowKind::Fixed ? 1 : 0;
+    active_.dynamic_rows -= row.kind != RowKind::Fixed ? 1 : 0;
+    active_.dynamic_rows += kind != RowKind::Fixed ? 1 : 0;
     row.kind = kind;
     row.copies = row.copies && kind == RowKind::Fixed;
 }
@@ -325,23 +325,23 @@ void Plan::prepare(std::uint32_t generation) {
     for (const std::uint32_t index : varying_families_) {
         families_[index].current = false;
         if (parallel_) {
-            put_in_force(index);
+            activate_family(index);
         }
     }
 }
 
 void Plan::select_rule(std::uint32_t rule) {
-    if (in_force_.selected_rule != kNone) {
-        for (const Code code : codes_of(first_symbol(in_force_.selected_rule))) {
+    if (active_.selected_rule != kNone) {
+        for (const Code code : codes_of(first_symbol(active_.selected_rule))) {
             reset_row(code);
         }
     }
-    in_force_.needs_contexts = false;
-    in_force_.reads_contexts = false;
-    in_force_.selected_rule = rule;
-    in_force_.predecessor_count =
+    active_.needs_contexts = false;
+    active_.reads_contexts = false;
+    active_.selected_rule = rule;
+    active_.predecessor_count =
         bytecode_.productions[candidates_[families_[rule].first].production].predecessor.count;
-    put_in_force(rule);
+    activate_family(rule);
 }
 
 float Plan::rule_draw(std::uint32_t rule, std::uint32_t generation) const {

@@ -1,4 +1,4 @@
-// Puts families in force: shapes their conditions and arguments, and resolves the rows of their
+// Activates families: shapes their conditions and arguments, and resolves the rows of their
 // codes.
 #include "grammar/base/contract.h"
 #include "runtime/derive/engine/plan.h"
@@ -111,13 +111,13 @@ void Plan::shape(Family& family) {
     family.current = true;
 }
 
-void Plan::put_in_force(std::uint32_t family_index) {
+void Plan::activate_family(std::uint32_t family_index) {
     Family& family = families_[family_index];
     if (!family.current) {
         shape(family);
     }
-    in_force_.needs_contexts = in_force_.needs_contexts || family.has_context;
-    in_force_.reads_contexts = in_force_.reads_contexts || family.reads_context;
+    active_.needs_contexts = active_.needs_contexts || family.has_context;
+    active_.reads_contexts = active_.reads_contexts || family.reads_context;
     const BytecodeProduction& example = bytecode_.productions[candidates_[family.first].production];
     folding_.budget = kFoldedBudget;
     for (const Code code : codes_of(bytecode_.patterns[example.predecessor.first].symbol)) {

@@ -18,7 +18,7 @@ constexpr float kResolution = 4e-6F;
 // A radius below this part of the coordinates is 0; larger ones keep corners apart.
 constexpr float kNoRadius = 1e-8F;
 constexpr float kRadiusOfSide = 4e-7F;
-// Least radius of a ring as a part of its surroundings, so that its triangles have an area.
+// Min radius of a ring as a part of its surroundings, so that its triangles have an area.
 constexpr float kThinnest = 1e-9F;
 constexpr float kMinRadius = 1e-36F;
 constexpr float kMaxRadius = 1e36F;

@@ -16,7 +16,7 @@ namespace lsys {
 /// `sides` sides: the mean width of a convex shape is its circumference / pi (Cauchy).
 [[nodiscard]] float widening(std::uint32_t sides, std::uint32_t fewer);
 
-/// Least number of sides, by radius, that keeps a polygon within a distance of its circle.
+/// Min number of sides, by radius, that keeps a polygon within a distance of its circle.
 class SideCounts {
 public:
     /// `deviation`: greater than 0, in the unit of radii.
@@ -39,7 +39,7 @@ public:
     }
 
 private:
-    std::array<float, kMaxSides + 1> reach_{};       // the greatest radius, by sides
+    std::array<float, kMaxSides + 1> reach_{};       // max radius, by sides
     std::array<float, kMaxSides + 1> half_around_{}; // half of the circumference
 };
 

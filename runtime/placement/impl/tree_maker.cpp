@@ -69,7 +69,7 @@ Tree TreeMaker::dress(std::uint32_t number, std::uint16_t species, const PhiloxB
     return tree;
 }
 
-Tree TreeMaker::looks_of(std::uint32_t number, std::uint16_t species) const {
+Tree TreeMaker::appearance_of(std::uint32_t number, std::uint16_t species) const {
     return dress(number, species, placement_draws(options_.key, number, kLooksBlock));
 }
 

@@ -18,7 +18,7 @@
 
 namespace lsys {
 
-inline constexpr std::size_t kModulesBetweenLooks = std::size_t{1} << 16;
+inline constexpr std::size_t kModulesBetweenChecks = std::size_t{1} << 16;
 inline constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
 inline constexpr float kPercent = 0.01F;
 inline constexpr double kFullTurn = 360.0;
