@@ -102,10 +102,10 @@ private:
     [[nodiscard]] std::optional<bool> is_assigned_first(const std::vector<int>& statements,
                                                         const std::string& variable) const;
     void enter_step();
-    [[nodiscard]] const CpfgExpression& node(int index) const {
+    [[nodiscard]] const CpfgExpression& node_at(int index) const {
         return session_.expressions[static_cast<std::size_t>(index)];
     }
-    [[nodiscard]] const CpfgStatement& statement(int index) const {
+    [[nodiscard]] const CpfgStatement& statement_at(int index) const {
         return session_.statements[static_cast<std::size_t>(index)];
     }
     [[nodiscard]] CpfgTerm unsupported(SourceSpan span, const std::string& message) const {

@@ -34,38 +34,39 @@ void CpfgWriter::find_names() {
         }
     };
     note(session_.axiom, false);
-    for (CpfgProduction& each : session_.productions) {
-        keep_tilde(each);
-        note(each.left, true);
-        note(each.predecessor, true);
-        note(each.right, true);
-        note(each.successor, false);
-        if (each.stage == Stage::Rewrite && !each.predecessor.empty()) {
-            ++alternatives_[key_of(each)];
+    for (CpfgProduction& production : session_.productions) {
+        keep_tilde(production);
+        note(production.left, true);
+        note(production.predecessor, true);
+        note(production.right, true);
+        note(production.successor, false);
+        if (production.stage == Stage::Rewrite && !production.predecessor.empty()) {
+            ++alternatives_[key_of(production)];
         }
     }
 }
 
 /// `~s(x) --> ~s(y)` rewrites the `s` after a `~`, which stays.
-void CpfgWriter::keep_tilde(CpfgProduction& each) const {
+void CpfgWriter::keep_tilde(CpfgProduction& production) const {
     const auto begins = [](const std::vector<CpfgModule>& list) {
         return list.size() > 1 && list.front().name == "~" && !list.front().has_arguments;
     };
-    if (each.predecessor.size() == 2 && begins(each.predecessor) && begins(each.successor)) {
+    if (production.predecessor.size() == 2 && begins(production.predecessor) &&
+        begins(production.successor)) {
         const auto& named = session_.considers ? session_.considered : session_.ignored;
         const bool is_named = std::any_of(named.begin(), named.end(),
                                           [](const auto& module) { return module.name == "~"; });
         if (is_named == session_.considers) { // else contexts do not see it
-            each.left.push_back(each.predecessor.front());
+            production.left.push_back(production.predecessor.front());
         }
-        each.predecessor.erase(each.predecessor.begin());
-        each.successor.erase(each.successor.begin());
+        production.predecessor.erase(production.predecessor.begin());
+        production.successor.erase(production.successor.begin());
     }
 }
 
-std::string CpfgWriter::key_of(const CpfgProduction& each) {
+std::string CpfgWriter::key_of(const CpfgProduction& production) {
     std::string key;
-    for (const CpfgModule& module : each.predecessor) {
+    for (const CpfgModule& module : production.predecessor) {
         key += module.name + "/" + std::to_string(module.arguments.size()) + " ";
     }
     return key;
@@ -179,8 +180,8 @@ void CpfgWriter::read_view_file() {
 
 void CpfgWriter::write_settings(std::string_view turtle) {
     out_.put("#set turtle " + std::string(turtle) + ";\n#set names letters;\n", header_);
-    const auto several = [](const CpfgProduction& each) {
-        return each.stage == Stage::Rewrite && each.predecessor.size() > 1;
+    const auto several = [](const CpfgProduction& production) {
+        return production.stage == Stage::Rewrite && production.predecessor.size() > 1;
     };
     if (std::any_of(session_.productions.begin(), session_.productions.end(), several)) {
         out_.put("#set rewriting leftmost;\n", header_);
@@ -211,8 +212,8 @@ void CpfgWriter::write_settings(std::string_view turtle) {
             out_.put("#object " + name + " LEAF;\n", header_);
         }
     }
-    for (const CpfgConstant& each : expressions_.constants()) {
-        out_.put("#define " + each.name + " " + each.value + ";\n", each.span);
+    for (const CpfgConstant& constant : expressions_.constants()) {
+        out_.put("#define " + constant.name + " " + constant.value + ";\n", constant.span);
     }
     write_declarations();
     if (session_.considers) {
@@ -225,8 +226,8 @@ void CpfgWriter::write_settings(std::string_view turtle) {
 /// Symbols that stand for themselves.
 void CpfgWriter::write_declarations() {
     std::set<std::string> rewritten;
-    for (const CpfgProduction& each : session_.productions) {
-        for (const CpfgModule& module : each.predecessor) {
+    for (const CpfgProduction& production : session_.productions) {
+        for (const CpfgModule& module : production.predecessor) {
             rewritten.insert(module.name);
         }
     }
@@ -248,14 +249,14 @@ void CpfgWriter::write_declarations() {
         }
     };
     visit(session_.axiom);
-    for (const CpfgProduction& each : session_.productions) {
-        visit(each.successor);
+    for (const CpfgProduction& production : session_.productions) {
+        visit(production.successor);
     }
 }
 
 bool CpfgWriter::has(Stage stage) const {
     return std::any_of(session_.productions.begin(), session_.productions.end(),
-                       [&](const CpfgProduction& each) { return each.stage == stage; });
+                       [&](const CpfgProduction& production) { return production.stage == stage; });
 }
 
 void CpfgWriter::write_names(const char* begin, const std::vector<CpfgModule>& list) {

@@ -38,11 +38,11 @@ private:
 
     // --- names
     void find_names();
-    void keep_tilde(CpfgProduction& each) const;
+    void keep_tilde(CpfgProduction& production) const;
     void check_module(CpfgModule& module);
     void add_surface(const CpfgModule& module);
     [[nodiscard]] std::string spelled(const std::string& name, bool has_arguments) const;
-    [[nodiscard]] static std::string key_of(const CpfgProduction& each);
+    [[nodiscard]] static std::string key_of(const CpfgProduction& production);
 
     // --- the header
     void write_settings(std::string_view turtle);
@@ -56,25 +56,25 @@ private:
     // --- productions
     void find_bindings();
     void bind_group(const std::vector<std::size_t>& members);
-    [[nodiscard]] bool check(const CpfgProduction& each);
+    [[nodiscard]] bool check(const CpfgProduction& production);
     void write_production(std::size_t index);
     void write_bound_production(std::size_t index);
     void write_group(std::size_t index);
-    void write_head(const CpfgProduction& each, const std::string& label);
-    void write_condition(const CpfgProduction& each);
-    void write_weight(const CpfgProduction& each);
-    void write_weighted_condition(const CpfgProduction& each, std::size_t index);
+    void write_head(const CpfgProduction& production, const std::string& label);
+    void write_condition(const CpfgProduction& production);
+    void write_weight(const CpfgProduction& production);
+    void write_weighted_condition(const CpfgProduction& production, std::size_t index);
     void write_name(const CpfgModule& module);
     void write_modules(const std::vector<CpfgModule>& list);
     void write_pattern(const std::vector<CpfgModule>& list);
     [[nodiscard]] std::string drawing_module(std::size_t index) const;
-    [[nodiscard]] std::vector<std::string> read_formals(const CpfgProduction& each);
-    void begin_bound(const CpfgProduction& each, int first_draw);
+    [[nodiscard]] std::vector<std::string> read_formals(const CpfgProduction& production);
+    void begin_bound(const CpfgProduction& production, int first_draw);
     void write_formals(const std::vector<std::string>& names, int draws, SourceSpan span);
     void write_draws(const std::vector<std::string>& names, int count, SourceSpan span);
-    [[nodiscard]] std::vector<std::string> formals_of(const CpfgProduction& each) const;
-    [[nodiscard]] bool is_random_choice(const CpfgProduction& each) const;
-    [[nodiscard]] bool is_always(const CpfgProduction& each) const;
+    [[nodiscard]] std::vector<std::string> formals_of(const CpfgProduction& production) const;
+    [[nodiscard]] bool is_random_choice(const CpfgProduction& production) const;
+    [[nodiscard]] bool is_always(const CpfgProduction& production) const;
     [[nodiscard]] const CpfgExpression& expression(int index) const {
         return session_.expressions[static_cast<std::size_t>(index)];
     }
