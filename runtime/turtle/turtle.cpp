@@ -269,7 +269,7 @@ std::optional<Stop> Turtle::feed(std::span<const Code> codes,
 
 std::optional<Stop> Turtle::finish() {
     State& state = *state_;
-    if (!state.end.stop && state.pending.there && !state.pending.in_parameter) {
+    if (!state.end.stop && state.pending.is_set && !state.pending.in_parameter) {
         if (state.execute_pending() && state.keeps_origins) {
             static_cast<void>(state.take_origin(state.pending.origin));
         }

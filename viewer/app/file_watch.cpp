@@ -32,7 +32,7 @@ constexpr int kMaxDelay = 10; // of a report, in quiet times
 
 /// Identity of a file's contents.
 struct Stamp {
-    bool there = false;
+    bool exists = false;
     std::int64_t seconds = 0;
     std::int64_t nanoseconds = 0;
     std::int64_t size = 0;
@@ -80,7 +80,7 @@ struct FileWatch::State {
     Descriptor wake{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
     Descriptor inotify;
     std::mutex mutex; // guards the next two
-    std::optional<std::vector<std::string>> asked;
+    std::optional<std::vector<std::string>> requested;
     bool stops = false;
     // Used by the thread only.
     std::vector<Watched> files;
@@ -104,7 +104,7 @@ struct FileWatch::State {
             if (stops) {
                 return false;
             }
-            paths = std::exchange(asked, std::nullopt);
+            paths = std::exchange(requested, std::nullopt);
         }
         if (paths) {
             set_files(*paths);
@@ -205,7 +205,7 @@ struct FileWatch::State {
             if (!file.changed) {
                 continue;
             }
-            if (!stamp_of(file.path).there && now - *file.changed < options.missing) {
+            if (!stamp_of(file.path).exists && now - *file.changed < options.missing) {
                 return;
             }
             names.push_back(file.path);
@@ -286,7 +286,7 @@ FileWatch::~FileWatch() {
 void FileWatch::watch(const std::vector<std::string>& files) {
     {
         const std::lock_guard lock(state_->mutex);
-        state_->asked = files;
+        state_->requested = files;
     }
     state_->notify();
 }

@@ -92,11 +92,11 @@ std::vector<std::uint8_t> with_coverage(const ImpostorTexels& picture, double wa
         ++counts[picture.albedos[4 * i + 3]];
     }
     // Min opacity of texels that stay.
-    std::size_t there = 0;
+    std::size_t opaque_count = 0;
     unsigned min_opacity = 255;
-    while (min_opacity > 1 && static_cast<double>(there + counts[min_opacity]) <
+    while (min_opacity > 1 && static_cast<double>(opaque_count + counts[min_opacity]) <
                                   wanted * static_cast<double>(texels)) {
-        there += counts[min_opacity];
+        opaque_count += counts[min_opacity];
         --min_opacity;
     }
     std::vector<std::uint8_t> scaled = picture.albedos;

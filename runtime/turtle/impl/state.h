@@ -48,7 +48,7 @@ struct Brush {
 /// The last command of a word that is text, executed once the text of its parameter is complete.
 struct PendingCommand {
     static constexpr std::size_t kMaxLength = 1023;
-    bool there = false;
+    bool is_set = false;
     bool in_parameter = false;
     Action action;
     std::uint64_t position = 0;

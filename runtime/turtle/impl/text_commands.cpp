@@ -24,7 +24,7 @@ float leading_number(std::string_view text) {
 }
 
 bool Turtle::State::execute_pending() {
-    pending.there = false;
+    pending.is_set = false;
     position = pending.position;
     code = pending.code;
     origin = pending.origin;
@@ -51,7 +51,7 @@ bool Turtle::State::take_character(const Action& action, Code character, const f
         }
         return execute_pending();
     }
-    if (pending.there) {
+    if (pending.is_set) {
         if (action.operation == TurtleOperation::ParameterBegin) {
             pending.in_parameter = true;
             pending.text.clear();
@@ -61,7 +61,7 @@ bool Turtle::State::take_character(const Action& action, Code character, const f
             return false;
         }
     }
-    pending.there = true;
+    pending.is_set = true;
     if (action.operation == TurtleOperation::SaveBranch) { // it may have any number of arguments
         pending.action = {};
         code = character;
