@@ -273,7 +273,7 @@ ExitStatus dump_streamed(const DumpCommand& command,
                          const Grammar& grammar,
                          const Console& console) {
     const Bytecode& bytecode = grammar.bytecode;
-    if (const std::optional<std::string> reason = why_not_streamable(bytecode)) {
+    if (const std::optional<std::string> reason = streaming_obstacle(bytecode)) {
         return report_error(Error{fmt::format("--stream: {}", *reason)}, console);
     }
     StreamOutcome outcome;

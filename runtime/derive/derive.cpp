@@ -168,7 +168,7 @@ struct Derivation::State {
         std::optional<Stop> stop;
         for (std::uint32_t rule = 0; rule < rules && !stop; ++rule) {
             plan->select_rule(rule);
-            if (passes->concerns(*current)) {
+            if (passes->may_rewrite_any(*current)) {
                 stop = rewrite(kDrawsOfPass * rule, current);
             }
         }
@@ -188,7 +188,7 @@ struct Derivation::State {
             return rewrite_sequentially(current);
         case RewritingMode::Cyclic:
             plan->select_rule(age % rules);
-            return passes->concerns(*current) ? rewrite(0, current) : std::nullopt;
+            return passes->may_rewrite_any(*current) ? rewrite(0, current) : std::nullopt;
         }
         return std::nullopt;
     }
@@ -239,7 +239,7 @@ struct Derivation::State {
         decompose_plan->prepare(of);
         decompose_passes->forget();
         PassKeys keys{options.seed, of, kFirstDecomposeDraw, true};
-        for (std::uint32_t done = 0; decompose_passes->concerns(*current); ++done) {
+        for (std::uint32_t done = 0; decompose_passes->may_rewrite_any(*current); ++done) {
             std::optional<RuntimeError> left = undecomposed(*current, keys);
             if (!left) {
                 break;

@@ -251,7 +251,7 @@ Diagnostic limit_diagnostic(const LimitReport& report,
                                       report.predicted_modules)
                         : ", or raise the limit with `--max-memory`";
     }
-    if (!modules && !why_not_streamable(bytecode)) {
+    if (!modules && !streaming_obstacle(bytecode)) {
         help += ", or store no word: `--stream`";
     }
     diagnostic.help.push_back(std::move(help));

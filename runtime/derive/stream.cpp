@@ -159,7 +159,7 @@ stream(const Bytecode& bytecode, const DeriveOptions& options, const StreamConsu
 
 } // namespace
 
-std::optional<std::string> why_not_streamable(const Bytecode& bytecode) {
+std::optional<std::string> streaming_obstacle(const Bytecode& bytecode) {
     if (bytecode.settings.rewriting != RewritingMode::Parallel) {
         return "`rewriting " + std::string(name_of(bytecode.settings.rewriting)) +
                "` needs the whole word";

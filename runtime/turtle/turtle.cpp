@@ -299,7 +299,7 @@ void Turtle::begin_again(std::uint64_t seed) {
     state.interpretation.reset();
 }
 TurtlePlace Turtle::place() const {
-    return state_->place_now();
+    return state_->current_place();
 }
 DrawnCounts Turtle::drawn() const {
     return state_->drawn();

@@ -137,12 +137,12 @@ bool ForestView::update() {
     }
     show_outline();
     if (requested_ != settings.edits) {
-        ask();
+        request_load();
     }
     return has_news;
 }
 
-void ForestView::ask() {
+void ForestView::request_load() {
     requested_ = settings.edits;
     // After an error read all files again: the cause may lie in any.
     loader_.request({options_, settings.edits, failed() ? nullptr : document_, SteadyClock::now()});

@@ -65,7 +65,7 @@ GrowthWalk::GrowthWalk(ModuleClasses& classes) : classes_(&classes) {
     reserve();
     for (const ClassTerm& term : axiom) {
         const auto i = static_cast<std::size_t>(term.target);
-        meet(term.target);
+        add_present(term.target);
         low_[i] = high_[i] = count_of(term.count);
         expected_[i] = term.count;
     }
@@ -117,7 +117,7 @@ void GrowthWalk::reserve() {
     }
 }
 
-void GrowthWalk::meet(ClassId id) {
+void GrowthWalk::add_present(ClassId id) {
     const auto i = static_cast<std::size_t>(id);
     if (!is_present_[i]) {
         is_present_[i] = true;
@@ -151,7 +151,7 @@ void GrowthWalk::rewrite(std::span<const ClassId> ids) {
         const std::span<const ClassTerm> high = classes_->terms(expansion.high);
         const std::span<const ClassTerm> low = classes_->terms(expansion.low);
         for (const ClassTerm& term : high) {
-            meet(term.target);
+            add_present(term.target);
             add_times(high_[static_cast<std::size_t>(term.target)], t.high, term.count);
         }
         if (!is_zero(t.low)) {
@@ -215,7 +215,7 @@ void GrowthWalk::write(const SequenceRule& rule, const Count& matches) {
     }
     reserve();
     for (const ClassTerm& term : rule.max_written) {
-        meet(term.target);
+        add_present(term.target);
         add_times(high_[static_cast<std::size_t>(term.target)], matches, term.count);
     }
     work_ += rule.max_written.size();
@@ -395,7 +395,7 @@ void GrowthWalk::load(std::uint32_t age, std::span<const Count> low, std::span<c
     age_ = age;
     for (std::size_t i = 0; i < high.size(); ++i) {
         if (!is_zero(high[i]) || !is_zero(low[i])) {
-            meet(static_cast<ClassId>(i));
+            add_present(static_cast<ClassId>(i));
             low_[i] = low[i];
             high_[i] = high[i];
         }

@@ -71,7 +71,7 @@ private:
     void use_up(const SequenceRule& rule, const Count& matches);
     void write(const SequenceRule& rule, const Count& matches);
     [[nodiscard]] Count max_matches(const SequenceRule& rule) const;
-    void meet(ClassId id);
+    void add_present(ClassId id);
     void reserve();
     void index_by_symbol();
     void drop_absent();

@@ -132,7 +132,7 @@ void Levels<C, R>::prune(std::uint64_t index) {
     }
     Pruner& pruner = pruners_[generation];
     C* const codes = level.codes.get();
-    if (!pruner.concerns(codes, level.count)) {
+    if (!pruner.may_prune(codes, level.count)) {
         return;
     }
     std::uint64_t kept = 0;
@@ -151,7 +151,7 @@ void Levels<C, R>::prune(std::uint64_t index) {
 
 /// Hands a whole block to the level below unchanged.
 template <typename C, typename R>
-void Levels<C, R>::hand_down(Level& level, Level& below) {
+void Levels<C, R>::pass_down(Level& level, Level& below) {
     std::swap(level.codes, below.codes);
     std::swap(level.parameters, below.parameters);
     std::swap(level.origins, below.origins);
@@ -169,7 +169,7 @@ bool Levels<C, R>::descend(std::uint64_t index) {
     const Plan& plan = rewrites ? *steps_.rewriting : *steps_.passes;
     look_at(level, steps_.keys_of(index));
     if (!rewrites && level.next.index == 0 && (level.settled || !may_rewrite(plan, view_))) {
-        hand_down(level, below);
+        pass_down(level, below);
         return true;
     }
     Chooser<C>& chooser = choosers_[rewrites ? 0 : 1];

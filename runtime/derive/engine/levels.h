@@ -109,7 +109,7 @@ private:
     [[nodiscard]] bool descend(std::uint64_t index);
     [[nodiscard]] bool is_decomposed(std::uint64_t index);
     [[nodiscard]] bool emit(Level& level);
-    void hand_down(Level& level, Level& below);
+    void pass_down(Level& level, Level& below);
     void prune(std::uint64_t index);
     void look_at(const Level& level, const PassKeys& keys);
     [[nodiscard]] bool fail(RuntimeError error);

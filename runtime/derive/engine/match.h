@@ -47,7 +47,7 @@ public:
         : plan_(plan), word_(word), contexts_(contexts) {}
 
     /// The parameters of a module, stored in the word or constant.
-    [[nodiscard]] const float* own(const ModulePlace& place) const {
+    [[nodiscard]] const float* own_parameters(const ModulePlace& place) const {
         const Row& row = plan_.row(word_.codes[place.index]);
         return row.constants == kNone ? word_.parameters + place.parameter
                                       : plan_.bytecode().constants.data() + row.constants;

@@ -61,7 +61,7 @@ void Passes::report_progress(std::uint32_t generation, std::uint64_t modules) {
     }
 }
 
-bool Passes::concerns(const Word& word) const {
+bool Passes::may_rewrite_any(const Word& word) const {
     return visit_view(word, [this](const auto& view) { return may_rewrite(plan_, view); });
 }
 
@@ -187,7 +187,7 @@ void Passes::place_chunks(const WordView<C>& word, bool stores) {
 
 /// Judged by the first modules of the chunk.
 template <typename C>
-bool Passes::mask_pays(const WordView<C>& word, const Chunk& chunk) const {
+bool Passes::is_mask_faster(const WordView<C>& word, const Chunk& chunk) const {
     if (!mask_.usable()) {
         return false;
     }
@@ -211,7 +211,7 @@ std::optional<Stop> Passes::count(const WordView<C>& word, const PassKeys& keys)
         Chunk& chunk = chunks_[index];
         Chooser<C> chooser(plan_, keys, word, contexts());
         R* const records = records_at<R>(chunk.begin.index);
-        chunk.masked = mask_pays(word, chunk);
+        chunk.masked = is_mask_faster(word, chunk);
         const CountResult result =
             chunk.masked
                 ? count_active(plan_, chooser, mask_, word, chunk.begin, chunk.end, records)

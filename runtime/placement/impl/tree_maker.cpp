@@ -59,7 +59,9 @@ std::uint32_t TreeMaker::choose_species(std::uint32_t word, float x, float heigh
     return last;
 }
 
-Tree TreeMaker::dress(std::uint32_t number, std::uint16_t species, const PhiloxBlock& words) const {
+Tree TreeMaker::make_appearance(std::uint32_t number,
+                                std::uint16_t species,
+                                const PhiloxBlock& words) const {
     const PlacementSpecies& kind = options_.species[species];
     Tree tree;
     tree.yaw = kTurn * unit_interval(words[1]);
@@ -70,7 +72,7 @@ Tree TreeMaker::dress(std::uint32_t number, std::uint16_t species, const PhiloxB
 }
 
 Tree TreeMaker::appearance_of(std::uint32_t number, std::uint16_t species) const {
-    return dress(number, species, placement_draws(options_.key, number, kLooksBlock));
+    return make_appearance(number, species, placement_draws(options_.key, number, kLooksBlock));
 }
 
 void TreeMaker::make(std::uint32_t number, float x, float z, TreeChunk& chunk) const {
@@ -82,7 +84,7 @@ void TreeMaker::make(std::uint32_t number, float x, float z, TreeChunk& chunk) c
         ++chunk.refused;
         return;
     }
-    Tree tree = dress(number, static_cast<std::uint16_t>(species), words);
+    Tree tree = make_appearance(number, static_cast<std::uint16_t>(species), words);
     tree.position = {x, height, z};
     chunk.trees.push_back(tree);
 }

@@ -35,7 +35,7 @@ private:
     [[nodiscard]] std::uint32_t
     choose_species(std::uint32_t word, float x, float height, float z) const;
     [[nodiscard]] Tree
-    dress(std::uint32_t number, std::uint16_t species, const PhiloxBlock& words) const;
+    make_appearance(std::uint32_t number, std::uint16_t species, const PhiloxBlock& words) const;
 
     const PlacementOptions& options_;
     const Terrain& terrain_;

@@ -115,7 +115,7 @@ struct Turtle::State {
     /// Executes one action. Returns false if the drawing has ended; `end.stop` is the reason.
     bool execute(const Action& action, const float* arguments);
     bool forward(const Action& action, const float* arguments, float part);
-    bool tapered(const Action& action, const float* arguments);
+    bool draw_tapered(const Action& action, const float* arguments);
     bool draw(double length, float base_width, float tip_width, float spring, const float* mass);
     Segment& put_segment(const Pose& base,
                          float length,
@@ -129,7 +129,7 @@ struct Turtle::State {
     bool restore();
     bool skip(const Action& action);
     bool save_branch(const Action& action, const float* arguments);
-    [[nodiscard]] TurtlePlace place_now() const;
+    [[nodiscard]] TurtlePlace current_place() const;
     [[nodiscard]] DrawnCounts drawn() const;
     bool quick_forward(const Action& action, const float* arguments, Pose& pose);
     void close_polygon();
