@@ -11,7 +11,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Clips [begin, end] to the part where origin + t * direction lies in [low, high].
-bool clip(double origin, double direction, double low, double high, double& begin, double& end) {
+bool clip_axis(
+    double origin, double direction, double low, double high, double& begin, double& end) {
     if (direction == 0.0) {
         return origin >= low && origin <= high;
     }
@@ -78,10 +79,10 @@ std::optional<HeightField::Span> HeightField::clip(const Ray& ray,
     const std::uint32_t next_column = std::min((column + 1) << level, columns_);
     const std::uint32_t next_row = std::min((row + 1) << level, rows_);
     Span span{0.0, kInfinity};
-    if (!clip(ray.origin.x, ray.direction.x, low_x, region_.x + next_column * step_x_, span.begin,
-              span.end) ||
-        !clip(ray.origin.z, ray.direction.z, low_z, region_.z + next_row * step_z_, span.begin,
-              span.end)) {
+    if (!clip_axis(ray.origin.x, ray.direction.x, low_x, region_.x + next_column * step_x_,
+                   span.begin, span.end) ||
+        !clip_axis(ray.origin.z, ray.direction.z, low_z, region_.z + next_row * step_z_, span.begin,
+                   span.end)) {
         return std::nullopt;
     }
     const Level& squares = levels_[level];
