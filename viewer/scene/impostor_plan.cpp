@@ -71,12 +71,12 @@ ImpostorPlan plan_impostors(const ForestLod& lod) {
         for (std::uint32_t i = 0; i < kClusterRow * kClusterRow; ++i) {
             Tree tree = form.impostor_trees[i % form.impostor_trees.size()];
             const std::uint32_t row = i / kClusterRow;
-            tree.yaw = 2.0F * std::numbers::pi_v<float> * drawn(i, 1);
+            tree.yaw = 2.0F * std::numbers::pi_v<float> * random_unit(i, 1);
             tree.position.x =
-                step * (static_cast<float>(i % kClusterRow) + 0.1F + 0.8F * drawn(i, 2)) -
+                step * (static_cast<float>(i % kClusterRow) + 0.1F + 0.8F * random_unit(i, 2)) -
                 0.5F * side;
             tree.position.z =
-                step * (static_cast<float>(row) + 0.1F + 0.8F * drawn(i, 3)) - 0.5F * side;
+                step * (static_cast<float>(row) + 0.1F + 0.8F * random_unit(i, 3)) - 0.5F * side;
             cell.trees.push_back(tree);
         }
     }
