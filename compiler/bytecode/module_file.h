@@ -15,7 +15,7 @@ namespace lsys {
 //   1  The first format. Opcode BranchDraw, operation SaveBranch and profile Carey were added
 //      without a new version.
 //   2  Places of the modules in the text (template_places).
-//   3  Stages of productions, depths of #decompose and #interpret, what happens at the greatest.
+//   3  Stages of productions, depths of #decompose and #interpret, treatment at the max depth.
 //   4  Source of random numbers, names of single characters; profiles l3d_program and
 //   lplus_program;
 //      operations TurnByPi, ParameterBegin, ParameterEnd and Text, in the middle of the others.

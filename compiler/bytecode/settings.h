@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// How a generation rewrites the word (docs/language.md section 5).
+/// Rewriting mode of a generation (docs/language.md section 5).
 LSYS_COUNTED_ENUM(RewritingMode, Parallel, Sequential, Cyclic, Leftmost);
 /// Whether each module draws its production, or all modules of a rule share one draw a generation.
 LSYS_COUNTED_ENUM(ChoiceScope, Module, Generation);
@@ -19,7 +19,7 @@ LSYS_COUNTED_ENUM(ChoiceScope, Module, Generation);
 LSYS_COUNTED_ENUM(RandomSource, Philox, Glibc);
 /// Whether unconditional groups must sum to 1.
 LSYS_COUNTED_ENUM(WeightRule, One, Any);
-/// Treatment of a module that `#decompose` or `#interpret` still matches at the greatest depth: it
+/// Treatment of a module that `#decompose` or `#interpret` still matches at the max depth: it
 /// ends the run, or it stays as it is.
 LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
 /// The table of docs/language.md section 7 that gives modules their meaning for the turtle. It has
@@ -57,7 +57,7 @@ struct TurtleTraits {
 /// A direction x y z and the susceptibility e.
 using Tropism = std::array<float, 4>;
 
-/// The largest of both depths.
+/// Max of `decompose_depth` and `interpret_depth`.
 inline constexpr std::uint32_t kMaxDepth = 100'000;
 /// The minimum of settings without one.
 inline constexpr float kAnyNumber = std::numeric_limits<float>::lowest();

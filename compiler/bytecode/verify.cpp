@@ -32,7 +32,7 @@ std::uint32_t number(SymbolId id) {
     return static_cast<std::uint32_t>(id);
 }
 
-/// Place of code, which decides what it may use.
+/// Place of code, which decides the instructions allowed in it.
 enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Successor };
 
 /// One walk over the tables in the order that bytecode.h promises. Every function returns false
@@ -148,7 +148,7 @@ private:
             const SiteRange range = bytecode_.site_ranges[i];
             if (range.site >= bytecode_.sites.size() || range.instruction < next ||
                 range.instruction >= bytecode_.instructions.size()) {
-                return fail("site mark {} is out of place", i);
+                return fail("site range {} is out of place", i);
             }
             next = std::uint64_t{range.instruction} + 1;
         }

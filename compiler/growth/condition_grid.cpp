@@ -15,7 +15,7 @@ namespace lsys::analysis {
 namespace {
 
 constexpr std::size_t kMaxAxes = 16;
-constexpr std::int32_t kLargest = 0x7F7FFFFF; // order index of the largest finite number
+constexpr std::int32_t kMaxOrderIndex = 0x7F7FFFFF; // of the largest finite number
 
 /// `x opcode constant`, `constant opcode x`, or `opcode x`.
 struct MonotoneStep {
@@ -139,8 +139,8 @@ void GridBuilder::cut(const Node& chain, Opcode opcode, float constant) {
         return;
     }
     const auto change = [&](auto&& holds) {
-        std::int32_t low = -kLargest;
-        std::int32_t high = kLargest;
+        std::int32_t low = -kMaxOrderIndex;
+        std::int32_t high = kMaxOrderIndex;
         const bool at_low = holds(chain_at(chain, low));
         if (at_low == holds(chain_at(chain, high))) {
             return;
@@ -301,7 +301,7 @@ std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
         });
         std::sort(cuts.begin(), cuts.end());
         cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
-        std::int32_t first = -kLargest;
+        std::int32_t first = -kMaxOrderIndex;
         const auto close = [&](std::int32_t last) {
             const auto cell = static_cast<std::uint32_t>(axis.cells.size());
             axis.cells.push_back({number_at(first), number_at(last)});
@@ -321,11 +321,11 @@ std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
             first = last + 1;
         };
         for (const std::int32_t start : cuts) {
-            if (start > first && start <= kLargest) {
+            if (start > first && start <= kMaxOrderIndex) {
                 close(start - 1);
             }
         }
-        close(kLargest);
+        close(kMaxOrderIndex);
         grid.axes.push_back(std::move(axis));
         if (grid.point_count() > max_points) {
             return std::nullopt;

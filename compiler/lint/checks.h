@@ -1,5 +1,5 @@
 // The checks of a Program: the rules of docs/language.md that need the whole program, and lints for
-// what authors hardly mean. Each check is one function in a file of its own; checks.cpp lists them.
+// likely mistakes. Each check is one function in a file of its own; checks.cpp lists them.
 // They run in the order of the list, after lowering, so that they can also read the bytecode.
 #pragma once
 

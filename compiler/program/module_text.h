@@ -6,7 +6,7 @@
 
 namespace lsys {
 
-/// The first offset from here on that is no blank or comment.
+/// Offset of the first byte from `at` on that is no blank and in no comment.
 [[nodiscard]] std::size_t skip_blanks(std::string_view text, std::size_t at);
 
 /// One past the `)` of the arguments that follow a name ending at `name_end`; `name_end` without

@@ -112,7 +112,7 @@ private:
             out_ += constant.is_param ? "  param " : "  define ";
             out_ += names_.text(constant.name);
             out_ += " = ";
-            if (constant.is_drawn) {
+            if (constant.is_random) {
                 const Global& global = program_.globals[constant.global];
                 value(global.value, nullptr);
                 out_ += fmt::format(", drawn at {}", global.draw_position);

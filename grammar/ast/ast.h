@@ -18,8 +18,7 @@
 
 namespace lsys {
 
-// ----------------------------------------------------------------------------------------
-// expressions
+// --- expressions
 
 enum class ExpressionId : std::uint32_t {};
 inline constexpr ExpressionId kNoExpression{0xFFFFFFFFu};
@@ -85,8 +84,7 @@ struct Expression {
     [[nodiscard]] BinaryOperation binary() const { return static_cast<BinaryOperation>(operation); }
 };
 
-// --------------------------------------------------------------------------------------------
-// modules
+// --- modules
 
 /// A module of a list, in eight bytes: an axiom may have a hundred million.
 class ModuleNode {
@@ -137,8 +135,7 @@ struct ModuleView {
     ListRange arguments;
 };
 
-// -----------------------------------------------------------------------------------------
-// statements
+// --- statements
 
 enum class StatementKind : std::uint8_t {
     Generations, // #n = expr;

@@ -47,7 +47,7 @@ AstBuilder::AstBuilder(const ScannedText& scanned, Ast& ast, const ParseContext&
     finish_statement({}, true); // sets the watermark
 }
 
-// ------------------------------------------------------------------------------------- expressions
+// --- expressions
 
 ExpressionId AstBuilder::add(const Expression& expression) {
     const auto id = static_cast<ExpressionId>(ast_.expressions.size());
@@ -151,7 +151,7 @@ ListRange AstBuilder::take_arguments(std::uint32_t count) {
     return range;
 }
 
-// -------------------------------------------------------------------------------------- statements
+// --- statements
 
 void AstBuilder::begin_node(StatementKind kind, std::size_t index) {
     statement_.kind = kind;
@@ -282,15 +282,15 @@ void AstBuilder::recover() {
 /// Whether 32-bit ids suffice for one more statement, which has less than 2^31 nodes of each kind;
 /// reports if not.
 bool AstBuilder::has_room(SourceSpan span) {
-    constexpr std::size_t kMostNodes = std::size_t{1} << 31;
-    const std::size_t most =
+    constexpr std::size_t kMaxNodes = std::size_t{1} << 31;
+    const std::size_t max_count =
         std::max({ast_.expressions.size(), ast_.expression_lists.size(), ast_.modules.size(),
                   ast_.calls.size(), ast_.set_values.size(), ast_.statements.size()});
-    if (most > kMostNodes && diagnostics_.admits(DiagnosticCode::ProgramTooLarge)) {
+    if (max_count > kMaxNodes && diagnostics_.admits(DiagnosticCode::ProgramTooLarge)) {
         diagnostics_.add(DiagnosticCode::ProgramTooLarge, span,
                          "with this the grammar has more than 2,147,483,648 modules or values");
     }
-    return most <= kMostNodes;
+    return max_count <= kMaxNodes;
 }
 
 bool AstBuilder::finish_statement(SourceSpan span, bool keep) {

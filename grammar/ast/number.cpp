@@ -32,8 +32,9 @@ bool is_large(std::string_view text) {
         ++at;
         const bool negative = at < text.size() && text[at] == '-';
         at += at < text.size() && (text[at] == '-' || text[at] == '+') ? 1u : 0u;
-        constexpr std::int64_t kEnough = std::int64_t{1} << 40; // beyond the length of any file
-        for (; at < text.size() && exponent < kEnough; ++at) {
+        constexpr std::int64_t kMaxExponent = std::int64_t{1}
+                                              << 40; // beyond the length of any file
+        for (; at < text.size() && exponent < kMaxExponent; ++at) {
             exponent = exponent * 10 + (text[at] - '0');
         }
         exponent = negative ? -exponent : exponent;

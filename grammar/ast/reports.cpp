@@ -5,12 +5,12 @@
 namespace lsys {
 
 std::string shown(std::string_view text) {
-    constexpr std::size_t kLongest = 40;
+    constexpr std::size_t kMaxLength = 40;
     constexpr char kDigits[] = "0123456789ABCDEF";
     std::string out;
     for (std::size_t at = 0; at < text.size(); ++at) {
         const auto byte = static_cast<unsigned char>(text[at]);
-        if (at >= kLongest && (byte & 0xC0u) != 0x80) {
+        if (at >= kMaxLength && (byte & 0xC0u) != 0x80) {
             return out + "...";
         }
         if (byte < 0x20 || byte == 0x7F) {

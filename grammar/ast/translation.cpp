@@ -7,7 +7,7 @@
 namespace lsys {
 
 bool Translation::has_room(std::string_view text, SourceSpan span) {
-    if (!overflow_ && text.size() > most_bytes_ - text_.size()) {
+    if (!overflow_ && text.size() > max_bytes_ - text_.size()) {
         overflow_ = span;
     }
     return !overflow_;

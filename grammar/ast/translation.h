@@ -20,7 +20,7 @@ public:
     /// `file`: the original, and the place of parts without a span.
     explicit Translation(FileId file) : Translation(file, kMaxSourceBytes) {}
     /// With another limit of its size than that of files.
-    Translation(FileId file, std::uint64_t most_bytes) : file_(file), most_bytes_(most_bytes) {}
+    Translation(FileId file, std::uint64_t max_bytes) : file_(file), max_bytes_(max_bytes) {}
 
     /// Appends the bytes of `span` unchanged.
     void copy(SourceSpan span, const SourceMap& sources);
@@ -62,9 +62,9 @@ private:
     [[nodiscard]] bool has_room(std::string_view text, SourceSpan span);
 
     FileId file_;
-    std::uint64_t most_bytes_ = 0;
+    std::uint64_t max_bytes_ = 0;
     std::optional<SourceSpan> overflow_;
-    std::string text_; // at most most_bytes_
+    std::string text_; // at most max_bytes_
     std::vector<Part> parts_;
     std::map<std::string, std::string> replaced_names_;
     mutable std::size_t hint_ = 0; // the last result: queries nearly ascend

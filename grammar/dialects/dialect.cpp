@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array kRows{
     DialectRow{Dialect::Lsys, "lsys", "lsys", ".lsys", "lsys", "docs/language.md", nullptr, nullptr,
-               one_system},
+               no_system_names},
 #define LSYS_DIALECT(enumerator, name, folder, title, extensions, turtle, systems)                 \
     DialectRow{Dialect::enumerator,                                                                \
                #name,                                                                              \
@@ -40,7 +40,7 @@ bool has_extension(std::string_view path, std::string_view extensions) {
 
 } // namespace
 
-std::vector<std::string> one_system(std::string_view /*text*/) {
+std::vector<std::string> no_system_names(std::string_view /*text*/) {
     return {};
 }
 
@@ -88,7 +88,7 @@ DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
 }
 
 bool has_systems(Dialect dialect) {
-    return row_of(dialect).systems != one_system;
+    return row_of(dialect).systems != no_system_names;
 }
 
 std::vector<std::string> systems_in(Dialect dialect, std::string_view text) {

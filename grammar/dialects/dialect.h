@@ -37,7 +37,7 @@ struct DialectRow {
     void (*translate)(const DialectRow& row,
                       const ParseContext& context,
                       Translation& out) = nullptr;
-    /// Names of the systems of a file, in order. one_system: a file is one system without a name.
+    /// Names of the systems of a file, in order. no_system_names: a file is one unnamed system.
     std::vector<std::string> (*systems)(std::string_view text) = nullptr;
 };
 /// All dialects, .lsys first.

@@ -26,7 +26,7 @@ public:
 
     std::string run() {
         std::size_t at = 0;
-        bool after_comment = false; // that began its line
+        bool after_comment = false; // a block comment that began its line
         for (;;) {
             LexemeReader reader(text_, at);
             Lexeme first;
@@ -119,7 +119,7 @@ private:
 
     struct Line {
         std::uint32_t column = 0; // after the statement
-        bool one = false;         // whether the statement has one line
+        bool is_one_line = false; // the statement
     };
 
     Line write_statement(const LayoutRow& row, std::string& out) const {
@@ -129,7 +129,7 @@ private:
         std::size_t cell = 0;
         bool in_head = true;
         for (Piece piece; reader.next(piece);) {
-            std::uint32_t blanks = piece.blank ? 1 : 0;
+            std::uint32_t blanks = piece.blank_before ? 1 : 0;
             if (piece.begins_cell && cell + 1 < kCells) {
                 blanks += row.cells[cell];
                 ++cell;
@@ -154,7 +154,7 @@ private:
         std::vector<std::uint32_t> gaps(rows_.size(), kCommentGap);
         for (std::size_t i = 0; i < rows_.size();) {
             std::size_t end = i;
-            while (end < rows_.size() && lines[end].one) {
+            while (end < rows_.size() && lines[end].is_one_line) {
                 ++end;
             }
             line_up_comments(i, end, lines, gaps);

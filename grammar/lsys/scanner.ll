@@ -252,7 +252,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
 <OBJECT_VALUE>{
   {IDENT}               { return Token(Parser::token::TOK_IDENTIFIER, session.builder.intern(TEXT), session.token()); }
   "("                   {
-                          return opening(session, OpenBracket::Kind::Module, Parser::token::TOK_OPEN);
+                          return opening_bracket(session, OpenBracket::Kind::Module, Parser::token::TOK_OPEN);
                         }
   "\""                  {
                           return unclosed_quote(session);
@@ -285,7 +285,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                         }
   "-"                   { return Token(Parser::token::TOK_MINUS, session.token()); }
   "("                   {
-                          return opening(session, OpenBracket::Kind::Group, Parser::token::TOK_LPAREN);
+                          return opening_bracket(session, OpenBracket::Kind::Group, Parser::token::TOK_LPAREN);
                         }
   [=:]                  {
                           if (!is_needless_sign(session)) {
@@ -309,15 +309,15 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           return Token(Parser::token::TOK_NAMES, {scan.begin, scan.end}, span);
                         }
   "("                   {
-                          return opening(session, OpenBracket::Kind::Module, Parser::token::TOK_OPEN);
+                          return opening_bracket(session, OpenBracket::Kind::Module, Parser::token::TOK_OPEN);
                         }
   ")"+                  {
-                          switch (extra_parenthesis(session)) {
-                          case Stray::Module:
+                          switch (report_extra_parenthesis(session)) {
+                          case StrayHandling::ReadAsModule:
                               SHORTEN(1);
                               return read_as_module(session, "]");
-                          case Stray::Lost:
-                              return lose_statement(session);
+                          case StrayHandling::Discard:
+                              return discard_statement(session);
                           default:
                               break;
                           }
@@ -336,20 +336,20 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           return read_as_module(session, TEXT);
                         }
   [@*~=?,]|{NUMBER}     {
-                          switch (stray_in_modules(session, TEXT)) {
-                          case Stray::Skip:
+                          switch (report_stray_in_modules(session, TEXT)) {
+                          case StrayHandling::Skip:
                               break;
-                          case Stray::Module:
+                          case StrayHandling::ReadAsModule:
                               return read_as_module(session, TEXT);
-                          case Stray::Range:
+                          case StrayHandling::SkipRange:
                               BEGIN(RANGE);
                               break;
-                          case Stray::Colon:
+                          case StrayHandling::InsertColon:
                               SHORTEN(0);
                               scan.enter(Part::Condition);
                               return Token(Parser::token::TOK_COLON, session.supplied());
-                          case Stray::Lost:
-                              return lose_statement(session);
+                          case StrayHandling::Discard:
+                              return discard_statement(session);
                           }
                         }
 }
@@ -411,18 +411,18 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           if (!is_call) {
                               BEGIN_VALUE();
                           }
-                          return opening(session, is_call ? OpenBracket::Kind::Call : OpenBracket::Kind::Group,
+                          return opening_bracket(session, is_call ? OpenBracket::Kind::Call : OpenBracket::Kind::Group,
                                          Parser::token::TOK_LPAREN);
                         }
   "{"                   {
                           if (!begins_bounds(scan)) {
                               BEGIN_VALUE();
                           }
-                          return opening(session, OpenBracket::Kind::Brace, Parser::token::TOK_LBRACE);
+                          return opening_bracket(session, OpenBracket::Kind::Brace, Parser::token::TOK_LBRACE);
                         }
   [)}]                  {
                           const std::optional<Token> token =
-                              closing(session, yytext[0]);
+                              closing_bracket(session, yytext[0]);
                           if (token) {
                               if (token->location.begin == token->location.end) {
                                   SHORTEN(0);

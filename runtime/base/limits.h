@@ -12,7 +12,7 @@ struct Limits {
 
 enum class LimitKind : std::uint8_t { Modules, Memory };
 
-/// Where a derivation reached a limit.
+/// The limit that a derivation reached, and its place.
 struct LimitReport {
     LimitKind kind = LimitKind::Modules;
     std::uint32_t generation = 0;           // age of the last complete word

@@ -26,7 +26,7 @@ enum class PngForm : std::uint8_t {
     Rgba,        // four bytes per pixel
 };
 
-/// How to read a picture. A picture that is too large is refused before memory is allocated.
+/// Options of reading a picture. Too large a picture is refused before memory is allocated.
 struct PngRequest {
     PngForm form = PngForm::Rgba;
     std::uint64_t max_pixels = 0;

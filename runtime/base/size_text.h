@@ -9,7 +9,7 @@
 
 namespace lsys {
 
-/// 1,234,567
+/// Decimal digits in groups: 1,234,567.
 [[nodiscard]] std::string grouped_digits(std::uint64_t value);
 /// 640 B, 1.5 KiB, 3.2 GiB
 [[nodiscard]] std::string byte_size_text(std::uint64_t bytes);

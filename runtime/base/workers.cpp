@@ -1,6 +1,6 @@
 #include "runtime/base/workers.h"
 
-#include "runtime/base/memory_border.h"
+#include "runtime/base/out_of_memory.h"
 
 #include <algorithm>
 #include <atomic>
@@ -21,9 +21,9 @@ namespace lsys {
 namespace {
 
 constexpr std::uint32_t kMaxThreads = 1024;
-// How often a helper looks for the next task before it sleeps: some tens of microseconds, as long
-// as the serial work between two passes over a word.
-constexpr int kLooks = 2000;
+// Polls for the next task before a helper sleeps: some tens of microseconds, as long as the serial
+// work between two passes over a word.
+constexpr int kPolls = 2000;
 
 void pause_a_moment() {
 #if defined(__x86_64__)
@@ -78,7 +78,7 @@ struct Workers::Team {
 
     /// Returns whether there is a task after the last one seen; else the team ends.
     bool wait_for_task(std::uint64_t last) {
-        for (int i = 0; i < kLooks && tickets.load(std::memory_order_relaxed) == last; ++i) {
+        for (int i = 0; i < kPolls && tickets.load(std::memory_order_relaxed) == last; ++i) {
             pause_a_moment();
         }
         std::unique_lock lock(mutex);
@@ -164,7 +164,7 @@ void Workers::for_each(std::uint64_t pieces, const std::function<void(std::uint6
         return true;
     };
     team_->run([&] {
-        if (!catch_no_memory(take_pieces, [] { return false; })) {
+        if (!catch_out_of_memory(take_pieces, [] { return false; })) {
             has_memory = false;
         }
     });

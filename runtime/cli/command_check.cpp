@@ -126,14 +126,14 @@ ExitStatus run_command(const CheckCommand& command, const Console& console) {
         const ExitStatus read = console.take(
             read_grammar(path, command.grammar.dialect, make_project(console, command.run)), text);
         if (read != ExitStatus::Ok) {
-            status = worse(status, read);
+            status = more_severe(status, read);
         } else if (is_module_file(text.bytes)) {
             console.error(fmt::format("`{}` is compiled; only grammars can be checked", path));
-            status = worse(status, ExitStatus::Failure);
+            status = more_severe(status, ExitStatus::Failure);
         } else if (command.fix) {
-            status = worse(status, fix_file(path, text, command, console));
+            status = more_severe(status, fix_file(path, text, command, console));
         } else {
-            status = worse(status, check_text(path, text, command, console));
+            status = more_severe(status, check_text(path, text, command, console));
         }
     }
     return status;

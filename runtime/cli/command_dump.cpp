@@ -98,7 +98,7 @@ ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
     const std::string text = command.stage == DumpStage::Tokens
                                  ? dump_tokens(sources.file(root))
                                  : dump_ast(parse_dialect(root, dialect, context), names, sources);
-    return worse(console.show(diagnostics, sources), write_stage(command, text, console));
+    return more_severe(console.show(diagnostics, sources), write_stage(command, text, console));
 }
 
 /// Reports that a compiled grammar has no program.
@@ -116,7 +116,7 @@ dump_instanced(const DumpCommand& command, const Grammar& grammar, const Console
         list_instanced(*grammar.program, grammar.names, *grammar.sources,
                        command.rho.value_or(kSceneRho), diagnostics);
     const ExitStatus shown = console.show(diagnostics, *grammar.sources);
-    return list ? worse(shown, write_stage(command, *list, console)) : shown;
+    return list ? more_severe(shown, write_stage(command, *list, console)) : shown;
 }
 
 /// Writes `lines` lines; `append` adds one of them to a text.

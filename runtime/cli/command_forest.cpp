@@ -200,7 +200,7 @@ std::string stats_text(const Run& run, const ForestCounts& counts, double second
         counts.trees == 0
             ? 0.0
             : static_cast<double>(counts.branches) / static_cast<double>(counts.trees),
-        counts.most_branches, counts.segments, counts.objects, counts.polygons, counts.digest,
+        counts.max_branches, counts.segments, counts.objects, counts.polygons, counts.digest,
         run.grown.cache_seconds * 1e3, run.grown.place_seconds * 1e3, seconds * 1e3);
     std::vector<std::uint64_t> trees(forest.species.size(), 0);
     for (const Tree& tree : forest.trees) {

@@ -62,7 +62,7 @@ format_file(const std::string& path, const FormatCommand& command, const Console
 ExitStatus run_command(const FormatCommand& command, const Console& console) {
     ExitStatus status = ExitStatus::Ok;
     for (const std::string& path : command.files) {
-        status = worse(status, format_file(path, command, console));
+        status = more_severe(status, format_file(path, command, console));
         if (console.interrupted()) {
             return ExitStatus::Interrupted;
         }

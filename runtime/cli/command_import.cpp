@@ -183,7 +183,7 @@ Result<void> import_one(const std::string& path,
         one = write_named(to, imported.text, import);
     }
     (one == ExitStatus::Ok ? import.imported : import.failed) += 1;
-    import.status = worse(import.status, one);
+    import.status = more_severe(import.status, one);
     const std::string what =
         options.system.empty() ? path : fmt::format("{}: `{}`", path, options.system);
     return console.write(one == ExitStatus::Ok
@@ -210,7 +210,7 @@ Result<void> import_systems(const std::string& path,
         });
         if (!known.insert(low).second) {
             ++import.failed;
-            import.status = worse(import.status, ExitStatus::AuthorErrors);
+            import.status = more_severe(import.status, ExitStatus::AuthorErrors);
             if (Result<void> written = import.console.write(fmt::format(
                     "{}: `{}`: a second system of this name, not imported\n", path, system));
                 !written) {

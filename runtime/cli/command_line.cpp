@@ -92,7 +92,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
     add_grammar(app, command.grammar, command.run);
     add_seed(app, command.seed);
     add_run_limits(app, command.run);
-    add_parsed(app, "--steps", command.steps, whole(0, kMaxGenerations),
+    add_parsed(app, "--steps", command.steps, integer(0, kMaxGenerations),
                "Derive only K generations in this run")
         ->type_name("K")
         ->group("Saved states");
@@ -145,7 +145,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
         fmt::format("Number of frames: one animation in {}, else numbered files tree.0001.ply, "
                     "tree.0002.ply, ...",
                     format_names("and", [](const FormatTraits& format) { return format.motion; }));
-    add_parsed(app, "--frames", command.frames, whole(1, kMaxFrames), frames.c_str())
+    add_parsed(app, "--frames", command.frames, integer(1, kMaxFrames), frames.c_str())
         ->type_name("N")
         ->group("Physics");
     const auto rate = [](const std::string& text) { return parse_number(text, 0.1F, 1000.0F); };
@@ -193,17 +193,17 @@ void add_forest(CLI::App& app, ForestCommand& command) {
         "Side of the ground cells whose trees share one instance node; 0: one cell (default 100)")
         ->type_name("METRES");
     add_scene_overrides(app, command.overrides, "--size");
-    constexpr std::uint64_t kMostFrames = 10'000;
-    add_parsed(app, "--frames", command.frames, whole(0, kMostFrames),
+    constexpr std::uint64_t kMaxStages = 10'000;
+    add_parsed(app, "--frames", command.frames, integer(0, kMaxStages),
                "Write N stages of a growing domination forest as numbered files")
         ->type_name("N")
         ->group("Placement");
-    add_parsed(app, "--sides", command.mesh.sides, whole(kMinSides, kMaxSides),
+    add_parsed(app, "--sides", command.mesh.sides, integer(kMinSides, kMaxSides),
                "Sides of each cross-section (default: the grammar's)")
         ->type_name("N")
         ->group("Mesh");
     constexpr std::uint64_t kMaxLevel = 8;
-    add_parsed(app, "--level", command.mesh.level, whole(0, kMaxLevel),
+    add_parsed(app, "--level", command.mesh.level, integer(0, kMaxLevel),
                "Level of detail, 0 is the finest (default 0)")
         ->type_name("K")
         ->group("Mesh");

@@ -127,8 +127,7 @@ private:
     std::optional<Error> failed_;
 };
 
-// -----------------------------------------------------------------------------------------
-// stored words
+// --- stored words
 
 using OnGeneration = std::function<bool(const Derivation&)>;
 
@@ -257,8 +256,7 @@ ExitStatus dump_stored(const DumpCommand& command,
     return report_result(done, console);
 }
 
-// -----------------------------------------------------------------------------------------
-// streamed words
+// --- streamed words
 
 /// Runs one streamed derivation into `consumer`.
 ExitStatus stream(const Plan& plan,
@@ -275,7 +273,7 @@ ExitStatus dump_streamed(const DumpCommand& command,
                          const Grammar& grammar,
                          const Console& console) {
     const Bytecode& bytecode = grammar.bytecode;
-    if (const std::optional<std::string> reason = why_not_streamable(bytecode)) {
+    if (const std::optional<std::string> reason = streaming_obstacle(bytecode)) {
         return report_error(Error{fmt::format("--stream: {}", *reason)}, console);
     }
     StreamOutcome outcome;
@@ -326,8 +324,7 @@ ExitStatus dump_streamed(const DumpCommand& command,
     return report_result(writer.commit(), console);
 }
 
-// -----------------------------------------------------------------------------------------
-// counts without words
+// --- counts without words
 
 /// Prints the counts if they are known without deriving. The start of a derivation still checks the
 /// random constants.

@@ -23,9 +23,9 @@ Result<void> repair(const RepairSubject& subject, const Finish& finish) {
         if (!done) {
             return done;
         }
-        std::set<StatementKey> doubtful = attempt.wrong();
+        std::set<StatementKey> doubtful = attempt.wrong_statements();
         if (doubtful.empty()) {
-            doubtful = attempt.ambiguous();
+            doubtful = attempt.ambiguous_statements();
         }
         if (doubtful.empty() || subject.project.is_cancelled()) {
             finish(attempt);

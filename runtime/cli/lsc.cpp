@@ -1,6 +1,6 @@
 #include "runtime/cli/lsc.h"
 
-#include "runtime/base/memory_border.h"
+#include "runtime/base/out_of_memory.h"
 #include "runtime/cli/command_line.h"
 #include "runtime/cli/commands.h"
 #include "runtime/program/process.h"
@@ -47,7 +47,7 @@ int run(std::span<const std::string> arguments, const Io& io) {
         io.err << (interrupted ? "lsc: interrupted\n" : "") << std::flush;
         return static_cast<int>(interrupted ? ExitStatus::Interrupted : status);
     };
-    return catch_no_memory(run_line, [&] { return report_out_of_memory(io); });
+    return catch_out_of_memory(run_line, [&] { return report_out_of_memory(io); });
 }
 
 } // namespace lsys::lsc

@@ -192,7 +192,7 @@ std::vector<StatementKey> RepairAttempt::statements_of(const Fix& fix) const {
     return {keys.begin(), keys.end()};
 }
 
-std::set<StatementKey> RepairAttempt::wrong() const {
+std::set<StatementKey> RepairAttempt::wrong_statements() const {
     const auto has_bracket_repair = [&](const StatementKey& key) {
         const auto applied = applied_.find(key);
         return applied != applied_.end() &&

@@ -58,9 +58,9 @@ public:
     /// Applies fixes until none is left.
     [[nodiscard]] Result<void> run();
     /// Repaired statements that are still wrong.
-    [[nodiscard]] std::set<StatementKey> wrong() const;
-    /// Repaired statements with plausible alternatives (repair_alternatives.cpp).
-    [[nodiscard]] std::set<StatementKey> ambiguous() const;
+    [[nodiscard]] std::set<StatementKey> wrong_statements() const;
+    /// Repaired statements with plausible alternatives (repair_attempt_ambiguous.cpp).
+    [[nodiscard]] std::set<StatementKey> ambiguous_statements() const;
     /// Makes the fixes of `diagnostics`, of the original text, that were not applied offers.
     void offer_doubtful(Diagnostics& diagnostics, const SourceMap& sources) const;
     [[nodiscard]] FixedGrammar take() { return std::move(fixed_); }

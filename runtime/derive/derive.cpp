@@ -1,7 +1,7 @@
 #include "runtime/derive/derive.h"
 
 #include "grammar/base/contract.h"
-#include "runtime/base/memory_border.h"
+#include "runtime/base/out_of_memory.h"
 #include "runtime/derive/brackets.h"
 #include "runtime/derive/engine/depth_limit.h"
 #include "runtime/derive/engine/origins.h"
@@ -168,7 +168,7 @@ struct Derivation::State {
         std::optional<Stop> stop;
         for (std::uint32_t rule = 0; rule < rules && !stop; ++rule) {
             plan->select_rule(rule);
-            if (passes->concerns(*current)) {
+            if (passes->may_rewrite_any(*current)) {
                 stop = rewrite(kDrawsOfPass * rule, current);
             }
         }
@@ -188,7 +188,7 @@ struct Derivation::State {
             return rewrite_sequentially(current);
         case RewritingMode::Cyclic:
             plan->select_rule(age % rules);
-            return passes->concerns(*current) ? rewrite(0, current) : std::nullopt;
+            return passes->may_rewrite_any(*current) ? rewrite(0, current) : std::nullopt;
         }
         return std::nullopt;
     }
@@ -219,7 +219,7 @@ struct Derivation::State {
         return std::nullopt;
     }
 
-    /// The error that a module can still be decomposed, if there is such a module.
+    /// The error for the first module that can still be decomposed, if any.
     [[nodiscard]] std::optional<RuntimeError> undecomposed(const Word& in, const PassKeys& keys) {
         return visit_view(in, [&](const auto& view) -> std::optional<RuntimeError> {
             Chooser chooser(*decompose_plan, keys, view, nullptr);
@@ -239,7 +239,7 @@ struct Derivation::State {
         decompose_plan->prepare(of);
         decompose_passes->forget();
         PassKeys keys{options.seed, of, kFirstDecomposeDraw, true};
-        for (std::uint32_t done = 0; decompose_passes->concerns(*current); ++done) {
+        for (std::uint32_t done = 0; decompose_passes->may_rewrite_any(*current); ++done) {
             std::optional<RuntimeError> left = undecomposed(*current, keys);
             if (!left) {
                 break;
@@ -304,7 +304,7 @@ struct Derivation::State {
     /// Runs `work` for a public function and keeps how it ended.
     template <typename Work>
     [[nodiscard]] std::optional<Stop> run(const Work& work) {
-        end.stop = catch_no_memory(work, [this]() -> std::optional<Stop> {
+        end.stop = catch_out_of_memory(work, [this]() -> std::optional<Stop> {
             if (passes) {
                 passes->forget();
             }

@@ -64,7 +64,7 @@ struct DerivationEnd {
 };
 
 /// One derivation in progress. Holds a reference to the bytecode, which outlives it. Functions that
-/// return a Stop return nothing when they are done; end() has the facts.
+/// return a Stop return none on success; end() has the facts.
 class Derivation {
 public:
     Derivation(const Bytecode& bytecode, DeriveOptions options);

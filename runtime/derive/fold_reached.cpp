@@ -15,10 +15,10 @@ namespace lsys {
 namespace {
 
 /// Larger programs would lose more time by folding than they gain.
-constexpr std::size_t kMostProductions = 4096;
-constexpr std::uint32_t kMostAxiomParameters = 4096;
-constexpr std::uint32_t kMostCodes = 4096;
-constexpr std::uint64_t kMostTrials = std::uint64_t{1} << 16; // of productions on modules
+constexpr std::size_t kMaxProductions = 4096;
+constexpr std::uint32_t kMaxAxiomParameters = 4096;
+constexpr std::uint32_t kMaxCodes = 4096;
+constexpr std::uint64_t kMaxTrials = std::uint64_t{1} << 16; // of productions on modules
 
 class Folder {
 public:
@@ -26,7 +26,7 @@ public:
         : program_(bytecode), globals_(std::move(globals)), generations_(generations),
           index_(program_), seen_(program_.code_count(), false) {
         const std::uint32_t width = code_width(bytecode.code_count());
-        most_codes_ = std::min(width == 1 ? 256U : 65'536U, kMostCodes);
+        max_codes_ = std::min(width == 1 ? 256U : 65'536U, kMaxCodes);
         by_symbol_.resize(bytecode.symbols.size());
         parts_.resize(bytecode.symbols.size());
         for (std::uint32_t i = 0; i < bytecode.productions.size(); ++i) {
@@ -82,7 +82,7 @@ private:
         }
         const bool own_known = own.size() == program_.symbols[symbol].parameter_count;
         for (const std::uint32_t index : table[symbol]) {
-            ok_ = ok_ && ++trials_ <= kMostTrials;
+            ok_ = ok_ && ++trials_ <= kMaxTrials;
             if (!ok_) {
                 return;
             }
@@ -122,7 +122,7 @@ private:
         std::vector<float> values(successor.parameter_count);
         EvalFault fault;
         const bool known =
-            knows && !is_drawn(program_, successor) &&
+            knows && !has_random_parameters(program_, successor) &&
             !contains(program_, successor.arguments, Opcode::Step) &&
             evaluate(program_, successor.arguments, frame(own), nullptr, values.data(), fault);
         take(successor, known ? values.data() : nullptr);
@@ -150,7 +150,7 @@ private:
             return known;
         }
         const Code code = program_.code_count();
-        if (code >= most_codes_) {
+        if (code >= max_codes_) {
             ok_ = false;
             return 0;
         }
@@ -190,7 +190,7 @@ private:
     std::vector<Code> next_; // first written at the next age
     Table by_symbol_;
     Table parts_; // productions of #decompose
-    std::uint32_t most_codes_ = 0;
+    std::uint32_t max_codes_ = 0;
     std::uint64_t trials_ = 0;
     bool bare_axiom_ = false; // the axiom stored parameters and no longer does
     bool ok_ = true;
@@ -204,8 +204,8 @@ fold_reached(const Bytecode& bytecode, std::uint64_t seed, std::uint32_t generat
         std::any_of(bytecode.symbols.begin(), bytecode.symbols.end(),
                     [](const BytecodeSymbol& symbol) { return symbol.parameter_count != 0; });
     if (!stores || bytecode.settings.rewriting != RewritingMode::Parallel ||
-        code_width(bytecode.code_count()) > 2 || bytecode.productions.size() > kMostProductions ||
-        bytecode.axiom.parameter_count > kMostAxiomParameters) {
+        code_width(bytecode.code_count()) > 2 || bytecode.productions.size() > kMaxProductions ||
+        bytecode.axiom.parameter_count > kMaxAxiomParameters) {
         return std::nullopt;
     }
     std::vector<float> globals;

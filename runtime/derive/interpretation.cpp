@@ -42,13 +42,12 @@ public:
                 bool origins,
                 Sink sink)
         : prepared_(std::move(prepared)), plan_(std::move(plan)), sink_(std::move(sink)),
-          origins_(origins),
-          levels_(steps_of(*plan_,
-                           prepared_->inputs,
-                           stage_depth(prepared_->bytecode, Stage::Interpret)),
-                  {origins, prepared_->inputs.max_bytes, 1, most_stored(prepared_->bytecode),
-                   prepared_->inputs.cancelled},
-                  [this](const LevelBlock<C>& block) { return emit(block); }) {}
+          origins_(origins), levels_(steps_of(*plan_,
+                                              prepared_->inputs,
+                                              stage_depth(prepared_->bytecode, Stage::Interpret)),
+                                     {origins, prepared_->inputs.max_bytes, 1,
+                                      max_stored(prepared_->bytecode), prepared_->inputs.cancelled},
+                                     [this](const LevelBlock<C>& block) { return emit(block); }) {}
 
     std::optional<Stop> feed(std::span<const Code> codes,
                              std::span<const float> parameters,
@@ -88,12 +87,12 @@ public:
     const RuntimeError& error() const override { return error_; }
 
 private:
-    static std::uint64_t most_stored(const Bytecode& bytecode) {
-        std::uint64_t most = 0;
+    static std::uint64_t max_stored(const Bytecode& bytecode) {
+        std::uint64_t max_count = 0;
         for (const BytecodeSymbol& symbol : bytecode.symbols) {
-            most = std::max<std::uint64_t>(most, symbol.parameter_count);
+            max_count = std::max<std::uint64_t>(max_count, symbol.parameter_count);
         }
-        return most;
+        return max_count;
     }
 
     bool emit(const LevelBlock<C>& block) {

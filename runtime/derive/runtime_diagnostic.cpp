@@ -67,7 +67,7 @@ void place(Diagnostic& diagnostic,
         "at {}:{}:{}", bytecode.files[static_cast<std::size_t>(at.span.file)], at.line, at.column));
 }
 
-/// The verb for what was done with the module.
+/// The verb for the treatment of the module.
 const char* doing(const RuntimeError& error, const Bytecode& bytecode) {
     switch (error.production == kNoProduction
                 ? Stage::Rewrite
@@ -251,7 +251,7 @@ Diagnostic limit_diagnostic(const LimitReport& report,
                                       report.predicted_modules)
                         : ", or raise the limit with `--max-memory`";
     }
-    if (!modules && !why_not_streamable(bytecode)) {
+    if (!modules && !streaming_obstacle(bytecode)) {
         help += ", or store no word: `--stream`";
     }
     diagnostic.help.push_back(std::move(help));

@@ -60,7 +60,7 @@ combined_checksum(std::string_view header, std::string_view codes, std::string_v
     return checksum(bytes_of(std::span<const std::uint64_t>(parts)));
 }
 
-/// Whether every code exists, the codes store as many parameters as there are, and all are finite.
+/// Whether every code exists, the parameters are as many as the codes store, and all are finite.
 bool fits(const Bytecode& bytecode, const Word& word) {
     const std::optional<std::uint64_t> stored =
         word.visit([&](auto codes) -> std::optional<std::uint64_t> {

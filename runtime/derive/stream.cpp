@@ -1,6 +1,6 @@
 #include "runtime/derive/stream.h"
 
-#include "runtime/base/memory_border.h"
+#include "runtime/base/out_of_memory.h"
 #include "runtime/derive/brackets.h"
 #include "runtime/derive/engine/levels.h"
 #include "runtime/derive/engine/origins.h"
@@ -159,7 +159,7 @@ stream(const Bytecode& bytecode, const DeriveOptions& options, const StreamConsu
 
 } // namespace
 
-std::optional<std::string> why_not_streamable(const Bytecode& bytecode) {
+std::optional<std::string> streaming_obstacle(const Bytecode& bytecode) {
     if (bytecode.settings.rewriting != RewritingMode::Parallel) {
         return "`rewriting " + std::string(name_of(bytecode.settings.rewriting)) +
                "` needs the whole word";
@@ -175,15 +175,15 @@ std::optional<std::string> why_not_streamable(const Bytecode& bytecode) {
 StreamOutcome derive_streamed(const Bytecode& bytecode,
                               const DeriveOptions& options,
                               const StreamConsumer& consumer) {
-    return catch_no_memory([&] { return stream(bytecode, options, consumer); },
-                           [&] {
-                               StreamOutcome outcome;
-                               outcome.end.stop = Stop::OutOfMemory;
-                               outcome.end.limit.kind = LimitKind::Memory;
-                               outcome.end.limit.generation = options.generations;
-                               outcome.end.limit.streamed = true;
-                               return outcome;
-                           });
+    return catch_out_of_memory([&] { return stream(bytecode, options, consumer); },
+                               [&] {
+                                   StreamOutcome outcome;
+                                   outcome.end.stop = Stop::OutOfMemory;
+                                   outcome.end.limit.kind = LimitKind::Memory;
+                                   outcome.end.limit.generation = options.generations;
+                                   outcome.end.limit.streamed = true;
+                                   return outcome;
+                               });
 }
 
 } // namespace lsys

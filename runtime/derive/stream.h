@@ -12,7 +12,7 @@
 namespace lsys {
 
 /// The reason, for the user, why the system cannot be streamed: it is not parallel or has contexts.
-[[nodiscard]] std::optional<std::string> why_not_streamable(const Bytecode& bytecode);
+[[nodiscard]] std::optional<std::string> streaming_obstacle(const Bytecode& bytecode);
 
 /// A run of modules of the last word, in order.
 struct StreamChunk {
@@ -23,7 +23,7 @@ struct StreamChunk {
 /// Returns false to end the derivation with Stop::Cancelled.
 using StreamConsumer = std::function<bool(const StreamChunk&)>;
 
-/// How a streamed derivation ended, and the size of what the consumer was given.
+/// End of a streamed derivation, and the size of the words given to the consumer.
 struct StreamOutcome {
     DerivationEnd end;
     std::uint64_t modules = 0;
@@ -31,7 +31,7 @@ struct StreamOutcome {
 };
 
 /// Derives options.generations generations from the axiom. Precondition:
-/// !why_not_streamable(bytecode).
+/// !streaming_obstacle(bytecode).
 [[nodiscard]] StreamOutcome derive_streamed(const Bytecode& bytecode,
                                             const DeriveOptions& options,
                                             const StreamConsumer& consumer);

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kSymbols = "+-/\\^&|$!\"'.[]{}%";
 constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
 /// Words of programs with more codes, and shorter words, are printed module by module.
-constexpr std::size_t kMostPairedCodes = 64;
+constexpr std::size_t kMaxPairedCodes = 64;
 constexpr std::size_t kPairedFrom = 4096;
 /// Room for the longest binary32 as text and a comma or parenthesis.
 constexpr std::size_t kNumberBytes = 24;
@@ -146,7 +146,7 @@ bool WordPrinter::write(const C* codes,
     char* at = begin;
     bool after_identifier = after_identifier_;
     const std::size_t size = spellings_.size();
-    if (pairs_.empty() && count >= kPairedFrom && size <= kMostPairedCodes) {
+    if (pairs_.empty() && count >= kPairedFrom && size <= kMaxPairedCodes) {
         make_pairs();
     }
     for (std::size_t i = 0; i < count; ++i) {

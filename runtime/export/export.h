@@ -43,7 +43,7 @@ struct FormatTraits {
     std::string_view name;    // value of `--format` and extension of files
     std::string_view content; // for README.md
     bool uses_mesh = true;    // false: drawn from the skeleton, without the mesh
-    /// Largest mesh that the format can count.
+    /// Max size of a mesh in the format.
     std::uint64_t max_vertices = ~std::uint64_t{0};
     std::uint64_t max_triangles = ~std::uint64_t{0};
     ExportPictures pictures = ExportPictures::None;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kTreesOfPiece = 4096;
 
-/// Mixes the bits of a branch so that sums of them tell sets of branches apart.
+/// Hash of a branch; sums of hashes distinguish sets of branches.
 std::uint64_t digest_of(const Tree& tree, std::uint32_t node, const BranchInstance& branch) {
     const auto bits = [](float a, float b) {
         return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 |
@@ -46,7 +46,7 @@ ForestCounts count_trees(const Forest& forest, std::span<const Tree> trees) {
             counts.digest += digest_of(tree, node++, branch);
         });
         counts.branches += node;
-        counts.most_branches = std::max(counts.most_branches, node);
+        counts.max_branches = std::max(counts.max_branches, node);
     }
     counts.trees = trees.size();
     return counts;
@@ -60,7 +60,7 @@ void ForestCounts::add(const ForestCounts& other) {
     segments += other.segments;
     objects += other.objects;
     polygons += other.polygons;
-    most_branches = std::max(most_branches, other.most_branches);
+    max_branches = std::max(max_branches, other.max_branches);
     digest += other.digest;
 }
 

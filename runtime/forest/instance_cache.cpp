@@ -1,7 +1,7 @@
 #include "runtime/forest/instance_cache.h"
 
 #include "grammar/base/contract.h"
-#include "runtime/base/memory_border.h"
+#include "runtime/base/out_of_memory.h"
 
 #include <algorithm>
 #include <bit>
@@ -105,7 +105,7 @@ private:
         std::uint32_t instance = kNone;
         DrawnCounts range_begin;
         std::size_t suspended_below = 0; // suspended_ before it, if it suspends
-        bool suspends = false;           // the enclosing instances
+        bool suspends = false;           // suspends the enclosing instances
     };
 
     void start(std::uint32_t slot, const TurtlePlace& place, const DrawnCounts& drawn) {
@@ -278,12 +278,12 @@ CacheOutcome record_heroes(const Bytecode& bytecode, const CacheOptions& options
 CacheOutcome make_instance_cache(const Bytecode& bytecode, const CacheOptions& options) {
     LSYS_CHECK(options.heroes > 0);
     LSYS_CHECK(options.tolerance >= 0.0F);
-    return catch_no_memory([&] { return record_heroes(bytecode, options); },
-                           [] {
-                               CacheOutcome outcome;
-                               outcome.drawn.stop = Stop::OutOfMemory;
-                               return outcome;
-                           });
+    return catch_out_of_memory([&] { return record_heroes(bytecode, options); },
+                               [] {
+                                   CacheOutcome outcome;
+                                   outcome.drawn.stop = Stop::OutOfMemory;
+                                   return outcome;
+                               });
 }
 
 BranchInstance root_of(const Tree& tree) {

@@ -1,7 +1,7 @@
 #include "runtime/forest/instance_meshes.h"
 
 #include "grammar/base/contract.h"
-#include "runtime/base/memory_border.h"
+#include "runtime/base/out_of_memory.h"
 #include "runtime/base/workers.h"
 
 #include <algorithm>
@@ -84,8 +84,8 @@ std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
 }
 
 /// The heroes' skeleton with its forks, in which the parent of an object or polygon is its own
-/// number: things are numbered segments first, then polygons, then objects.
-Skeleton number_what_was_drawn(const InstanceCache& cache) {
+/// number: items are numbered segments first, then polygons, then objects.
+Skeleton number_items(const InstanceCache& cache) {
     Skeleton skeleton = cache.skeleton;
     const std::vector<bool> begins = find_slots_with_segments(cache);
     for (const InstanceFork& fork : cache.forks) {
@@ -104,19 +104,20 @@ Skeleton number_what_was_drawn(const InstanceCache& cache) {
 
 /// Triangles of each segment, object and polygon, in the order of the mesh.
 struct Owners {
-    LargeVector<std::uint32_t> first; // of each thing; at its end, the number of triangles
+    LargeVector<std::uint32_t> first; // of each item; at the end the number of triangles
     LargeVector<std::uint32_t> triangles;
 };
 
-Owners find_owners(const Mesh& mesh, std::span<const std::uint32_t> indices, std::uint64_t things) {
+Owners
+find_owners(const Mesh& mesh, std::span<const std::uint32_t> indices, std::uint64_t item_count) {
     const std::uint64_t count = indices.size() / 3;
     const auto owner = [&](std::uint64_t triangle) {
-        const std::uint32_t thing = mesh.segments[indices[3 * triangle]][0];
-        LSYS_CHECK(thing < things, thing, things);
-        return thing;
+        const std::uint32_t item = mesh.segments[indices[3 * triangle]][0];
+        LSYS_CHECK(item < item_count, item, item_count);
+        return item;
     };
     Owners owners;
-    owners.first.assign(things + 1, 0);
+    owners.first.assign(item_count + 1, 0);
     owners.triangles.resize(count);
     for (std::uint64_t t = 0; t < count; ++t) {
         ++owners.first[owner(t)];
@@ -128,7 +129,7 @@ Owners find_owners(const Mesh& mesh, std::span<const std::uint32_t> indices, std
     for (std::uint64_t t = 0; t < count; ++t) {
         owners.triangles[owners.first[owner(t)]++] = static_cast<std::uint32_t>(t);
     }
-    for (std::uint64_t i = things; i > 0; --i) { // back to where they began
+    for (std::uint64_t i = item_count; i > 0; --i) { // back to where they began
         owners.first[i] = owners.first[i - 1];
     }
     owners.first[0] = 0;
@@ -173,8 +174,8 @@ private:
     template <typename Visit>
     void visit_run(std::uint64_t begin, std::uint64_t end, const Visit& visit) const {
         std::size_t part = 0;
-        for (std::uint64_t thing = begin; thing < end; ++thing) {
-            for (std::uint32_t i = owners_.first[thing]; i < owners_.first[thing + 1]; ++i) {
+        for (std::uint64_t item = begin; item < end; ++item) {
+            for (std::uint32_t i = owners_.first[item]; i < owners_.first[item + 1]; ++i) {
                 const std::uint64_t index = std::uint64_t{3} * owners_.triangles[i];
                 part = index < mesh_.parts[part].first_index ? 0 : part;
                 while (index >= mesh_.parts[part].first_index + mesh_.parts[part].index_count) {
@@ -270,7 +271,7 @@ InstanceMeshStatus build(const InstanceCache& cache,
         return InstanceMeshStatus::TooManyVertices;
     }
     options.segments = true;
-    switch (make_mesh(number_what_was_drawn(cache), user_meshes, options, meshes.mesh)) {
+    switch (make_mesh(number_items(cache), user_meshes, options, meshes.mesh)) {
     case MeshStatus::Ok:
         return list_instances(cache, options, meshes);
     case MeshStatus::TooManyVertices:
@@ -291,8 +292,8 @@ InstanceMeshStatus make_instance_meshes(const InstanceCache& cache,
                                         InstanceMeshes& meshes) {
     meshes = {};
     const InstanceMeshStatus status =
-        catch_no_memory([&] { return build(cache, user_meshes, options, meshes); },
-                        [] { return InstanceMeshStatus::OutOfMemory; });
+        catch_out_of_memory([&] { return build(cache, user_meshes, options, meshes); },
+                            [] { return InstanceMeshStatus::OutOfMemory; });
     if (status != InstanceMeshStatus::Ok) {
         meshes = {};
     }

@@ -1,6 +1,6 @@
 #include "runtime/meshing/mesh.h"
 
-#include "runtime/base/memory_border.h"
+#include "runtime/base/out_of_memory.h"
 #include "runtime/meshing/impl/boxes.h"
 #include "runtime/meshing/impl/cylinders.h"
 #include "runtime/meshing/impl/l3d_shapes.h"
@@ -49,11 +49,11 @@ MeshStatus make_mesh(const Skeleton& skeleton,
                      const std::vector<UserMesh>& user_meshes,
                      const MeshOptions& options,
                      Mesh& mesh) {
-    return catch_no_memory([&] { return build(skeleton, user_meshes, options, mesh); },
-                           [&] {
-                               mesh = {};
-                               return MeshStatus::OutOfMemory;
-                           });
+    return catch_out_of_memory([&] { return build(skeleton, user_meshes, options, mesh); },
+                               [&] {
+                                   mesh = {};
+                                   return MeshStatus::OutOfMemory;
+                               });
 }
 
 glm::vec3 palette_colour(std::uint32_t index) {

@@ -22,8 +22,8 @@ constexpr std::uint16_t kPink = 20;
 constexpr std::uint16_t kPaleGreen = 14;
 constexpr std::uint16_t kGrey = 24;
 
-std::uint32_t halved(std::uint32_t finest, std::uint32_t level, std::uint32_t least) {
-    return std::max(level < 32 ? finest >> level : 0, least);
+std::uint32_t halved(std::uint32_t finest, std::uint32_t level, std::uint32_t min_count) {
+    return std::max(level < 32 ? finest >> level : 0, min_count);
 }
 
 ShapePart plain(std::uint16_t palette) {

@@ -69,23 +69,23 @@ bool has_holes(const Texture& texture) {
 
 glm::vec3 mean_colour(const Texture& texture) {
     std::array<std::uint64_t, 768> counts{}; // of each value of each channel
-    std::uint64_t there = 0;
+    std::uint64_t count = 0;
     for (std::size_t i = 0; i + 3 < texture.texels.size(); i += 4) {
         if (texture.texels[i + 3] >= 128) {
-            ++there;
+            ++count;
             for (std::size_t c = 0; c < 3; ++c) {
                 ++counts[256 * c + texture.texels[i + c]];
             }
         }
     }
     glm::vec3 mean(1.0F);
-    for (std::size_t c = 0; c < 3 && there != 0; ++c) {
+    for (std::size_t c = 0; c < 3 && count != 0; ++c) {
         double sum = 0.0;
         for (std::size_t value = 0; value < 256; ++value) {
             sum += static_cast<double>(counts[256 * c + value]) *
                    static_cast<double>(linear(static_cast<std::uint8_t>(value)));
         }
-        mean[static_cast<glm::length_t>(c)] = static_cast<float>(sum / static_cast<double>(there));
+        mean[static_cast<glm::length_t>(c)] = static_cast<float>(sum / static_cast<double>(count));
     }
     return mean;
 }

@@ -28,7 +28,7 @@ constexpr std::uint32_t kNotGiven = 0xFFFFFFFFu;
 // Every vertex and every corner of a face takes two bytes at least, so indices fit into 32 bits.
 constexpr std::uint64_t kMaxBytes = 0x1FFFFFFF0u;
 
-/// A corner of a face: indices from 0 into what was read so far.
+/// A corner of a face: indices from 0 of elements read so far.
 struct Corner {
     std::uint32_t position = kNotGiven;
     std::uint32_t texture = kNotGiven;
@@ -262,7 +262,7 @@ private:
                                   : leading != std::string_view::npos && digits[leading] == '.';
             value = tiny ? 0.0 : std::numeric_limits<double>::infinity();
         }
-        if (!(std::abs(value) <= static_cast<double>(kLargest))) {
+        if (!(std::abs(value) <= static_cast<double>(kMaxCoordinate))) {
             return std::nullopt;
         }
         return static_cast<float>(value);
@@ -445,7 +445,7 @@ private:
         }
     }
 
-    static constexpr float kLargest = 1e18F; // so that areas and lengths stay finite
+    static constexpr float kMaxCoordinate = 1e18F; // so that areas and lengths stay finite
 
     std::string_view text_;
     std::uint64_t max_bytes_;
@@ -468,11 +468,11 @@ private:
 } // namespace
 
 float UserMesh::length() const {
-    float greatest = 0.0F;
+    float height = 0.0F;
     for (const glm::vec3& position : positions) {
-        greatest = std::max(greatest, position.y);
+        height = std::max(height, position.y);
     }
-    return greatest;
+    return height;
 }
 
 std::uint64_t UserMesh::byte_count() const {

@@ -124,13 +124,13 @@ struct PlantPhysics::State {
         for (std::size_t b = 0; b < plant.motion.size(); ++b) {
             plant.solution[b].spin = plant.motion[b].spin;
         }
-        const Energies seen = move_bodies(plant, forces, 0.0, 1.0, workers);
-        energy = seen.position + seen.motion;
+        const Energies energies = move_bodies(plant, forces, 0.0, 1.0, workers);
+        energy = energies.position + energies.motion;
     }
 
     struct Step {
         double share = 0.0; // part of the solved motion that was taken
-        double turn = 0.0;  // rad, greatest
+        double turn = 0.0;  // rad, max
     };
     /// Makes a step, which ends at standstill without `keep_velocity`.
     Step advance(const Forces& now, bool keep_velocity) {
@@ -138,23 +138,24 @@ struct PlantPhysics::State {
         double share = 1.0;
         for (int trial = 0; trial <= kTrials; ++trial) {
             share = trial == kTrials ? 0.0 : share;
-            const Energies seen =
+            const Energies energies =
                 move_bodies(plant, now, share * now.step, keep_velocity ? share : 0.0, workers);
-            const double allowed = energy + std::max(now.windy ? seen.work : 0.0, 0.0);
-            const bool known = std::isfinite(seen.position + seen.motion);
-            if (share > 0.0 && !(known && seen.position <= allowed + kRounding * seen.terms)) {
+            const double allowed = energy + std::max(now.windy ? energies.work : 0.0, 0.0);
+            const bool known = std::isfinite(energies.position + energies.motion);
+            if (share > 0.0 &&
+                !(known && energies.position <= allowed + kRounding * energies.terms)) {
                 share *= kTrialShare;
                 continue;
             }
-            const double left = std::max(allowed - seen.position, 0.0);
-            double motion = seen.motion;
+            const double left = std::max(allowed - energies.position, 0.0);
+            double motion = energies.motion;
             if (share > 0.0 && motion > left) {
                 scale_velocities(plant, std::sqrt(left / motion), workers);
                 motion = left;
             }
-            energy = std::min(allowed, seen.position + motion);
+            energy = std::min(allowed, energies.position + motion);
             plant.poses.swap(plant.next_poses);
-            return {share, seen.turn};
+            return {share, energies.turn};
         }
         return {};
     }

@@ -2,7 +2,7 @@
 // base (Crankshaw 2019, chapter 6, after Barron et al. 2001), bent by its weight and by wind.
 // Metres, kilograms, seconds, radians. Made from the skeleton at rest; gives bent skeletons.
 //
-// Always holds: everything is finite, whatever the skeleton says; without wind the energy never
+// Always holds: everything is finite, for any skeleton; without wind the energy never
 // grows, for any springs, masses, lengths and time step; the same numbers for any number of
 // threads. The head of physics.cpp describes a step and proves this.
 #pragma once

@@ -21,8 +21,8 @@ namespace lsys {
 
 namespace {
 
-constexpr double kUsualSize = 100.0; // m
-constexpr std::uint64_t kUsualCount = 1000;
+constexpr double kDefaultSize = 100.0; // m
+constexpr std::uint64_t kDefaultCount = 1000;
 
 std::string path_in(const std::string& folder, const std::string& path) {
     return (std::filesystem::path(folder) / path).string();
@@ -31,9 +31,9 @@ std::string path_in(const std::string& folder, const std::string& path) {
 /// The scene of a list of grammars.
 Scene scene_of(const std::vector<std::string>& grammars) {
     Scene scene;
-    scene.terrain.region = {0.0, 0.0, kUsualSize, kUsualSize};
+    scene.terrain.region = {0.0, 0.0, kDefaultSize, kDefaultSize};
     scene.placement.region = scene.terrain.region;
-    scene.placement.count = kUsualCount;
+    scene.placement.count = kDefaultCount;
     for (const std::string& path : grammars) {
         SceneSpecies& species = scene.species.emplace_back();
         species.name = std::filesystem::path(path).stem().string();
@@ -167,8 +167,8 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     return step.done(std::move(grown));
 }
 
-/// Whether both make the same heroes from the same files.
-bool is_grown_alike(const SceneSpecies& a, const SceneSpecies& b) {
+/// Whether both species have the same heroes from the same files.
+bool has_same_heroes(const SceneSpecies& a, const SceneSpecies& b) {
     const auto same_definition = [](const SceneDefinition& one, const SceneDefinition& other) {
         return one.name == other.name && one.value == other.value;
     };
@@ -187,7 +187,7 @@ std::optional<std::size_t> find_known(const SceneSpecies& species, const KnownFo
         return std::nullopt;
     }
     for (std::size_t i = 0; i < known.scene->species.size(); ++i) {
-        if (is_grown_alike(species, known.scene->species[i])) {
+        if (has_same_heroes(species, known.scene->species[i])) {
             return i;
         }
     }

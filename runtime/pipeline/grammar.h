@@ -20,7 +20,7 @@
 
 namespace lsys {
 
-/// How a grammar is read and compiled.
+/// Options of reading and compiling a grammar.
 struct GrammarOptions {
     std::string dialect; // its name; empty: detected by contents, else by extension
     bool bug_compatible = false;

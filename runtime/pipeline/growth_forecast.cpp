@@ -12,10 +12,10 @@ namespace lsys {
 namespace {
 
 /// Larger programs take longer to predict than many runs take.
-constexpr std::size_t kMostProductions = 10'000;
+constexpr std::size_t kMaxProductions = 10'000;
 
 bool is_small(const Bytecode& bytecode) {
-    return bytecode.productions.size() <= kMostProductions;
+    return bytecode.productions.size() <= kMaxProductions;
 }
 
 std::uint64_t saturated(const Count& count) {

@@ -88,7 +88,7 @@ Outcome<Plant> grow_plant(const PlantOptions& options, Grammar& grammar, const P
     plant.generations = derive.generations;
     plant.seed = derive.seed;
     if (options.stream) {
-        if (const std::optional<std::string> reason = why_not_streamable(bytecode)) {
+        if (const std::optional<std::string> reason = streaming_obstacle(bytecode)) {
             return step.fail(fmt::format("--stream: {}", *reason));
         }
     } else if (const std::optional<LimitReport> limit =

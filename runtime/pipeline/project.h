@@ -13,7 +13,7 @@
 
 namespace lsys {
 
-/// How far a derivation has come.
+/// Progress of a derivation.
 struct DerivationProgress {
     std::uint32_t generation = 0;  // being written
     std::uint32_t generations = 0; // to derive
@@ -22,7 +22,7 @@ struct DerivationProgress {
     const std::vector<double>& expected;
 };
 
-/// How much of a file may be read.
+/// Limits of reading a file.
 struct ReadLimit {
     std::uint64_t max_bytes = 0;              // for a file of its kind
     std::uint64_t memory = ~std::uint64_t{0}; // left; more is an Error of ErrorKind::Limit

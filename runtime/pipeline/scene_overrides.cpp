@@ -60,9 +60,9 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         take(own.rho, species.rho);
         PlacementSpecies& placed = scene.placement.species[i];
         take(own.share, placed.share);
-        take(own.min_scale, placed.least_scale);
-        take(own.max_scale, placed.greatest_scale);
-        placed.greatest_scale = std::max(placed.greatest_scale, placed.least_scale);
+        take(own.min_scale, placed.min_scale);
+        take(own.max_scale, placed.max_scale);
+        placed.max_scale = std::max(placed.max_scale, placed.min_scale);
     }
     take(overrides.terrain, scene.terrain.kind);
     take(overrides.hill_height, scene.terrain.noise.height);

@@ -44,7 +44,7 @@ bool find_in_disc(const PhiloxBlock& words, std::array<double, 2>& point) {
 
 /// Growth in the open, m per year.
 float open_growth(const SpeciesGrowth& growth, float radius, float vigour) {
-    return growth.rate * vigour * (1.0F - radius / growth.greatest_radius);
+    return growth.rate * vigour * (1.0F - radius / growth.max_radius);
 }
 
 std::vector<float> open_radii(const SpeciesGrowth& growth) {
@@ -235,15 +235,16 @@ Result<void> Domination::step() {
     const Life life(options_, *terrain_, year_ + 1);
     Workers workers(options_.threads);
     const std::uint64_t seeds = count_seeds(life, workers, plants_);
-    const std::uint64_t most = plants_.size() + seeds;
-    if (most > kMaxTrees || seeds > kEndOfNumbers - next_number_) {
+    const std::uint64_t max_plants = plants_.size() + seeds;
+    if (max_plants > kMaxTrees || seeds > kEndOfNumbers - next_number_) {
         return Error{
             fmt::format("in year {} there are {} plants and {} seeds; a forest has at most "
                         "{} of both, and 2^32 plants in all years",
                         year_ + 1, plants_.size(), seeds, kMaxTrees)};
     }
-    if (plants_.capacity() < most) {
-        plants_.reserve(std::max<std::size_t>(most, plants_.capacity() + plants_.capacity() / 4));
+    if (plants_.capacity() < max_plants) {
+        plants_.reserve(
+            std::max<std::size_t>(max_plants, plants_.capacity() + plants_.capacity() / 4));
     }
     const std::size_t parents = plants_.size();
     add_seedlings(life, workers, next_number_, plants_);
@@ -270,7 +271,7 @@ LargeVector<Tree> Domination::trees() const {
         for (std::uint64_t i = piece * kPiece; i < end; ++i) {
             const ForestPlant& plant = plants_[i];
             const std::vector<float>& open = open_radii_[plant.species];
-            Tree tree = maker.looks_of(plant.number, plant.species);
+            Tree tree = maker.appearance_of(plant.number, plant.species);
             tree.position = {plant.place.x, terrain_->height(plant.place.x, plant.place.y),
                              plant.place.y};
             tree.scale *= plant.radius / open[std::min<std::size_t>(plant.age, open.size() - 1)];

@@ -40,7 +40,7 @@ enum class PlacementMethod : std::uint8_t {
 /// The life of a species; used by Domination only.
 struct SpeciesGrowth {
     float rate = 0.12F;           // m per year, initial growth of the radius of influence
-    float greatest_radius = 6.0F; // m, the limit of growth
+    float max_radius = 6.0F;      // m, the limit of growth
     float tolerance = 0.3F;       // growth in the shade relative to full growth, 0 to 1
     float vigour_spread = 0.3F;   // vigours are drawn from [1 - vigour_spread, 1]
     std::uint32_t lifespan = 300; // years, +- a fifth
@@ -51,8 +51,8 @@ struct SpeciesGrowth {
 
 struct PlacementSpecies {
     double share = 1.0; // of the trees, relative to other species that can live at a place
-    float least_scale = 1.0F;
-    float greatest_scale = 1.0F;
+    float min_scale = 1.0F;
+    float max_scale = 1.0F;
     float lowest = -std::numeric_limits<float>::infinity();  // m, altitude
     float highest = std::numeric_limits<float>::infinity();  // m, altitude
     float steepest = std::numeric_limits<float>::infinity(); // rise over run: 1 is 45 degrees

@@ -31,7 +31,7 @@ Parsed<T> parse_all(std::string_view text) {
 
 } // namespace
 
-Result<std::uint64_t> parse_whole(std::string_view text, std::uint64_t low, std::uint64_t high) {
+Result<std::uint64_t> parse_integer(std::string_view text, std::uint64_t low, std::uint64_t high) {
     const Parsed<std::uint64_t> parsed = parse_all<std::uint64_t>(text);
     if (parsed.error != std::errc() || parsed.value < low || parsed.value > high) {
         return Error{fmt::format("`{}` is not a whole number from {} to {}", text, low, high)};
@@ -87,9 +87,9 @@ Result<std::uint64_t> parse_size(std::string_view text) {
     }
     const Parsed<double> parsed = parse_all<double>(digits);
     const double bytes = parsed.value * unit;
-    constexpr double kMost = 9.2e18;
+    constexpr double kMaxBytes = 9.2e18;
     const bool whole = unit > 1.0 || bytes == std::floor(bytes);
-    if (parsed.error != std::errc() || !(bytes >= 1.0) || !(bytes < kMost) || !whole) {
+    if (parsed.error != std::errc() || !(bytes >= 1.0) || !(bytes < kMaxBytes) || !whole) {
         return Error{fmt::format("`{}` is not a size such as 500M, 1.5G or 1048576", text)};
     }
     return static_cast<std::uint64_t>(bytes);

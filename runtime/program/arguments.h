@@ -16,7 +16,7 @@ inline constexpr std::uint64_t kMaxGenerations = 0xFFFF'FFFEu;
 
 /// A whole number from `low` to `high`, in decimal digits.
 [[nodiscard]] Result<std::uint64_t>
-parse_whole(std::string_view text, std::uint64_t low, std::uint64_t high);
+parse_integer(std::string_view text, std::uint64_t low, std::uint64_t high);
 
 /// A number from `low` to `high`.
 [[nodiscard]] Result<float> parse_number(std::string_view text, float low, float high);

@@ -65,7 +65,7 @@ bool Console::shows_progress() const {
     return io_.err_is_terminal && !options_.quiet && options_.format != MessageFormat::Json;
 }
 
-void Console::say(std::string_view severity, std::string_view message) const {
+void Console::print_message(std::string_view severity, std::string_view message) const {
     if (options_.format == MessageFormat::Json) {
         nlohmann::ordered_json object;
         object["severity"] = severity;
@@ -78,19 +78,19 @@ void Console::say(std::string_view severity, std::string_view message) const {
 }
 
 void Console::error(std::string_view message) const {
-    say("error", message);
+    print_message("error", message);
 }
 
 void Console::help(std::string_view message) const {
     if (options_.format != MessageFormat::Json) {
-        say("help", message);
+        print_message("help", message);
     }
 }
 
 void Console::info(std::string_view message) const {
     if (!options_.quiet) {
         if (options_.format == MessageFormat::Json) {
-            say("note", message);
+            print_message("note", message);
         } else {
             io_.err << io_.program << ": " << message << '\n';
         }
@@ -214,7 +214,7 @@ ExitStatus Console::finish(ExitStatus status) const {
         return status;
     }
     error(done.error().message);
-    return worse(status, ExitStatus::Failure);
+    return more_severe(status, ExitStatus::Failure);
 }
 
 } // namespace lsys

@@ -72,7 +72,7 @@ public:
 
 private:
     void print(const Diagnostics& diagnostics, const SourceMap& sources) const;
-    void say(std::string_view severity, std::string_view message) const;
+    void print_message(std::string_view severity, std::string_view message) const;
 
     Io io_;
     MessageOptions options_;

@@ -17,7 +17,7 @@ enum class ExitStatus : std::uint8_t {
     Interrupted = 130
 };
 
-[[nodiscard]] constexpr ExitStatus worse(ExitStatus a, ExitStatus b) {
+[[nodiscard]] constexpr ExitStatus more_severe(ExitStatus a, ExitStatus b) {
     return std::max(a, b);
 }
 

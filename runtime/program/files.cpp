@@ -60,7 +60,7 @@ Result<std::string> read_descriptor(int descriptor,
                                     std::uint64_t expected,
                                     const ReadLimit& limit,
                                     const std::atomic<bool>* cancelled) {
-    const std::uint64_t most = std::min(limit.max_bytes, limit.memory);
+    const std::uint64_t max_bytes = std::min(limit.max_bytes, limit.memory);
     std::string bytes;
     bytes.reserve(expected + 1);
     while (true) {
@@ -85,7 +85,7 @@ Result<std::string> read_descriptor(int descriptor,
         }
         if (bytes.size() == bytes.capacity()) {
             const std::uint64_t next = bytes.size() + std::max(bytes.size() / 2, kPiece);
-            bytes.reserve(std::min(next, std::max(most, most + 1)));
+            bytes.reserve(std::min(next, std::max(max_bytes, max_bytes + 1)));
         }
     }
 }

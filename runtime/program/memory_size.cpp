@@ -22,16 +22,16 @@ std::uint64_t limit_in(const fs::path& path) {
     return file >> bytes ? bytes : kNoLimit;
 }
 
-/// The least limit of a group and its parents. `base`: the folder of the topmost visible group, the
+/// The min limit of a group and its parents. `base`: the folder of the topmost visible group, the
 /// only one that counts for a group of another name space.
-std::uint64_t least_limit(const fs::path& base, std::string_view group, const char* file) {
+std::uint64_t min_limit(const fs::path& base, std::string_view group, const char* file) {
     fs::path folder = base;
-    std::uint64_t least = limit_in(folder / file);
+    std::uint64_t min_bytes = limit_in(folder / file);
     for (const fs::path& part : fs::path(group).relative_path()) {
         folder /= part;
-        least = std::min(least, limit_in(folder / file));
+        min_bytes = std::min(min_bytes, limit_in(folder / file));
     }
-    return least;
+    return min_bytes;
 }
 
 /// Whether a list like `cpu,memory` contains `memory`.
@@ -59,7 +59,7 @@ std::uint64_t physical_memory() {
 std::uint64_t cgroup_memory(const fs::path& root) {
     const fs::path groups = root / "sys/fs/cgroup";
     std::ifstream own(root / "proc/self/cgroup");
-    std::uint64_t least = kNoLimit;
+    std::uint64_t min_bytes = kNoLimit;
     for (std::string line; std::getline(own, line);) { // `hierarchy:controllers:group`
         const std::size_t first = line.find(':');
         const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);
@@ -70,13 +70,14 @@ std::uint64_t cgroup_memory(const fs::path& root) {
             std::string_view(line).substr(first + 1, second - first - 1);
         const std::string_view group = std::string_view(line).substr(second + 1);
         if (controllers.empty()) {
-            least = std::min({least, least_limit(groups, group, "memory.max"),
-                              least_limit(groups / "unified", group, "memory.max")});
+            min_bytes = std::min({min_bytes, min_limit(groups, group, "memory.max"),
+                                  min_limit(groups / "unified", group, "memory.max")});
         } else if (names_memory(controllers)) {
-            least = std::min(least, least_limit(groups / "memory", group, "memory.limit_in_bytes"));
+            min_bytes =
+                std::min(min_bytes, min_limit(groups / "memory", group, "memory.limit_in_bytes"));
         }
     }
-    return least;
+    return min_bytes;
 }
 
 std::uint64_t half_of_memory() {

@@ -6,7 +6,7 @@
 
 namespace lsys {
 
-/// The least memory limit of the cgroups of this process in bytes, 2^64 - 1 without any: memory.max
+/// The min memory limit of the cgroups of this process in bytes, 2^64 - 1 without any: memory.max
 /// of cgroup v2 and memory.limit_in_bytes of v1, of its group and all parents. `root`: the folder
 /// with proc/ and sys/.
 [[nodiscard]] std::uint64_t cgroup_memory(const std::filesystem::path& root);

@@ -44,7 +44,7 @@ void add_dialect(CLI::App& app, std::string& dialect) {
 
 void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run) {
     run.limits.max_bytes = half_of_memory();
-    add_parsed(app, "-n,--generations", options.generations, whole(0, kMaxGenerations),
+    add_parsed(app, "-n,--generations", options.generations, integer(0, kMaxGenerations),
                "Number of generations (default: #n)")
         ->type_name("N")
         ->group("Grammar");
@@ -78,14 +78,14 @@ void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run) {
         ->type_name("NAME")
         ->group("Grammar");
     add_parsed(app, "--max-modules", run.limits.max_modules,
-               whole(1, std::numeric_limits<std::uint64_t>::max()),
+               integer(1, std::numeric_limits<std::uint64_t>::max()),
                "Maximum number of modules in a word (default 4294967296)")
         ->type_name("N")
         ->group("Limits");
 }
 
 void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed) {
-    add_parsed(app, "-s,--seed", seed, whole(0, std::numeric_limits<std::uint64_t>::max()),
+    add_parsed(app, "-s,--seed", seed, integer(0, std::numeric_limits<std::uint64_t>::max()),
                "Random seed (default: `#set seed`, else 0)")
         ->type_name("S")
         ->group("Grammar");
@@ -99,7 +99,7 @@ void add_run_limits(CLI::App& app, RunOptions& run) {
         ->type_name("SIZE")
         ->group("Limits");
     constexpr std::uint64_t kMaxThreads = 1024;
-    add_parsed(app, "--threads", run.threads, whole(1, kMaxThreads),
+    add_parsed(app, "--threads", run.threads, integer(1, kMaxThreads),
                "Number of threads; does not change the result (default: all cores)")
         ->type_name("N")
         ->group("Limits");
@@ -113,12 +113,12 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
          {"boxes", MeshMethod::Boxes}},
         "Branches as seamless tubes, one cylinder per segment, or smoothed boxes (default tubes)")
         ->group("Mesh");
-    add_parsed(app, "--sides", mesh.sides, whole(kMinSides, kMaxSides),
+    add_parsed(app, "--sides", mesh.sides, integer(kMinSides, kMaxSides),
                "Sides of each cross-section (default: the grammar's)")
         ->type_name("N")
         ->group("Mesh");
     constexpr std::uint64_t kMaxLevel = 8;
-    add_parsed(app, "--level", mesh.level, whole(0, kMaxLevel),
+    add_parsed(app, "--level", mesh.level, integer(0, kMaxLevel),
                "Level of detail: 0 is the finest, each further level halves the sides (default 0)")
         ->type_name("K")
         ->group("Mesh");
@@ -130,7 +130,7 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
         ->type_name("METRES")
         ->group("Mesh");
     constexpr std::uint64_t kMaxSubdivisions = 5;
-    add_parsed(app, "--subdivisions", mesh.subdivisions, whole(0, kMaxSubdivisions),
+    add_parsed(app, "--subdivisions", mesh.subdivisions, integer(0, kMaxSubdivisions),
                "Smoothing rounds of --method boxes (default 2)")
         ->type_name("N")
         ->group("Mesh");

@@ -73,8 +73,8 @@ CLI::Option* add_choice(CLI::App& app,
     return add_parsed(app, name, target, parse, text)->type_name(words);
 }
 
-inline auto whole(std::uint64_t low, std::uint64_t high) {
-    return [low, high](const std::string& text) { return parse_whole(text, low, high); };
+inline auto integer(std::uint64_t low, std::uint64_t high) {
+    return [low, high](const std::string& text) { return parse_integer(text, low, high); };
 }
 
 /// A number from 0 to 1.

@@ -25,17 +25,17 @@ Result<ForestTile> parse_tile(const std::string& text) {
     }
     const Result<float> size =
         parse_number(std::string_view(at, static_cast<std::size_t>(end - at)), 0.0F, 1e6F);
-    constexpr std::int64_t kMost = 1'000'000;
-    if (!size || size.value() == 0.0F || tile.column < -kMost || tile.column > kMost ||
-        tile.row < -kMost || tile.row > kMost) {
+    constexpr std::int64_t kMaxTileIndex = 1'000'000;
+    if (!size || size.value() == 0.0F || tile.column < -kMaxTileIndex ||
+        tile.column > kMaxTileIndex || tile.row < -kMaxTileIndex || tile.row > kMaxTileIndex) {
         return wrong;
     }
     tile.size = static_cast<double>(size.value());
     return tile;
 }
 
-auto metres(float least) {
-    return [least](const std::string& text) { return parse_number(text, least, 1e6F); };
+auto metres(float min) {
+    return [min](const std::string& text) { return parse_number(text, min, 1e6F); };
 }
 
 void add_placement(CLI::App& app, SceneOverrides& overrides, const char* size) {
@@ -53,7 +53,7 @@ void add_placement(CLI::App& app, SceneOverrides& overrides, const char* size) {
         "Placement method (default uniform); the last four make seamless tiles")
         ->group(group);
     add_parsed(
-        app, "--count", overrides.count, whole(0, kMaxTrees),
+        app, "--count", overrides.count, integer(0, kMaxTrees),
         "Trees of uniform placement, or plants in the first year of domination (default 1000)")
         ->type_name("N")
         ->group(group);
@@ -76,7 +76,7 @@ void add_placement(CLI::App& app, SceneOverrides& overrides, const char* size) {
                    "Grey PNG of the density over the ground")
         ->type_name("FILE")
         ->group(group);
-    add_parsed(app, "--years", overrides.years, whole(0, kMaxYears),
+    add_parsed(app, "--years", overrides.years, integer(0, kMaxYears),
                "Years of growth of a domination forest")
         ->type_name("N")
         ->group(group);
@@ -88,7 +88,7 @@ void add_placement(CLI::App& app, SceneOverrides& overrides, const char* size) {
 
 void add_cache(CLI::App& app, SceneOverrides& overrides) {
     const char* const group = "Instances";
-    add_parsed(app, "--heroes", overrides.heroes, whole(1, kMaxHeroes),
+    add_parsed(app, "--heroes", overrides.heroes, integer(1, kMaxHeroes),
                "Plants of each species derived in full (default 10)")
         ->type_name("H")
         ->group(group);
@@ -97,7 +97,7 @@ void add_cache(CLI::App& app, SceneOverrides& overrides) {
         ->type_name("P")
         ->group(group);
     add_parsed(app, "--cache-cap", overrides.cache_cap,
-               whole(0, std::numeric_limits<std::uint32_t>::max()),
+               integer(0, std::numeric_limits<std::uint32_t>::max()),
                "Maximum number of branches per key; 0: no limit (default 0)")
         ->type_name("N")
         ->group(group);
@@ -111,7 +111,7 @@ void add_cache(CLI::App& app, SceneOverrides& overrides) {
 
 void add_scene_overrides(CLI::App& app, SceneOverrides& overrides, const char* size) {
     add_parsed(app, "--key", overrides.key,
-               whole(0, static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())),
+               integer(0, static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())),
                "Key of the forest: equal keys give equal forests (default 0)")
         ->type_name("K");
     add_placement(app, overrides, size);

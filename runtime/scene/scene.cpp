@@ -17,7 +17,7 @@ std::optional<Scene> parse_scene(FileId file, const SourceMap& sources, Diagnost
     Diagnostics found;
     TableReader reader(&*root, {}, found);
     scene.placement.key =
-        reader.whole("key", {0, std::numeric_limits<std::int64_t>::max()}).value_or(0);
+        reader.integer("key", {0, std::numeric_limits<std::int64_t>::max()}).value_or(0);
     read_terrain_table(reader.table("terrain"), scene, found);
     read_placement_table(reader.table("placement"), scene, found);
     static_cast<void>(reader.entry("species"));

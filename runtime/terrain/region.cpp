@@ -13,13 +13,13 @@ Result<void> check_region(const Region& region) {
                                  region.depth)};
     }
     const auto far = [](double lowest, double side) {
-        return !(lowest >= -kFarthest && lowest + side <= kFarthest);
+        return !(lowest >= -kMaxCoordinate && lowest + side <= kMaxCoordinate);
     };
     if (far(region.x, region.width) || far(region.z, region.depth)) {
         return Error{fmt::format("the ground from ({}, {}) to ({}, {}) m reaches farther than {} m "
                                  "from the origin, where places are no longer exact",
                                  region.x, region.z, region.x + region.width,
-                                 region.z + region.depth, kFarthest)};
+                                 region.z + region.depth, kMaxCoordinate)};
     }
     return {};
 }

@@ -7,7 +7,7 @@
 namespace lsys {
 
 /// Max coordinate, in m. Beyond it binary32 is coarser than 7 cm.
-inline constexpr double kFarthest = 1.0e6;
+inline constexpr double kMaxCoordinate = 1.0e6;
 
 struct Region {
     double x = 0.0;     // m, lowest
@@ -24,8 +24,7 @@ struct Region {
     friend bool operator==(const Region&, const Region&) = default;
 };
 
-/// Checks `region`. Errors: a side that is not a positive number; a corner farther than kFarthest
-/// from the origin.
+/// Checks `region`. Errors: a side that is not a positive number; a corner beyond kMaxCoordinate.
 [[nodiscard]] Result<void> check_region(const Region& region);
 
 } // namespace lsys

@@ -19,43 +19,43 @@ constexpr double kPeriod = 256.0; // cells after which stb's noise repeats
 /// Fraction of the finest feature over which slopes are measured. Coordinates in the noise are
 /// exact to 2^-17 of a cell, which leaves an error of 1 in 2,000.
 constexpr double kSlopePart = 1.0 / 32.0;
-constexpr double kLeastSlopeStep = 0.05; // m; binary32 resolves no less far from the origin
+constexpr double kMinSlopeStep = 0.05; // m; binary32 resolves no less far from the origin
 /// Generation of the draws of terrains, beyond those of derivations.
 constexpr std::uint32_t kTerrainGeneration = 0xFFFFFFFCu;
 
-bool within(double value, double least, double most) {
-    return value >= least && value <= most; // false for NaN
+bool within(double value, double min, double max) {
+    return value >= min && value <= max; // false for NaN
 }
 
 Result<void> check_noise(const NoiseOptions& options) {
     struct Bound {
         std::string_view name;
         double value;
-        double least;
-        double most;
+        double min;
+        double max;
     };
     const std::array<Bound, 6> bounds{
         Bound{"octaves", static_cast<double>(options.octaves), 1.0, kMaxOctaves},
         Bound{"lacunarity", options.lacunarity, 1.0, 8.0},
         Bound{"gain", options.gain, 0.0, 1.0},
-        Bound{"feature size", options.feature, 1.0e-3, kFarthest},
-        Bound{"height", options.height, 0.0, kFarthest},
-        Bound{"base", options.base, -kFarthest, kFarthest},
+        Bound{"feature size", options.feature, 1.0e-3, kMaxCoordinate},
+        Bound{"height", options.height, 0.0, kMaxCoordinate},
+        Bound{"base", options.base, -kMaxCoordinate, kMaxCoordinate},
     };
     for (const Bound& bound : bounds) {
-        if (!within(bound.value, bound.least, bound.most)) {
+        if (!within(bound.value, bound.min, bound.max)) {
             return Error{
                 fmt::format("the {} of the terrain's noise is {}; it must be from {} to {}",
-                            bound.name, bound.value, bound.least, bound.most)};
+                            bound.name, bound.value, bound.min, bound.max)};
         }
     }
     return {};
 }
 
 Result<void> check_altitude(std::string_view name, double altitude) {
-    if (!within(altitude, -kFarthest, kFarthest)) {
+    if (!within(altitude, -kMaxCoordinate, kMaxCoordinate)) {
         return Error{fmt::format("the {} of the terrain is {} m; it must be from {} to {}", name,
-                                 altitude, -kFarthest, kFarthest)};
+                                 altitude, -kMaxCoordinate, kMaxCoordinate)};
     }
     return {};
 }
@@ -97,7 +97,7 @@ Result<Terrain> Terrain::noise(const Region& region, const NoiseOptions& options
                                     static_cast<double>(words[1]) * (kPeriod * 0x1p-32),
                                     static_cast<float>(words[2] >> 24U), height});
         sum += height;
-        terrain.slope_step_ = std::max(kLeastSlopeStep, kSlopePart / scale);
+        terrain.slope_step_ = std::max(kMinSlopeStep, kSlopePart / scale);
         scale *= options.lacunarity;
         height *= options.gain;
     }
@@ -130,7 +130,7 @@ Terrain::height_map(const Region& region, GreyMap map, const HeightMapOptions& o
     terrain.base_ = options.lowest;
     terrain.map_scale_ = (options.highest - options.lowest) / 65535.0;
     const double cell = std::min(region.width / (map.columns - 1), region.depth / (map.rows - 1));
-    terrain.slope_step_ = std::max(kLeastSlopeStep, 0.5 * cell);
+    terrain.slope_step_ = std::max(kMinSlopeStep, 0.5 * cell);
     terrain.map_ = std::move(map);
     terrain.filter_ = options.filter;
     return terrain;

@@ -47,7 +47,7 @@ struct HeightMapOptions {
 
 class Terrain {
 public:
-    /// Makes a level ground. Errors: a bad region; an altitude that is NaN or beyond kFarthest.
+    /// Makes a level ground. Errors: a bad region; an altitude not within kMaxCoordinate.
     [[nodiscard]] static Result<Terrain> flat(const Region& region, double altitude = 0.0);
     /// Makes ground of noise, which continues beyond `region` and does not depend on it. Errors:
     /// also a bad option, named.
@@ -57,7 +57,7 @@ public:
     height_map(const Region& region, GreyMap map, const HeightMapOptions& options);
 
     [[nodiscard]] const Region& region() const { return region_; }
-    /// Height in m at a place in m. The same on every machine; finite within kFarthest.
+    /// Height in m at a place in m. The same on every machine; finite within kMaxCoordinate.
     [[nodiscard]] float height(float x, float z) const;
     /// Unit normal, by differences over slope_step() that stay within a height map.
     [[nodiscard]] glm::vec3 normal(float x, float z) const;

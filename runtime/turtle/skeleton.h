@@ -1,4 +1,4 @@
-// Skeleton: what the turtle did, before anything has a surface. Segments, objects and polygons in
+// Skeleton: the drawing of the turtle, without surfaces. Segments, objects and polygons in
 // the order they were drawn, so that a parent comes before its children. Metres, kilograms,
 // right-handed axes, +Y up. A frame is the unit quaternion that takes the turtle's axes at the
 // start (right +X, heading +Y, up +Z) to those at the place.
@@ -22,7 +22,7 @@ inline constexpr std::uint32_t kNoSegment = 0xFFFFFFFFu;
 /// A straight piece drawn by one module, from `base` by `length` along its frame's +Y.
 struct Segment {
     glm::vec3 base{};
-    float length = 0.0F; // never negative: what is drawn backwards is turned around
+    float length = 0.0F; // never negative: segments drawn backwards are reversed
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
     float base_radius = 0.0F;
     float tip_radius = 0.0F;
@@ -101,7 +101,7 @@ struct Bounds {
 struct SkeletonStats {
     Bounds bounds;            // bounds of axes, object positions and corners, without radii
     double height = 0.0;      // m, from the lowest to the highest point
-    double crown_width = 0.0; // m, the greatest horizontal distance from the start, twice
+    double crown_width = 0.0; // m, twice the max horizontal distance from the start
     double length = 0.0;      // m, of all segments
     double volume = 0.0;      // m^3, of truncated cones
     double mass = 0.0;        // kg, of the segments

@@ -26,7 +26,7 @@ Turtle::State::quick_forward(const Action& action, const float* arguments, Pose&
     return true;
 }
 
-/// Gives what the module at hand has drawn, which is one thing at most, its origin.
+/// Sets the origin of the item that the current module has drawn, one at most.
 [[gnu::always_inline]] inline bool Turtle::State::take_origin(const Origin& from) {
     const auto add = [this](const auto& items, LargeVector<Origin>& origins, const Origin& each) {
         if (origins.size() == items.size()) {
@@ -51,7 +51,7 @@ void Turtle::State::run_some(std::span<const C> codes,
     const std::uint64_t first = position;
     const C* const begin = codes.data();
     const bool plain = !has_tropism && !traits.width_is_relative;
-    Pose pose = now.pose; // in registers; now.pose is kept for all that is not quick
+    Pose pose = now.pose; // in registers; now.pose is valid for other than quick actions
     for (const C* at = begin; at != begin + codes.size(); ++at) {
         const Action& action = actions[*at];
         const float* const arguments = action.stored != 0 ? parameters : action.arguments.data();
@@ -105,7 +105,7 @@ void Turtle::State::run_some(std::span<const C> codes,
         if constexpr (kOrigins) {
             origin = origins[at - begin];
         }
-        if (cut != 0 ? !skip(action) : !obey(action, arguments)) {
+        if (cut != 0 ? !skip(action) : !execute(action, arguments)) {
             return;
         }
         if constexpr (kOrigins) {
@@ -155,7 +155,7 @@ std::optional<Stop> Turtle::State::run(std::span<const C> codes,
         if (options.cancelled != nullptr && options.cancelled->load(std::memory_order_relaxed)) {
             return end.stop = Stop::Cancelled;
         }
-        const std::size_t count = std::min(codes.size(), kModulesBetweenLooks);
+        const std::size_t count = std::min(codes.size(), kModulesBetweenChecks);
         if (table.reads_text) {
             run_text(codes.first(count), next, origins.empty() ? nullptr : origins.data());
             origins = origins.empty() ? origins : origins.subspan(count);
@@ -173,7 +173,7 @@ std::optional<Stop> Turtle::State::run(std::span<const C> codes,
     return end.stop;
 }
 
-/// Draws what the modules are interpreted as.
+/// Draws the modules that `#interpret` makes of others.
 template <typename C>
 std::optional<Stop> Turtle::State::interpret(std::span<const C> codes,
                                              std::span<const float> parameters,
@@ -189,7 +189,7 @@ std::optional<Stop> Turtle::State::interpret(std::span<const C> codes,
                    std::span<const Origin> from) { return !run(some, values, from); });
     }
     while (!codes.empty() && !end.stop) {
-        const std::size_t count = std::min(codes.size(), kModulesBetweenLooks);
+        const std::size_t count = std::min(codes.size(), kModulesBetweenChecks);
         piece.assign(codes.begin(), codes.begin() + static_cast<std::ptrdiff_t>(count));
         std::size_t stored = 0;
         for (const Code each : piece) {
@@ -269,8 +269,8 @@ std::optional<Stop> Turtle::feed(std::span<const Code> codes,
 
 std::optional<Stop> Turtle::finish() {
     State& state = *state_;
-    if (!state.end.stop && state.pending.there && !state.pending.in_parameter) {
-        if (state.obey_pending() && state.keeps_origins) {
+    if (!state.end.stop && state.pending.is_set && !state.pending.in_parameter) {
+        if (state.execute_pending() && state.keeps_origins) {
             static_cast<void>(state.take_origin(state.pending.origin));
         }
     }
@@ -299,7 +299,7 @@ void Turtle::begin_again(std::uint64_t seed) {
     state.interpretation.reset();
 }
 TurtlePlace Turtle::place() const {
-    return state_->place_now();
+    return state_->current_place();
 }
 DrawnCounts Turtle::drawn() const {
     return state_->drawn();

@@ -34,8 +34,8 @@ enum class TurtleFaultKind : std::uint8_t {
     EndOutside,       // a `}` without its `{`: nothing is drawn
     FewCorners,       // a polygon with fewer than three corners: nothing is drawn
     UnclosedPolygon,  // nothing is drawn
-    SidesOutOfRange,  // fewer than 3 or more than 64 sides: the nearest that there is
-    ColourOutOfRange, // below 0 or above 65,535: the nearest that there is
+    SidesOutOfRange,  // fewer than 3 or more than 64 sides: clamped
+    ColourOutOfRange, // below 0 or above 65,535: clamped
 };
 inline constexpr std::size_t kTurtleFaultKinds = 11;
 inline constexpr std::uint64_t kMaxSkeletonItems = 0xFFFFFFF0u;
@@ -69,7 +69,7 @@ struct TurtlePlace {
     std::uint32_t order = 0; // open brackets
 };
 
-/// How much has been drawn.
+/// Counts of the items drawn so far.
 struct DrawnCounts {
     std::uint32_t segments = 0;
     std::uint32_t objects = 0;
@@ -93,7 +93,7 @@ struct BranchStart {
 class BranchWatcher {
 public:
     virtual ~BranchWatcher() = default;
-    /// False: the branch is passed over, and there will be no end() of it.
+    /// Returns false to skip the branch; end() is then not called for it.
     virtual bool begin(const BranchStart& start) = 0;
     virtual void end(const DrawnCounts& drawn) = 0;
 
@@ -114,9 +114,9 @@ struct TurtleOptions {
     BranchWatcher* branches = nullptr; // outlives the turtle; none: every branch is drawn
 };
 
-/// Draws a word that comes in pieces: each module as what the productions of `#interpret` make of
-/// it. Positions of faults are those of the modules that are drawn. Functions that return a Stop
-/// return nothing when they are done; end() has the facts.
+/// Draws a word given in pieces, each module as the productions of `#interpret` rewrite it.
+/// Positions of faults count the modules drawn. Functions that return a Stop return none on
+/// success; end() has the facts.
 class Turtle {
 public:
     /// `bytecode` outlives the turtle.
@@ -125,7 +125,7 @@ public:
     Turtle(const Turtle&) = delete;
     Turtle& operator=(const Turtle&) = delete;
 
-    /// Makes room for what these codes will draw; without it, room is made as it is needed.
+    /// Reserves room for the drawing of these codes; optional.
     [[nodiscard]] std::optional<Stop> reserve(const Word& word);
     /// Draws the next modules of the word; nothing after a Stop. With `origins` of the codes, or a
     /// word that keeps them, the drawing has origins too; then every piece has them.
@@ -137,8 +137,8 @@ public:
                                            std::span<const Origin> origins);
     /// Ends the word. The last call for it.
     [[nodiscard]] std::optional<Stop> finish();
-    /// The next word, of a derivation with that seed, begins as the first one did, beside what is
-    /// drawn. After finish().
+    /// Begins another word, of a derivation with that seed, from the same start and into the same
+    /// skeleton. After finish().
     void begin_again(std::uint64_t seed);
     [[nodiscard]] TurtlePlace place() const;
     [[nodiscard]] DrawnCounts drawn() const;

@@ -26,8 +26,8 @@ using bench::fail;
 using bench::median;
 using bench::seconds;
 
-/// Where a forest takes longer, the next larger one is left out (s).
-constexpr double kLongest = 4.0;
+/// After a slower forest, in s, the larger ones are skipped.
+constexpr double kMaxSeconds = 4.0;
 
 struct Kind {
     const char* name;
@@ -150,7 +150,7 @@ void measure(const Kind& kind, std::uint32_t threads) {
                    median(expanding) * 1e9 / static_cast<double>(counts.branches),
                    count / spent / 1e6, peak_megabytes());
         std::fflush(stdout);
-        if (spent > kLongest) {
+        if (spent > kMaxSeconds) {
             break;
         }
     }

@@ -1,6 +1,6 @@
 // Exports every sample in every format, by `lsc export`. Usage: write_samples FOLDER
 // counts.txt in it has a line `NAME VERTICES TRIANGLES PARTS` for each sample. Plants with more
-// than kMostVertices are exported after as many generations as have no more.
+// than kMaxVertices are exported after as many generations as have no more.
 #include "runtime/export/export.h"
 #include "tests/support/lsc_run.h"
 
@@ -21,7 +21,7 @@ using lsys::tests::run_lsc;
 using lsys::tests::Sample;
 using lsys::tests::stated;
 
-constexpr long kMostVertices = 20000;
+constexpr long kMaxVertices = 20000;
 
 long occurrences(const std::string& text, const std::string& part) {
     long count = 0;
@@ -49,7 +49,7 @@ bool export_sample(const Sample& sample, const fs::path& folder, std::ofstream& 
         return false;
     }
     long generations = stated(run.out, "generations");
-    while (stated(run.out, "vertices") > kMostVertices && generations > 1) {
+    while (stated(run.out, "vertices") > kMaxVertices && generations > 1) {
         --generations;
         run = run_lsc(
             {"export", source, "-n", std::to_string(generations), "-o", file("ply"), "--stats"},

@@ -47,7 +47,7 @@ void try_view(const std::string& text) {
 } // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    constexpr std::size_t kMostSystems = 4;
+    constexpr std::size_t kMaxSystems = 4;
     const std::string text(data, data + size);
     static_cast<void>(lsys::detect_dialect("fuzz", text));
     try_view(text);
@@ -56,7 +56,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
             continue;
         }
         std::vector<std::string> systems = lsys::systems_in(row.dialect, text);
-        systems.resize(std::min(systems.size(), kMostSystems));
+        systems.resize(std::min(systems.size(), kMaxSystems));
         try_system(text, row.dialect, "");
         for (const std::string& system : systems) {
             try_system(text, row.dialect, system);

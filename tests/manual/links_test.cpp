@@ -13,7 +13,7 @@ namespace lsys::tests {
 
 namespace {
 
-constexpr std::size_t kLongestLine = 120; // characters
+constexpr std::size_t kMaxLineLength = 120; // characters
 
 bool is_elsewhere(std::string_view target) {
     return target.find("://") != std::string_view::npos || target.starts_with("mailto:");
@@ -71,7 +71,7 @@ TEST_CASE("lines of prose are short") {
             continue;
         }
         for (const ProseLine& line : prose_of(read_text(source_root() / document))) {
-            if (characters_in(line.text) > kLongestLine) {
+            if (characters_in(line.text) > kMaxLineLength) {
                 FAIL_CHECK(document.string() << ":" << line.line << ": " << characters_in(line.text)
                                              << " characters");
             }

@@ -122,7 +122,7 @@ derived_every_way(const Bytecode& bytecode, std::uint32_t generations, std::uint
                 CHECK((!asks || found == origins));
             }
         }
-        if (!why_not_streamable(program)) {
+        if (!streaming_obstacle(program)) {
             options = options_for(generations, seed, 1, 64);
             options.origins = asks;
             CHECK(streamed(program, options, found) == expected);

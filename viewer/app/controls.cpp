@@ -60,7 +60,7 @@ void step_generations(PlantView& view, int step) {
     }
 }
 
-void next_key(ForestView& view) {
+void next_forest_key(ForestView& view) {
     const std::uint64_t shown =
         view.document() == nullptr ? 0 : view.document()->scene.placement.key;
     view.settings.edits.key = shown + 1;
@@ -79,11 +79,11 @@ void Controls::apply(const WindowInput& input,
     } else if (PlantView* const plant = switcher.plant()) {
         apply(input, seconds, static_cast<float>(area.height), *plant, panels);
     }
-    if (input.closes || panels.quits) {
-        panels.quits = !switcher.shown().is_unsaved() || panels.asked_to_quit;
+    if (input.close_requested || panels.quits) {
+        panels.quits = !switcher.current().is_unsaved() || panels.asked_to_quit;
         if (!panels.quits) {
             panels.asked_to_quit = true;
-            switcher.shown().set_note(
+            switcher.current().set_note(
                 "what was painted is not saved: Ctrl+S saves it, Ctrl+Q leaves it");
         }
     } else if (!input.presses.empty()) {
@@ -282,7 +282,7 @@ void Controls::press(const KeyPress& press, ForestView& view, PanelState& panels
         settings.shadows = !settings.shadows;
         break;
     case Key::N:
-        next_key(view);
+        next_forest_key(view);
         break;
     default:
         break;

@@ -120,6 +120,6 @@ void next_seed(PlantView& view);
 /// Adds `step` to the generations.
 void step_generations(PlantView& view, int step);
 /// Increments the forest's key.
-void next_key(ForestView& view);
+void next_forest_key(ForestView& view);
 
 } // namespace lsys::view

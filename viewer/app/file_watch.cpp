@@ -28,11 +28,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kLongest = 10; // in quiet times
+constexpr int kMaxDelay = 10; // of a report, in quiet times
 
 /// Identity of a file's contents.
 struct Stamp {
-    bool there = false;
+    bool exists = false;
     std::int64_t seconds = 0;
     std::int64_t nanoseconds = 0;
     std::int64_t size = 0;
@@ -80,7 +80,7 @@ struct FileWatch::State {
     Descriptor wake{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
     Descriptor inotify;
     std::mutex mutex; // guards the next two
-    std::optional<std::vector<std::string>> asked;
+    std::optional<std::vector<std::string>> requested;
     bool stops = false;
     // Used by the thread only.
     std::vector<Watched> files;
@@ -96,7 +96,7 @@ struct FileWatch::State {
         static_cast<void>(::write(wake.get(), &one, sizeof one));
     }
 
-    /// False: stop.
+    /// Watches the files asked for; returns false to stop the thread.
     bool take_asked() {
         std::optional<std::vector<std::string>> paths;
         {
@@ -104,7 +104,7 @@ struct FileWatch::State {
             if (stops) {
                 return false;
             }
-            paths = std::exchange(asked, std::nullopt);
+            paths = std::exchange(requested, std::nullopt);
         }
         if (paths) {
             set_files(*paths);
@@ -116,11 +116,11 @@ struct FileWatch::State {
         std::vector<Watched> before = std::move(files);
         files.clear();
         for (const std::string& path : paths) {
-            const auto is_it = [&path](const Watched& file) { return file.path == path; };
-            if (std::any_of(files.begin(), files.end(), is_it)) {
+            const auto is_same = [&path](const Watched& file) { return file.path == path; };
+            if (std::any_of(files.begin(), files.end(), is_same)) {
                 continue;
             }
-            const auto known = std::find_if(before.begin(), before.end(), is_it);
+            const auto known = std::find_if(before.begin(), before.end(), is_same);
             if (known != before.end()) {
                 files.push_back(std::move(*known));
                 files.back().names = names_of(path);
@@ -205,7 +205,7 @@ struct FileWatch::State {
             if (!file.changed) {
                 continue;
             }
-            if (!stamp_of(file.path).there && now - *file.changed < options.missing) {
+            if (!stamp_of(file.path).exists && now - *file.changed < options.missing) {
                 return;
             }
             names.push_back(file.path);
@@ -262,7 +262,7 @@ struct FileWatch::State {
             }
             // Report when quiet, or late in folders with constant writes.
             const auto first = first_change();
-            if (first && ((in_change && ready == 0) || now - *first > kLongest * options.quiet)) {
+            if (first && ((in_change && ready == 0) || now - *first > kMaxDelay * options.quiet)) {
                 report(now);
             }
         }
@@ -286,7 +286,7 @@ FileWatch::~FileWatch() {
 void FileWatch::watch(const std::vector<std::string>& files) {
     {
         const std::lock_guard lock(state_->mutex);
-        state_->asked = files;
+        state_->requested = files;
     }
     state_->notify();
 }

@@ -125,9 +125,9 @@ Camera overview(const ForestDocument& document, float aspect) {
 
 Camera above_ground(const Camera& camera, const Terrain& terrain) {
     constexpr float kEyeHeight = 1.7F;
-    constexpr float kLowest = 0.3F;
+    constexpr float kMinEyeHeight = 0.3F;
     const float ground = terrain.height(camera.eye.x, camera.eye.z);
-    if (camera.eye.y >= ground + kLowest) {
+    if (camera.eye.y >= ground + kMinEyeHeight) {
         return camera;
     }
     const float lift = ground + kEyeHeight - camera.eye.y;

@@ -1,6 +1,6 @@
 #include "viewer/app/forest_loader.h"
 
-#include "runtime/base/memory_border.h"
+#include "runtime/base/out_of_memory.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/program/host.h"
 #include "viewer/app/recorded_host.h"
@@ -29,7 +29,7 @@ ForestOutcome make_forest(const ForestRequest& request, const std::atomic<bool>&
         }
         return true;
     };
-    if (!catch_no_memory(work, [] { return false; })) {
+    if (!catch_out_of_memory(work, [] { return false; })) {
         outcome.messages.add_error("out of memory");
     }
     outcome.request.known.reset();

@@ -32,26 +32,26 @@ void draw_edit(const char* name, Value shown, std::optional<Value>& edit, const 
     ImGui::PopID();
 }
 
-void edit_whole(const char* name,
-                std::uint64_t shown,
-                std::optional<std::uint64_t>& edit,
-                std::uint64_t least,
-                std::uint64_t most) {
+void edit_integer(const char* name,
+                  std::uint64_t shown,
+                  std::optional<std::uint64_t>& edit,
+                  std::uint64_t min,
+                  std::uint64_t max) {
     draw_edit(name, shown, edit, [&](std::uint64_t& value) {
         const float speed = std::max(0.01F * static_cast<float>(value), 0.2F);
-        return ImGui::DragScalar("##value", ImGuiDataType_U64, &value, speed, &least, &most,
-                                 nullptr, ImGuiSliderFlags_AlwaysClamp);
+        return ImGui::DragScalar("##value", ImGuiDataType_U64, &value, speed, &min, &max, nullptr,
+                                 ImGuiSliderFlags_AlwaysClamp);
     });
 }
 
-void edit_whole(const char* name,
-                std::uint32_t shown,
-                std::optional<std::uint32_t>& edit,
-                std::uint32_t least,
-                std::uint32_t most,
-                const char* format = "%u") {
+void edit_integer(const char* name,
+                  std::uint32_t shown,
+                  std::optional<std::uint32_t>& edit,
+                  std::uint32_t min,
+                  std::uint32_t max,
+                  const char* format = "%u") {
     draw_edit(name, shown, edit, [&](std::uint32_t& value) {
-        return ImGui::SliderScalar("##value", ImGuiDataType_U32, &value, &least, &most, format,
+        return ImGui::SliderScalar("##value", ImGuiDataType_U32, &value, &min, &max, format,
                                    ImGuiSliderFlags_AlwaysClamp);
     });
 }
@@ -59,13 +59,13 @@ void edit_whole(const char* name,
 void edit_length(const char* name,
                  double shown,
                  std::optional<double>& edit,
-                 double least,
-                 double most,
+                 double min,
+                 double max,
                  const char* format) {
     draw_edit(name, shown, edit, [&](double& value) {
         const float speed = std::max(0.01F * static_cast<float>(value), 1e-4F);
-        return ImGui::DragScalar("##value", ImGuiDataType_Double, &value, speed, &least, &most,
-                                 format, ImGuiSliderFlags_AlwaysClamp);
+        return ImGui::DragScalar("##value", ImGuiDataType_Double, &value, speed, &min, &max, format,
+                                 ImGuiSliderFlags_AlwaysClamp);
     });
 }
 
@@ -86,14 +86,14 @@ void draw_numbers(const ForestView& view) {
 }
 
 void draw_years(ForestView& view) {
-    const std::uint32_t usual = view.default_years();
-    if (usual == 0) {
+    const std::uint32_t default_years = view.default_years();
+    if (default_years == 0) {
         return;
     }
     ForestViewSettings& settings = view.settings;
     auto years = static_cast<int>(view.years());
     if (ImGui::SliderInt("Years", &years, 0,
-                         static_cast<int>(std::max({2 * usual, view.years(), 1U})))) {
+                         static_cast<int>(std::max({2 * default_years, view.years(), 1U})))) {
         view.set_years(static_cast<std::uint32_t>(std::max(years, 0)));
     }
     if (ImGui::Button(settings.plays ? "Pause" : "Play")) {
@@ -135,15 +135,15 @@ void draw_painting(ForestView& view) {
             for (std::size_t i = 0; i < species.size(); ++i) {
                 if (ImGui::Selectable(species[i].name.c_str(), i == brush.species)) {
                     brush.species = static_cast<std::uint16_t>(i);
-                    brush.least_scale = document->scene.placement.species[i].least_scale;
-                    brush.greatest_scale = document->scene.placement.species[i].greatest_scale;
+                    brush.min_scale = document->scene.placement.species[i].min_scale;
+                    brush.max_scale = document->scene.placement.species[i].max_scale;
                 }
             }
             ImGui::EndCombo();
         }
     }
-    ImGui::DragFloatRange2("Scale", &brush.least_scale, &brush.greatest_scale, 0.005F, 0.01F,
-                           100.0F, "%.2f", nullptr, ImGuiSliderFlags_AlwaysClamp);
+    ImGui::DragFloatRange2("Scale", &brush.min_scale, &brush.max_scale, 0.005F, 0.01F, 100.0F,
+                           "%.2f", nullptr, ImGuiSliderFlags_AlwaysClamp);
     if (ImGui::Button("Undo")) {
         view.undo();
     }
@@ -181,9 +181,9 @@ std::string draw_species(ForestView& view) {
             return ImGui::DragFloat("##value", &value, 0.005F, 0.01F, 100.0F, "%.3g",
                                     ImGuiSliderFlags_AlwaysClamp);
         };
-        draw_edit("Scale min", placed.least_scale, edit.min_scale, scale);
-        draw_edit("Scale max", placed.greatest_scale, edit.max_scale, scale);
-        edit_whole("Heroes", species.cache.heroes, edit.heroes, 1U, 50U);
+        draw_edit("Scale min", placed.min_scale, edit.min_scale, scale);
+        draw_edit("Scale max", placed.max_scale, edit.max_scale, scale);
+        edit_integer("Heroes", species.cache.heroes, edit.heroes, 1U, 50U);
         draw_edit("Reuse (rho)", species.rho, edit.rho, [](float& value) {
             return ImGui::SliderFloat("##value", &value, 0.0F, 1.0F, "%.2f",
                                       ImGuiSliderFlags_AlwaysClamp);
@@ -216,7 +216,7 @@ void draw_placement(ForestView& view) {
     constexpr std::uint64_t kMaxKeys = ~std::uint64_t{0};
     constexpr double kMaxDistance = 10'000.0;
     if (reads_count(placement.method)) {
-        edit_whole("Trees", placement.count, edits.count, 0, kMaxTrees);
+        edit_integer("Trees", placement.count, edits.count, 0, kMaxTrees);
     }
     if (reads_spacing(placement.method)) {
         edit_length("Spacing", placement.spacing, edits.spacing, 0.05, kMaxDistance, "%.3g m");
@@ -224,7 +224,7 @@ void draw_placement(ForestView& view) {
     if (reads_density(placement.method)) {
         edit_length("Trees per m^2", placement.density, edits.density, 1e-6, 100.0, "%.3g");
     }
-    edit_whole("Key", placement.key, edits.key, 0, kMaxKeys);
+    edit_integer("Key", placement.key, edits.key, 0, kMaxKeys);
 }
 
 void draw_ground(ForestView& view) {
@@ -247,7 +247,7 @@ void draw_ground(ForestView& view) {
         edit_length("Height", terrain.noise.height, edits.hill_height, 0.0, 5000.0, "%.3g m");
         edit_length("Hill spacing", terrain.noise.feature, edits.hill_spacing, 1.0, 50'000.0,
                     "%.3g m");
-        edit_whole("Seed", terrain.noise.seed, edits.hill_seed, 0, kMaxSeeds);
+        edit_integer("Seed", terrain.noise.seed, edits.hill_seed, 0, kMaxSeeds);
     }
 }
 
@@ -257,9 +257,9 @@ void draw_cache(ForestView& view) {
         return;
     }
     constexpr std::uint32_t kMaxKept = 64;
-    edit_whole("Max per key", document->scene.species.front().cache.cap,
-               view.settings.edits.cache_cap, 0U, kMaxKept,
-               document->scene.species.front().cache.cap == 0 ? "no limit" : "%u");
+    edit_integer("Max per key", document->scene.species.front().cache.cap,
+                 view.settings.edits.cache_cap, 0U, kMaxKept,
+                 document->scene.species.front().cache.cap == 0 ? "no limit" : "%u");
     for (const CacheNumbers& each : view.stats().caches) {
         line(fmt::format("{}, {} generations:", each.species, each.generations));
         line(fmt::format("  {} heroes, {} branches", each.heroes, grouped(each.branches)));

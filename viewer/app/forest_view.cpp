@@ -21,7 +21,7 @@ constexpr std::uint32_t kMaxExpansions = 1000;
 // Slower pictures, s, are reduced in quality during motion, and redrawn after a rest, s.
 constexpr double kSlowPicture = 0.12;
 constexpr double kRest = 0.25;
-constexpr std::uint64_t kFewestTriangles = 20'000;
+constexpr std::uint64_t kMinTriangles = 20'000;
 
 ForestViewSettings first_settings(const ViewOptions& options) {
     ForestViewSettings settings;
@@ -137,12 +137,12 @@ bool ForestView::update() {
     }
     show_outline();
     if (requested_ != settings.edits) {
-        ask();
+        request_load();
     }
     return has_news;
 }
 
-void ForestView::ask() {
+void ForestView::request_load() {
     requested_ = settings.edits;
     // After an error read all files again: the cause may lie in any.
     loader_.request({options_, settings.edits, failed() ? nullptr : document_, SteadyClock::now()});
@@ -194,8 +194,8 @@ void ForestView::swap(ForestOutcome outcome) {
         std::min<std::size_t>(settings.brush.species, document_->scene.species.size() - 1));
     if (before == nullptr) {
         const PlacementSpecies& first = placement.species.front();
-        settings.brush.least_scale = first.least_scale;
-        settings.brush.greatest_scale = first.greatest_scale;
+        settings.brush.min_scale = first.min_scale;
+        settings.brush.max_scale = first.max_scale;
     }
     stats_.caches = cache_numbers(document_->grown.forest);
     stats_.upload_seconds = seconds_since(start);
@@ -245,12 +245,12 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
     return true;
 }
 
-void ForestView::shown(double draw_seconds) {
+void ForestView::picture_shown(double draw_seconds) {
     stats_.draw_seconds = draw_seconds;
     if (!is_coarse_) {
         is_slow_ = draw_seconds > kSlowPicture;
     } else if (draw_seconds > kSlowPicture) {
-        coarse_triangles_ = std::max(coarse_triangles_ / 2, kFewestTriangles);
+        coarse_triangles_ = std::max(coarse_triangles_ / 2, kMinTriangles);
     } else if (draw_seconds < 0.25 * kSlowPicture) {
         coarse_triangles_ = std::min(coarse_triangles_ * 2, settings.max_triangles);
     }

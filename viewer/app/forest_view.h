@@ -78,7 +78,7 @@ public:
 
     bool update() override;
     bool draw(std::uint32_t width, std::uint32_t height) override;
-    void shown(double draw_seconds) override;
+    void picture_shown(double draw_seconds) override;
     [[nodiscard]] bool is_busy() const override;
     void reload() override;
     void frame_all() override;
@@ -123,7 +123,7 @@ private:
     [[nodiscard]] std::string painted_text(const char* what) const;
     void watch_files();
     void grow();
-    void ask();
+    void request_load();
     void files_changed(const std::vector<std::string>& files, SteadyClock::time_point since);
     [[nodiscard]] std::optional<glm::dvec3> ground_at(const glm::vec2& place);
 

@@ -20,8 +20,8 @@ using SteadyClock = std::chrono::steady_clock;
 template <typename Request, typename Outcome>
 class LatestRequestWorker {
 public:
-    /// Time that a request may run while a newer one is pending.
-    static constexpr std::chrono::milliseconds kPatience{100};
+    /// Time after which a running request is cancelled for a newer one.
+    static constexpr std::chrono::milliseconds kCancelDelay{100};
     using Run = std::function<Outcome(const Request& request, const std::atomic<bool>& cancelled)>;
 
     /// `done` is called on the worker's thread whenever take() has an outcome.
@@ -44,8 +44,8 @@ public:
         const std::lock_guard lock(mutex_);
         enqueue(std::move(request));
     }
-    /// Repeats the last request after a change of files; callable from any thread. Cancels the
-    /// running one. Without a request, nothing.
+    /// Repeats the last request, if any, after a change of files; cancels the running one. Callable
+    /// from any thread.
     void repeat(SteadyClock::time_point since) {
         const std::lock_guard lock(mutex_);
         if (last_) {
@@ -60,7 +60,7 @@ public:
     /// pending, so that a dragged slider shows intermediate results.
     [[nodiscard]] std::optional<Outcome> take() {
         const std::lock_guard lock(mutex_);
-        if (pending_ && is_running_ && SteadyClock::now() - began_ > kPatience) {
+        if (pending_ && is_running_ && SteadyClock::now() - began_ > kCancelDelay) {
             cancelled_ = true;
         }
         return std::exchange(outcome_, std::nullopt);

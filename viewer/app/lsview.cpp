@@ -1,6 +1,6 @@
 #include "viewer/app/lsview.h"
 
-#include "runtime/base/memory_border.h"
+#include "runtime/base/out_of_memory.h"
 #include "runtime/program/console.h"
 #include "runtime/program/host.h"
 #include "runtime/program/process.h"
@@ -133,7 +133,7 @@ struct Dispatch {
 } // namespace
 
 int run(std::span<const std::string> arguments, const Io& io) {
-    return catch_no_memory(
+    return catch_out_of_memory(
         [&] { return static_cast<int>(std::visit(Dispatch{io}, parse_options(arguments))); },
         [&] { return report_out_of_memory(io); });
 }

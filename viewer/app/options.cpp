@@ -25,11 +25,11 @@ struct Size {
 Result<Size> parse_picture_size(const std::string& text) {
     const std::size_t cross = text.find('x');
     const Result<std::uint64_t> width =
-        parse_whole(std::string_view(text).substr(0, cross), 1, kMaxPixels);
+        parse_integer(std::string_view(text).substr(0, cross), 1, kMaxPixels);
     const Result<std::uint64_t> height =
         cross == std::string::npos
             ? Result<std::uint64_t>(Error{})
-            : parse_whole(std::string_view(text).substr(cross + 1), 1, kMaxPixels);
+            : parse_integer(std::string_view(text).substr(cross + 1), 1, kMaxPixels);
     if (!width || !height) {
         return Error{fmt::format("`{}` is no size of a picture; write WIDTHxHEIGHT, each 1 to {}",
                                  text, kMaxPixels)};
@@ -61,14 +61,14 @@ void add_picture(CLI::App& app, ViewOptions& options) {
                    "is in view)")
         ->type_name("LINE")
         ->group("Picture");
-    constexpr float kLongest = 86'400.0F;
+    constexpr float kMaxTime = 86'400.0F;
     add_parsed(
         app, "--time", options.time,
-        [](const std::string& text) { return parse_number(text, 0.0F, kLongest); },
+        [](const std::string& text) { return parse_number(text, 0.0F, kMaxTime); },
         "Seconds since the wind began (default 0)")
         ->type_name("SECONDS")
         ->group("Picture");
-    add_parsed(app, "--frames", options.frames, whole(1, kMaxFrames),
+    add_parsed(app, "--frames", options.frames, integer(1, kMaxFrames),
                "Write a numbered series of pictures: a.png becomes a.0001.png and so on")
         ->type_name("N")
         ->group("Picture");
@@ -114,7 +114,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
     add_parsed(
         app, "--samples", options.samples,
         [](const std::string& text) -> Result<std::uint64_t> {
-            const Result<std::uint64_t> samples = parse_whole(text, 1, 4);
+            const Result<std::uint64_t> samples = parse_integer(text, 1, 4);
             return samples && (samples.value() == 1 || samples.value() == 4)
                        ? samples
                        : Result<std::uint64_t>(Error{fmt::format("`{}` is neither 1 nor 4", text)});
@@ -124,7 +124,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         ->group("Picture");
     constexpr std::uint64_t kMaxTriangles = 1'000'000'000;
     add_parsed(
-        app, "--triangles", options.max_triangles, whole(0, kMaxTriangles),
+        app, "--triangles", options.max_triangles, integer(0, kMaxTriangles),
         "The most triangles of branches in a picture of a forest; with more, trees are drawn "
         "coarser (default 1500000)")
         ->type_name("N")

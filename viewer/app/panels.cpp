@@ -99,7 +99,7 @@ void draw_statistics(ViewSwitcher& switcher, const Area& area) {
         } else if (const PlantView* const plant = switcher.plant()) {
             draw_plant_times(*plant);
         }
-        const Renderer& renderer = switcher.shown().renderer();
+        const Renderer& renderer = switcher.current().renderer();
         count_row("GL objects", renderer.live_objects());
         count_row("GL errors", renderer.errors().size());
     }
@@ -222,7 +222,7 @@ void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
             }
             ImGui::SameLine();
             if (ImGui::Button("Frame all")) {
-                switcher.shown().frame_all();
+                switcher.current().frame_all();
             }
             if (switcher.plant() != nullptr && !switcher.last_scene().empty() &&
                 ImGui::Button("Back to forest")) {
@@ -234,8 +234,8 @@ void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
     if (panels.statistics) {
         draw_statistics(switcher, area);
     }
-    draw_messages(switcher.shown(), area);
-    draw_hint(switcher.shown(), panels, area);
+    draw_messages(switcher.current(), area);
+    draw_hint(switcher.current(), panels, area);
     if (panels.help) {
         draw_help(switcher.forest() != nullptr ? std::span<const KeyHelp>(kForestKeys)
                                                : std::span<const KeyHelp>(kPlantKeys),

@@ -1,6 +1,6 @@
 #include "viewer/app/plant_motion.h"
 
-#include "runtime/base/memory_border.h"
+#include "runtime/base/out_of_memory.h"
 
 #include <algorithm>
 #include <chrono>
@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kLongestLeap = 0.1; // s: slower plants move in slow motion
+constexpr double kMaxTimeStep = 0.1; // s: slower plants move in slow motion
 
 } // namespace
 
@@ -49,7 +49,7 @@ struct PlantMotion::State {
         }
     }
 
-    /// False: stop.
+    /// Waits until the last moment is taken; returns false to stop the thread.
     bool wait_for_room() {
         std::optional<Bending> bending;
         {
@@ -73,7 +73,7 @@ struct PlantMotion::State {
             const Clock::time_point now = Clock::now();
             const double step = static_cast<double>(physics->options().time_step);
             const double passed =
-                std::min(std::chrono::duration<double>(now - last).count(), kLongestLeap);
+                std::min(std::chrono::duration<double>(now - last).count(), kMaxTimeStep);
             if (passed < step) {
                 std::this_thread::sleep_for(std::chrono::duration<double>(step - passed));
                 continue;
@@ -99,7 +99,7 @@ struct PlantMotion::State {
     }
 
     void run() {
-        catch_no_memory([this] { move_on(); }, [] {}); // without memory the last moment stays
+        catch_out_of_memory([this] { move_on(); }, [] {}); // without memory the last moment stays
     }
 };
 

@@ -36,7 +36,7 @@ public:
 
     /// Changes forces; a change of stiffness restarts at rest.
     void set(const Bending& bending);
-    /// Swaps `plant` with the latest moment. False: none since the last call.
+    /// Swaps `plant` with the latest moment; returns false if there is none since the last call.
     [[nodiscard]] bool take(BentPlant& plant);
 
 private:

@@ -81,7 +81,7 @@ void draw_constant(PlantViewSettings& settings, const Constant& constant, const 
     float value = is_set ? set->value : constant.value;
     ImGui::PushID(name.c_str());
     bool changed = false;
-    if (constant.is_drawn && !is_set) {
+    if (constant.is_random && !is_set) {
         // Random in each run, unless the user sets it.
         changed = ImGui::Button("Random: set");
         value = constant.is_param ? 0.5F * (constant.minimum + constant.maximum) : 0.0F;
@@ -162,10 +162,10 @@ void draw_mesh(PlantViewSettings& settings) {
     if (ImGui::Combo("Method", &method, "Tubes\0Cylinders\0Boxes\0")) {
         mesh.method = static_cast<MeshMethod>(method);
     }
-    const auto slide = [](const char* name, std::uint32_t& value, std::uint32_t most,
+    const auto slide = [](const char* name, std::uint32_t& value, std::uint32_t max,
                           const char* format) {
         constexpr std::uint32_t kMin = 0;
-        ImGui::SliderScalar(name, ImGuiDataType_U32, &value, &kMin, &most, format,
+        ImGui::SliderScalar(name, ImGuiDataType_U32, &value, &kMin, &max, format,
                             ImGuiSliderFlags_AlwaysClamp);
     };
     constexpr std::uint32_t kMaxLevels = 5;

@@ -264,7 +264,7 @@ bool PlantView::draw(std::uint32_t width, std::uint32_t height) {
     return true;
 }
 
-void PlantView::shown(double draw_seconds) {
+void PlantView::picture_shown(double draw_seconds) {
     stats_.draw_seconds = draw_seconds;
     if (!std::exchange(logs_next_frame_, false)) {
         return;

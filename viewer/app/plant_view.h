@@ -66,7 +66,7 @@ public:
 
     bool update() override;
     bool draw(std::uint32_t width, std::uint32_t height) override;
-    void shown(double draw_seconds) override;
+    void picture_shown(double draw_seconds) override;
     [[nodiscard]] bool is_busy() const override;
     void reload() override;
     void frame_all() override;

@@ -29,13 +29,13 @@ public:
     View& operator=(const View&) = delete;
     virtual ~View() = default;
 
-    /// Call between two pictures: takes finished work and requests what the settings need. Returns
+    /// Takes finished work and requests work for changed settings, between two pictures. Returns
     /// whether messages changed.
     virtual bool update() = 0;
     /// Draws unless nothing changed. Returns whether it drew.
     virtual bool draw(std::uint32_t width, std::uint32_t height) = 0;
     /// Call when the last picture is on the screen; it took `draw_seconds`.
-    virtual void shown(double draw_seconds) = 0;
+    virtual void picture_shown(double draw_seconds) = 0;
     /// Whether work or motion goes on, so that update() is due soon.
     [[nodiscard]] virtual bool is_busy() const = 0;
     /// Reads all files again.

@@ -17,22 +17,22 @@ ViewSwitcher::ViewSwitcher(const ViewOptions& options,
 void ViewSwitcher::make(const ViewOptions& options) {
     plant_ = nullptr;
     forest_ = nullptr;
-    shown_.reset(); // first: it watches files and draws
+    current_.reset(); // before the new view, since it watches files and draws
     if (options.is_forest) {
         auto forest = std::make_unique<ForestView>(options, console_, *renderer_, wake_);
         forest_ = forest.get();
-        shown_ = std::move(forest);
+        current_ = std::move(forest);
     } else {
         auto plant = std::make_unique<PlantView>(options, console_, *renderer_, wake_);
         plant_ = plant.get();
-        shown_ = std::move(plant);
+        current_ = std::move(plant);
     }
 }
 
 void ViewSwitcher::open(const std::string& file) {
-    if (shown_->is_unsaved() && refused_ != file) {
+    if (current_->is_unsaved() && refused_ != file) {
         refused_ = file;
-        shown_->set_note("what was painted is not saved: Ctrl+S saves it; ask again to leave it");
+        current_->set_note("what was painted is not saved: Ctrl+S saves it; ask again to leave it");
         return;
     }
     refused_.clear();

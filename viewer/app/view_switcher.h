@@ -17,7 +17,7 @@ public:
                  Renderer& renderer,
                  std::function<void()> wake);
 
-    [[nodiscard]] View& shown() { return *shown_; }
+    [[nodiscard]] View& current() { return *current_; }
     /// Null if the other kind is shown.
     [[nodiscard]] PlantView* plant() { return plant_; }
     [[nodiscard]] ForestView* forest() { return forest_; }
@@ -39,7 +39,7 @@ private:
     std::string refused_; // refused because of unsaved changes
     PlantView* plant_ = nullptr;
     ForestView* forest_ = nullptr;
-    std::unique_ptr<View> shown_;
+    std::unique_ptr<View> current_;
 };
 
 } // namespace lsys::view

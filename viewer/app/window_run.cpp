@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kIdle = 0.5; // also the delay of Ctrl-C
 constexpr double kBusy = 0.02;
 // Limits the step of a flying camera after slow pictures, s.
-constexpr double kLongestLeap = 0.1;
+constexpr double kMaxTimeStep = 0.1;
 /// Pictures until ImGui settles after input.
 constexpr int kPicturesAfterInput = 3;
 
@@ -36,18 +36,18 @@ class WindowRun {
 public:
     WindowRun(Window& window, ViewSwitcher& switcher) : window_(window), switcher_(switcher) {}
 
-    /// False: quit.
+    /// Handles input and draws a picture if needed; returns false to quit.
     bool step() {
         const double wait = pictures_left_ > 0 || controls_.is_moving() ? 0.0
-                            : switcher_.shown().is_busy()               ? kBusy
+                            : switcher_.current().is_busy()             ? kBusy
                                                                         : kIdle;
         const WindowInput input = window_.wait(wait);
         const Clock::time_point now = Clock::now();
         const double passed =
-            std::min(std::chrono::duration<double>(now - last_).count(), kLongestLeap);
+            std::min(std::chrono::duration<double>(now - last_).count(), kMaxTimeStep);
         last_ = now;
         const bool flew = panels_.flies;
-        const std::string file = switcher_.shown().file();
+        const std::string file = switcher_.current().file();
         controls_.apply(input, passed, picture_area(), switcher_, panels_);
         if (panels_.flies != flew) {
             window_.capture_mouse(panels_.flies);
@@ -55,16 +55,16 @@ public:
         if (panels_.quits) {
             return false;
         }
-        if (input.closes) {
+        if (input.close_requested) {
             window_.stay_open();
         }
-        const bool has_news = switcher_.shown().update();
+        const bool has_news = switcher_.current().update();
         if (input.any || has_news) {
             pictures_left_ = kPicturesAfterInput;
         }
         draw();
-        if (switcher_.shown().file() != file) { // panels open files too
-            window_.set_title(title_of(switcher_.shown().file()));
+        if (switcher_.current().file() != file) { // panels open files too
+            window_.set_title(title_of(switcher_.current().file()));
             pictures_left_ = kPicturesAfterInput;
         }
         return true;
@@ -88,18 +88,18 @@ private:
             return;
         }
         const Clock::time_point start = Clock::now();
-        const bool drew = switcher_.shown().draw(area.width, area.height);
+        const bool drew = switcher_.current().draw(area.width, area.height);
         if (!drew && pictures_left_ == 0) {
             return;
         }
         pictures_left_ = drew ? std::max(pictures_left_, 1) : pictures_left_ - 1;
-        switcher_.shown().present(area);
+        switcher_.current().present(area);
         window_.begin_panels();
-        View* const drawn = &switcher_.shown();
+        View* const drawn = &switcher_.current();
         draw_panels(switcher_, panels_, window_.scale());
         window_.show();
-        if (drew && drawn == &switcher_.shown()) {
-            drawn->shown(std::chrono::duration<double>(Clock::now() - start).count());
+        if (drew && drawn == &switcher_.current()) {
+            drawn->picture_shown(std::chrono::duration<double>(Clock::now() - start).count());
         }
     }
 
@@ -138,14 +138,14 @@ ExitStatus run_window(const ViewOptions& options, const Console& console) {
     console.detail(fmt::format("drawing by a window: {}", renderer.value()->device_name()));
     ViewSwitcher switcher(options, console, *renderer.value(),
                           [made = window.value().get()] { made->wake(); });
-    switcher.shown().camera() = camera.value();
+    switcher.current().camera() = camera.value();
     WindowRun run(*window.value(), switcher);
     while (run.step()) {
         if (console.interrupted()) {
             return ExitStatus::Interrupted;
         }
     }
-    console.detail(fmt::format("--camera \"{}\"", to_text(switcher.shown().camera())));
+    console.detail(fmt::format("--camera \"{}\"", to_text(switcher.current().camera())));
     if (!renderer.value()->errors().empty()) {
         return report_error(Error{fmt::format("OpenGL: {}", renderer.value()->errors().front())},
                             console);

@@ -17,7 +17,7 @@ public:
     HeadlessContext& operator=(const HeadlessContext&) = delete;
     ~HeadlessContext();
 
-    /// How the context was made, for example "EGL without a surface".
+    /// Description of the context, for example "EGL without a surface".
     [[nodiscard]] const std::string& way() const { return way_; }
 
 private:

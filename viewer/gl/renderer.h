@@ -114,11 +114,11 @@ public:
     Renderer& operator=(const Renderer&) = delete;
     virtual ~Renderer() = default;
 
-    /// Replaces what is shown by a plant. `mesh` is copied to the device.
+    /// Shows a plant instead. `mesh` is copied to the device.
     virtual void show_plant(const Mesh& mesh) = 0;
     /// Replaces the lines drawn over everything.
     virtual void show_lines(std::span<const LineVertex> lines) = 0;
-    /// Replaces what is shown by a forest. Its forest and terrain must outlive it. Impostors of the
+    /// Shows a forest instead. Its forest and terrain must outlive it. Impostors of the
     /// forest before stand in, where there are any, until bake_impostors() has made new ones.
     /// Error: a shader does not compile.
     [[nodiscard]] virtual Result<void> show_forest(ForestModel model) = 0;
@@ -126,7 +126,7 @@ public:
     [[nodiscard]] virtual bool bake_impostors(double seconds) = 0;
     /// Adds or removes a tree of the forest: ForestLod::change_tree().
     virtual void change_tree(std::uint32_t index, const Tree& tree, bool alive) = 0;
-    /// Bounding box of what is shown.
+    /// Bounding box of the plant or forest.
     [[nodiscard]] virtual const Bounds& bounds() const = 0;
 
     /// Recompiles the shaders. Error: the old ones stay in use.

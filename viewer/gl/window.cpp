@@ -134,8 +134,8 @@ struct Window::State {
         }
     }
 
-    /// Installs callbacks; ImGui chains its own to them.
-    void listen() {
+    /// ImGui chains its own callbacks to these.
+    void install_callbacks() {
         glfwSetWindowUserPointer(window, this);
         glfwSetMouseButtonCallback(window,
                                    [](GLFWwindow* from, int button, int action, int modifiers) {
@@ -208,7 +208,7 @@ Window::make(const std::string& title, std::uint32_t width, std::uint32_t height
     }
     glfwMakeContextCurrent(state.window);
     glfwSwapInterval(1);
-    state.listen();
+    state.install_callbacks();
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr; // no settings file
@@ -233,7 +233,7 @@ WindowInput Window::wait(double seconds) {
     for (const auto& [code, key] : state_->keys) {
         input.held.push_back(key);
     }
-    input.closes = glfwWindowShouldClose(state_->window) == GLFW_TRUE;
+    input.close_requested = glfwWindowShouldClose(state_->window) == GLFW_TRUE;
     return input;
 }
 

@@ -73,8 +73,8 @@ struct WindowInput {
     glm::vec2 motion{0.0F};                   // relative, while captured
     float wheel = 0.0F;                       // positive away from the user
     std::vector<std::string> dropped;
-    bool any = false;    // any event, also of panels
-    bool closes = false; // the user asked to close the window
+    bool any = false;             // any event, also of panels
+    bool close_requested = false; // by the window manager
 };
 
 class Window {
@@ -88,7 +88,7 @@ public:
 
     /// Cancels closing of the window.
     void stay_open();
-    /// Waits up to `seconds` for input; 0: takes what is there.
+    /// Waits up to `seconds` for input; 0: returns pending input.
     [[nodiscard]] WindowInput wait(double seconds);
     /// Ends a wait(); callable from any thread.
     void wake() const;

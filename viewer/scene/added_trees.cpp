@@ -25,9 +25,10 @@ bool AddedTrees::differs(std::uint32_t slot, const Tree& tree) const {
     if (slot >= added_.size()) {
         return true;
     }
-    const Tree& there = added_[slot].tree;
-    return there.position != tree.position || there.yaw != tree.yaw || there.scale != tree.scale ||
-           there.number != tree.number || there.species != tree.species;
+    const Tree& stored = added_[slot].tree;
+    return stored.position != tree.position || stored.yaw != tree.yaw ||
+           stored.scale != tree.scale || stored.number != tree.number ||
+           stored.species != tree.species;
 }
 
 void AddedTrees::put(std::uint32_t slot, const Tree& tree, const LodTree& made, const Bounds& box) {

@@ -21,7 +21,7 @@ constexpr float kSteepest = 1.553F; // radians above or below the horizon
 constexpr float kMinField = 1.0F;
 constexpr float kMaxField = 170.0F;
 constexpr float kNearest = 0.02F;
-constexpr float kFarthest = 1e7F; // m, of eye and target
+constexpr float kMaxDistance = 1e7F; // m, of eye and target
 
 /// Removes the next word from `text`.
 std::string_view take_word(std::string_view& text) {
@@ -42,7 +42,7 @@ bool parse_place(std::string_view text, glm::vec3& place) {
     for (std::size_t i = 0; i < values.size(); ++i) {
         const std::size_t comma = text.find(',');
         if ((comma == std::string_view::npos) != (i + 1 == values.size()) ||
-            !parse_float(text.substr(0, comma), values[i]) || std::abs(values[i]) > kFarthest) {
+            !parse_float(text.substr(0, comma), values[i]) || std::abs(values[i]) > kMaxDistance) {
             return false;
         }
         text.remove_prefix(comma == std::string_view::npos ? text.size() : comma + 1);
@@ -125,7 +125,7 @@ Camera zoomed(const Camera& camera, float factor) {
     Camera result = camera;
     const float distance = glm::distance(camera.eye, camera.target);
     result.eye = camera.target -
-                 std::clamp(distance * factor, 2.0F * kNearest, kFarthest) * forward_of(camera);
+                 std::clamp(distance * factor, 2.0F * kNearest, kMaxDistance) * forward_of(camera);
     return result;
 }
 

@@ -45,7 +45,8 @@ struct Sway {
     float of_width = 0.0F;
     float flutter = 0.0F; // m
 
-    [[nodiscard]] float of(float height, float width) const {
+    /// m, of a tree in m.
+    [[nodiscard]] float displacement(float height, float width) const {
         return of_height * height + of_width * width + flutter;
     }
 };

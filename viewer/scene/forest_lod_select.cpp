@@ -32,7 +32,7 @@ float finer_weight(float pixels, float limit, float blend) {
 /// Max displacement by wind, m, of trees whose height and width are at most those of a box.
 float sway_within(const glm::vec3& low, const glm::vec3& high, const Sway& sway) {
     const glm::vec3 size = high - low;
-    return sway.of(size.y, std::max(size.x, size.z));
+    return sway.displacement(size.y, std::max(size.x, size.z));
 }
 
 /// Bounding sphere of a box of trees in the wind.
@@ -112,7 +112,7 @@ ForestLod::select(const Frustum& frustum, const LodOptions& options, GroundHoriz
 float ForestLod::sway_of(const LodTree& tree) const {
     const TreeForm& form = model_.forms[tree.form];
     const float width = glm::length(form.sphere.centre) + form.sphere.radius;
-    return sway_.of(tree.scale * form.height(), tree.scale * width);
+    return sway_.displacement(tree.scale * form.height(), tree.scale * width);
 }
 
 Sphere ForestLod::swaying(const Sphere& sphere, const LodTree& tree) const {
@@ -207,13 +207,13 @@ float ForestLod::detail_in_budget(const LodOptions& options) const {
         return 1.0F;
     }
     // Bisection, so that a small move of the camera changes the level of few trees.
-    float most = 0.0F; // fits: no tree has branches
-    float least = 1.0F;
+    float fitting = 0.0F; // fits: no tree has branches
+    float excessive = 1.0F;
     for (int step = 0; step < kDetailSteps; ++step) {
-        const float middle = 0.5F * (most + least);
-        (fits(middle) ? most : least) = middle;
+        const float middle = 0.5F * (fitting + excessive);
+        (fits(middle) ? fitting : excessive) = middle;
     }
-    return most;
+    return fitting;
 }
 
 void ForestLod::cull_branches(const PoolSpan& span,

@@ -75,18 +75,18 @@ bool find_impostor(const InstanceCache& cache,
     return false;
 }
 
-void find_impostors(TreeForm& form, std::uint64_t key, std::size_t most) {
+void find_impostors(TreeForm& form, std::uint64_t key, std::size_t max_count) {
     const InstanceCache& cache = *form.cache;
     const InstanceSlot& whole = cache.slots[0];
     form.impostor_of.assign(cache.instances.size(), 0);
     for (std::uint32_t v = 0; v < whole.variant_count; ++v) {
         const std::uint32_t instance = cache.variants[whole.first_variant + v];
         Tree tree;
-        if (form.impostor_trees.size() < most && find_impostor(cache, key, instance, tree)) {
+        if (form.impostor_trees.size() < max_count && find_impostor(cache, key, instance, tree)) {
             form.impostor_of[instance] = static_cast<std::uint32_t>(form.impostor_trees.size());
             form.impostor_trees.push_back(tree);
         } else {
-            form.impostor_of[instance] = static_cast<std::uint32_t>(v % most);
+            form.impostor_of[instance] = static_cast<std::uint32_t>(v % max_count);
         }
     }
     for (std::uint32_t& impostor : form.impostor_of) {
@@ -94,11 +94,11 @@ void find_impostors(TreeForm& form, std::uint64_t key, std::size_t most) {
     }
 }
 
-/// Measures the bounding cylinder and the mean count of branches of the impostors. `seen`: meshes
-/// of the branches.
-void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& seen) {
-    const LargeVector<std::uint32_t> indices = seen.mesh.indices.expanded();
-    const LargeVector<glm::vec3>& positions = seen.mesh.positions;
+/// Measures the bounding cylinder and the mean count of branches of the impostors. `meshes`: of
+/// their branches.
+void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& meshes) {
+    const LargeVector<std::uint32_t> indices = meshes.mesh.indices.expanded();
+    const LargeVector<glm::vec3>& positions = meshes.mesh.positions;
     TreeExpander expander(*form.cache, key);
     const auto count = static_cast<double>(form.impostor_trees.size());
     float radius2 = 0.0F;
@@ -107,7 +107,7 @@ void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& 
             form.branches += 1.0 / count;
             const InstancePose pose = pose_of(branch, form.cache->instances[branch.instance]);
             const glm::mat3 turn = pose.scale * glm::mat3_cast(pose.rotation);
-            for (const MeshPart& part : seen.parts_of(branch.instance)) {
+            for (const MeshPart& part : meshes.parts_of(branch.instance)) {
                 for (std::uint64_t i = 0; i < part.index_count; ++i) {
                     const glm::vec3 at =
                         turn * positions[indices[part.first_index + i]] + pose.translation;

@@ -30,7 +30,7 @@ private:
     };
 
     [[nodiscard]] const std::vector<float>& slopes_of(std::uint32_t sector);
-    [[nodiscard]] float lowest_between(std::uint32_t sector, float distance) const;
+    [[nodiscard]] float min_between(std::uint32_t sector, float distance) const;
 
     const TerrainLod* ground_ = nullptr; // null: occludes nothing
     glm::vec3 eye_{};

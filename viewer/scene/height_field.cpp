@@ -11,7 +11,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Clips [begin, end] to the part where origin + t * direction lies in [low, high].
-bool cut(double origin, double direction, double low, double high, double& begin, double& end) {
+bool clip_axis(
+    double origin, double direction, double low, double high, double& begin, double& end) {
     if (direction == 0.0) {
         return origin >= low && origin <= high;
     }
@@ -37,26 +38,27 @@ HeightField::HeightField(const Terrain& terrain, std::uint32_t columns, std::uin
         }
     }
     Level cells{columns_, rows_, {}};
-    cells.greatest.reserve(std::size_t{columns_} * rows_);
+    cells.max_heights.reserve(std::size_t{columns_} * rows_);
     for (std::uint32_t row = 0; row < rows_; ++row) {
         const float* const low = heights_.data() + std::size_t{row} * (columns_ + 1);
         const float* const high = low + columns_ + 1;
         for (std::uint32_t column = 0; column < columns_; ++column) {
-            cells.greatest.push_back(std::max(std::max(low[column], low[column + 1]),
-                                              std::max(high[column], high[column + 1])));
+            cells.max_heights.push_back(std::max(std::max(low[column], low[column + 1]),
+                                                 std::max(high[column], high[column + 1])));
         }
     }
     levels_.push_back(std::move(cells));
-    while (levels_.back().greatest.size() > 1) {
+    while (levels_.back().max_heights.size() > 1) {
         const Level& finer = levels_.back();
         Level level{(finer.columns + 1) / 2, (finer.rows + 1) / 2, {}};
-        level.greatest.assign(std::size_t{level.columns} * level.rows,
-                              -std::numeric_limits<float>::infinity());
+        level.max_heights.assign(std::size_t{level.columns} * level.rows,
+                                 -std::numeric_limits<float>::infinity());
         for (std::uint32_t row = 0; row < finer.rows; ++row) {
             for (std::uint32_t column = 0; column < finer.columns; ++column) {
-                float& greatest = level.greatest[std::size_t{row / 2} * level.columns + column / 2];
-                greatest =
-                    std::max(greatest, finer.greatest[std::size_t{row} * finer.columns + column]);
+                float& max_height =
+                    level.max_heights[std::size_t{row / 2} * level.columns + column / 2];
+                max_height = std::max(max_height,
+                                      finer.max_heights[std::size_t{row} * finer.columns + column]);
             }
         }
         levels_.push_back(std::move(level));
@@ -77,22 +79,22 @@ std::optional<HeightField::Span> HeightField::clip(const Ray& ray,
     const std::uint32_t next_column = std::min((column + 1) << level, columns_);
     const std::uint32_t next_row = std::min((row + 1) << level, rows_);
     Span span{0.0, kInfinity};
-    if (!cut(ray.origin.x, ray.direction.x, low_x, region_.x + next_column * step_x_, span.begin,
-             span.end) ||
-        !cut(ray.origin.z, ray.direction.z, low_z, region_.z + next_row * step_z_, span.begin,
-             span.end)) {
+    if (!clip_axis(ray.origin.x, ray.direction.x, low_x, region_.x + next_column * step_x_,
+                   span.begin, span.end) ||
+        !clip_axis(ray.origin.z, ray.direction.z, low_z, region_.z + next_row * step_z_, span.begin,
+                   span.end)) {
         return std::nullopt;
     }
     const Level& squares = levels_[level];
-    const auto greatest =
-        static_cast<double>(squares.greatest[std::size_t{row} * squares.columns + column]);
+    const auto max_height =
+        static_cast<double>(squares.max_heights[std::size_t{row} * squares.columns + column]);
     const double first = ray.origin.y + span.begin * ray.direction.y;
     const double last =
         ray.direction.y < 0.0
             ? (std::isinf(span.end) ? -kInfinity : ray.origin.y + span.end * ray.direction.y)
             : first;
     const double lowest = std::min(first, last);
-    if (lowest > greatest + 1e-9 * (1.0 + std::abs(greatest))) {
+    if (lowest > max_height + 1e-9 * (1.0 + std::abs(max_height))) {
         return std::nullopt;
     }
     return span;

@@ -50,7 +50,7 @@ private:
     struct Level {
         std::uint32_t columns = 0;
         std::uint32_t rows = 0;
-        std::vector<float> greatest;
+        std::vector<float> max_heights;
     };
 
     Region region_;

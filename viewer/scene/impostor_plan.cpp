@@ -13,10 +13,10 @@ namespace {
 /// Finest level of impostors, and the max triangles of a tree at that level.
 constexpr std::uint32_t kFinestLevel = 1;
 constexpr double kMaxTriangles = 70'000.0;
-constexpr std::uint32_t kRow = 4; // trees along a side of a cluster
+constexpr std::uint32_t kClusterRow = 4; // trees along a side of a cluster
 
 /// Deterministic number from 0 to 1.
-float drawn(std::uint32_t a, std::uint32_t b) {
+float random_unit(std::uint32_t a, std::uint32_t b) {
     return unit_float(lattice32(a, b));
 }
 
@@ -61,21 +61,22 @@ ImpostorPlan plan_impostors(const ForestLod& lod) {
         const TreeForm& form = forms[f];
         const float side =
             static_cast<float>(lod.cell_size()) / (scales[f] > 0.0F ? scales[f] : 1.0F);
-        const float step = side / static_cast<float>(kRow);
+        const float step = side / static_cast<float>(kClusterRow);
         plan.forms.push_back(
             {{0.5F * side * std::numbers::sqrt2_v<float> + form.radius, form.low, form.high},
              static_cast<std::uint32_t>(plan.layers.size())});
         ImpostorLayer& cell = plan.layers.emplace_back();
         cell.form = f;
         cell.level = kTreeLevels - 1;
-        for (std::uint32_t i = 0; i < kRow * kRow; ++i) {
+        for (std::uint32_t i = 0; i < kClusterRow * kClusterRow; ++i) {
             Tree tree = form.impostor_trees[i % form.impostor_trees.size()];
-            const std::uint32_t row = i / kRow;
-            tree.yaw = 2.0F * std::numbers::pi_v<float> * drawn(i, 1);
+            const std::uint32_t row = i / kClusterRow;
+            tree.yaw = 2.0F * std::numbers::pi_v<float> * random_unit(i, 1);
             tree.position.x =
-                step * (static_cast<float>(i % kRow) + 0.1F + 0.8F * drawn(i, 2)) - 0.5F * side;
+                step * (static_cast<float>(i % kClusterRow) + 0.1F + 0.8F * random_unit(i, 2)) -
+                0.5F * side;
             tree.position.z =
-                step * (static_cast<float>(row) + 0.1F + 0.8F * drawn(i, 3)) - 0.5F * side;
+                step * (static_cast<float>(row) + 0.1F + 0.8F * random_unit(i, 3)) - 0.5F * side;
             cell.trees.push_back(tree);
         }
     }

@@ -92,17 +92,17 @@ std::vector<std::uint8_t> with_coverage(const ImpostorTexels& picture, double wa
         ++counts[picture.albedos[4 * i + 3]];
     }
     // Min opacity of texels that stay.
-    std::size_t there = 0;
-    unsigned least = 255;
-    while (least > 1 &&
-           static_cast<double>(there + counts[least]) < wanted * static_cast<double>(texels)) {
-        there += counts[least];
-        --least;
+    std::size_t opaque_count = 0;
+    unsigned min_opacity = 255;
+    while (min_opacity > 1 && static_cast<double>(opaque_count + counts[min_opacity]) <
+                                  wanted * static_cast<double>(texels)) {
+        opaque_count += counts[min_opacity];
+        --min_opacity;
     }
     std::vector<std::uint8_t> scaled = picture.albedos;
     for (std::size_t i = 3; i < scaled.size(); i += 4) {
         scaled[i] =
-            static_cast<std::uint8_t>(std::min(unsigned{scaled[i]} * kOpaque / least, 255U));
+            static_cast<std::uint8_t>(std::min(unsigned{scaled[i]} * kOpaque / min_opacity, 255U));
     }
     return scaled;
 }

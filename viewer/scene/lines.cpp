@@ -41,12 +41,12 @@ float part_of(std::size_t index, std::size_t count) {
 }
 
 void add_skeleton(const Skeleton& skeleton, LineMaker& lines) {
-    std::uint16_t deepest = 1;
+    std::uint16_t max_order = 1;
     for (const Segment& segment : skeleton.segments) {
-        deepest = std::max(deepest, segment.order);
+        max_order = std::max(max_order, segment.order);
     }
-    const auto colour_of = [deepest](std::uint16_t order) {
-        return ramp(static_cast<float>(std::min(order, deepest)) / static_cast<float>(deepest));
+    const auto colour_of = [max_order](std::uint16_t order) {
+        return ramp(static_cast<float>(std::min(order, max_order)) / static_cast<float>(max_order));
     };
     for (const Segment& segment : skeleton.segments) {
         lines.add(segment.base, tip(segment), colour_of(segment.order));

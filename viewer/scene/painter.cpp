@@ -207,8 +207,8 @@ std::span<const TreeChange> Painter::paint(float x, float z, const Brush& brush)
         paint.x = x + away * std::cos(angle);
         paint.z = z + away * std::sin(angle);
         paint.yaw = 2.0F * std::numbers::pi_v<float> * unit_interval(words[2]);
-        paint.scale = brush.least_scale +
-                      (brush.greatest_scale - brush.least_scale) * unit_interval(words[3]);
+        paint.scale =
+            brush.min_scale + (brush.max_scale - brush.min_scale) * unit_interval(words[3]);
         if (!region_.contains(paint.x, paint.z) || painted_.size() == kMaxPainted ||
             any_near(paint.x, paint.z, spacing, [](std::uint32_t) { return true; })) {
             continue;
@@ -235,8 +235,7 @@ std::span<const TreeChange> Painter::plant(float x, float z, const Brush& brush)
     paint.x = x;
     paint.z = z;
     paint.yaw = 2.0F * std::numbers::pi_v<float> * unit_interval(words[2]);
-    paint.scale =
-        brush.least_scale + (brush.greatest_scale - brush.least_scale) * unit_interval(words[3]);
+    paint.scale = brush.min_scale + (brush.max_scale - brush.min_scale) * unit_interval(words[3]);
     add(paint);
     record(tree_count() - 1, true);
     return changes_;

@@ -18,8 +18,8 @@ struct Brush {
     float radius = 5.0F;   // m
     float density = 0.05F; // max trees per square metre
     std::uint16_t species = 0;
-    float least_scale = 0.8F;
-    float greatest_scale = 1.2F;
+    float min_scale = 0.8F;
+    float max_scale = 1.2F;
 };
 
 /// A tree that was added or removed.

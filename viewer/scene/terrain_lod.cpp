@@ -106,7 +106,9 @@ float TerrainLod::distance_to(const Node& node) const {
     return glm::length(glm::vec3(away, eye_height_));
 }
 
-bool TerrainLod::is_seen(const TerrainPatch& at, std::int32_t cells, const Frustum& frustum) const {
+bool TerrainLod::is_visible(const TerrainPatch& at,
+                            std::int32_t cells,
+                            const Frustum& frustum) const {
     const HeightGrid& grid = grids_[at.level];
     const float size = cell(at.level);
     const glm::vec3 low(static_cast<float>(at.x) * size, grid.lowest,
@@ -127,7 +129,7 @@ bool TerrainLod::visit(const Node& node, const Frustum& frustum) {
     }
     const TerrainPatch all{static_cast<std::int32_t>(node.x) * kNodeCells,
                            static_cast<std::int32_t>(node.z) * kNodeCells, node.level};
-    if (!is_seen(all, kNodeCells, frustum)) {
+    if (!is_visible(all, kNodeCells, frustum)) {
         return true;
     }
     for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
@@ -138,7 +140,7 @@ bool TerrainLod::visit(const Node& node, const Frustum& frustum) {
         const TerrainPatch patch{all.x + static_cast<std::int32_t>(quarter & 1U) * kCells,
                                  all.z + static_cast<std::int32_t>(quarter >> 1U) * kCells,
                                  node.level};
-        if (!finer && is_seen(patch, kCells, frustum)) {
+        if (!finer && is_visible(patch, kCells, frustum)) {
             patches_.push_back(patch);
         }
     }

@@ -80,7 +80,7 @@ private:
     bool visit(const Node& node, const Frustum& frustum);
     [[nodiscard]] float distance_to(const Node& node) const;
     [[nodiscard]] bool
-    is_seen(const TerrainPatch& at, std::int32_t cells, const Frustum& frustum) const;
+    is_visible(const TerrainPatch& at, std::int32_t cells, const Frustum& frustum) const;
 
     const Terrain& terrain_;
     std::uint32_t levels_ = 1;

@@ -38,7 +38,7 @@ private:
     times(const GrowthWalk& walk, const Power& power, std::uint32_t generations);
 
     std::size_t size_ = 0;
-    std::uint32_t period_ = 1; // generations of the first power
+    std::uint32_t period_ = 1; // generations of one application of the first power
     bool never_shrinks_ = true;
     std::vector<Power> powers_; // of exponents 1, 2, 4, ... in periods
 };

@@ -18,13 +18,13 @@ struct Bounds {
     GenerationSize high;
 };
 
-GenerationSize least(const GenerationSize& a, const GenerationSize& b) {
+GenerationSize min_of(const GenerationSize& a, const GenerationSize& b) {
     const auto pick = [](const Count& x, const Count& y) { return less(y, x) ? y : x; };
     return {pick(a.modules, b.modules), pick(a.parameters, b.parameters),
             pick(a.segments, b.segments), pick(a.bytes, b.bytes)};
 }
 
-GenerationSize greatest(const GenerationSize& a, const GenerationSize& b) {
+GenerationSize max_of(const GenerationSize& a, const GenerationSize& b) {
     const auto pick = [](const Count& x, const Count& y) { return less(x, y) ? y : x; };
     return {pick(a.modules, b.modules), pick(a.parameters, b.parameters),
             pick(a.segments, b.segments), pick(a.bytes, b.bytes)};
@@ -107,8 +107,8 @@ private:
             bool first = true;
             for (const ClassOutcome& outcome : classes_.outcomes(expansion.outcomes)) {
                 const Bounds here = sum(classes_.terms(outcome.terms), values_);
-                best.low = first ? here.low : least(best.low, here.low);
-                best.high = first ? here.high : greatest(best.high, here.high);
+                best.low = first ? here.low : min_of(best.low, here.low);
+                best.high = first ? here.high : max_of(best.high, here.high);
                 first = false;
             }
             made.emplace_back(id, best);

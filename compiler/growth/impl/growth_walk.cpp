@@ -65,7 +65,7 @@ GrowthWalk::GrowthWalk(ModuleClasses& classes) : classes_(&classes) {
     reserve();
     for (const ClassTerm& term : axiom) {
         const auto i = static_cast<std::size_t>(term.target);
-        meet(term.target);
+        add_present(term.target);
         low_[i] = high_[i] = count_of(term.count);
         expected_[i] = term.count;
     }
@@ -77,7 +77,7 @@ GrowthWalk::GrowthWalk(ModuleClasses& classes) : classes_(&classes) {
 void GrowthWalk::list_rules() {
     const Bytecode& bytecode = classes_->bytecode();
     rules_.resize(bytecode.rewriting_rules());
-    std::vector<std::map<ClassId, std::uint32_t>> most; // of each sequence
+    std::vector<std::map<ClassId, std::uint32_t>> max_counts; // of each sequence
     for (std::uint32_t p = 0; p < bytecode.of(Stage::Rewrite).count; ++p) {
         const BytecodeProduction& production = bytecode.productions[p];
         Rule& rule = rules_[production.rule];
@@ -91,16 +91,16 @@ void GrowthWalk::list_rules() {
             for (std::uint32_t i = 0; i < production.predecessor.count; ++i) {
                 ++uses[bytecode.patterns[production.predecessor.first + i].symbol];
             }
-            most.emplace_back();
+            max_counts.emplace_back();
             sequences_.push_back({{uses.begin(), uses.end()}, {}, static_cast<ProductionId>(p)});
         }
         for (const ClassTerm& term : classes_->successor(static_cast<ProductionId>(p))) {
-            std::uint32_t& count = most[rule.sequence][term.target];
+            std::uint32_t& count = max_counts[rule.sequence][term.target];
             count = std::max(count, term.count);
         }
     }
     for (std::size_t i = 0; i < sequences_.size(); ++i) {
-        for (const auto& [target, count] : most[i]) {
+        for (const auto& [target, count] : max_counts[i]) {
             sequences_[i].max_written.push_back({target, count});
         }
     }
@@ -117,7 +117,7 @@ void GrowthWalk::reserve() {
     }
 }
 
-void GrowthWalk::meet(ClassId id) {
+void GrowthWalk::add_present(ClassId id) {
     const auto i = static_cast<std::size_t>(id);
     if (!is_present_[i]) {
         is_present_[i] = true;
@@ -151,7 +151,7 @@ void GrowthWalk::rewrite(std::span<const ClassId> ids) {
         const std::span<const ClassTerm> high = classes_->terms(expansion.high);
         const std::span<const ClassTerm> low = classes_->terms(expansion.low);
         for (const ClassTerm& term : high) {
-            meet(term.target);
+            add_present(term.target);
             add_times(high_[static_cast<std::size_t>(term.target)], t.high, term.count);
         }
         if (!is_zero(t.low)) {
@@ -174,7 +174,7 @@ void GrowthWalk::rewrite(std::span<const ClassId> ids) {
 }
 
 Count GrowthWalk::max_matches(const SequenceRule& rule) const {
-    Count most;
+    Count matches;
     bool first = true;
     for (const auto& [symbol, uses] : rule.uses) {
         Count present;
@@ -187,12 +187,12 @@ Count GrowthWalk::max_matches(const SequenceRule& rule) const {
         if (!present.exceeds) {
             present.value = divide(present.value, uses).quotient;
         }
-        if (first || less(present, most)) {
-            most = present;
+        if (first || less(present, matches)) {
+            matches = present;
         }
         first = false;
     }
-    return most;
+    return matches;
 }
 
 /// Lowers the lower bounds by the modules of `matches` matches, since there may be as many.
@@ -215,7 +215,7 @@ void GrowthWalk::write(const SequenceRule& rule, const Count& matches) {
     }
     reserve();
     for (const ClassTerm& term : rule.max_written) {
-        meet(term.target);
+        add_present(term.target);
         add_times(high_[static_cast<std::size_t>(term.target)], matches, term.count);
     }
     work_ += rule.max_written.size();
@@ -298,12 +298,12 @@ void GrowthWalk::advance() {
     ++age_;
 }
 
-GenerationSize GrowthWalk::total(const std::vector<Count>& counts, bool least) const {
+GenerationSize GrowthWalk::total(const std::vector<Count>& counts, bool is_low) const {
     const Bytecode& bytecode = classes_->bytecode();
     GenerationSize sum;
     for (const ClassId id : present_) {
         GenerationSize size = size_of(bytecode, classes_->code(id));
-        if (least && classes_->covers_folded()) {
+        if (is_low && classes_->covers_folded()) {
             size.parameters = {};
             size.bytes = count_of(code_width(bytecode.code_count()));
         }
@@ -377,9 +377,9 @@ ProductionId GrowthWalk::dominant() {
         }
         made[rule.first] += as_double(max_matches(rule)) * modules;
     }
-    const auto most = std::max_element(
+    const auto dominant = std::max_element(
         made.begin(), made.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    return most == made.end() ? kNoProduction : most->first;
+    return dominant == made.end() ? kNoProduction : dominant->first;
 }
 
 void GrowthWalk::load(std::uint32_t age, std::span<const Count> low, std::span<const Count> high) {
@@ -395,7 +395,7 @@ void GrowthWalk::load(std::uint32_t age, std::span<const Count> low, std::span<c
     age_ = age;
     for (std::size_t i = 0; i < high.size(); ++i) {
         if (!is_zero(high[i]) || !is_zero(low[i])) {
-            meet(static_cast<ClassId>(i));
+            add_present(static_cast<ClassId>(i));
             low_[i] = low[i];
             high_[i] = high[i];
         }

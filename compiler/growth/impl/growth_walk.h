@@ -71,11 +71,11 @@ private:
     void use_up(const SequenceRule& rule, const Count& matches);
     void write(const SequenceRule& rule, const Count& matches);
     [[nodiscard]] Count max_matches(const SequenceRule& rule) const;
-    void meet(ClassId id);
+    void add_present(ClassId id);
     void reserve();
     void index_by_symbol();
     void drop_absent();
-    [[nodiscard]] GenerationSize total(const std::vector<Count>& counts, bool least) const;
+    [[nodiscard]] GenerationSize total(const std::vector<Count>& counts, bool is_low) const;
 
     ModuleClasses* classes_;
     std::uint32_t age_ = 0;

@@ -21,8 +21,8 @@ struct KnownValue {
 /// Inputs of an expression. Formals beyond the span are not known.
 struct Surroundings {
     std::span<const KnownValue> formals;
-    std::optional<std::uint32_t> step;  // the age of the word being rewritten
-    std::optional<std::uint32_t> steps; // the number of generations asked for
+    std::optional<std::uint32_t> step;  // value of step(): age of the word being rewritten
+    std::optional<std::uint32_t> steps; // value of steps(): generations asked for
 };
 
 /// Runs expressions in the domain of known and unknown values (interpret.h).

@@ -37,7 +37,7 @@ struct ClassOutcome {
 struct ClassExpansion {
     bool done = false;
     bool decided = false;   // the probabilities of the outcomes are known
-    bool copies = false;    // the module may be copied, no production matching
+    bool copies = false;    // the module may be copied: no production may match
     bool unchanged = false; // every outcome yields the very same module
     TableRange outcomes;    // in ModuleClasses::outcomes
     TableRange low;         // in ModuleClasses::terms

@@ -101,8 +101,8 @@ private:
         switch (value.opcode) {
         case Opcode::Literal: {
             constexpr float kGrain = 64.0F;
-            constexpr float kLargest = 65'536.0F;
-            const bool exact = std::fabs(value.literal) <= kLargest &&
+            constexpr float kMaxExact = 65'536.0F;
+            const bool exact = std::fabs(value.literal) <= kMaxExact &&
                                std::floor(value.literal * kGrain) == value.literal * kGrain;
             return exact ? Level::Exact : Level::Literal;
         }

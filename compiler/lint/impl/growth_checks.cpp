@@ -25,21 +25,21 @@ void check_growth(const CheckInput& input, Diagnostics& diagnostics) {
     const std::optional<GrowthLimit> limit =
         find_growth_limit(*input.bytecode, generations, input.options.max_modules);
     if (limit) {
-        const Count most{input.options.max_modules, false, 0.0};
-        const char* least = limit->exact ? "" : "at least ";
+        const Count max_modules{input.options.max_modules, false, 0.0};
+        const char* bound_text = limit->exact ? "" : "at least ";
         const bool axiom = !limit->at_largest.modules.at_most(input.options.max_modules);
         const std::uint32_t next = axiom ? 0 : limit->largest_fitting + 1;
         Diagnostic& diagnostic = diagnostics.add(
             DiagnosticCode::WordTooLarge, place,
             fmt::format("the word of generation {} has {}{} modules, more than the limit of {}",
-                        next, least, to_text(limit->at_next.modules), to_text(most)));
+                        next, bound_text, to_text(limit->at_next.modules), to_text(max_modules)));
         if (!axiom) {
             diagnostic.notes.push_back(fmt::format("generation {} has {}{}", limit->largest_fitting,
-                                                   least, to_text(limit->at_largest.modules)));
+                                                   bound_text, to_text(limit->at_largest.modules)));
         }
         if (limit->has_wanted && generations != next) {
             diagnostic.notes.push_back(fmt::format("generation {} would have {}{}", generations,
-                                                   least, to_text(limit->at_wanted.modules)));
+                                                   bound_text, to_text(limit->at_wanted.modules)));
         }
         if (limit->dominant != kNoProduction) {
             const Production& production =

@@ -1,4 +1,4 @@
-// Lints: checks for what authors hardly mean, and checks of brackets. One function per topic, each
+// Lints: checks for likely mistakes, and checks of brackets. One function per topic, each
 // in a file of its own; checks.cpp lists them. They report nothing in doubt: published grammars
 // that work must pass without a warning.
 #pragma once

@@ -51,7 +51,7 @@ public:
 private:
     const BytecodeProduction& code(std::uint32_t p) const { return bytecode_.productions[p]; }
     const Production& production(std::uint32_t p) const { return input_.program.productions[p]; }
-    bool is_free(std::uint32_t p) const { return !code(p).has_left && !code(p).has_right; }
+    bool is_context_free(std::uint32_t p) const { return !code(p).has_left && !code(p).has_right; }
     bool is_reported(std::uint32_t p) const { return reported_.contains(p); }
 
     /// The instructions of a condition, whose equality decides the equality of conditions.
@@ -94,9 +94,9 @@ private:
 
     /// Reports productions after one without condition that matches wherever they could.
     void check_unconditional(std::span<const std::uint32_t> productions) {
-        std::uint32_t free = kNone; // the first without condition and context
+        std::uint32_t unconditional = kNone; // the first without condition and context
         std::unordered_map<std::uint32_t, std::uint32_t>
-            in_group; // by group: the first without condition
+            first_in_group; // by group: the first without condition
         std::unordered_map<std::uint32_t, std::uint32_t>
             members; // by group: the first stochastic production
         for (const std::uint32_t p : productions) {
@@ -106,18 +106,19 @@ private:
             }
             // A stochastic production is tried at the place of the first of its group.
             const std::uint32_t from = code(p).stochastic ? members.at(group) : p;
-            const auto own = in_group.find(group);
-            std::uint32_t earlier = free != kNone && free < from ? free : kNone;
-            if (own != in_group.end() && own->second < from) {
+            const auto own = first_in_group.find(group);
+            std::uint32_t earlier =
+                unconditional != kNone && unconditional < from ? unconditional : kNone;
+            if (own != first_in_group.end() && own->second < from) {
                 earlier = std::min(earlier, own->second);
             }
             if (earlier != kNone && !same_choice(earlier, p)) {
                 report(p, earlier);
             }
             if (code(p).condition == kNone) {
-                in_group.emplace(group, p);
-                if (is_free(p) && free == kNone) {
-                    free = p;
+                first_in_group.emplace(group, p);
+                if (is_context_free(p) && unconditional == kNone) {
+                    unconditional = p;
                 }
             }
         }
@@ -130,7 +131,7 @@ private:
     /// Reports productions whose condition holds only where earlier conditions do.
     void check_covered(SymbolId symbol, std::span<const std::uint32_t> productions) {
         const bool plain = std::all_of(productions.begin(), productions.end(),
-                                       [&](std::uint32_t p) { return is_free(p); });
+                                       [&](std::uint32_t p) { return is_context_free(p); });
         if (!plain || productions.size() > kMaxTogether) {
             return;
         }

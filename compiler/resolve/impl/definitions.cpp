@@ -51,18 +51,18 @@ void DefinitionResolver::generations(const GenerationsNode& node, SourceSpan sta
     if (value == kPoison) {
         return;
     }
-    constexpr std::uint64_t kMost = 0xFFFFFFFE;
+    constexpr std::uint64_t kMaxGenerations = 0xFFFFFFFE;
     const SourceSpan span = resolution_.ast.expression(node.value).span();
     const float number = expressions_.constant_value(value).value_or(-1.0F);
     std::optional<std::uint64_t> count = exact_whole_number(resolution_, node.value);
     if (!count && number == std::floor(number) && number >= 0.0F && number < 0x1p32F) {
         count = static_cast<std::uint64_t>(number);
     }
-    if (!count || *count > kMost) {
+    if (!count || *count > kMaxGenerations) {
         Diagnostic& error = resolution_.diagnostics.add(
             DiagnosticCode::BadGenerations, span,
             count || number >= 0x1p32F
-                ? fmt::format("more than {} generations cannot be counted", kMost)
+                ? fmt::format("more than {} generations cannot be counted", kMaxGenerations)
                 : fmt::format("{} is not a number of generations", number));
         error.help.emplace_back("generations are a whole number from 0 on");
         return;
@@ -92,7 +92,7 @@ void DefinitionResolver::define(const DefineNode& node) {
         Constant constant;
         constant.name = node.name;
         constant.span = node.name_span;
-        add(constant, value, expressions_.is_drawn());
+        add(constant, value, expressions_.is_random());
     }
     advance_draw_position(expressions_.draw_count());
 }
@@ -100,7 +100,7 @@ void DefinitionResolver::define(const DefineNode& node) {
 void DefinitionResolver::param(const ParamNode& node) {
     expressions_.begin_statement();
     const ValueId value = expressions_.resolve(node.value, ExpressionPlace::Param);
-    const bool is_drawn = expressions_.is_drawn();
+    const bool is_random = expressions_.is_random();
     const std::uint32_t draws = expressions_.draw_count();
     const ValueId minimum = expressions_.resolve(node.minimum, ExpressionPlace::Bound);
     const ValueId maximum = expressions_.resolve(node.maximum, ExpressionPlace::Bound);
@@ -122,7 +122,7 @@ void DefinitionResolver::param(const ParamNode& node) {
                 error.help.emplace_back("write the smaller number first: `{0, 1}`");
                 constants_.fail(node.name);
             } else {
-                add(constant, value, is_drawn);
+                add(constant, value, is_random);
                 check_bounds(node, constant);
             }
         }
@@ -131,7 +131,7 @@ void DefinitionResolver::param(const ParamNode& node) {
 }
 
 /// Makes the constant, drawn or not, with the value of -D if given.
-void DefinitionResolver::add(Constant constant, ValueId value, bool is_drawn) {
+void DefinitionResolver::add(Constant constant, ValueId value, bool is_random) {
     const auto replaced = replacements_.empty()
                               ? replacements_.end()
                               : replacements_.find(std::string(resolution_.text(constant.name)));
@@ -144,7 +144,7 @@ void DefinitionResolver::add(Constant constant, ValueId value, bool is_drawn) {
         constants_.fail(constant.name);
         return;
     }
-    if (!is_drawn) {
+    if (!is_random) {
         constant.value = *expressions_.constant_value(value);
         constants_.define(constant);
         return;
@@ -159,7 +159,7 @@ void DefinitionResolver::add(Constant constant, ValueId value, bool is_drawn) {
     global.has_bounds = constant.is_param;
     global.minimum = constant.minimum;
     global.maximum = constant.maximum;
-    constant.is_drawn = true;
+    constant.is_random = true;
     constant.global = static_cast<std::uint32_t>(program.globals.size());
     program.globals.push_back(global);
     constants_.define(constant);
@@ -170,7 +170,7 @@ void DefinitionResolver::check_bounds(const ParamNode& node, const Constant& con
         return;
     }
     const Constant& made = constants_.constant(node.name);
-    if (made.is_drawn || (made.value >= constant.minimum && made.value <= constant.maximum)) {
+    if (made.is_random || (made.value >= constant.minimum && made.value <= constant.maximum)) {
         return;
     }
     const bool replaced = replacements_.contains(std::string(resolution_.text(constant.name)));

@@ -41,7 +41,7 @@ public:
 
 private:
     [[nodiscard]] bool is_first(NameId name, SourceSpan span);
-    void add(Constant constant, ValueId value, bool is_drawn);
+    void add(Constant constant, ValueId value, bool is_random);
     void check_bounds(const ParamNode& node, const Constant& constant);
 
     Resolution& resolution_;

@@ -126,7 +126,7 @@ std::optional<float> ExpressionResolver::constant_value(ValueId id) const {
 }
 
 ValueId ExpressionResolver::resolve(ExpressionId root, ExpressionPlace place) {
-    is_drawn_ = false;
+    is_random_ = false;
     culprit_.reset();
     zero_divisors_.clear();
     last_root_ = std::max(last_root_, static_cast<std::size_t>(root));
@@ -147,7 +147,7 @@ ValueId ExpressionResolver::resolve_name(NameId name, SourceSpan span, Expressio
     expression.begin = span.begin;
     expression.end = span.end;
     expression.name = name;
-    is_drawn_ = false;
+    is_random_ = false;
     culprit_.reset();
     return name_value(expression, place);
 }
@@ -269,8 +269,8 @@ ValueId ExpressionResolver::name_value(const Expression& expression, ExpressionP
 ValueId ExpressionResolver::constant_of(const Expression& expression, ExpressionPlace place) {
     Constant& constant = constants_.constant(expression.name);
     constant.is_used = true;
-    if (constant.is_drawn) {
-        is_drawn_ = true;
+    if (constant.is_random) {
+        is_random_ = true;
         if (!drawn_constants_allowed(place)) {
             report_not_allowed(expression, place, false);
             return kPoison;
@@ -289,7 +289,7 @@ ValueId ExpressionResolver::constant_of(const Expression& expression, Expression
 ValueId ExpressionResolver::range_value(const Expression& expression, ExpressionPlace place) {
     const ValueId maximum = pop();
     const ValueId minimum = pop();
-    is_drawn_ = true;
+    is_random_ = true;
     if (!ranges_allowed(place)) {
         report_not_allowed(expression, place, true);
         return kPoison;

@@ -48,7 +48,7 @@ public:
     /// The value of a single name, as after #set.
     [[nodiscard]] ValueId resolve_name(NameId name, SourceSpan span, ExpressionPlace place);
     /// Whether the last resolved value depends on a range.
-    [[nodiscard]] bool is_drawn() const { return is_drawn_; }
+    [[nodiscard]] bool is_random() const { return is_random_; }
     /// Number of ranges since begin_statement().
     [[nodiscard]] std::uint32_t draw_count() const { return draw_count_; }
 
@@ -109,7 +109,7 @@ private:
     bool drawn_once_noted_ = false;
     std::uint32_t draw_count_ = 0;
     std::size_t last_root_ = 0; // the largest id resolved so far
-    bool is_drawn_ = false;
+    bool is_random_ = false;
 
     std::vector<Frame> frames_;
     std::vector<ValueId> operands_;

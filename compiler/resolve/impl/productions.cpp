@@ -105,12 +105,13 @@ float ProductionResolver::weight_of(ExpressionId probability) {
 
 void ProductionResolver::check_draws(const ProgramWord& successor) {
     const bool by_pass = resolution_.program.settings.rewriting == RewritingMode::Sequential;
-    const std::uint32_t most = by_pass ? kMaxSequentialDraws : kMaxOperand;
-    if (successor.draw_count > most) {
+    const std::uint32_t max_draws = by_pass ? kMaxSequentialDraws : kMaxOperand;
+    if (successor.draw_count > max_draws) {
         resolution_.diagnostics.add(
             DiagnosticCode::TooManyRanges, successor.span,
             fmt::format("{} random ranges in one successor; {} are possible{}",
-                        successor.draw_count, most, by_pass ? " in sequential rewriting" : ""));
+                        successor.draw_count, max_draws,
+                        by_pass ? " in sequential rewriting" : ""));
     }
 }
 

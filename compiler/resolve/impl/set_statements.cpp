@@ -23,7 +23,7 @@ constexpr auto kKeys = std::to_array<std::string_view>({
 #include "compiler/bytecode/settings.def"
 });
 
-/// How the front end reads names.
+/// Forms of module names that a front end reads.
 enum class NameReading : std::uint8_t { Words, Letters, Characters };
 constexpr std::array kReadings{NameReading::Words, NameReading::Letters, NameReading::Characters};
 std::string_view name_of(NameReading reading) {

@@ -79,7 +79,7 @@ public:
 private:
     LinePiece next() { return reader_.next(text_length); }
 
-    /// Skips a mark that stands alone; else it belongs to a text.
+    /// Skips byte order marks that stand alone; others belong to a text.
     void skip_byte_order_mark() {
         while (reader_.ahead().starts_with(kByteOrderMark) &&
                text_length(reader_.ahead()) == kByteOrderMark.size()) {

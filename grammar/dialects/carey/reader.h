@@ -9,15 +9,15 @@
 
 namespace lsys {
 
-/// A setting of the form.
+/// A setting that the generator's form has.
 struct CareyKey {
     std::string_view name;
     std::string_view lsys; // its name in .lsys; empty: a statement
 };
-/// The key at the start of `text`, which a colon follows; null: none.
+/// The key before a colon at the start of `text`; null if there is none.
 [[nodiscard]] const CareyKey* find_carey_key(std::string_view text);
 
-/// The spans hold no blanks around them.
+/// A setting of the file; its spans have no blanks around them.
 struct CareySetting {
     const CareyKey* key = nullptr;
     SourceSpan place; // of the key and its colon
@@ -35,7 +35,7 @@ struct CareyFile {
     std::vector<CareyRule> rules;
 };
 
-/// Reports each line that is neither, and leaves it out.
+/// Reads the settings and rules of a .rules file; reports and skips other lines.
 [[nodiscard]] CareyFile read_carey(FileId root, const ParseContext& context);
 
 } // namespace lsys

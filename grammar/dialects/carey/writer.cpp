@@ -99,9 +99,9 @@ void CareyWriter::write_arguments(const LetterModule& module,
 
 void CareyWriter::write(SourceSpan text, CareyText kind) {
     std::string before; // the last symbols, as far back as a left side may reach
-    std::size_t longest = 1;
+    std::size_t max_length = 1;
     for (const std::string& left : left_sides_) {
-        longest = std::max(longest, left.size());
+        max_length = std::max(max_length, left.size());
     }
     read_letter_modules(text, context_, [&](const LetterModule& module) {
         if (!check_symbol(module)) {
@@ -109,8 +109,8 @@ void CareyWriter::write(SourceSpan text, CareyText kind) {
         }
         const bool has_arguments = module.arguments.begin != module.arguments.end;
         append_utf8(module.character, before);
-        if (before.size() > 4 * longest) {
-            before.erase(0, before.size() - longest);
+        if (before.size() > 4 * max_length) {
+            before.erase(0, before.size() - max_length);
         }
         if (module.character == U'#' && kind == CareyText::Right && !has_arguments) {
             context_.diagnostics.add(DiagnosticCode::ForeignQuirk, module.span,

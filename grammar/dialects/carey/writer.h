@@ -14,7 +14,7 @@ namespace lsys {
 
 enum class CareyText : std::uint8_t { Axiom, Left, Right };
 
-/// The form of a left side that is matched.
+/// A left side as it is matched: without blanks.
 [[nodiscard]] std::string without_blanks(std::string_view text);
 
 class CareyWriter {

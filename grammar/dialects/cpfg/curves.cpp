@@ -129,12 +129,12 @@ std::vector<CurvePoint> chords(const std::vector<CurvePoint>& samples) {
         const auto [from, to] = spans.back();
         spans.pop_back();
         const double slope = (samples[to].y - samples[from].y) / (samples[to].x - samples[from].x);
-        double most = allowed;
+        double max_error = allowed;
         std::size_t worst = from;
         for (std::size_t i = from + 1; i < to; ++i) {
             const double chord = samples[from].y + slope * (samples[i].x - samples[from].x);
-            if (std::abs(samples[i].y - chord) > most) {
-                most = std::abs(samples[i].y - chord);
+            if (std::abs(samples[i].y - chord) > max_error) {
+                max_error = std::abs(samples[i].y - chord);
                 worst = i;
             }
         }

@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// Functions of both, with one argument.
+/// Functions of one argument that both cpfg and .lsys have.
 struct Function {
     std::string_view name;
     std::string_view lsys;
@@ -64,20 +64,20 @@ CpfgTerm CpfgExpressions::choose(const CpfgTerm& test,
     return made.text.size() > kMaxCpfgTerm ? unsupported(span, "a choice that is too long") : made;
 }
 
-CpfgTerm CpfgExpressions::element(const CpfgExpression& each) {
-    const auto found = arrays_.find(each.text);
+CpfgTerm CpfgExpressions::element(const CpfgExpression& node) {
+    const auto found = arrays_.find(node.text);
     if (found == arrays_.end()) {
-        return unsupported(each.span, "`" + shown(each.text) + "` is no array");
+        return unsupported(node.span, "`" + shown(node.text) + "` is no array");
     }
     const Array& array = found->second;
-    if (array.sizes.size() != each.parts.size()) {
-        return unsupported(each.span, "`" + shown(each.text) + "` has " +
+    if (array.sizes.size() != node.parts.size()) {
+        return unsupported(node.span, "`" + shown(node.text) + "` has " +
                                           std::to_string(array.sizes.size()) + " dimensions");
     }
     std::string index = "0";
     bool is_random = false;
-    for (std::size_t i = 0; i < each.parts.size(); ++i) {
-        const CpfgTerm part = term(each.parts[i]);
+    for (std::size_t i = 0; i < node.parts.size(); ++i) {
+        const CpfgTerm part = term(node.parts[i]);
         is_random = is_random || part.is_random;
         const std::string floor = is_cpfg_number(part.text)
                                       ? part.text
@@ -88,7 +88,7 @@ CpfgTerm CpfgExpressions::element(const CpfgExpression& each) {
                              " + " + floor;
     }
     if (is_random) {
-        return chosen_by_chance(each.span, "a random number as the index of an array");
+        return chosen_by_chance(node.span, "a random number as the index of an array");
     }
     if (is_cpfg_number(index)) {
         std::size_t at = 0;
@@ -105,42 +105,42 @@ CpfgTerm CpfgExpressions::element(const CpfgExpression& each) {
     return {text.empty() ? "0" : text, false, 0};
 }
 
-CpfgTerm CpfgExpressions::name(const CpfgExpression& each) {
-    if (const auto found = variables_.find(each.text); found != variables_.end()) {
+CpfgTerm CpfgExpressions::name(const CpfgExpression& node) {
+    if (const auto found = variables_.find(node.text); found != variables_.end()) {
         CpfgTerm& value = found->second;
         if (value.is_random && ++value.uses > 1) {
-            return chosen_by_chance(each.span,
-                                    "`" + shown(each.text) +
+            return chosen_by_chance(node.span,
+                                    "`" + shown(node.text) +
                                         "` is a random number that is used more than once");
         }
         return {in_cpfg_parentheses(value.text), value.is_random, 0};
     }
-    if (formals_.count(each.text) != 0) {
-        return {each.text, false, 0};
+    if (formals_.count(node.text) != 0) {
+        return {node.text, false, 0};
     }
-    if (each.text == "Q") { // the step, from 1
+    if (node.text == "Q") { // the step, from 1
         return {stage_ == Stage::Rewrite ? "(step() + 1)" : "step()", false, 0};
     }
-    if (each.text == "Z") {
+    if (node.text == "Z") {
         return {"steps()", false, 0};
     }
     if (const auto state = states_.find(stage_); state != states_.end()) {
-        if (const auto found = state->second.find(each.text); found != state->second.end()) {
+        if (const auto found = state->second.find(node.text); found != state->second.end()) {
             return {in_cpfg_parentheses(found->second.text), false, 0};
         }
     }
-    if (changed_.count(each.text) != 0) {
+    if (changed_.count(node.text) != 0) {
         return in_step_
                    ? CpfgTerm{"0", false, 0}
-                   : unsupported(each.span,
-                                 "`" + shown(each.text) +
+                   : unsupported(node.span,
+                                 "`" + shown(node.text) +
                                      "` is changed in every step, by more than the same number");
     }
-    if (const auto found = globals_.find(each.text); found != globals_.end()) {
+    if (const auto found = globals_.find(node.text); found != globals_.end()) {
         return {in_cpfg_parentheses(found->second.text), false, 0};
     }
-    warn_left_out(each.span, "name " + each.text,
-                  "`" + shown(each.text) + "` has no value before this; it is 0");
+    warn_left_out(node.span, "name " + node.text,
+                  "`" + shown(node.text) + "` has no value before this; it is 0");
     return {"0", false, 0};
 }
 
@@ -160,8 +160,8 @@ CpfgTerm CpfgExpressions::chosen_by_chance(SourceSpan span, const std::string& m
 }
 
 /// `func(which, x)`; which is a number, or a name in the set of functions.
-CpfgTerm CpfgExpressions::curve(const CpfgExpression& each) {
-    const CpfgExpression& which = node(each.parts[0]);
+CpfgTerm CpfgExpressions::curve(const CpfgExpression& node) {
+    const CpfgExpression& which = node_at(node.parts[0]);
     std::size_t index = curves_.size();
     for (std::size_t i = 0; i < curves_.size() && which.kind == CpfgKind::Name; ++i) {
         index = curves_[i].name == which.text && index == curves_.size() ? i : index;
@@ -170,61 +170,61 @@ CpfgTerm CpfgExpressions::curve(const CpfgExpression& each) {
     const bool unnamed = which.kind == CpfgKind::Name && formals_.count(which.text) == 0 &&
                          variables_.count(which.text) == 0 && globals_.count(which.text) == 0;
     if (index == curves_.size() && !unnamed) {
-        const CpfgTerm number = term(each.parts[0]);
+        const CpfgTerm number = term(node.parts[0]);
         std::size_t from_one = 0;
         std::from_chars(number.text.data(), number.text.data() + number.text.size(), from_one);
         if (!is_cpfg_number(number.text) || from_one == 0) {
-            return unsupported(each.span, "a function that is chosen while the word is derived");
+            return unsupported(node.span, "a function that is chosen while the word is derived");
         }
         index = std::min(from_one - 1, curves_.size());
         shown_name = number.text;
     }
-    CpfgTerm x = term(each.parts[1]);
+    CpfgTerm x = term(node.parts[1]);
     if (index < curves_.size() && !curves_[index].points.empty()) {
         if (x.is_random) { // it stands in each chord
-            return chosen_by_chance(each.span, "a function of a random number");
+            return chosen_by_chance(node.span, "a function of a random number");
         }
         return {curve_at(curves_[index], x.text), false, 0};
     }
     if (stage_ == Stage::Interpret && !in_header_) {
-        warn_left_out(each.span, "func " + shown_name,
+        warn_left_out(node.span, "func " + shown_name,
                       "no view file beside this one has function `" + shown_name + "`: it is 1");
         return {"1", false, 0};
     }
-    return unsupported(each.span, "no view file beside this one has function `" + shown_name + "`");
+    return unsupported(node.span, "no view file beside this one has function `" + shown_name + "`");
 }
 
-CpfgTerm CpfgExpressions::call(const CpfgExpression& each) {
-    if (each.text == "func" && each.parts.size() == 2) {
-        return curve(each);
+CpfgTerm CpfgExpressions::call(const CpfgExpression& node) {
+    if (node.text == "func" && node.parts.size() == 2) {
+        return curve(node);
     }
     std::vector<CpfgTerm> arguments;
     bool is_random = false;
-    for (const int part : each.parts) {
-        if (node(part).kind == CpfgKind::String) {
-            return unsupported(each.span, "`" + shown(each.text) + "`");
+    for (const int part : node.parts) {
+        if (node_at(part).kind == CpfgKind::String) {
+            return unsupported(node.span, "`" + shown(node.text) + "`");
         }
         arguments.push_back(term(part));
         is_random = is_random || arguments.back().is_random;
     }
     const auto wants = [&](std::size_t count) { return arguments.size() == count; };
     for (const Function& function : kFunctions) {
-        if (function.name == each.text && wants(1)) {
+        if (function.name == node.text && wants(1)) {
             return {std::string(function.lsys) + "(" + arguments[0].text + ")", is_random, 0};
         }
     }
-    if (each.text == "atan2" && wants(2)) { // x first
+    if (node.text == "atan2" && wants(2)) { // x first
         return {"atan2(" + arguments[1].text + ", " + arguments[0].text + ")", is_random, 0};
     }
-    if (each.text == "trunc" && wants(1)) {
+    if (node.text == "trunc" && wants(1)) {
         return {"floor(" + in_cpfg_parentheses(arguments[0].text) + " + 0.5)", is_random, 0};
     }
-    if (each.text == "ran" && wants(1)) {
+    if (node.text == "ran" && wants(1)) {
         const CpfgTerm u = draw();
         return {u.text + " * " + in_cpfg_parentheses(arguments[0].text), is_random || u.is_random,
                 0};
     }
-    if (each.text == "nran" && wants(2)) { // by Box and Muller
+    if (node.text == "nran" && wants(2)) { // by Box and Muller
         const CpfgTerm u = draw();
         const CpfgTerm v = draw();
         return {in_cpfg_parentheses(arguments[0].text) + " + " +
@@ -232,68 +232,68 @@ CpfgTerm CpfgExpressions::call(const CpfgExpression& each) {
                     ")) * cos(360 * " + v.text + ")",
                 is_random || u.is_random, 0};
     }
-    if (each.text == "GetDerivationLength") {
+    if (node.text == "GetDerivationLength") {
         return {"steps()", false, 0};
     }
-    return unsupported(each.span, "the function `" + shown(each.text) + "`");
+    return unsupported(node.span, "the function `" + shown(node.text) + "`");
 }
 
-CpfgTerm CpfgExpressions::binary(const CpfgExpression& each) {
-    const CpfgTerm a = term(each.parts[0]);
-    const CpfgTerm b = term(each.parts[1]);
+CpfgTerm CpfgExpressions::binary(const CpfgExpression& node) {
+    const CpfgTerm a = term(node.parts[0]);
+    const CpfgTerm b = term(node.parts[1]);
     const bool is_random = a.is_random || b.is_random;
-    if (each.text == "%") { // of whole numbers
+    if (node.text == "%") { // of whole numbers
         if (is_random) {
-            return chosen_by_chance(each.span, "the remainder of a random number");
+            return chosen_by_chance(node.span, "the remainder of a random number");
         }
         const auto whole = [](const std::string& text) {
             return "sign(" + text + ") * floor(abs(" + text + "))";
         };
         return {"mod(" + whole(a.text) + ", " + whole(b.text) + ")", false, 0};
     }
-    const std::string operation = each.text == "<>" ? "!=" : each.text;
+    const std::string operation = node.text == "<>" ? "!=" : node.text;
     return {in_cpfg_parentheses(a.text) + " " + operation + " " + in_cpfg_parentheses(b.text),
             is_random, 0};
 }
 
 CpfgTerm CpfgExpressions::term(int index) {
-    const CpfgExpression each = node(index); // the vector may not grow, but terms are long
+    const CpfgExpression node = node_at(index); // the vector may not grow, but terms are long
     CpfgTerm made;
-    switch (each.kind) {
+    switch (node.kind) {
     case CpfgKind::Number:
-        made.text = each.text;
+        made.text = node.text;
         break;
     case CpfgKind::Name:
-        made = name(each);
+        made = name(node);
         break;
     case CpfgKind::String:
     case CpfgKind::Address:
-        made = unsupported(each.span, "a value that is no number");
+        made = unsupported(node.span, "a value that is no number");
         break;
     case CpfgKind::Unary: {
-        const CpfgTerm inner = term(each.parts[0]);
-        made = {each.text + in_cpfg_parentheses(inner.text), inner.is_random, 0};
+        const CpfgTerm inner = term(node.parts[0]);
+        made = {node.text + in_cpfg_parentheses(inner.text), inner.is_random, 0};
         break;
     }
     case CpfgKind::Binary:
-        made = binary(each);
+        made = binary(node);
         break;
     case CpfgKind::Choose: {
-        const CpfgTerm test = term(each.parts[0]);
-        const CpfgTerm yes = term(each.parts[1]);
-        const CpfgTerm no = term(each.parts[2]);
-        made = choose(test, yes, no, each.span);
+        const CpfgTerm test = term(node.parts[0]);
+        const CpfgTerm yes = term(node.parts[1]);
+        const CpfgTerm no = term(node.parts[2]);
+        made = choose(test, yes, no, node.span);
         break;
     }
     case CpfgKind::Call:
-        made = call(each);
+        made = call(node);
         break;
     case CpfgKind::Index:
-        made = element(each);
+        made = element(node);
         break;
     }
     if (made.text.size() > kMaxCpfgTerm) {
-        return unsupported(each.span,
+        return unsupported(node.span,
                            "an expression that is too long once its variables are replaced");
     }
     return made;

@@ -37,7 +37,7 @@ enum class CpfgDraws : std::uint8_t {
 
 /// Needs of a production beyond one expression per value.
 struct CpfgNeeds {
-    bool bound_draws = false; // a random number is used twice, or something is chosen by it
+    bool bound_draws = false; // a random number is used twice or decides a choice
     int draws = 0;            // random numbers, where they are bound
 };
 
@@ -48,12 +48,12 @@ public:
 
     /// Runs `define:`, `Start:` and the other blocks of the header.
     void read_header();
-    /// Begins a production: its formals, and no variable. `stage` is that of the statement of .lsys
-    /// that is written.
+    /// Begins a production with its formals and without variables. `stage`: of the .lsys statement
+    /// to be written.
     void begin(std::set<std::string> formals, Stage stage, CpfgDraws draws = CpfgDraws::Inline);
-    /// The next random number is that one, where they are bound.
+    /// Sets the index of the next bound random number.
     void draw_from(int index) { needs_.draws = index; }
-    /// In this production the name stands for a value.
+    /// Defines a variable of the production.
     void let(const std::string& name, const std::string& value);
     void run(const std::vector<int>& statements);
     [[nodiscard]] CpfgTerm term(int expression);
@@ -102,10 +102,10 @@ private:
     [[nodiscard]] std::optional<bool> is_assigned_first(const std::vector<int>& statements,
                                                         const std::string& variable) const;
     void enter_step();
-    [[nodiscard]] const CpfgExpression& node(int index) const {
+    [[nodiscard]] const CpfgExpression& node_at(int index) const {
         return session_.expressions[static_cast<std::size_t>(index)];
     }
-    [[nodiscard]] const CpfgStatement& statement(int index) const {
+    [[nodiscard]] const CpfgStatement& statement_at(int index) const {
         return session_.statements[static_cast<std::size_t>(index)];
     }
     [[nodiscard]] CpfgTerm unsupported(SourceSpan span, const std::string& message) const {
@@ -120,7 +120,7 @@ private:
     Variables variables_;
     Variables globals_;
     std::map<Stage, Variables> states_;     // globals that steps change, as productions see them
-    std::map<std::string, int> increments_; // what each step adds to a global: an expression
+    std::map<std::string, int> increments_; // by global: the expression that each step adds to it
     std::set<std::string> reset_;           // globals that each step makes anew
     std::vector<CpfgConstant> constants_;
     std::map<std::string, Array> arrays_;

@@ -17,7 +17,7 @@ namespace lsys {
 
 namespace {
 
-/// The stages behind the parser go through nodes by recursion.
+/// Max nesting, since the stages after the parser recurse.
 constexpr int kMaxDepth = 1000;
 
 } // namespace
@@ -97,7 +97,7 @@ void translate_cpfg(const DialectRow& row, const ParseContext& context, Translat
     if (!context.diagnostics.has_errors()) {
         const CpfgScanning scanning(session, text.text());
         cpfg_grammar::Parser parser(session, scanning.scanner());
-        static_cast<void>(parser.parse()); // what is wrong has been reported
+        static_cast<void>(parser.parse()); // errors have been reported
     }
     if (context.diagnostics.has_errors()) {
         return;
@@ -109,7 +109,7 @@ void translate_cpfg(const DialectRow& row, const ParseContext& context, Translat
                                                      : "the file has no line `Axiom: ...`");
         return;
     }
-    CpfgWriter(session, translation).run(row.turtle);
+    CpfgWriter(session, translation).write(row.turtle);
 }
 
 } // namespace lsys

@@ -29,43 +29,44 @@ void CpfgWriter::find_names() {
             }
             check_module(module);
             if (!matched && &module != &list.front() && (&module - 1)->name == "~") {
-                surface(module);
+                add_surface(module);
             }
         }
     };
     note(session_.axiom, false);
-    for (CpfgProduction& each : session_.productions) {
-        keep_tilde(each);
-        note(each.left, true);
-        note(each.predecessor, true);
-        note(each.right, true);
-        note(each.successor, false);
-        if (each.stage == Stage::Rewrite && !each.predecessor.empty()) {
-            ++alternatives_[key_of(each)];
+    for (CpfgProduction& production : session_.productions) {
+        keep_tilde(production);
+        note(production.left, true);
+        note(production.predecessor, true);
+        note(production.right, true);
+        note(production.successor, false);
+        if (production.stage == Stage::Rewrite && !production.predecessor.empty()) {
+            ++alternatives_[key_of(production)];
         }
     }
 }
 
 /// `~s(x) --> ~s(y)` rewrites the `s` after a `~`, which stays.
-void CpfgWriter::keep_tilde(CpfgProduction& each) const {
+void CpfgWriter::keep_tilde(CpfgProduction& production) const {
     const auto begins = [](const std::vector<CpfgModule>& list) {
         return list.size() > 1 && list.front().name == "~" && !list.front().has_arguments;
     };
-    if (each.predecessor.size() == 2 && begins(each.predecessor) && begins(each.successor)) {
+    if (production.predecessor.size() == 2 && begins(production.predecessor) &&
+        begins(production.successor)) {
         const auto& named = session_.considers ? session_.considered : session_.ignored;
         const bool is_named = std::any_of(named.begin(), named.end(),
                                           [](const auto& module) { return module.name == "~"; });
         if (is_named == session_.considers) { // else contexts do not see it
-            each.left.push_back(each.predecessor.front());
+            production.left.push_back(production.predecessor.front());
         }
-        each.predecessor.erase(each.predecessor.begin());
-        each.successor.erase(each.successor.begin());
+        production.predecessor.erase(production.predecessor.begin());
+        production.successor.erase(production.successor.begin());
     }
 }
 
-std::string CpfgWriter::key_of(const CpfgProduction& each) {
+std::string CpfgWriter::key_of(const CpfgProduction& production) {
     std::string key;
-    for (const CpfgModule& module : each.predecessor) {
+    for (const CpfgModule& module : production.predecessor) {
         key += module.name + "/" + std::to_string(module.arguments.size()) + " ";
     }
     return key;
@@ -95,7 +96,7 @@ void CpfgWriter::check_module(CpfgModule& module) {
 }
 
 /// The symbol after a `~`.
-void CpfgWriter::surface(const CpfgModule& module) {
+void CpfgWriter::add_surface(const CpfgModule& module) {
     surfaces_.insert(module.name);
     expressions_.warn_left_out(module.span, "surface " + module.name,
                                "the surface `" + shown(module.name) +
@@ -121,7 +122,7 @@ std::string CpfgWriter::spelled(const std::string& name, bool has_arguments) con
                             : "`" + name + "`";
 }
 
-void CpfgWriter::setting(const char* begin, int expression, const char* fallback) {
+void CpfgWriter::write_setting(const char* begin, int expression, const char* fallback) {
     if (expression < 0) {
         if (fallback != nullptr) {
             out_.put(std::string(begin) + fallback + ";\n", header_);
@@ -141,11 +142,11 @@ void CpfgWriter::setting(const char* begin, int expression, const char* fallback
 
 /// A stage whose random numbers are bound takes one pass more; in a stage of several passes, up to
 /// twice as many.
-void CpfgWriter::depth(const char* begin, int expression, Stage stage) {
+void CpfgWriter::write_depth(const char* begin, int expression, Stage stage) {
     const bool own = bound_.count(stage) != 0;
     const bool first = stage == Stage::Decompose && bound_.count(Stage::Rewrite) != 0;
     if (!own && !first) {
-        setting(begin, expression, "1");
+        write_setting(begin, expression, "1");
         return;
     }
     if (!has(stage)) {
@@ -160,7 +161,7 @@ void CpfgWriter::depth(const char* begin, int expression, Stage stage) {
 }
 
 /// The view file of the object lies beside the L-system, under its name.
-void CpfgWriter::view() {
+void CpfgWriter::read_view_file() {
     const std::string_view path = context_.sources.file(out_.file()).path();
     const std::size_t dot = path.rfind('.');
     if (dot == path.npos || path.find('/', dot) != path.npos) {
@@ -177,10 +178,10 @@ void CpfgWriter::view() {
     });
 }
 
-void CpfgWriter::settings(std::string_view turtle) {
+void CpfgWriter::write_settings(std::string_view turtle) {
     out_.put("#set turtle " + std::string(turtle) + ";\n#set names letters;\n", header_);
-    const auto several = [](const CpfgProduction& each) {
-        return each.stage == Stage::Rewrite && each.predecessor.size() > 1;
+    const auto several = [](const CpfgProduction& production) {
+        return production.stage == Stage::Rewrite && production.predecessor.size() > 1;
     };
     if (std::any_of(session_.productions.begin(), session_.productions.end(), several)) {
         out_.put("#set rewriting leftmost;\n", header_);
@@ -190,19 +191,19 @@ void CpfgWriter::settings(std::string_view turtle) {
     }
     const bool decomposes = has(Stage::Decompose) || bound_.count(Stage::Rewrite) != 0;
     if (decomposes) {
-        depth("#set decompose_depth ", session_.decompose_depth, Stage::Decompose);
+        write_depth("#set decompose_depth ", session_.decompose_depth, Stage::Decompose);
     }
     if (has(Stage::Interpret)) {
-        depth("#set interpret_depth ", session_.interpret_depth, Stage::Interpret);
+        write_depth("#set interpret_depth ", session_.interpret_depth, Stage::Interpret);
     }
     if (decomposes || has(Stage::Interpret)) {
         out_.put("#set at_depth stop;\n", header_);
     }
     if (session_.seed >= 0) {
         out_.put("#set weights any;\n", header_);
-        setting("#set seed ", session_.seed, nullptr);
+        write_setting("#set seed ", session_.seed, nullptr);
     }
-    setting("#n = ", session_.derivation_length, "0");
+    write_setting("#n = ", session_.derivation_length, "0");
     if (used_.count("G") != 0) {
         out_.put("#object G BRANCH;\n", header_);
     }
@@ -211,22 +212,22 @@ void CpfgWriter::settings(std::string_view turtle) {
             out_.put("#object " + name + " LEAF;\n", header_);
         }
     }
-    for (const CpfgConstant& each : expressions_.constants()) {
-        out_.put("#define " + each.name + " " + each.value + ";\n", each.span);
+    for (const CpfgConstant& constant : expressions_.constants()) {
+        out_.put("#define " + constant.name + " " + constant.value + ";\n", constant.span);
     }
-    declare();
+    write_declarations();
     if (session_.considers) {
-        names("#consider : ", session_.considered);
+        write_names("#consider : ", session_.considered);
     } else if (session_.ignores) {
-        names("#ignore : ", session_.ignored);
+        write_names("#ignore : ", session_.ignored);
     }
 }
 
 /// Symbols that stand for themselves.
-void CpfgWriter::declare() {
+void CpfgWriter::write_declarations() {
     std::set<std::string> rewritten;
-    for (const CpfgProduction& each : session_.productions) {
-        for (const CpfgModule& module : each.predecessor) {
+    for (const CpfgProduction& production : session_.productions) {
+        for (const CpfgModule& module : production.predecessor) {
             rewritten.insert(module.name);
         }
     }
@@ -248,17 +249,17 @@ void CpfgWriter::declare() {
         }
     };
     visit(session_.axiom);
-    for (const CpfgProduction& each : session_.productions) {
-        visit(each.successor);
+    for (const CpfgProduction& production : session_.productions) {
+        visit(production.successor);
     }
 }
 
 bool CpfgWriter::has(Stage stage) const {
     return std::any_of(session_.productions.begin(), session_.productions.end(),
-                       [&](const CpfgProduction& each) { return each.stage == stage; });
+                       [&](const CpfgProduction& production) { return production.stage == stage; });
 }
 
-void CpfgWriter::names(const char* begin, const std::vector<CpfgModule>& list) {
+void CpfgWriter::write_names(const char* begin, const std::vector<CpfgModule>& list) {
     std::set<std::string> wanted;
     for (const CpfgModule& module : list) {
         for (const char c : module.name) {

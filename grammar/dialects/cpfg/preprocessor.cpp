@@ -98,7 +98,7 @@ private:
         return std::find(std::begin(kWords), std::end(kWords), word) != std::end(kWords);
     }
 
-    /// Backslashes at the end of a line, with that end; two are a habit of some files.
+    /// Length of one or two backslashes and the line end behind them; 0 if `text` begins otherwise.
     static std::size_t splice_length(std::string_view text) {
         std::size_t length = std::min(text.find_first_not_of('\\'), text.size());
         if (length == 0 || length > 2) {
@@ -130,11 +130,11 @@ private:
         std::string_view rest = trimmed(std::string_view(line).substr(1));
         const std::string_view word = rest.substr(0, name_length(rest));
         rest = trimmed(rest.substr(word.size()));
-        obey(word, rest, span);
+        execute(word, rest, span);
         return at;
     }
 
-    void obey(std::string_view word, std::string_view rest, SourceSpan span) {
+    void execute(std::string_view word, std::string_view rest, SourceSpan span) {
         const std::string name(rest.substr(0, name_length(rest)));
         if (word == "ifdef" || word == "ifndef") {
             const bool known = macros_.count(name) != 0;
@@ -270,8 +270,8 @@ private:
         return at;
     }
 
-    /// A name of the text: itself, or what a macro of that name stands for. Returns its bytes, with
-    /// the arguments.
+    /// Copies a name of the text, or writes the expansion of the macro of that name. Returns the
+    /// number of bytes read, with the arguments.
     std::size_t
     name(FileId id, std::string_view text, std::size_t at, std::size_t length, bool keeps) {
         const auto macro = macros_.find(std::string(text.substr(at, length)));
@@ -287,10 +287,10 @@ private:
             const SourceSpan span{id, begin, static_cast<std::uint32_t>(at + used)};
             expanded_ += expanded.size();
             if (expanded_ > kMaxExpanded) {
-                if (!told_) {
+                if (!reported_) {
                     error(span, "the macros of this file write more than 16 million characters");
                 }
-                told_ = true;
+                reported_ = true;
             } else {
                 out_.put(expanded, span);
             }
@@ -300,7 +300,7 @@ private:
         return replaced ? used : length;
     }
 
-    /// `(a, b)` behind the name of a macro; adds what it takes to `used`.
+    /// Reads `(a, b)` behind the name of a macro; adds its length to `used`.
     static bool
     read_arguments(std::string_view text, std::vector<std::string>& arguments, std::size_t& used) {
         if (!text.starts_with("(")) {
@@ -377,7 +377,7 @@ private:
     std::vector<Condition> conditions_;
     std::vector<std::string> active_; // macros that are being replaced
     std::size_t expanded_ = 0;
-    bool told_ = false;
+    bool reported_ = false;
 };
 
 } // namespace

@@ -77,7 +77,7 @@ NUMBER  ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][+-]?[0-9]+)?
   [Ee]"nd"[Ll]"system"                   { ITEM(END_SYSTEM, Symbols); }
   "production"[s]?":"                    { }
   .                                      {
-                                           session.give_back(1);
+                                           session.put_back(1);
                                            yyless(0);
                                            session.mode = Mode::Symbols;
                                            BEGIN(SYMBOLS);

@@ -32,7 +32,7 @@ struct CpfgExpression {
     std::string text;
     std::vector<int> parts; // in CpfgSession::expressions
     SourceSpan span;
-    int depth = 1; // of what is nested in it
+    int depth = 1; // of nested expressions
 };
 
 enum class CpfgStatementKind : std::uint8_t { Assign, Call, If, Loop, Array };
@@ -110,11 +110,11 @@ public:
         at_ += length;
         return text.origin(at_ - length, at_);
     }
-    /// The last `length` bytes are read again.
-    void give_back(std::uint32_t length) { at_ -= length; }
+    /// Puts the last `length` bytes back, to be read again.
+    void put_back(std::uint32_t length) { at_ -= length; }
 
     // --- for the parser
-    /// Nesting beyond the limit is reported and left out.
+    /// Adds a node; reports and drops nesting beyond the limit.
     int add(CpfgExpression expression);
     int add(CpfgStatement statement);
     void report_unsupported(SourceSpan span, std::string message) const {

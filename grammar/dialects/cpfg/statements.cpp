@@ -20,25 +20,25 @@ constexpr std::array<std::string_view, 10> kProcedures{
 
 void CpfgExpressions::find_changed(const std::vector<int>& statements) {
     for (const int index : statements) {
-        const CpfgStatement& each = statement(index);
-        if (each.kind == CpfgStatementKind::Assign) {
-            changed_.insert(node(each.target).text);
+        const CpfgStatement& statement = statement_at(index);
+        if (statement.kind == CpfgStatementKind::Assign) {
+            changed_.insert(node_at(statement.target).text);
         }
-        find_changed(each.block);
-        find_changed(each.otherwise);
+        find_changed(statement.block);
+        find_changed(statement.otherwise);
     }
 }
 
 void CpfgExpressions::read_header() {
     in_header_ = true;
     for (const int index : session_.definitions) {
-        define_array(statement(index));
+        define_array(statement_at(index));
     }
     run(session_.start);
     globals_ = std::exchange(variables_, {});
     read_each_step();
     for (const int index : session_.end) {
-        warn_left_out(statement(index).span, "End",
+        warn_left_out(statement_at(index).span, "End",
                       "`End:` is left out: it cannot change the word");
     }
     in_header_ = false;
@@ -71,8 +71,8 @@ void CpfgExpressions::read_each_step() {
     }
     for (const std::vector<int>* block : {&session_.start_each, &session_.end_each}) {
         for (const int index : *block) {
-            if (statement(index).kind == CpfgStatementKind::Call) {
-                call_statement(statement(index));
+            if (statement_at(index).kind == CpfgStatementKind::Call) {
+                call_statement(statement_at(index));
             }
         }
     }
@@ -81,9 +81,11 @@ void CpfgExpressions::read_each_step() {
 int CpfgExpressions::assignments(const std::vector<int>& statements, const std::string& to) const {
     int count = 0;
     for (const int index : statements) {
-        const CpfgStatement& each = statement(index);
-        count += each.kind == CpfgStatementKind::Assign && node(each.target).text == to ? 1 : 0;
-        count += assignments(each.block, to) + assignments(each.otherwise, to);
+        const CpfgStatement& statement = statement_at(index);
+        count += statement.kind == CpfgStatementKind::Assign && node_at(statement.target).text == to
+                     ? 1
+                     : 0;
+        count += assignments(statement.block, to) + assignments(statement.otherwise, to);
     }
     return count;
 }
@@ -92,10 +94,10 @@ bool CpfgExpressions::uses(int expression, const std::set<std::string>& names) c
     if (expression < 0) {
         return false;
     }
-    const CpfgExpression& each = node(expression);
-    return (each.kind == CpfgKind::Name && names.count(each.text) != 0) ||
-           (each.kind == CpfgKind::Call && (each.text == "ran" || each.text == "nran")) ||
-           std::any_of(each.parts.begin(), each.parts.end(),
+    const CpfgExpression& node = node_at(expression);
+    return (node.kind == CpfgKind::Name && names.count(node.text) != 0) ||
+           (node.kind == CpfgKind::Call && (node.text == "ran" || node.text == "nran")) ||
+           std::any_of(node.parts.begin(), node.parts.end(),
                        [&](int part) { return uses(part, names); });
 }
 
@@ -104,10 +106,10 @@ bool CpfgExpressions::depends(const std::vector<int>& statements,
                               const std::string& to,
                               const std::set<std::string>& names) const {
     return std::any_of(statements.begin(), statements.end(), [&](int index) {
-        const CpfgStatement& each = statement(index);
+        const CpfgStatement& statement = statement_at(index);
         const bool assigns = assignments({index}, to) != 0;
-        return assigns && (uses(each.value, names) || depends(each.block, to, names) ||
-                           depends(each.otherwise, to, names));
+        return assigns && (uses(statement.value, names) || depends(statement.block, to, names) ||
+                           depends(statement.otherwise, to, names));
     });
 }
 
@@ -120,14 +122,15 @@ int CpfgExpressions::step_of(const std::string& variable) const {
     }
     for (const std::vector<int>* block : {&session_.start_each, &session_.end_each}) {
         for (const int index : *block) {
-            const CpfgStatement& each = statement(index);
-            if (each.kind != CpfgStatementKind::Assign || node(each.target).text != variable) {
+            const CpfgStatement& statement = statement_at(index);
+            if (statement.kind != CpfgStatementKind::Assign ||
+                node_at(statement.target).text != variable) {
                 continue;
             }
-            const CpfgExpression& value = node(each.value);
+            const CpfgExpression& value = node_at(statement.value);
             const bool sum = value.kind == CpfgKind::Binary && value.text == "+" &&
-                             node(value.parts[0]).kind == CpfgKind::Name &&
-                             node(value.parts[0]).text == variable;
+                             node_at(value.parts[0]).kind == CpfgKind::Name &&
+                             node_at(value.parts[0]).text == variable;
             return sum && !uses(value.parts[1], changed_) ? value.parts[1] : -1;
         }
     }
@@ -138,15 +141,16 @@ int CpfgExpressions::step_of(const std::string& variable) const {
 std::optional<bool> CpfgExpressions::is_assigned_first(const std::vector<int>& statements,
                                                        const std::string& variable) const {
     for (const int index : statements) {
-        const CpfgStatement& each = statement(index);
-        if (uses(each.value, {variable})) {
+        const CpfgStatement& statement = statement_at(index);
+        if (uses(statement.value, {variable})) {
             return false;
         }
-        if (each.kind == CpfgStatementKind::Assign && node(each.target).text == variable) {
+        if (statement.kind == CpfgStatementKind::Assign &&
+            node_at(statement.target).text == variable) {
             return true;
         }
-        const std::optional<bool> yes = is_assigned_first(each.block, variable);
-        const std::optional<bool> no = is_assigned_first(each.otherwise, variable);
+        const std::optional<bool> yes = is_assigned_first(statement.block, variable);
+        const std::optional<bool> no = is_assigned_first(statement.otherwise, variable);
         if (yes || no) {
             return yes.value_or(false) && no.value_or(false);
         }
@@ -224,36 +228,37 @@ void CpfgExpressions::let(const std::string& name, const std::string& value) {
 
 void CpfgExpressions::run(const std::vector<int>& statements) {
     for (const int index : statements) {
-        run(statement(index));
+        run(statement_at(index));
     }
 }
 
-void CpfgExpressions::run(const CpfgStatement& each) {
-    switch (each.kind) {
+void CpfgExpressions::run(const CpfgStatement& statement) {
+    switch (statement.kind) {
     case CpfgStatementKind::Assign: {
-        const CpfgExpression& target = node(each.target);
+        const CpfgExpression& target = node_at(statement.target);
         if (target.kind == CpfgKind::Index) {
-            static_cast<void>(unsupported(
-                each.span, "an element of an array that is changed while the word is derived"));
+            static_cast<void>(
+                unsupported(statement.span,
+                            "an element of an array that is changed while the word is derived"));
             return;
         }
         const bool global = globals_.count(target.text) != 0 || changed_.count(target.text) != 0;
         if (!in_header_ && global && formals_.count(target.text) == 0) {
             static_cast<void>(
-                unsupported(each.span, "`" + shown(target.text) +
-                                           "` belongs to the whole system and is changed by a "
-                                           "production"));
+                unsupported(statement.span, "`" + shown(target.text) +
+                                                "` belongs to the whole system and is changed by a "
+                                                "production"));
             return;
         }
-        CpfgTerm value = term(each.value);
+        CpfgTerm value = term(statement.value);
         if (value.text.size() > kMaxCpfgTerm) {
-            value = unsupported(each.span, "the value of `" + shown(target.text) +
-                                               "` is too long for one expression");
+            value = unsupported(statement.span, "the value of `" + shown(target.text) +
+                                                    "` is too long for one expression");
         }
         if (value.is_random && in_header_ &&
             !in_step_) { // drawn once, before the derivation begins
             constants_.push_back(
-                {"start_" + std::to_string(constants_.size() + 1), value.text, each.span});
+                {"start_" + std::to_string(constants_.size() + 1), value.text, statement.span});
             value = {constants_.back().name, false, 0};
         }
         value.uses = 0;
@@ -261,22 +266,22 @@ void CpfgExpressions::run(const CpfgStatement& each) {
         break;
     }
     case CpfgStatementKind::Call:
-        call_statement(each);
+        call_statement(statement);
         break;
     case CpfgStatementKind::If:
-        branch(each);
+        branch(statement);
         break;
     case CpfgStatementKind::Loop:
-        static_cast<void>(unsupported(each.span, "a loop"));
+        static_cast<void>(unsupported(statement.span, "a loop"));
         break;
     case CpfgStatementKind::Array:
-        define_array(each);
+        define_array(statement);
         break;
     }
 }
 
-void CpfgExpressions::call_statement(const CpfgStatement& each) {
-    const CpfgExpression& called = node(each.value);
+void CpfgExpressions::call_statement(const CpfgStatement& statement) {
+    const CpfgExpression& called = node_at(statement.value);
     if (called.kind != CpfgKind::Call) {
         return; // an unused value
     }
@@ -289,24 +294,25 @@ void CpfgExpressions::call_statement(const CpfgStatement& each) {
         warn_left_out(called.span, called.text,
                       "`" + shown(called.text) + "` is left out: it cannot change the word");
     } else {
-        static_cast<void>(term(each.value));
+        static_cast<void>(term(statement.value));
     }
 }
 
-void CpfgExpressions::branch(const CpfgStatement& each) {
-    const CpfgTerm test = term(each.value);
+void CpfgExpressions::branch(const CpfgStatement& statement) {
+    const CpfgTerm test = term(statement.value);
     if (is_cpfg_number(test.text)) {
-        run(is_cpfg_zero(test.text) ? each.otherwise : each.block);
+        run(is_cpfg_zero(test.text) ? statement.otherwise : statement.block);
         return;
     }
     const bool chance = test.is_random;
     if (chance) {
-        static_cast<void>(chosen_by_chance(node(each.value).span, "a random number in an `if`"));
+        static_cast<void>(
+            chosen_by_chance(node_at(statement.value).span, "a random number in an `if`"));
     }
     const Variables before = variables_;
-    run(each.block);
+    run(statement.block);
     Variables yes = std::exchange(variables_, before);
-    run(each.otherwise);
+    run(statement.otherwise);
     Variables no = std::exchange(variables_, before);
     const auto value_in = [&](const Variables& values, const std::string& name) {
         const auto found = values.find(name);
@@ -326,13 +332,13 @@ void CpfgExpressions::branch(const CpfgStatement& each) {
         const CpfgTerm b = value_in(no, name);
         variables_[name] = a.text == b.text ? a
                            : chance         ? CpfgTerm{"0", true, 0}
-                                            : choose(test, a, b, each.span);
+                                            : choose(test, a, b, statement.span);
     }
 }
 
-void CpfgExpressions::define_array(const CpfgStatement& each) {
+void CpfgExpressions::define_array(const CpfgStatement& statement) {
     constexpr int kMaxElements = 256;
-    const CpfgExpression& target = node(each.target);
+    const CpfgExpression& target = node_at(statement.target);
     Array array;
     int count = 1;
     for (const int part : target.parts) {
@@ -347,10 +353,10 @@ void CpfgExpressions::define_array(const CpfgStatement& each) {
         array.sizes.push_back(value);
         count *= value;
     }
-    for (const int value : each.block) {
+    for (const int value : statement.block) {
         const CpfgTerm made = term(value);
         if (made.is_random) {
-            static_cast<void>(unsupported(each.span, "random numbers in an array"));
+            static_cast<void>(unsupported(statement.span, "random numbers in an array"));
             return;
         }
         array.values.push_back(made.text);

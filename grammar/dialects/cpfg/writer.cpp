@@ -21,33 +21,33 @@ CpfgWriter::CpfgWriter(CpfgSession& session, Translation& out)
     : session_(session), context_(session.context), out_(out), header_{out.file(), 0, 1},
       expressions_(session, view_.curves) {}
 
-void CpfgWriter::run(std::string_view turtle) {
+void CpfgWriter::write(std::string_view turtle) {
     find_names();
-    view();
+    read_view_file();
     expressions_.read_header();
     find_bindings();
     expressions_.begin({}, Stage::Rewrite);
-    settings(turtle);
+    write_settings(turtle);
     out_.put("\n#w : ", *session_.axiom_span);
-    modules(session_.axiom);
+    write_modules(session_.axiom);
     out_.put(";\n\n", header_);
     for (std::size_t i = 0; i < session_.productions.size(); ++i) {
-        production(i);
+        write_production(i);
     }
 }
 
-bool CpfgWriter::is_always(const CpfgProduction& each) const {
-    if (each.condition < 0) {
+bool CpfgWriter::is_always(const CpfgProduction& production) const {
+    if (production.condition < 0) {
         return true;
     }
-    const CpfgExpression& test = expression(each.condition);
+    const CpfgExpression& test = expression(production.condition);
     return test.kind == CpfgKind::Number && !is_cpfg_zero(test.text);
 }
 
 /// Returns true when the production is chosen among others by chance.
-bool CpfgWriter::chosen(const CpfgProduction& each) const {
-    return session_.seed >= 0 && each.stage == Stage::Rewrite && !each.predecessor.empty() &&
-           alternatives_.at(key_of(each)) > 1;
+bool CpfgWriter::is_random_choice(const CpfgProduction& production) const {
+    return session_.seed >= 0 && production.stage == Stage::Rewrite &&
+           !production.predecessor.empty() && alternatives_.at(key_of(production)) > 1;
 }
 
 /// Finds the productions whose random numbers are bound.
@@ -56,27 +56,28 @@ void CpfgWriter::find_bindings() {
     std::map<std::pair<Stage, std::string>, std::vector<std::size_t>> by_module;
     std::set<std::pair<Stage, std::string>> grouped;
     for (std::size_t i = 0; i < session_.productions.size(); ++i) {
-        const CpfgProduction& each = session_.productions[i];
-        if (each.predecessor.empty()) {
+        const CpfgProduction& production = session_.productions[i];
+        if (production.predecessor.empty()) {
             continue;
         }
-        const std::vector<std::string> names = formals_of(each);
+        const std::vector<std::string> names = formals_of(production);
         CpfgExpressions probe = expressions_.probe();
-        probe.begin({names.begin(), names.end()}, each.stage);
-        probe.run(each.before);
-        const bool drawn_test = each.condition >= 0 && probe.term(each.condition).is_random;
+        probe.begin({names.begin(), names.end()}, production.stage);
+        probe.run(production.before);
+        const bool drawn_test =
+            production.condition >= 0 && probe.term(production.condition).is_random;
         bool weighted = false;
-        if (chosen(each) && each.weight >= 0) {
-            const std::string text = probe.term(each.weight).text;
+        if (is_random_choice(production) && production.weight >= 0) {
+            const std::string text = probe.term(production.weight).text;
             weighted = !is_cpfg_number(text);
         }
-        probe.run(each.after);
-        for (const CpfgModule& module : each.successor) {
+        probe.run(production.after);
+        for (const CpfgModule& module : production.successor) {
             for (const int argument : module.arguments) {
                 static_cast<void>(probe.term(argument));
             }
         }
-        const std::pair<Stage, std::string> module{each.stage, key_of(each)};
+        const std::pair<Stage, std::string> module{production.stage, key_of(production)};
         by_module[module].push_back(i);
         bindings_[i] = {probe.needs().bound_draws ? Binding::Own : Binding::None, 0,
                         probe.needs().draws};
@@ -88,10 +89,10 @@ void CpfgWriter::find_bindings() {
         bind_group(by_module[module]);
     }
     for (std::size_t i = 0; i < bindings_.size(); ++i) {
-        const CpfgProduction& each = session_.productions[i];
-        if (bindings_[i].binding != Binding::None && bound_.insert(each.stage).second &&
-            each.stage != Stage::Rewrite) {
-            expressions_.warn_left_out(each.span, "passes",
+        const CpfgProduction& production = session_.productions[i];
+        if (bindings_[i].binding != Binding::None && bound_.insert(production.stage).second &&
+            production.stage != Stage::Rewrite) {
+            expressions_.warn_left_out(production.span, "passes",
                                        "random numbers that are used more than once take a pass of "
                                        "their own: `maximum depth` counts twice");
         }
@@ -101,9 +102,10 @@ void CpfgWriter::find_bindings() {
 void CpfgWriter::bind_group(const std::vector<std::size_t>& members) {
     int draws = 0;
     for (const std::size_t i : members) {
-        const CpfgProduction& each = session_.productions[i];
-        if (!each.left.empty() || !each.right.empty() || each.predecessor.size() != 1) {
-            session_.report_unsupported(each.span,
+        const CpfgProduction& production = session_.productions[i];
+        if (!production.left.empty() || !production.right.empty() ||
+            production.predecessor.size() != 1) {
+            session_.report_unsupported(production.span,
                                         "a choice by a random number, or by weights that depend on "
                                         "parameters, among productions with contexts or of several "
                                         "modules");
@@ -111,13 +113,13 @@ void CpfgWriter::bind_group(const std::vector<std::size_t>& members) {
         }
         draws += bindings_[i].draws;
         if (draws > kMaxDraws) {
-            session_.report_unsupported(each.span,
+            session_.report_unsupported(production.span,
                                         "more than 1000 random numbers, here and before, that the "
                                         "choice among the productions of one module needs");
             return;
         }
     }
-    draws += chosen(session_.productions[members.front()]) ? 1 : 0;
+    draws += is_random_choice(session_.productions[members.front()]) ? 1 : 0;
     int first = 0;
     for (const std::size_t i : members) {
         const int own = bindings_[i].draws;
@@ -127,9 +129,9 @@ void CpfgWriter::bind_group(const std::vector<std::size_t>& members) {
     groups_[members.front()] = members;
 }
 
-std::vector<std::string> CpfgWriter::formals_of(const CpfgProduction& each) const {
+std::vector<std::string> CpfgWriter::formals_of(const CpfgProduction& production) const {
     std::vector<std::string> names;
-    for (const auto* list : {&each.left, &each.predecessor, &each.right}) {
+    for (const auto* list : {&production.left, &production.predecessor, &production.right}) {
         for (const CpfgModule& module : *list) {
             for (const int argument : module.arguments) {
                 names.push_back(expression(argument).text);
@@ -139,7 +141,7 @@ std::vector<std::string> CpfgWriter::formals_of(const CpfgProduction& each) cons
     return names;
 }
 
-void CpfgWriter::put_name(const CpfgModule& module) {
+void CpfgWriter::write_name(const CpfgModule& module) {
     const std::string name = spelled(module.name, module.has_arguments);
     out_.put(name, module.span);
     if (name[0] != '`' && name != module.name && used_.count(name) == 0) {
@@ -147,10 +149,10 @@ void CpfgWriter::put_name(const CpfgModule& module) {
     }
 }
 
-void CpfgWriter::modules(const std::vector<CpfgModule>& list) {
+void CpfgWriter::write_modules(const std::vector<CpfgModule>& list) {
     for (const CpfgModule& module : list) {
         const bool polygon = module.name == "{" || module.name == "}";
-        put_name(module);
+        write_name(module);
         if (!module.has_arguments || polygon) {
             continue;
         }
@@ -164,13 +166,13 @@ void CpfgWriter::modules(const std::vector<CpfgModule>& list) {
 }
 
 /// Predecessor or context: its parameters are names.
-void CpfgWriter::pattern(const std::vector<CpfgModule>& list) {
+void CpfgWriter::write_pattern(const std::vector<CpfgModule>& list) {
     for (const CpfgModule& module : list) {
         const CpfgModule* const next = &module == &list.back() ? nullptr : &module + 1;
         if (module.name == "=" && next != nullptr && next->name == "]") {
             continue; // what follows in the branch does not matter, and so it is in .lsys
         }
-        put_name(module);
+        write_name(module);
         for (std::size_t i = 0; i < module.arguments.size(); ++i) {
             const CpfgExpression& formal = expression(module.arguments[i]);
             if (formal.kind != CpfgKind::Name) {
@@ -187,42 +189,42 @@ void CpfgWriter::pattern(const std::vector<CpfgModule>& list) {
 }
 
 /// Reports productions that .lsys does not have; returns false for those.
-bool CpfgWriter::check(const CpfgProduction& each) {
-    if (each.predecessor.empty()) {
-        session_.report_unsupported(each.span, "a production without a module");
+bool CpfgWriter::check(const CpfgProduction& production) {
+    if (production.predecessor.empty()) {
+        session_.report_unsupported(production.span, "a production without a module");
         return false;
     }
-    if (each.predecessor.size() != 1 && each.stage != Stage::Rewrite) {
-        session_.report_unsupported(each.span,
+    if (production.predecessor.size() != 1 && production.stage != Stage::Rewrite) {
+        session_.report_unsupported(production.span,
                                     "a decomposition or a homomorphism of several modules as one");
         return false;
     }
-    const bool contexts = !each.left.empty() || !each.right.empty();
-    if (contexts && each.stage == Stage::Decompose) {
-        session_.report_unsupported(each.span, "contexts in a decomposition");
+    const bool contexts = !production.left.empty() || !production.right.empty();
+    if (contexts && production.stage == Stage::Decompose) {
+        session_.report_unsupported(production.span, "contexts in a decomposition");
         return false;
     }
-    if (contexts && each.stage == Stage::Interpret) {
-        expressions_.warn_left_out(each.span, "context",
+    if (contexts && production.stage == Stage::Interpret) {
+        expressions_.warn_left_out(production.span, "context",
                                    "contexts in a homomorphism are left out, as cpfg does");
     }
     return true;
 }
 
 /// `#p1 : left < module > right : `
-void CpfgWriter::head(const CpfgProduction& each, const std::string& label) {
-    const bool rewrites = each.stage == Stage::Rewrite;
-    out_.put(label + " : ", each.span);
-    if (!each.left.empty() && rewrites) {
-        pattern(each.left);
-        out_.put(" < ", each.span);
+void CpfgWriter::write_head(const CpfgProduction& production, const std::string& label) {
+    const bool rewrites = production.stage == Stage::Rewrite;
+    out_.put(label + " : ", production.span);
+    if (!production.left.empty() && rewrites) {
+        write_pattern(production.left);
+        out_.put(" < ", production.span);
     }
-    pattern(each.predecessor);
-    if (!each.right.empty() && rewrites) {
-        out_.put(" > ", each.span);
-        pattern(each.right);
+    write_pattern(production.predecessor);
+    if (!production.right.empty() && rewrites) {
+        out_.put(" > ", production.span);
+        write_pattern(production.right);
     }
-    out_.put(" : ", each.span);
+    out_.put(" : ", production.span);
 }
 
 namespace {
@@ -248,7 +250,7 @@ std::string CpfgWriter::drawing_module(std::size_t index) const {
     return "`random" + std::to_string(index + 1) + "`";
 }
 
-void CpfgWriter::formals(const std::vector<std::string>& names, int count, SourceSpan span) {
+void CpfgWriter::write_formals(const std::vector<std::string>& names, int count, SourceSpan span) {
     std::string text;
     for (const std::string& name : names) {
         text += (text.empty() ? "(" : ", ") + name;
@@ -259,7 +261,7 @@ void CpfgWriter::formals(const std::vector<std::string>& names, int count, Sourc
     out_.put(text.empty() ? text : text + ")", span);
 }
 
-void CpfgWriter::draws(const std::vector<std::string>& names, int count, SourceSpan span) {
+void CpfgWriter::write_draws(const std::vector<std::string>& names, int count, SourceSpan span) {
     std::string text;
     for (const std::string& name : names) {
         text += (text.empty() ? "(" : ", ") + name;
@@ -270,49 +272,50 @@ void CpfgWriter::draws(const std::vector<std::string>& names, int count, SourceS
     out_.put(text.empty() ? text : text + ")", span);
 }
 
-void CpfgWriter::production(std::size_t index) {
-    const CpfgProduction& each = session_.productions[index];
+void CpfgWriter::write_production(std::size_t index) {
+    const CpfgProduction& production = session_.productions[index];
     const Binds& binds = bindings_[index];
-    if (!check(each)) {
+    if (!check(production)) {
         return;
     }
     if (binds.binding == Binding::Group) {
         if (groups_.count(index) != 0) {
-            group(index);
+            write_group(index);
         }
         return;
     }
-    const std::vector<std::string> names = formals_of(each);
-    head(each, label_of(each.stage, index));
+    const std::vector<std::string> names = formals_of(production);
+    write_head(production, label_of(production.stage, index));
     const bool own = binds.binding == Binding::Own;
-    expressions_.begin({names.begin(), names.end()}, each.stage,
+    expressions_.begin({names.begin(), names.end()}, production.stage,
                        own ? CpfgDraws::Elsewhere : CpfgDraws::Inline);
-    expressions_.run(each.before);
-    condition(each);
-    weight(each);
+    expressions_.run(production.before);
+    write_condition(production);
+    write_weight(production);
     if (own) {
-        bound(index);
+        write_bound_production(index);
         return;
     }
-    expressions_.run(each.after);
-    out_.put(" : ", each.arrow);
-    modules(each.successor);
-    out_.put(";\n", each.arrow);
+    expressions_.run(production.after);
+    out_.put(" : ", production.arrow);
+    write_modules(production.successor);
+    out_.put(";\n", production.arrow);
 }
 
-void CpfgWriter::begin_bound(const CpfgProduction& each, int first_draw) {
-    const std::vector<std::string> names = formals_of(each);
-    expressions_.begin({names.begin(), names.end()}, bound_stage(each.stage), CpfgDraws::Bound);
+void CpfgWriter::begin_bound(const CpfgProduction& production, int first_draw) {
+    const std::vector<std::string> names = formals_of(production);
+    expressions_.begin({names.begin(), names.end()}, bound_stage(production.stage),
+                       CpfgDraws::Bound);
     expressions_.draw_from(first_draw);
 }
 
 /// The formals that the successor reads.
-std::vector<std::string> CpfgWriter::read_formals(const CpfgProduction& each) {
-    begin_bound(each, 0);
-    expressions_.run(each.before);
-    expressions_.run(each.after);
+std::vector<std::string> CpfgWriter::read_formals(const CpfgProduction& production) {
+    begin_bound(production, 0);
+    expressions_.run(production.before);
+    expressions_.run(production.after);
     std::string text;
-    for (const CpfgModule& module : each.successor) {
+    for (const CpfgModule& module : production.successor) {
         for (const int argument : module.arguments) {
             text += " " + expressions_.term(argument).text;
         }
@@ -329,124 +332,124 @@ std::vector<std::string> CpfgWriter::read_formals(const CpfgProduction& each) {
         read.insert(text.substr(begin, at - begin));
         at += at == begin ? 1 : 0;
     }
-    std::vector<std::string> names = formals_of(each);
+    std::vector<std::string> names = formals_of(production);
     std::erase_if(names, [&](const std::string& name) { return read.count(name) == 0; });
     return names;
 }
 
 /// Draws the random numbers of a production that matches, and writes its successor with them.
-void CpfgWriter::bound(std::size_t index) {
-    const CpfgProduction& each = session_.productions[index];
+void CpfgWriter::write_bound_production(std::size_t index) {
+    const CpfgProduction& production = session_.productions[index];
     const int count = bindings_[index].draws;
-    const std::vector<std::string> names = read_formals(each);
-    out_.put(" : " + drawing_module(index), each.arrow);
-    draws(names, count, each.arrow);
-    out_.put(";\n" + bound_label(each.stage, "b" + std::to_string(index + 1)) + " : " +
+    const std::vector<std::string> names = read_formals(production);
+    out_.put(" : " + drawing_module(index), production.arrow);
+    write_draws(names, count, production.arrow);
+    out_.put(";\n" + bound_label(production.stage, "b" + std::to_string(index + 1)) + " : " +
                  drawing_module(index),
-             each.arrow);
-    begin_bound(each, 0);
-    formals(names, count, each.arrow);
-    out_.put(" : * : ", each.arrow);
-    expressions_.run(each.before);
-    expressions_.run(each.after);
-    modules(each.successor);
-    out_.put(";\n", each.arrow);
+             production.arrow);
+    begin_bound(production, 0);
+    write_formals(names, count, production.arrow);
+    out_.put(" : * : ", production.arrow);
+    expressions_.run(production.before);
+    expressions_.run(production.after);
+    write_modules(production.successor);
+    out_.put(";\n", production.arrow);
 }
 
 /// Draws random numbers for a module; which of its productions it takes depends on them.
-void CpfgWriter::group(std::size_t index) {
+void CpfgWriter::write_group(std::size_t index) {
     const std::vector<std::size_t>& members = groups_.at(index);
     const CpfgProduction& first = session_.productions[index];
     const int count = bindings_[index].draws;
     const std::vector<std::string> names = formals_of(first);
-    head(first, label_of(first.stage, index));
+    write_head(first, label_of(first.stage, index));
     out_.put("* : " + drawing_module(index), first.arrow);
-    draws(names, count, first.arrow);
+    write_draws(names, count, first.arrow);
     out_.put(";\n", first.arrow);
     bool always = false;
     for (const std::size_t member : members) {
-        const CpfgProduction& each = session_.productions[member];
-        const std::vector<std::string> own = formals_of(each);
-        out_.put(bound_label(each.stage, "b" + std::to_string(member + 1)) + " : " +
+        const CpfgProduction& production = session_.productions[member];
+        const std::vector<std::string> own = formals_of(production);
+        out_.put(bound_label(production.stage, "b" + std::to_string(member + 1)) + " : " +
                      drawing_module(index),
-                 each.span);
-        begin_bound(each, bindings_[member].first_draw);
-        formals(own, count, each.span);
-        out_.put(" : ", each.span);
-        if (chosen(each)) {
-            weighted(each, index);
-            begin_bound(each, bindings_[member].first_draw);
-            expressions_.run(each.before);
+                 production.span);
+        begin_bound(production, bindings_[member].first_draw);
+        write_formals(own, count, production.span);
+        out_.put(" : ", production.span);
+        if (is_random_choice(production)) {
+            write_weighted_condition(production, index);
+            begin_bound(production, bindings_[member].first_draw);
+            expressions_.run(production.before);
         } else {
-            expressions_.run(each.before);
-            condition(each);
+            expressions_.run(production.before);
+            write_condition(production);
         }
-        always = always || is_always(each);
-        expressions_.run(each.after);
-        out_.put(" : ", each.arrow);
-        modules(each.successor);
-        out_.put(";\n", each.arrow);
+        always = always || is_always(production);
+        expressions_.run(production.after);
+        out_.put(" : ", production.arrow);
+        write_modules(production.successor);
+        out_.put(";\n", production.arrow);
     }
     if (!always) { // without a match the module stays
         out_.put(bound_label(first.stage, "k" + std::to_string(index + 1)) + " : " +
                      drawing_module(index),
                  first.span);
         begin_bound(first, 0);
-        formals(names, count, first.span);
+        write_formals(names, count, first.span);
         out_.put(" : * : " + spelled(first.predecessor.front().name,
                                      first.predecessor.front().has_arguments),
                  first.span);
-        draws(names, 0, first.span);
+        write_draws(names, 0, first.span);
         out_.put(";\n", first.span);
     }
 }
 
-void CpfgWriter::condition(const CpfgProduction& each) {
-    if (each.condition < 0) {
-        out_.put("*", each.span);
+void CpfgWriter::write_condition(const CpfgProduction& production) {
+    if (production.condition < 0) {
+        out_.put("*", production.span);
         return;
     }
-    const SourceSpan span = expression(each.condition).span;
-    const CpfgTerm test = expressions_.term(each.condition);
+    const SourceSpan span = expression(production.condition).span;
+    const CpfgTerm test = expressions_.term(production.condition);
     const bool number = is_cpfg_number(test.text);
     const bool always = number && !is_cpfg_zero(test.text);
     out_.put(always ? "*" : test.text, span);
 }
 
-void CpfgWriter::weight(const CpfgProduction& each) {
-    if (each.weight >= 0 && session_.seed < 0) {
+void CpfgWriter::write_weight(const CpfgProduction& production) {
+    if (production.weight >= 0 && session_.seed < 0) {
         expressions_.warn_left_out(
-            expression(each.weight).span, "weight",
+            expression(production.weight).span, "weight",
             "without `seed:` the first production that matches is taken: this is left out");
     }
-    if (!chosen(each)) {
+    if (!is_random_choice(production)) {
         return;
     }
-    if (!each.left.empty() || !each.right.empty()) {
-        expressions_.warn_left_out(each.span, "choice " + key_of(each),
+    if (!production.left.empty() || !production.right.empty()) {
+        expressions_.warn_left_out(production.span, "choice " + key_of(production),
                                    "the choice is among productions with the same contexts; cpfg "
                                    "chooses among all that match");
     }
-    if (each.weight < 0) {
-        out_.put(" ~ 1", each.span);
+    if (production.weight < 0) {
+        out_.put(" ~ 1", production.span);
         return;
     }
-    const SourceSpan span = expression(each.weight).span;
+    const SourceSpan span = expression(production.weight).span;
     out_.put(" ~ ", span);
-    out_.put("(" + expressions_.term(each.weight).text + ")", span);
+    out_.put("(" + expressions_.term(production.weight).text + ")", span);
 }
 
 /// Writes the condition of the choice: the last random number, times the sum of the weights of all
 /// matching productions, falls into the weight of this one.
-void CpfgWriter::weighted(const CpfgProduction& each, std::size_t index) {
-    const std::vector<std::string> own = formals_of(each);
+void CpfgWriter::write_weighted_condition(const CpfgProduction& production, std::size_t index) {
+    const std::vector<std::string> own = formals_of(production);
     std::string until;
     std::string all;
     std::string test;
     bool last = false;
     for (const std::size_t member : groups_.at(index)) {
         const CpfgProduction& other = session_.productions[member];
-        begin_bound(each, bindings_[member].first_draw);
+        begin_bound(production, bindings_[member].first_draw);
         const std::vector<std::string> names = formals_of(other);
         for (std::size_t i = 0; i < names.size() && i < own.size(); ++i) {
             if (names[i] != own[i]) {
@@ -470,10 +473,11 @@ void CpfgWriter::weighted(const CpfgProduction& each, std::size_t index) {
         if (until.empty() || !last) {
             until = all;
         }
-        last = last || &other == &each;
-        test = &other == &each ? condition : test;
+        last = last || &other == &production;
+        test = &other == &production ? condition : test;
     }
-    const SourceSpan span = each.weight < 0 ? each.span : expression(each.weight).span;
+    const SourceSpan span =
+        production.weight < 0 ? production.span : expression(production.weight).span;
     const std::string u = expressions_.draw_name(bindings_[index].draws - 1);
     const std::string chance =
         until == all ? "" : u + " * (" + all + ") < " + in_cpfg_parentheses(until);

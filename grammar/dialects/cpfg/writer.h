@@ -22,7 +22,7 @@ public:
     CpfgWriter(CpfgSession& session, Translation& out);
 
     /// `turtle`: the profile.
-    void run(std::string_view turtle);
+    void write(std::string_view turtle);
 
 private:
     enum class Binding : std::uint8_t {
@@ -38,43 +38,43 @@ private:
 
     // --- names
     void find_names();
-    void keep_tilde(CpfgProduction& each) const;
+    void keep_tilde(CpfgProduction& production) const;
     void check_module(CpfgModule& module);
-    void surface(const CpfgModule& module);
+    void add_surface(const CpfgModule& module);
     [[nodiscard]] std::string spelled(const std::string& name, bool has_arguments) const;
-    [[nodiscard]] static std::string key_of(const CpfgProduction& each);
+    [[nodiscard]] static std::string key_of(const CpfgProduction& production);
 
     // --- the header
-    void settings(std::string_view turtle);
-    void setting(const char* begin, int expression, const char* fallback);
-    void depth(const char* begin, int expression, Stage stage);
-    void view();
-    void declare();
-    void names(const char* begin, const std::vector<CpfgModule>& list);
+    void write_settings(std::string_view turtle);
+    void write_setting(const char* begin, int expression, const char* fallback);
+    void write_depth(const char* begin, int expression, Stage stage);
+    void read_view_file();
+    void write_declarations();
+    void write_names(const char* begin, const std::vector<CpfgModule>& list);
     [[nodiscard]] bool has(Stage stage) const;
 
     // --- productions
     void find_bindings();
     void bind_group(const std::vector<std::size_t>& members);
-    [[nodiscard]] bool check(const CpfgProduction& each);
-    void production(std::size_t index);
-    void bound(std::size_t index);
-    void group(std::size_t index);
-    void head(const CpfgProduction& each, const std::string& label);
-    void condition(const CpfgProduction& each);
-    void weight(const CpfgProduction& each);
-    void weighted(const CpfgProduction& each, std::size_t index);
-    void put_name(const CpfgModule& module);
-    void modules(const std::vector<CpfgModule>& list);
-    void pattern(const std::vector<CpfgModule>& list);
+    [[nodiscard]] bool check(const CpfgProduction& production);
+    void write_production(std::size_t index);
+    void write_bound_production(std::size_t index);
+    void write_group(std::size_t index);
+    void write_head(const CpfgProduction& production, const std::string& label);
+    void write_condition(const CpfgProduction& production);
+    void write_weight(const CpfgProduction& production);
+    void write_weighted_condition(const CpfgProduction& production, std::size_t index);
+    void write_name(const CpfgModule& module);
+    void write_modules(const std::vector<CpfgModule>& list);
+    void write_pattern(const std::vector<CpfgModule>& list);
     [[nodiscard]] std::string drawing_module(std::size_t index) const;
-    [[nodiscard]] std::vector<std::string> read_formals(const CpfgProduction& each);
-    void begin_bound(const CpfgProduction& each, int first_draw);
-    void formals(const std::vector<std::string>& names, int draws, SourceSpan span);
-    void draws(const std::vector<std::string>& names, int count, SourceSpan span);
-    [[nodiscard]] std::vector<std::string> formals_of(const CpfgProduction& each) const;
-    [[nodiscard]] bool chosen(const CpfgProduction& each) const;
-    [[nodiscard]] bool is_always(const CpfgProduction& each) const;
+    [[nodiscard]] std::vector<std::string> read_formals(const CpfgProduction& production);
+    void begin_bound(const CpfgProduction& production, int first_draw);
+    void write_formals(const std::vector<std::string>& names, int draws, SourceSpan span);
+    void write_draws(const std::vector<std::string>& names, int count, SourceSpan span);
+    [[nodiscard]] std::vector<std::string> formals_of(const CpfgProduction& production) const;
+    [[nodiscard]] bool is_random_choice(const CpfgProduction& production) const;
+    [[nodiscard]] bool is_always(const CpfgProduction& production) const;
     [[nodiscard]] const CpfgExpression& expression(int index) const {
         return session_.expressions[static_cast<std::size_t>(index)];
     }
@@ -88,8 +88,8 @@ private:
     std::vector<Binds> bindings_;                            // of each production
     std::map<std::size_t, std::vector<std::size_t>> groups_; // by the first of its productions
     std::set<Stage> bound_;                                  // stages with bindings
-    std::set<std::string> used_;
-    std::set<std::string> matched_;
+    std::set<std::string> used_;                             // names of all modules
+    std::set<std::string> matched_;                          // names in predecessors and contexts
     std::set<std::string> surfaces_;
     std::map<std::string, int> alternatives_;
 };

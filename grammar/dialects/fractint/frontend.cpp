@@ -21,7 +21,7 @@ struct NamedEntry {
     const FractintEntry* entry = nullptr;
 };
 
-/// All entries but comments and formulas.
+/// Systems among the entries, without comments and other formulas.
 std::vector<NamedEntry> systems_of(const std::vector<FractintEntry>& entries,
                                    const SourceMap& sources) {
     std::vector<NamedEntry> systems;
@@ -41,8 +41,8 @@ std::vector<NamedEntry> systems_of(const std::vector<FractintEntry>& entries,
     return systems;
 }
 
-/// `Koch1, Koch2, ...`
-std::string listed(const std::vector<NamedEntry>& systems) {
+/// Names of the systems for a message: `Koch1, Koch2, ...`
+std::string list_text(const std::vector<NamedEntry>& systems) {
     constexpr std::size_t kMax = 200;
     std::string text;
     for (std::size_t i = 0; i < systems.size() && i < kMax; ++i) {
@@ -101,7 +101,7 @@ choose(const std::vector<NamedEntry>& systems, FileId root, const ParseContext& 
             error.help.push_back("did you mean `" + shown(system.name) + "`?");
         }
     }
-    error.help.push_back("it holds " + listed(systems));
+    error.help.push_back("it holds " + list_text(systems));
     return nullptr;
 }
 

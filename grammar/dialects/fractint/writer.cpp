@@ -20,19 +20,19 @@ constexpr std::uint32_t kMaxAngle = 50;
 
 /// Commands with a number behind them.
 constexpr std::string_view kNumbered = "@\\/C<>";
-/// Symbols that present versions of Fractint let no rule replace.
+/// Symbols that no rule can replace in present versions of Fractint.
 constexpr std::string_view kReserved = "+-/\\@|!C<>[]";
 
 char folded(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
-/// Symbols whose meaning in .lsys is not Fractint's, and modules without one.
-struct Renamed {
+/// A symbol that means something else in .lsys, and the name of its module there.
+struct RenamedSymbol {
     std::string_view symbol;
     std::string_view name;
 };
-constexpr std::array<Renamed, 4> kRenamed{{
+constexpr std::array<RenamedSymbol, 4> kRenamed{{
     {".", "dot"},
     {"%", "percent"},
     {"`", "backquote"},
@@ -41,7 +41,7 @@ constexpr std::array<Renamed, 4> kRenamed{{
 
 /// A module of .lsys for the symbol.
 std::string spelled(char symbol) {
-    for (const Renamed& renamed : kRenamed) {
+    for (const RenamedSymbol& renamed : kRenamed) {
         if (renamed.symbol[0] == symbol) {
             return "`" + std::string(renamed.name) + "`";
         }
@@ -85,7 +85,7 @@ void FractintWriter::write(std::string_view turtle) {
                       "the system has no angle: `Angle 8` is an eighth of a full turn");
         return;
     }
-    for (const Renamed& renamed : kRenamed) {
+    for (const RenamedSymbol& renamed : kRenamed) {
         translation_.replace_name(renamed.name, renamed.symbol);
     }
     translation_.put("#set turtle " + std::string(turtle) + ";\n#set names letters;\n");

@@ -141,7 +141,7 @@ void HoudiniExpressions::write_call(const HoudiniNode& node, const HoudiniScope&
         return;
     }
     if (name == "int") {
-        write_whole(node);
+        write_integer(node);
         return;
     }
     const auto* const found =
@@ -191,7 +191,7 @@ bool HoudiniExpressions::draws(int root, bool& is_positive) const {
 }
 
 /// `int(x)`: x without its fraction.
-void HoudiniExpressions::write_whole(const HoudiniNode& node) {
+void HoudiniExpressions::write_integer(const HoudiniNode& node) {
     bool is_positive = false;
     if (node.parts.size() != 1) {
         session_.context.diagnostics.add(DiagnosticCode::ForeignSyntax, node.span,

@@ -18,7 +18,7 @@ enum class HoudiniPlace : std::uint8_t { Premise, Successor, Condition, Probabil
 struct HoudiniScope {
     HoudiniPlace place{};
     const HoudiniRule* rule = nullptr;            // null in the premise
-    const std::vector<std::string_view>* zeros{}; // parameters that this form of the rule lacks
+    const std::vector<std::string_view>* zeros{}; // parameters that this variant of the rule lacks
 };
 
 class HoudiniExpressions {
@@ -44,7 +44,7 @@ private:
     void write_name(const HoudiniNode& node, const HoudiniScope& scope);
     void write_call(const HoudiniNode& node, const HoudiniScope& scope);
     void write_random(const HoudiniNode& node, const HoudiniScope& scope);
-    void write_whole(const HoudiniNode& node);
+    void write_integer(const HoudiniNode& node);
     [[nodiscard]] bool draws(int root, bool& is_positive) const;
     void write_binary(const HoudiniNode& node);
     void report_unsupported(SourceSpan place, const std::string& message) const;
@@ -52,7 +52,7 @@ private:
     const HoudiniSession& session_;
     std::string angle_;
     Translation& translation_;
-    std::vector<Item> items_; // the next one last
+    std::vector<Item> items_; // stack of parts to be written
     bool has_warned_random_ = false;
 };
 

@@ -122,7 +122,7 @@ void translate_houdini(const DialectRow& row,
     {
         const HoudiniScanning scanning(session, context.sources.file(root).text());
         houdini_grammar::Parser parser(session, scanning.scanner());
-        static_cast<void>(parser.parse()); // what is wrong has been reported
+        static_cast<void>(parser.parse()); // errors have been reported
     }
     if (!context.diagnostics.has_errors()) {
         HoudiniWriter(session, translation).write(row.turtle);

@@ -101,7 +101,7 @@ bool HoudiniWriter::check_head(const HoudiniRule& rule) {
             }
         }
     }
-    const HoudiniSymbol& symbol = symbols_.of(rule.predecessor.front());
+    const HoudiniSymbol& symbol = symbols_.symbol(rule.predecessor.front());
     if (symbol.has_age && symbol.is_command) {
         report_unsupported(rule.span,
                            "the age `g` of a symbol that the turtle obeys is not known to lsc");
@@ -110,41 +110,42 @@ bool HoudiniWriter::check_head(const HoudiniRule& rule) {
     return is_valid;
 }
 
-/// All combinations of what the symbols of the turtle in the head may have.
-std::vector<HoudiniWriter::Form> HoudiniWriter::forms_of(const HoudiniRule& rule) const {
-    std::vector<Form> forms{{}};
+/// All combinations of parameter counts that the symbols of the turtle in the head may have.
+std::vector<HoudiniWriter::ParameterCounts>
+HoudiniWriter::all_parameter_counts(const HoudiniRule& rule) const {
+    std::vector<ParameterCounts> variants{{}};
     for (const std::vector<HoudiniModule>* const modules : rule.head()) {
         for (const HoudiniModule& module : *modules) {
-            const HoudiniSymbol& symbol = symbols_.of(module);
+            const HoudiniSymbol& symbol = symbols_.symbol(module);
             if (!symbol.is_command) {
                 continue;
             }
-            std::vector<Form> longer;
+            std::vector<ParameterCounts> extended;
             for (const std::uint32_t count : counts_of(symbol, symbols_.count(module))) {
-                for (const Form& form : forms) {
-                    longer.push_back(form);
-                    longer.back().push_back(count);
+                for (const ParameterCounts& counts : variants) {
+                    extended.push_back(counts);
+                    extended.back().push_back(count);
                 }
             }
             constexpr std::size_t kMax = 64;
-            if (longer.size() > kMax) {
+            if (extended.size() > kMax) {
                 report_unsupported(
                     rule.span, "symbols of the turtle stand here with too many different numbers "
                                "of parameters");
                 return {};
             }
-            forms = std::move(longer);
+            variants = std::move(extended);
         }
     }
-    return forms;
+    return variants;
 }
 
 void HoudiniWriter::write_rule(const HoudiniRule& rule, std::size_t index) {
-    const std::vector<Form> forms = forms_of(rule);
-    for (std::size_t i = 0; i < forms.size(); ++i) {
+    const std::vector<ParameterCounts> variants = all_parameter_counts(rule);
+    for (std::size_t i = 0; i < variants.size(); ++i) {
         std::string name = "r" + std::to_string(index);
-        name += forms.size() > 1 ? "_" + std::to_string(i + 1) : "";
-        write_form(rule, forms[i], name);
+        name += variants.size() > 1 ? "_" + std::to_string(i + 1) : "";
+        write_variant(rule, variants[i], name);
     }
 }
 
@@ -173,32 +174,34 @@ void HoudiniWriter::write_formals(const HoudiniModule& head, std::uint32_t count
 }
 
 void HoudiniWriter::write_pattern(const std::vector<HoudiniModule>& modules,
-                                  const Form& form,
+                                  const ParameterCounts& counts,
                                   std::size_t& slot) {
     for (const HoudiniModule& module : modules) {
-        const HoudiniSymbol& symbol = symbols_.of(module);
+        const HoudiniSymbol& symbol = symbols_.symbol(module);
         write_symbol(module);
         const std::uint32_t all = symbol.max_count + (symbol.has_age ? 1U : 0U);
-        write_formals(module, symbol.is_command ? form[slot++] : all, false);
+        write_formals(module, symbol.is_command ? counts[slot++] : all, false);
     }
 }
 
-void HoudiniWriter::write_form(const HoudiniRule& rule, const Form& form, const std::string& name) {
+void HoudiniWriter::write_variant(const HoudiniRule& rule,
+                                  const ParameterCounts& counts,
+                                  const std::string& name) {
     std::size_t slot = 0;
     fresh_ = 0;
     zeros_.clear();
     translation_.put("#" + name + " : ", rule.span);
     if (!rule.left.empty()) {
-        write_pattern(rule.left, form, slot);
+        write_pattern(rule.left, counts, slot);
         translation_.put(" < ", rule.span);
     }
     const HoudiniModule& head = rule.predecessor.front();
-    const HoudiniSymbol& symbol = symbols_.of(head);
+    const HoudiniSymbol& symbol = symbols_.symbol(head);
     write_symbol(head);
-    write_formals(head, symbol.is_command ? form[slot++] : symbol.max_count, symbol.has_age);
+    write_formals(head, symbol.is_command ? counts[slot++] : symbol.max_count, symbol.has_age);
     if (!rule.right.empty()) {
         translation_.put(" > ", rule.span);
-        write_pattern(rule.right, form, slot);
+        write_pattern(rule.right, counts, slot);
     }
     translation_.put(" : ", rule.span);
     const bool weighted = has_probability_[group_of(rule)];
@@ -226,7 +229,7 @@ void HoudiniWriter::write_form(const HoudiniRule& rule, const Form& form, const 
 /// Writes the rule that ages a symbol matched by no other rule.
 void HoudiniWriter::write_ageing(const HoudiniRule& rule, std::size_t index) {
     const HoudiniModule& head = rule.predecessor.front();
-    const HoudiniSymbol& symbol = symbols_.of(head);
+    const HoudiniSymbol& symbol = symbols_.symbol(head);
     if (!symbol.has_age || symbol.is_command || aged_[text(head.symbol)]) {
         return;
     }

@@ -34,7 +34,7 @@ NUMBER   ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][-+]?[0-9]+)?
 "#"/"\n"                              { }
 ([Rr]ule|RULE){BLANK}*"#"?{BLANK}*[0-9]*{BLANK}*[:=]     { BEGIN(MODULES); }
 [bcd]{BLANK}*":"{BLANK}*[-+]?{NUMBER}{BLANK}*/"\n" {
-    session.give_back(static_cast<std::uint32_t>(yyleng) - 1);
+    session.put_back(static_cast<std::uint32_t>(yyleng) - 1);
     yyless(1);
     static_cast<void>(session.key_token({yytext, 1}));
     *location = session.last();
@@ -44,19 +44,19 @@ NUMBER   ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][-+]?[0-9]+)?
 [A-Za-z][A-Za-z]+([ _-]+[A-Za-z]+)*{BLANK}*[:=] {
     const int kind = session.key_token({yytext, static_cast<std::size_t>(yyleng) - 1});
     if (kind == 0) { // a line of modules
-        session.give_back(static_cast<std::uint32_t>(yyleng));
+        session.put_back(static_cast<std::uint32_t>(yyleng));
         yyless(0);
         BEGIN(MODULES);
     } else {
         const auto length = session.length_of_key({yytext, static_cast<std::size_t>(yyleng) - 1});
-        session.give_back(static_cast<std::uint32_t>(yyleng) - length);
+        session.put_back(static_cast<std::uint32_t>(yyleng) - length);
         yyless(static_cast<int>(length));
         *location = session.last();
         BEGIN(VALUE);
         return kind;
     }
 }
-[^ \t\r\n]                            { session.give_back(1); yyless(0); BEGIN(MODULES); }
+[^ \t\r\n]                            { session.put_back(1); yyless(0); BEGIN(MODULES); }
 
 <COMMENT>{
 [^\n\0]+                              { }

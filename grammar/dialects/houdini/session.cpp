@@ -29,7 +29,7 @@ SourceSpan HoudiniSession::take(std::uint32_t length) {
     return last_;
 }
 
-void HoudiniSession::give_back(std::uint32_t length) {
+void HoudiniSession::put_back(std::uint32_t length) {
     at_ -= length;
     last_.end = std::min(at_, size_);
 }

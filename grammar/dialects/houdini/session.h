@@ -31,7 +31,7 @@ struct HoudiniNode {
 
 struct HoudiniModule {
     SourceSpan symbol;
-    SourceSpan parentheses;     // with what they hold; empty: there are none
+    SourceSpan parentheses;     // with their contents; empty: none
     std::vector<int> arguments; // in HoudiniSession::nodes; Missing ones count
 };
 
@@ -77,10 +77,10 @@ public:
 
     // For the scanner.
     SourceSpan take(std::uint32_t length);
-    /// Gives the end of what was taken last back.
-    void give_back(std::uint32_t length);
+    /// Puts the last `length` bytes of the last match back.
+    void put_back(std::uint32_t length);
     [[nodiscard]] SourceSpan last() const { return last_; }
-    /// The token of a line's first word, which blanks may follow; 0: it is no key.
+    /// The token of a line's first word with the blanks behind it; 0 if it is no key.
     int key_token(std::string_view text);
     [[nodiscard]] static std::uint32_t length_of_key(std::string_view text);
     [[nodiscard]] bool wants_modules() const { return wants_modules_; }
@@ -88,7 +88,7 @@ public:
     /// Returns true if more modules follow.
     bool close();
     void begin_tail() { tail_ = true; }
-    /// A `=` behind a condition; true: modules follow.
+    /// Ends the condition at a `=`; returns true if modules follow.
     bool end_tail();
     void end_line();
 

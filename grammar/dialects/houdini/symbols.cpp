@@ -37,7 +37,7 @@ HoudiniSymbol& HoudiniSymbols::symbol_of(const HoudiniModule& module) {
     return known->second;
 }
 
-const HoudiniSymbol& HoudiniSymbols::of(const HoudiniModule& module) const {
+const HoudiniSymbol& HoudiniSymbols::symbol(const HoudiniModule& module) const {
     return symbols_.find(session_.context.sources.text(module.symbol))->second;
 }
 

@@ -14,16 +14,16 @@ namespace lsys {
 struct HoudiniSymbol {
     bool is_command = false; // turtle command: an omitted parameter has its own default
     bool is_rewritten = false;
-    bool has_age = false;        // a rule of it asks for `g`
-    std::uint64_t counts = 0;    // bit k: occurs in a word with k parameters
-    std::uint32_t max_count = 0; // parameters anywhere
+    bool has_age = false;        // one of its rules reads `g`
+    std::uint64_t counts = 0;    // bit k: a word has it with k parameters
+    std::uint32_t max_count = 0; // max parameters in words and heads
 };
 
 class HoudiniSymbols {
 public:
     explicit HoudiniSymbols(const HoudiniSession& session);
 
-    [[nodiscard]] const HoudiniSymbol& of(const HoudiniModule& module) const;
+    [[nodiscard]] const HoudiniSymbol& symbol(const HoudiniModule& module) const;
     /// Parameters of a module, without those left out at the end.
     [[nodiscard]] std::uint32_t count(const HoudiniModule& module) const;
     [[nodiscard]] bool occurs(std::string_view symbol) const { return symbols_.contains(symbol); }

@@ -46,9 +46,9 @@ void HoudiniWriter::read_settings() {
 }
 
 /// A setting as it is written, or the default of lsc.
-std::string HoudiniWriter::number(std::string_view name, const char* usual) const {
+std::string HoudiniWriter::number(std::string_view name, const char* fallback) const {
     const auto found = settings_.find(name);
-    std::string digits = found != settings_.end() ? std::string(text(found->second)) : usual;
+    std::string digits = found != settings_.end() ? std::string(text(found->second)) : fallback;
     return digits.starts_with('+') ? digits.substr(1) : digits;
 }
 
@@ -134,10 +134,10 @@ void HoudiniWriter::write(std::string_view turtle) {
     }
 }
 
-void HoudiniWriter::write_symbol(const HoudiniModule& it) {
-    const std::string_view symbol = text(it.symbol);
+void HoudiniWriter::write_symbol(const HoudiniModule& module) {
+    const std::string_view symbol = text(module.symbol);
     if (symbol[0] == '`') {
-        report_unsupported(it.symbol,
+        report_unsupported(module.symbol,
                            "what stands in back quotes is of Houdini's expressions, which lsc does "
                            "not have");
         return;
@@ -145,11 +145,11 @@ void HoudiniWriter::write_symbol(const HoudiniModule& it) {
     const CodePoint point = decode_utf8(symbol);
     const std::string spelled = spelled_letter(point.value);
     if (!point.valid || point.value < 0x20 || point.value == 0x7F) {
-        report_syntax(it.symbol, "this is no character of a module");
+        report_syntax(module.symbol, "this is no character of a module");
     } else if (spelled == symbol) {
-        translation_.copy(it.symbol, session_.context.sources);
+        translation_.copy(module.symbol, session_.context.sources);
     } else {
-        translation_.put(spelled, it.symbol);
+        translation_.put(spelled, module.symbol);
     }
 }
 
@@ -174,78 +174,80 @@ void HoudiniWriter::warn_lost(char symbol, SourceSpan place) {
                                          "; the module stays in the word and that is left out");
 }
 
-void HoudiniWriter::write_module(const HoudiniModule& it, const HoudiniScope& scope) {
-    const std::string_view symbol = text(it.symbol);
-    const HoudiniSymbol& known = symbols_.of(it);
-    if (known.is_command && !known.is_rewritten && write_special(it, symbol[0], scope)) {
+void HoudiniWriter::write_module(const HoudiniModule& module, const HoudiniScope& scope) {
+    const std::string_view symbol = text(module.symbol);
+    const HoudiniSymbol& known = symbols_.symbol(module);
+    if (known.is_command && !known.is_rewritten && write_special(module, symbol[0], scope)) {
         return;
     }
-    write_symbol(it);
-    write_arguments(it, 0, scope);
+    write_symbol(module);
+    write_arguments(module, 0, scope);
 }
 
 /// Writes symbols of the turtle that .lsys spells in another way; returns false for others.
-bool HoudiniWriter::write_special(const HoudiniModule& it, char symbol, const HoudiniScope& scope) {
-    const std::uint32_t count = symbols_.count(it);
-    const int first = count != 0 ? it.arguments.front() : -1;
+bool HoudiniWriter::write_special(const HoudiniModule& module,
+                                  char symbol,
+                                  const HoudiniScope& scope) {
+    const std::uint32_t count = symbols_.count(module);
+    const int first = count != 0 ? module.arguments.front() : -1;
     switch (symbol) {
     case '~': // drawn when the module is written
-        translation_.put("`~`(", it.symbol);
+        translation_.put("`~`(", module.symbol);
         for (int turn = 0; turn < 3; ++turn) {
-            translation_.put(turn == 0 ? "{-abs(" : ", {-abs(", it.symbol);
+            translation_.put(turn == 0 ? "{-abs(" : ", {-abs(", module.symbol);
             for (int end = 0; end < 2; ++end) {
                 if (first == -1) {
-                    translation_.put("180", it.symbol);
+                    translation_.put("180", module.symbol);
                 } else {
                     expressions_.write(first, scope);
                 }
-                translation_.put(end == 0 ? "), abs(" : ")}", it.symbol);
+                translation_.put(end == 0 ? "), abs(" : ")}", module.symbol);
             }
         }
-        translation_.put(")", it.symbol);
+        translation_.put(")", module.symbol);
         return true;
     case 'T':
         if (count != 0) {
             return false;
         }
-        translation_.copy(it.symbol, session_.context.sources);
-        translation_.put("(" + number("gravity", "0") + ")", it.symbol);
+        translation_.copy(module.symbol, session_.context.sources);
+        translation_.put("(" + number("gravity", "0") + ")", module.symbol);
         return true;
     case '$':
         if (count == 0) {
             return false;
         }
         if (count != 3) {
-            report_syntax(it.parentheses, "`$` takes a point: three numbers");
+            report_syntax(module.parentheses, "`$` takes a point: three numbers");
         }
-        translation_.put("`aim`", it.symbol);
+        translation_.put("`aim`", module.symbol);
         translation_.replace_name("aim", "$");
-        write_arguments(it, 0, scope);
+        write_arguments(module, 0, scope);
         return true;
     case 'a': {
         if (count == 0) {
             return false;
         }
-        warn_lost('a', it.symbol);
+        warn_lost('a', module.symbol);
         const bool named = session_.node(first).kind == HoudiniNodeKind::Text;
-        translation_.copy(it.symbol, session_.context.sources);
-        write_arguments(it, named ? 1 : 0, scope);
+        translation_.copy(module.symbol, session_.context.sources);
+        write_arguments(module, named ? 1 : 0, scope);
         return true;
     }
     case 'g':
         if (count != 0) {
-            warn_lost('g', it.symbol);
+            warn_lost('g', module.symbol);
         }
         return false;
     case '\'':
     case '#':
-        warn_lost('\'', it.symbol);
+        warn_lost('\'', module.symbol);
         return false;
     case 'J':
     case 'K':
     case 'M':
         if (count > 2) {
-            warn_lost('J', it.symbol);
+            warn_lost('J', module.symbol);
         }
         return false;
     default:
@@ -254,9 +256,11 @@ bool HoudiniWriter::write_special(const HoudiniModule& it, char symbol, const Ho
 }
 
 /// Writes the value that Houdini takes for a parameter left out before others.
-void HoudiniWriter::write_left_out(const HoudiniModule& it, std::uint32_t index, SourceSpan place) {
-    const char symbol = text(it.symbol)[0];
-    if (!symbols_.of(it).is_command) {
+void HoudiniWriter::write_left_out(const HoudiniModule& module,
+                                   std::uint32_t index,
+                                   SourceSpan place) {
+    const char symbol = text(module.symbol)[0];
+    if (!symbols_.symbol(module).is_command) {
         translation_.put("0", place);
     } else if (symbol == 'J' || symbol == 'K' || symbol == 'M') {
         translation_.put(index == 0 ? number("step_scale", "0.9") : "0", place);
@@ -276,27 +280,27 @@ void HoudiniWriter::write_left_out(const HoudiniModule& it, std::uint32_t index,
 }
 
 /// The parameters of a module of a word, but for the first `skip`.
-void HoudiniWriter::write_arguments(const HoudiniModule& it,
+void HoudiniWriter::write_arguments(const HoudiniModule& module,
                                     std::uint32_t skip,
                                     const HoudiniScope& scope) {
-    const HoudiniSymbol& known = symbols_.of(it);
-    const std::uint32_t given = symbols_.count(it);
+    const HoudiniSymbol& known = symbols_.symbol(module);
+    const std::uint32_t given = symbols_.count(module);
     const std::uint32_t count = known.is_command ? given : known.max_count;
     if (count > HoudiniSymbols::kMaxParameters) {
-        report_syntax(it.parentheses, "a module with so many parameters is not read");
+        report_syntax(module.parentheses, "a module with so many parameters is not read");
         return;
     }
     if (count <= skip && !known.has_age) {
         return;
     }
-    const SourceSpan place = given != 0 ? it.parentheses : it.symbol;
+    const SourceSpan place = given != 0 ? module.parentheses : module.symbol;
     translation_.put("(", place);
     for (std::uint32_t i = skip; i < count; ++i) {
         translation_.put(i > skip ? ", " : "", place);
-        if (i < given && session_.node(it.arguments[i]).kind != HoudiniNodeKind::Missing) {
-            expressions_.write(it.arguments[i], scope);
+        if (i < given && session_.node(module.arguments[i]).kind != HoudiniNodeKind::Missing) {
+            expressions_.write(module.arguments[i], scope);
         } else {
-            write_left_out(it, i, place);
+            write_left_out(module, i, place);
         }
     }
     if (known.has_age) {

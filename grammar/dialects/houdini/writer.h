@@ -23,13 +23,13 @@ public:
     void write(std::string_view turtle);
 
 private:
-    /// A form of a rule: how many parameters each symbol of the turtle in its head has.
-    using Form = std::vector<std::uint32_t>;
+    /// A variant of a rule: the number of parameters of each symbol of the turtle in its head.
+    using ParameterCounts = std::vector<std::uint32_t>;
 
     [[nodiscard]] std::string_view text(SourceSpan span) const {
         return session_.context.sources.text(span);
     }
-    [[nodiscard]] std::string number(std::string_view name, const char* usual) const;
+    [[nodiscard]] std::string number(std::string_view name, const char* fallback) const;
 
     void read_settings();
     void write_settings(std::string_view turtle);
@@ -37,23 +37,26 @@ private:
     [[nodiscard]] bool reads_variable(std::string_view value) const;
 
     void write_rule(const HoudiniRule& rule, std::size_t index);
-    void write_form(const HoudiniRule& rule, const Form& form, const std::string& name);
     void
-    write_pattern(const std::vector<HoudiniModule>& modules, const Form& form, std::size_t& slot);
+    write_variant(const HoudiniRule& rule, const ParameterCounts& counts, const std::string& name);
+    void write_pattern(const std::vector<HoudiniModule>& modules,
+                       const ParameterCounts& counts,
+                       std::size_t& slot);
     void write_formals(const HoudiniModule& head, std::uint32_t count, bool has_age);
     void write_ageing(const HoudiniRule& rule, std::size_t index);
-    [[nodiscard]] std::vector<Form> forms_of(const HoudiniRule& rule) const;
+    [[nodiscard]] std::vector<ParameterCounts> all_parameter_counts(const HoudiniRule& rule) const;
     [[nodiscard]] std::string group_of(const HoudiniRule& rule) const;
     void find_chances();
     [[nodiscard]] std::string chance_of(int condition) const;
     bool check_head(const HoudiniRule& rule);
 
     void write_word(const std::vector<HoudiniModule>& word, const HoudiniScope& scope);
-    void write_module(const HoudiniModule& it, const HoudiniScope& scope);
-    bool write_special(const HoudiniModule& it, char symbol, const HoudiniScope& scope);
-    void write_arguments(const HoudiniModule& it, std::uint32_t skip, const HoudiniScope& scope);
-    void write_left_out(const HoudiniModule& it, std::uint32_t index, SourceSpan place);
-    void write_symbol(const HoudiniModule& it);
+    void write_module(const HoudiniModule& module, const HoudiniScope& scope);
+    bool write_special(const HoudiniModule& module, char symbol, const HoudiniScope& scope);
+    void
+    write_arguments(const HoudiniModule& module, std::uint32_t skip, const HoudiniScope& scope);
+    void write_left_out(const HoudiniModule& module, std::uint32_t index, SourceSpan place);
+    void write_symbol(const HoudiniModule& module);
     void warn_lost(char symbol, SourceSpan place);
 
     void report_syntax(SourceSpan place, const std::string& message) const;

@@ -11,7 +11,7 @@
 namespace lsys {
 
 /// Returns no names: for dialects whose files hold one system.
-std::vector<std::string> one_system(std::string_view text);
+std::vector<std::string> no_system_names(std::string_view text);
 
 #define LSYS_DIALECT(enumerator, name, folder, title, extensions, turtle, systems)                 \
     std::string_view recognise_##folder(std::string_view text);                                    \

@@ -27,9 +27,9 @@ void write_letter(const LetterModule& module,
                   const ParseContext& context,
                   Translation& translation);
 
-/// Calls visit(LetterModule) for each module of `text`, blanks left out. A parenthesis right behind
+/// Calls visit(LetterModule) for each module of `text`, without blanks. A parenthesis right behind
 /// a character belongs to it up to the `)` that closes it; one that is never closed is reported.
-/// False: a mistake was reported.
+/// Returns false after reporting a mistake.
 bool read_letter_modules(SourceSpan text,
                          const ParseContext& context,
                          const std::function<void(const LetterModule&)>& visit);

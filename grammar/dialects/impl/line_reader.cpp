@@ -61,7 +61,7 @@ bool LineReader::expect(bool fits,
     }
     SyntaxMessage message(context_, found.span);
     for (const std::string_view piece : wanted) {
-        message.expected(piece);
+        message.add_expected(piece);
     }
     message.report(found.kind == LinePieceKind::TextEnd ? "the end of the file"
                                                         : "the end of the line");

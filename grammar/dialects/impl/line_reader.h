@@ -39,18 +39,18 @@ public:
     /// Precondition: the sources of `context` hold `text` as long as the reader is in use.
     LineReader(SourceSpan text, const LineFormat& format, const ParseContext& context);
 
-    /// The next piece behind blanks and comments.
+    /// Skips blanks and comments; returns the next piece.
     LinePiece next(PieceLength length);
-    /// Text from the next piece on, in front of which blanks and comments are skipped.
+    /// Skips blanks and comments; returns the text from the next piece on.
     [[nodiscard]] std::string_view ahead();
     /// Text from here on.
     [[nodiscard]] std::string_view rest() const { return text_.substr(at_); }
-    /// The next `length` bytes from here on, which may be none.
+    /// The next `length` bytes as a piece; `length` may be 0.
     LinePiece take(std::size_t length);
     /// Returns `fits`. If not, reports that one of `wanted` was expected at `found`, and skips the
     /// line of `found`.
     bool expect(bool fits, const LinePiece& found, std::initializer_list<std::string_view> wanted);
-    /// Expects the end of the line next.
+    /// Expects the next piece to be the end of the line.
     bool expect_line_end(PieceLength length);
 
 private:

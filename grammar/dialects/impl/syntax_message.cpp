@@ -4,7 +4,7 @@
 
 namespace lsys {
 
-void SyntaxMessage::expected(std::string_view token) {
+void SyntaxMessage::add_expected(std::string_view token) {
     if (count_++ != 0) {
         expected_ += expected_.empty() ? last_ : ", " + last_;
     }

@@ -13,9 +13,9 @@ public:
     SyntaxMessage(const ParseContext& context, SourceSpan place)
         : context_(context), place_(place) {}
 
-    /// Adds a token that would have been right, in words.
-    void expected(std::string_view token);
-    /// `saw`: the token that stands there, in words.
+    /// Adds an expected token, in words.
+    void add_expected(std::string_view token);
+    /// `saw`: the token found, in words.
     void report(std::string_view saw);
 
 private:

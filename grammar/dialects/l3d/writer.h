@@ -1,5 +1,5 @@
 // Writes texts of a file of L3D as .lsys modules in back quotes, character by character, and warns
-// where L3D does not do what the author means.
+// of quirks of L3D.
 #pragma once
 
 #include "grammar/ast/parse_context.h"
@@ -16,13 +16,13 @@ public:
     L3dWriter(const ParseContext& context, Translation& translation)
         : context_(context), translation_(translation) {}
 
-    /// The line without a line end and, unless bug-compatible, without a comment behind it.
+    /// The line without its end and, unless bug-compatible, without a comment.
     [[nodiscard]] SourceSpan line(SourceSpan text);
     /// A left side; unless bug-compatible, without blanks at its end.
     [[nodiscard]] SourceSpan key(SourceSpan text);
-    /// An axiom or a right side.
+    /// Writes an axiom or a right side.
     void write(SourceSpan text);
-    /// A left side, without warnings.
+    /// Writes a left side without warnings.
     void write_key(SourceSpan text);
 
 private:

@@ -65,7 +65,7 @@ LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column
     PieceReader reader(text, begin);
     row.shape = reader.shape();
     Piece piece;
-    std::uint32_t now = column;
+    std::uint32_t end_column = column;
     std::uint32_t cell_begin = column;
     bool in_first_line = true;
     bool in_head = true;
@@ -74,15 +74,15 @@ LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column
     bool has_outer_place = false; // the first line can be broken outside of branches
     // Pieces after the first line or beyond its last column need no measures.
     const auto is_measured = [&] {
-        return has_modules && !in_first_module && (!in_first_line || now > kColumns);
+        return has_modules && !in_first_module && (!in_first_line || end_column > kColumns);
     };
     while (!is_measured() && reader.next(piece)) {
         if (piece.begins_cell) {
             if (row.cell_count < kCells) {
-                row.cells[row.cell_count - 1U] = now - cell_begin;
+                row.cells[row.cell_count - 1U] = end_column - cell_begin;
                 ++row.cell_count;
             }
-            cell_begin = now + 1;
+            cell_begin = end_column + 1;
         }
         if (piece.in_list && in_head) {
             in_head = false;
@@ -95,12 +95,12 @@ LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column
         in_first_line = in_first_line && !piece.own_line;
         has_outer_place =
             has_outer_place || (piece.in_list && !in_first_module && piece.depth == 0 &&
-                                piece.break_class == BreakClass::Fine && now <= kColumns);
-        const std::uint32_t width = piece.width + (piece.blank ? 1U : 0U);
-        now += width;
+                                piece.break_class == BreakClass::Fine && end_column <= kColumns);
+        const std::uint32_t width = piece.width + (piece.blank_before ? 1U : 0U);
+        end_column += width;
         row.first_module += in_first_module ? width : 0;
-        row.head = in_head ? now : row.head;
-        row.first_line = in_first_line ? now : row.first_line;
+        row.head = in_head ? end_column : row.head;
+        row.first_line = in_first_line ? end_column : row.first_line;
         row.several_lines = row.several_lines || piece.several_lines;
     }
     row.several_lines = reader.skip_rest() || row.several_lines;
@@ -136,10 +136,10 @@ void pad(std::vector<std::uint32_t>& widths) {
     std::vector<std::uint32_t> sorted = widths;
     const auto median = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
     std::nth_element(sorted.begin(), median, sorted.end());
-    const std::uint32_t most = *median + kWidestGap;
+    const std::uint32_t max_width = *median + kWidestGap;
     std::uint32_t column = 0;
     for (const std::uint32_t width : widths) {
-        column = width <= most ? std::max(column, width) : column;
+        column = width <= max_width ? std::max(column, width) : column;
     }
     for (std::uint32_t& width : widths) {
         width = width > column || column - width > kWidestGap ? kAlone : column - width;

@@ -196,8 +196,8 @@ void LexemeReader::expression() {
         const bool call = c == '(' && after_value_ && previous_ == LexemeKind::Word;
         const bool bounds = c == '{' && after_value_ && depth_ == 0;
         take(LexemeKind::Left, 1);
-        lexeme_.call = call;
-        lexeme_.bounds = bounds;
+        lexeme_.opens_call = call;
+        lexeme_.opens_bounds = bounds;
         ++depth_;
         after_value_ = false;
     } else if (c == ')' || c == '}') {

@@ -35,8 +35,8 @@ struct Lexeme {
     std::string_view text;
     std::uint32_t newlines_before = 0;
     bool blank_before = false;
-    bool call = false;   // Left: of a function call
-    bool bounds = false; // Left: the `{` after the value of a `#param`
+    bool opens_call = false;   // Left: of a function call
+    bool opens_bounds = false; // Left: the `{` after the value of a `#param`
 };
 
 /// The form of a statement for its layout.
@@ -53,12 +53,12 @@ enum class StatementShape : std::uint8_t {
     return lexeme.kind == LexemeKind::LineComment || lexeme.kind == LexemeKind::BlockComment;
 }
 
-/// Reads tokens from a place between two statements.
+/// Reads tokens; begins between two statements.
 class LexemeReader {
 public:
     LexemeReader(std::string_view text, std::size_t begin) : text_(text), at_(begin) {}
 
-    /// False at the end of the text.
+    /// Reads the next token; returns false at the end of the text.
     bool next(Lexeme& lexeme);
     /// The end of the last token.
     [[nodiscard]] std::size_t offset() const { return at_; }

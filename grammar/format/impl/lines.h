@@ -27,8 +27,8 @@ public:
     [[nodiscard]] std::uint32_t column() const { return column_; }
 
 private:
-    /// A place to break the line: bytes [end, begin) of it are dropped.
-    struct Place {
+    /// A possible break of the line, which drops its bytes [end, begin).
+    struct LineBreak {
         std::size_t end = 0;
         std::size_t begin = 0;
         std::uint32_t end_column = 0;
@@ -39,12 +39,12 @@ private:
     };
     void break_line();
     void new_line(std::uint32_t depth);
-    [[nodiscard]] std::size_t best_place() const;
+    [[nodiscard]] std::size_t best_break() const;
 
     std::string& out_;
     std::string line_; // the current line, not yet in out_
     std::uint32_t column_;
-    std::vector<Place> places_; // ascending
+    std::vector<LineBreak> breaks_; // of the current line, ascending
     bool at_begin_ = true;
     bool one_line_ = true;
 };

@@ -8,7 +8,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kLongestRow = 16;
+constexpr std::uint32_t kMaxRowLength = 16;
 
 bool is_tight(const Lexeme& lexeme) {
     return lexeme.kind == LexemeKind::Operator &&
@@ -50,7 +50,7 @@ bool blank_between(const Lexeme& before, const Lexeme& after) {
     case Module:
         return before.kind != Module && before.kind != Close ? true : after.blank_before;
     case Left:
-        if (after.call) {
+        if (after.opens_call) {
             return false;
         }
         break;
@@ -126,7 +126,7 @@ bool PieceReader::skip_rest() {
 
 void PieceReader::describe(Piece& piece) {
     const bool first = index_ == 0;
-    piece.blank = !first && blank_between(before_, now_);
+    piece.blank_before = !first && blank_between(before_, now_);
     piece.begins_cell = !first && begins_cell();
     piece.in_list = in_list_;
     const bool keeps_line = now_.kind != LexemeKind::Semicolon;
@@ -136,7 +136,7 @@ void PieceReader::describe(Piece& piece) {
     piece.rank = 0;
     if (in_list_) {
         // Outer levels first, then blanks, then branches.
-        piece.rank = brackets_ * 4 + (piece.blank ? 0 : 2) + (is_module(now_, '[') ? 0 : 1);
+        piece.rank = brackets_ * 4 + (piece.blank_before ? 0 : 2) + (is_module(now_, '[') ? 0 : 1);
     }
     piece.ends_statement = false;
     piece.semicolon_only = now_.kind == LexemeKind::Semicolon;
@@ -150,7 +150,7 @@ bool PieceReader::begins_cell() const {
     case StatementShape::Production:
         return now_.kind == LexemeKind::Colon && colons_ < 3;
     case StatementShape::Definition:
-        return index_ <= 2 || now_.bounds;
+        return index_ <= 2 || now_.opens_bounds;
     case StatementShape::Setting:
     case StatementShape::Declaration:
         return index_ <= 2;
@@ -186,7 +186,7 @@ bool PieceReader::continues_row(const Lexeme& after) const {
     return after.kind == LexemeKind::Module && before_.kind == LexemeKind::Module &&
            !after.blank_before && after.text[0] == before_.text[0] && after.text.size() == 1 &&
            before_.text.size() == 1 && !opens_bracket(after) && !closes_bracket(after) &&
-           row_ < kLongestRow;
+           row_ < kMaxRowLength;
 }
 
 bool PieceReader::ends_before(const Lexeme& after) const {

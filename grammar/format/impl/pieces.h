@@ -21,7 +21,7 @@ struct Piece {
     std::uint32_t width = 0;      // of the first line
     std::uint32_t last_width = 0; // of the last line
     bool several_lines = false;   // a comment within has line ends
-    bool blank = false;           // a blank precedes the piece
+    bool blank_before = false;
     bool begins_cell = false;
     bool in_list = false;  // of modules, after the last colon
     bool own_line = false; // the author began a line here
@@ -34,10 +34,10 @@ struct Piece {
 
 class PieceReader {
 public:
-    /// `begin`: the begin of a statement.
+    /// `begin`: offset of the first byte of a statement.
     PieceReader(std::string_view text, std::size_t begin);
 
-    /// False after the last piece.
+    /// Reads the next piece; returns false after the last.
     bool next(Piece& piece);
     /// Skips the remaining pieces; returns whether a comment among them has line ends.
     bool skip_rest();

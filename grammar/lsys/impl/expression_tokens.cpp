@@ -147,11 +147,11 @@ Token between_values(ParseSession& session) {
     for (const std::uint32_t word_end : {scan.last_end, scan.end}) {
         if (const std::optional<TextRange> word = conditional_word(text, word_end)) {
             report_conditional(session, *word);
-            return lose_statement(session);
+            return discard_statement(session);
         }
     }
     if (!in_list && lacks_colon(session, "")) {
-        return lose_statement(session);
+        return discard_statement(session);
     }
     if (in_list && !adjacent) {
         if (session.wants(DiagnosticCode::MissingComma)) {
@@ -229,7 +229,7 @@ void report_closing(ParseSession& session, char character, bool is_doubled, bool
 
 } // namespace
 
-std::optional<Token> closing(ParseSession& session, char character) {
+std::optional<Token> closing_bracket(ParseSession& session, char character) {
     ScanState& scan = session.scan;
     const bool is_brace = character == '}';
     if (scan.open.empty() || (is_brace && scan.open_braces == 0)) {
@@ -278,12 +278,12 @@ Token too_deep(ParseSession& session) {
         report_too_deep(session.context.diagnostics, session.match(),
                         session.scan.chain != 0 ? "operators" : "parentheses");
     }
-    return lose_statement(session);
+    return discard_statement(session);
 }
 
 } // namespace
 
-Token opening(ParseSession& session, OpenBracket::Kind kind, Token::Kind token) {
+Token opening_bracket(ParseSession& session, OpenBracket::Kind kind, Token::Kind token) {
     const SourceSpan span = session.token();
     session.scan.push(kind);
     return session.scan.depth > kMaxNesting ? too_deep(session) : Token(token, span);

@@ -25,9 +25,9 @@ Token supply_before_value(ParseSession& session);
 
 /// The current `)` or `}`: nothing if no bracket is open, an empty token if another bracket must be
 /// closed first.
-std::optional<Token> closing(ParseSession& session, char character);
+std::optional<Token> closing_bracket(ParseSession& session, char character);
 /// The current opening bracket; reports excessive nesting and skips the statement.
-Token opening(ParseSession& session, OpenBracket::Kind kind, Token::Kind token);
+Token opening_bracket(ParseSession& session, OpenBracket::Kind kind, Token::Kind token);
 /// The current unary operator or `^`; reports excessive nesting and skips the statement.
 Token nesting_operator(ParseSession& session, Token::Kind token);
 

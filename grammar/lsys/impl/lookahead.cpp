@@ -96,10 +96,11 @@ bool begins_statement(std::string_view text, std::uint32_t at) {
 
 namespace {
 
-std::uint32_t count_colons_up_to(std::string_view text, std::uint32_t begin, std::uint32_t most) {
+std::uint32_t
+count_colons_up_to(std::string_view text, std::uint32_t begin, std::uint32_t max_count) {
     std::uint32_t colons = 0;
     std::size_t at = begin;
-    while (at < text.size() && text[at] != ';' && colons < most) {
+    while (at < text.size() && text[at] != ';' && colons < max_count) {
         if (text[at] == '`') {
             const std::size_t close = text.find_first_of("`\n", at + 1);
             at = close == std::string_view::npos ? text.size() : close + 1;

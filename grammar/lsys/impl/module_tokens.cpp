@@ -14,7 +14,7 @@ namespace lsys::lsys_grammar {
 
 namespace {
 
-constexpr std::size_t kLongestQuotedName = 16;
+constexpr std::size_t kMaxQuotedNameLength = 16;
 
 /// A symbol of other programs and its replacement in this language.
 struct ForeignSymbol {
@@ -91,7 +91,7 @@ bool is_argument_without_open(ParseSession& session) {
     return close.has_value();
 }
 
-Stray stray_number(ParseSession& session, std::string_view text) {
+StrayHandling report_stray_number(ParseSession& session, std::string_view text) {
     const ScanState& scan = session.scan;
     const std::string_view all = session.scanned.text;
     const char before = scan.last_end > 0 ? all[scan.last_end - 1] : '\0';
@@ -102,10 +102,10 @@ Stray stray_number(ParseSession& session, std::string_view text) {
             diagnostic.help.emplace_back(
                 "outside of them `{` and `}` are modules that make a polygon");
         }
-        return Stray::Range;
+        return StrayHandling::SkipRange;
     }
     if (is_argument_without_open(session)) {
-        return Stray::Lost;
+        return StrayHandling::Discard;
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =
@@ -120,36 +120,36 @@ Stray stray_number(ParseSession& session, std::string_view text) {
             diagnostic.help.emplace_back("an argument stands in parentheses: `F(2)`, `+(30)`");
         }
     }
-    return Stray::Skip;
+    return StrayHandling::Skip;
 }
 
 } // namespace
 
-Stray stray_in_modules(ParseSession& session, std::string_view text) {
+StrayHandling report_stray_in_modules(ParseSession& session, std::string_view text) {
     const char first = text[0];
     const ScanState& scan = session.scan;
     if (scan.part == Part::Head) {
         const bool begins_condition = (first == '*' || first == '~') && !scan.part_empty;
         if (lacks_colon(session, begins_condition ? ": " : "")) {
-            return begins_condition ? Stray::Colon : Stray::Lost;
+            return begins_condition ? StrayHandling::InsertColon : StrayHandling::Discard;
         }
     }
     if ((first >= '0' && first <= '9') || first == '.') {
-        return stray_number(session, text);
+        return report_stray_number(session, text);
     }
     if (first == ',') {
         if (is_argument_without_open(session)) {
-            return Stray::Lost;
+            return StrayHandling::Discard;
         }
         if (session.wants(DiagnosticCode::SyntaxError)) {
             Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError,
                                                     "modules stand side by side, without commas");
             add_fix(diagnostic, "remove it", diagnostic.span, "", true);
         }
-        return Stray::Skip;
+        return StrayHandling::Skip;
     }
     report_foreign_symbol(session, first);
-    return Stray::Module;
+    return StrayHandling::ReadAsModule;
 }
 
 Token read_as_module(ParseSession& session, std::string_view name) {
@@ -173,18 +173,18 @@ void report_foreign_symbol(ParseSession& session, char symbol) {
             diagnostic.span, std::string("`") + symbol + "`", false);
 }
 
-Stray extra_parenthesis(ParseSession& session) {
+StrayHandling report_extra_parenthesis(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
     const std::optional<std::uint32_t> branch =
         may_search(session) ? unmatched_branch(text, scan.part_begin, scan.begin) : std::nullopt;
     if (branch) {
         report_missing_open(session, scan.begin, branch);
-        return Stray::Module;
+        return StrayHandling::ReadAsModule;
     }
     if (character_before(text, scan.begin) != ')') {
         report_missing_open(session, scan.begin, std::nullopt);
-        return Stray::Lost;
+        return StrayHandling::Discard;
     }
     if (session.wants(DiagnosticCode::ExtraParenthesis)) {
         const bool is_one = scan.end - scan.begin == 1;
@@ -193,7 +193,7 @@ Stray extra_parenthesis(ParseSession& session) {
                            is_one ? "`)` closes no `(`" : "these `)` close no `(`");
         add_fix(diagnostic, is_one ? "remove it" : "remove them", diagnostic.span, "", true);
     }
-    return Stray::Skip;
+    return StrayHandling::Skip;
 }
 
 bool is_colour_symbol(ParseSession& session) {
@@ -231,14 +231,14 @@ NameId quoted_name(ParseSession& session, std::string_view text, SourceSpan span
     const std::string_view name = text.substr(1, text.size() - 2);
     std::size_t count = 0;
     bool printable = true;
-    for (std::size_t at = 0; at < name.size() && count <= kLongestQuotedName;) {
+    for (std::size_t at = 0; at < name.size() && count <= kMaxQuotedNameLength;) {
         const CodePoint point = decode_utf8(name.substr(at));
         printable =
             printable && point.value > 0x20 && !(point.value >= 0x7F && point.value <= 0xA0);
         at += point.length;
         ++count;
     }
-    if ((count == 0 || count > kLongestQuotedName || !printable) &&
+    if ((count == 0 || count > kMaxQuotedNameLength || !printable) &&
         session.wants(DiagnosticCode::BadQuotedName)) {
         Diagnostic& diagnostic = session.report(
             DiagnosticCode::BadQuotedName, span,
@@ -272,7 +272,7 @@ Token unclosed_quote(ParseSession& session) {
             add_fix(diagnostic, "add `\"`", place, "\"", false);
         }
     }
-    return lose_statement(session);
+    return discard_statement(session);
 }
 
 int run_before_star(std::string_view text) {

@@ -10,22 +10,22 @@
 
 namespace lsys::lsys_grammar {
 
-/// The treatment of a character that is not a module.
-enum class Stray : std::uint8_t {
+/// Handling of a character among modules that is not a module.
+enum class StrayHandling : std::uint8_t {
     Skip,
-    Module, // as if in back quotes; a `)` as `]`
-    Range,  // skip a random range outside of parentheses, up to `}`
-    Colon,  // insert a `:` before it; the condition begins
-    Lost,   // skip the statement
+    ReadAsModule, // as if in back quotes; a `)` as `]`
+    SkipRange,    // skip a random range outside of parentheses, up to `}`
+    InsertColon,  // insert a `:` before it; the condition begins
+    Discard,      // discard the statement and skip its rest
 };
-/// Reports a number or one of `@ * ~ = ? ,` in a module list.
-Stray stray_in_modules(ParseSession& session, std::string_view text);
+/// Reports a number or one of `@ * ~ = ? ,` in a module list; returns its handling.
+StrayHandling report_stray_in_modules(ParseSession& session, std::string_view text);
 
 /// The current match as the module `name`, as if in back quotes.
 Token read_as_module(ParseSession& session, std::string_view name);
 void report_foreign_symbol(ParseSession& session, char symbol);
-/// Reports one or more `)` without `(`.
-Stray extra_parenthesis(ParseSession& session);
+/// Reports one or more `)` without `(`; returns their handling.
+StrayHandling report_extra_parenthesis(ParseSession& session);
 /// Whether the current `;` is a module of another program, `;(0.9)`; reports it.
 bool is_colour_symbol(ParseSession& session);
 

@@ -113,7 +113,7 @@ void replace_strays(std::string_view valid,
 void normalize_source(const ParseContext& context,
                       Diagnostics& diagnostics,
                       NormalizedText& normalized) {
-    constexpr int kMostScans = 8; // only malicious texts need more
+    constexpr int kMaxScans = 8; // only malicious texts need more
     const std::string_view valid = normalized.scanned.text;
     std::vector<StrayCharacter> strays;
     for (int scan = 1;; ++scan) {
@@ -122,7 +122,7 @@ void normalize_source(const ParseContext& context,
         if (strays.size() == known) {
             break;
         }
-        if (scan == kMostScans) {
+        if (scan == kMaxScans) {
             strays = all_beyond_ascii(valid);
             break;
         }
@@ -210,7 +210,7 @@ namespace lsys_grammar {
 
 namespace {
 
-void note_stray(ParseSession& session, std::uint32_t begin, bool in_quotes) {
+void record_stray(ParseSession& session, std::uint32_t begin, bool in_quotes) {
     session.strays->push_back({session.scanned.source_begin(begin), in_quotes});
 }
 
@@ -222,7 +222,7 @@ void close_quotes(ParseSession& session, std::uint32_t after, char* buffer) {
          at < text.size() && text[at] != '\n' && text[at] != '"' && text[at] != '\0';) {
         const CodePoint point = decode_utf8(text.substr(at));
         if (point.value >= 0x80 && normalized_form(point.value) == "\"") {
-            note_stray(session, at, false);
+            record_stray(session, at, false);
             buffer[at - after + point.length - 1] = '"';
             return;
         }
@@ -273,7 +273,7 @@ int normalize_character(ParseSession& session, char* character, int length) {
     }
     const std::uint32_t begin = session.scan.begin;
     const std::string_view text = session.scanned.text;
-    note_stray(session, begin, false);
+    record_stray(session, begin, false);
     const std::string ascii = normalized_form(decode_utf8(text.substr(begin)).value)
                                   .substr(0, static_cast<std::size_t>(length));
     const Part part = session.scan.part;
@@ -295,7 +295,7 @@ void normalize_quoted(ParseSession& session, std::string_view text) {
         const Confusable* const confusable = find_confusable(point.value);
         const auto begin = session.scan.begin + static_cast<std::uint32_t>(at);
         if (confusable != nullptr && !is_translation) {
-            note_stray(session, begin, true);
+            record_stray(session, begin, true);
         } else if (confusable != nullptr && point.value > 0xA0) { // a blank is no name
             report_foreign_confusable(session, session.scanned.span(begin, begin + point.length),
                                       point.value, *confusable);

@@ -55,18 +55,18 @@ void Normalizer::replace_confusable(std::uint32_t begin,
         report_group();
         group_ = {begin, begin, {}, {}, name, 0};
     }
-    constexpr std::uint32_t kMostNamed = 4;
-    constexpr std::size_t kLongestGroup = 64;
-    if (group_.count < kMostNamed) {
+    constexpr std::uint32_t kMaxNamedPoints = 4;
+    constexpr std::size_t kMaxGroupLength = 64;
+    if (group_.count < kMaxNamedPoints) {
         group_.code_points += (group_.count == 0 ? "" : " ") + code_point_name(point.value);
-    } else if (group_.count == kMostNamed) {
+    } else if (group_.count == kMaxNamedPoints) {
         group_.code_points += " ...";
     }
     group_.ascii += ascii;
     group_.end = begin + point.length;
     group_.name = group_.name == name ? name : std::string_view{};
     ++group_.count;
-    if (group_.ascii.size() >= kLongestGroup) {
+    if (group_.ascii.size() >= kMaxGroupLength) {
         report_group();
     }
 }
@@ -116,11 +116,11 @@ void Normalizer::report_unknown(std::uint32_t begin, const CodePoint& point) {
     std::uint32_t first = begin;
     std::uint32_t end = begin + point.length;
     if (is_letter) {
-        constexpr std::uint32_t kLongestWord = 64; // for the message
-        while (first > 0 && begin - first < kLongestWord && is_word_at(first - 1)) {
+        constexpr std::uint32_t kMaxWordLength = 64; // for the message
+        while (first > 0 && begin - first < kMaxWordLength && is_word_at(first - 1)) {
             --first;
         }
-        while (end < text_.size() && end - begin < kLongestWord && is_word_at(end)) {
+        while (end < text_.size() && end - begin < kMaxWordLength && is_word_at(end)) {
             ++end;
         }
         while (is_continuation(text_[first])) { // the limit cut a character

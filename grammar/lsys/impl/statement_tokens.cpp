@@ -98,7 +98,7 @@ Token unknown_statement(ParseSession& session, std::string_view word, char next)
         }
     }
     if (!meant) {
-        return lose_statement(session);
+        return discard_statement(session);
     }
     scan.keyword = *meant;
     return begin_parts(session, spelling(*meant), next);
@@ -211,7 +211,7 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
         return start(session, word);
     }
     open_statement(session, Keyword::Label);
-    return lose_statement(session);
+    return discard_statement(session);
 }
 
 void after_opening_colon(ParseSession& session) {
@@ -336,7 +336,7 @@ Token colon_after_modules(ParseSession& session) {
             diagnostic.help.emplace_back("the axiom is `#w : modules;`");
         }
     }
-    return lose_statement(session);
+    return discard_statement(session);
 }
 
 Token colon_in_expression(ParseSession& session) {
@@ -385,8 +385,8 @@ void report_unclosed(ParseSession& session) {
                                    " are open, one inside the other");
     }
     std::string closing;
-    constexpr std::size_t kMostInserted = 100;
-    for (std::size_t i = scan.open.size(); i > 0 && closing.size() < kMostInserted; --i) {
+    constexpr std::size_t kMaxInserted = 100;
+    for (std::size_t i = scan.open.size(); i > 0 && closing.size() < kMaxInserted; --i) {
         closing += scan.open[i - 1].kind == OpenBracket::Kind::Brace ? '}' : ')';
     }
     if (closing.size() == scan.open.size()) {
@@ -515,7 +515,7 @@ Token insert_token(ParseSession& session) {
     return Token(Parser::token::TOK_END, session.supplied()).as_supplied();
 }
 
-Token lose_statement(ParseSession& session) {
+Token discard_statement(ParseSession& session) {
     ScanState& scan = session.scan;
     const SourceSpan span = session.token();
     scan.skipping = true;

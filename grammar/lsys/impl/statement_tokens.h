@@ -14,7 +14,7 @@ namespace lsys::lsys_grammar {
 bool is_hash_comment(ParseSession& session, std::string_view text);
 /// `#word`, between statements.
 Token start_statement(ParseSession& session, std::string_view text);
-/// A word, or another character if `word` is empty, in place of a `#`.
+/// The first token of a statement without `#`: at `word`, or another character if it is empty.
 Token start_without_hash(ParseSession& session, std::string_view word);
 
 /// After `#word`: enters the part after the `:`; the token of a `=` or `,`; the missing sign before
@@ -39,7 +39,7 @@ Token begin_insertion(ParseSession& session, Insertion kind, SourceSpan written)
 Token insert_token(ParseSession& session);
 
 /// Discards the statement and skips its rest.
-Token lose_statement(ParseSession& session);
+Token discard_statement(ParseSession& session);
 /// Whether the current production has too few `:`. Reports it at the current match, with `inserted`
 /// as the fix unless it is empty.
 bool lacks_colon(ParseSession& session, std::string_view inserted);

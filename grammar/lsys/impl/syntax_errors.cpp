@@ -87,7 +87,7 @@ std::string joined(const std::vector<std::string>& words) {
     return text;
 }
 
-std::string found_in_words(const Unexpected& error, const ScanState& scan) {
+std::string found_text(const Unexpected& error, const ScanState& scan) {
     if (error.text.empty()) {
         return scan.inserting == Insertion::EndOfFile ? "the end of the file"
                                                       : "the next statement";
@@ -101,7 +101,7 @@ void report_expected(ParseSession& session, const Unexpected& error) {
     }
     const ScanState& scan = session.scan;
     const std::vector<std::string> words = expected_in_words(error, scan);
-    const std::string found = found_in_words(error, scan);
+    const std::string found = found_text(error, scan);
     Diagnostic& diagnostic =
         session.report(DiagnosticCode::SyntaxError, error.place,
                        words.empty() ? found + " cannot stand here"

@@ -60,7 +60,7 @@ Excerpt lay_out(LineText line, std::size_t begin) {
         column = static_cast<std::uint32_t>(kEllipsis.size());
     }
     std::size_t at = begin;
-    while (at < line.text.size() && excerpt.stops.size() < kMaxCharacters) {
+    while (at < line.text.size() && excerpt.places.size() < kMaxCharacters) {
         const CodePoint character = decode_utf8(line.text.substr(at));
         const std::size_t size_before = excerpt.text.size();
         std::uint32_t width = 0;
@@ -74,12 +74,12 @@ Excerpt lay_out(LineText line, std::size_t begin) {
             excerpt.text.resize(size_before);
             break;
         }
-        excerpt.stops.push_back({at, column});
+        excerpt.places.push_back({at, column});
         column += width;
         at += character.length;
     }
     excerpt.end = at;
-    excerpt.stops.push_back({at, column});
+    excerpt.places.push_back({at, column});
     if (at < line.text.size() || line.more_after) {
         excerpt.text += kEllipsis;
     }
@@ -103,10 +103,10 @@ std::size_t step_back(std::string_view text, std::size_t at, std::size_t count) 
 } // namespace
 
 std::uint32_t Excerpt::column(std::size_t offset) const {
-    const auto after =
-        std::upper_bound(stops.begin(), stops.end(), offset,
-                         [](std::size_t wanted, const Stop& stop) { return wanted < stop.offset; });
-    return after == stops.begin() ? stops.front().column : std::prev(after)->column;
+    const auto after = std::upper_bound(
+        places.begin(), places.end(), offset,
+        [](std::size_t wanted, const CharacterPlace& place) { return wanted < place.offset; });
+    return after == places.begin() ? places.front().column : std::prev(after)->column;
 }
 
 Excerpt make_excerpt(LineText line, std::size_t focus) {

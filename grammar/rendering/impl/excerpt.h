@@ -16,16 +16,16 @@ namespace lsys::rendering {
 inline constexpr std::uint32_t kMaxColumns = 120;
 
 struct Excerpt {
-    /// The place of a character: its first byte within the line and its first column, from 0.
-    struct Stop {
+    /// First byte of a character within the line and its first column, from 0.
+    struct CharacterPlace {
         std::size_t offset = 0;
         std::uint32_t column = 0;
     };
 
-    std::string text;        // for printing
-    std::vector<Stop> stops; // ascending; the last is the end of the excerpt
-    std::size_t begin = 0;   // first byte within the line
-    std::size_t end = 0;     // one past the last byte
+    std::string text;                   // for printing
+    std::vector<CharacterPlace> places; // ascending; the last is the end of the excerpt
+    std::size_t begin = 0;              // first byte within the line
+    std::size_t end = 0;                // one past the last byte
 
     /// The column of byte `offset` of the line, or of the nearest byte of the excerpt.
     [[nodiscard]] std::uint32_t column(std::size_t offset) const;

@@ -147,8 +147,7 @@ std::vector<Mark> append_frame(const Mark& primary,
     return rest;
 }
 
-// -------------------------------------------------------------------------------------------------
-// fixes
+// --- fixes
 
 namespace {
 

@@ -15,7 +15,7 @@ namespace lsys {
 namespace {
 
 /// Programs with more codes are rewritten without a mask.
-constexpr Code kMostCodes = 4096;
+constexpr Code kMaxCodes = 4096;
 constexpr std::size_t kBankCodes = 16;
 
 /// Scalar version of mask_blocks_avx2() for any code width and machine.
@@ -110,7 +110,7 @@ const bool has_avx2 = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_suppo
 
 void ActiveMask::prepare(const Plan& plan, const ContextTables* contexts) {
     const Code codes = plan.bytecode().code_count();
-    usable_ = codes <= kMostCodes && plan.predecessor_count() == 1;
+    usable_ = codes <= kMaxCodes && plan.predecessor_count() == 1;
     if (!usable_) {
         return;
     }

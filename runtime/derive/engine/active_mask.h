@@ -36,7 +36,7 @@ public:
     static constexpr std::size_t kBlock = 64;
 
     /// Builds the tables for the plan as it is prepared. `contexts` knows the modules that a
-    /// context search passes by; it may be null if no production in force has a context.
+    /// context search passes by; it may be null if no active production has a context.
     void prepare(const Plan& plan, const ContextTables* contexts);
 
     /// Whether the mask can be used: not with too many codes, nor if a match takes several modules.
@@ -71,7 +71,7 @@ public:
     }
 
     static constexpr std::uint8_t kStores = 0x80;
-    /// The group of modules that are rewritten whatever their neighbours are.
+    /// The group of modules that are rewritten with any neighbours.
     static constexpr std::uint8_t kAnywhere = 0x01;
     /// Lookup tables by code, a byte of group bits each: the groups of productions that may rewrite
     /// a module, and the groups that accept it as a left or as a right neighbour.

@@ -50,7 +50,7 @@ bool Chooser<C>::choose(const ModulePlace& place, const Row& row, std::uint32_t&
     const Bytecode& bytecode = plan_.bytecode();
     const Family& family = plan_.family(row.source);
     const std::span<const Candidate> candidates = plan_.candidates(family);
-    const float* const own = matcher_.own(place);
+    const float* const own = matcher_.own_parameters(place);
     std::uint32_t group = kNone; // the last one whose contexts were searched
     bool in_context = true;
     for (std::uint32_t i = 0; i < candidates.size(); ++i) {
@@ -89,7 +89,7 @@ bool Chooser<C>::choose_among(const Family& family,
                               std::uint32_t& record) {
     const std::span<const Candidate> candidates = plan_.candidates(family);
     const std::uint32_t group = candidates[first].group;
-    const float* const own = matcher_.own(place);
+    const float* const own = matcher_.own_parameters(place);
     matching_.assign(1, first);
     float sum = candidates[first].weight;
     for (std::uint32_t i = first + 1; i < candidates.size(); ++i) {

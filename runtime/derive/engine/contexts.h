@@ -1,6 +1,6 @@
 // ContextTables: for each place of a word the next module towards the root and along the axis, in
 // constant time, so that no long branch or row of ignored modules is walked twice. Built per word
-// if a production in force has a context. A word without brackets and ignored modules needs no
+// if an active production has a context. A word without brackets and ignored modules needs no
 // table: neighbours are adjacent.
 //
 // A gap g is the place before module g; gap count is the end of the word.
@@ -60,7 +60,7 @@ public:
 
     /// held_bytes() after prepare(word).
     [[nodiscard]] std::uint64_t held_bytes_after(const Word& word) const;
-    /// Builds the tables of `word` that the productions in force need. Returns false if there is no
+    /// Builds the tables of `word` that the active productions need. Returns false if there is no
     /// memory.
     [[nodiscard]] bool prepare(const Plan& plan, const Word& word);
     [[nodiscard]] std::uint64_t held_bytes() const;

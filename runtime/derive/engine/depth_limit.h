@@ -59,7 +59,7 @@ template <typename C>
     error.generation = keys.generation;
     error.position = word.first_position + place.index;
     error.symbol = bytecode.symbol_of(code);
-    const float* const own = chooser.matcher().own(place);
+    const float* const own = chooser.matcher().own_parameters(place);
     error.parameters.assign(own, own + bytecode.symbol(error.symbol).parameter_count);
     if (candidate != kNone) {
         const std::uint32_t production = plan.candidate(candidate).production;

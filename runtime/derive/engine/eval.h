@@ -66,9 +66,9 @@ struct EvalFault {
 /// Whether `{minimum, maximum}` can be drawn from.
 [[nodiscard]] Fault check_range(float minimum, float maximum);
 
-/// Runs the instructions from `first` to End. What Emit and Test take is appended at `out`, in
-/// order. False: `fault` says why, and `out` holds the values before it. `draws` may be null where
-/// no range occurs.
+/// Runs the instructions from `first` to End. Operands of Emit and Test are appended at `out`, in
+/// order. On failure returns false with the cause in `fault` and the earlier values in `out`.
+/// `draws` may be null where no range occurs.
 [[nodiscard]] bool evaluate(const Bytecode& bytecode,
                             std::uint32_t first,
                             const EvalFrame& frame,

@@ -64,7 +64,7 @@ std::optional<RuntimeError> find_fault(const Plan& plan,
         const Row& row = plan.row(code);
         std::uint32_t record = 0;
         if (row.kind != RowKind::Fixed && !chooser.choose(place, row, record)) {
-            return describe(plan, keys, word, place, matcher.own(place),
+            return describe(plan, keys, word, place, matcher.own_parameters(place),
                             plan.candidate(chooser.faulty_candidate()), chooser.fault(), true);
         }
         const Entry& entry = plan.entries()[record == 0 ? code : row.base + record];
@@ -73,7 +73,7 @@ std::optional<RuntimeError> find_fault(const Plan& plan,
             values.resize(entry.parameter_count);
             if (!evaluate_entry(plan, keys, matcher, word.first_position + place.index, place,
                                 entry, values.data(), fault)) {
-                return describe(plan, keys, word, place, matcher.own(place),
+                return describe(plan, keys, word, place, matcher.own_parameters(place),
                                 plan.candidate(entry.candidate), fault, false);
             }
         }

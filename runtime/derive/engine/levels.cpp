@@ -25,8 +25,8 @@ constexpr std::uint64_t kBlocksBytes = std::uint64_t{8} << 20;
 template <typename C, typename R>
 Levels<C, R>::Levels(const LevelSteps& steps, const LevelOptions& options, Sink sink)
     : steps_(steps), options_(options), sink_(std::move(sink)), last_(steps.count()) {
-    std::uint64_t most_codes = options.least_codes;
-    std::uint64_t most_parameters = options.least_parameters;
+    std::uint64_t max_codes = options.min_codes;
+    std::uint64_t max_parameters = options.min_parameters;
     bool has_parameters = false;
     for (const Plan* const plan : {steps.rewriting, steps.passes}) {
         if (plan == nullptr) {
@@ -34,8 +34,8 @@ Levels<C, R>::Levels(const LevelSteps& steps, const LevelOptions& options, Sink 
         }
         has_parameters = has_parameters || plan->has_parameters();
         for (const Entry& entry : plan->entries()) {
-            most_codes = std::max<std::uint64_t>(most_codes, entry.code_count);
-            most_parameters = std::max<std::uint64_t>(most_parameters, entry.parameter_count);
+            max_codes = std::max<std::uint64_t>(max_codes, entry.code_count);
+            max_parameters = std::max<std::uint64_t>(max_parameters, entry.parameter_count);
         }
     }
     for (const Plan* const plan : {steps.rewriting, steps.passes}) {
@@ -44,8 +44,8 @@ Levels<C, R>::Levels(const LevelSteps& steps, const LevelOptions& options, Sink 
     }
     const std::uint64_t block =
         std::clamp(kBlocksBytes / (last_ + 1) / (sizeof(C) + sizeof(float)), kMinBlock, kMaxBlock);
-    room_codes_ = std::max(block, most_codes);
-    room_parameters_ = std::max(has_parameters ? block : 0, most_parameters);
+    room_codes_ = std::max(block, max_codes);
+    room_parameters_ = std::max(has_parameters ? block : 0, max_parameters);
     records_.resize(room_codes_);
 }
 
@@ -132,7 +132,7 @@ void Levels<C, R>::prune(std::uint64_t index) {
     }
     Pruner& pruner = pruners_[generation];
     C* const codes = level.codes.get();
-    if (!pruner.concerns(codes, level.count)) {
+    if (!pruner.may_prune(codes, level.count)) {
         return;
     }
     std::uint64_t kept = 0;
@@ -151,7 +151,7 @@ void Levels<C, R>::prune(std::uint64_t index) {
 
 /// Hands a whole block to the level below unchanged.
 template <typename C, typename R>
-void Levels<C, R>::hand_down(Level& level, Level& below) {
+void Levels<C, R>::pass_down(Level& level, Level& below) {
     std::swap(level.codes, below.codes);
     std::swap(level.parameters, below.parameters);
     std::swap(level.origins, below.origins);
@@ -169,7 +169,7 @@ bool Levels<C, R>::descend(std::uint64_t index) {
     const Plan& plan = rewrites ? *steps_.rewriting : *steps_.passes;
     look_at(level, steps_.keys_of(index));
     if (!rewrites && level.next.index == 0 && (level.settled || !may_rewrite(plan, view_))) {
-        hand_down(level, below);
+        pass_down(level, below);
         return true;
     }
     Chooser<C>& chooser = choosers_[rewrites ? 0 : 1];

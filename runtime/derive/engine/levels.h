@@ -62,8 +62,8 @@ struct LevelBlock {
 struct LevelOptions {
     bool origins = false;
     std::uint64_t max_bytes = ~std::uint64_t{0};
-    std::uint64_t least_codes = 0; // min room of a block
-    std::uint64_t least_parameters = 0;
+    std::uint64_t min_codes = 0; // min room of a block
+    std::uint64_t min_parameters = 0;
     const std::atomic<bool>* cancelled = nullptr;
 };
 
@@ -109,7 +109,7 @@ private:
     [[nodiscard]] bool descend(std::uint64_t index);
     [[nodiscard]] bool is_decomposed(std::uint64_t index);
     [[nodiscard]] bool emit(Level& level);
-    void hand_down(Level& level, Level& below);
+    void pass_down(Level& level, Level& below);
     void prune(std::uint64_t index);
     void look_at(const Level& level, const PassKeys& keys);
     [[nodiscard]] bool fail(RuntimeError error);

@@ -120,7 +120,7 @@ void Matcher<C>::gather(TableRange pattern,
         }
         const bool folded = word_.codes[places[i]] >= bytecode.symbols.size();
         const float* const values =
-            own({places[i], folded ? 0 : parameters_before(places[i], near)});
+            own_parameters({places[i], folded ? 0 : parameters_before(places[i], near)});
         std::copy(values, values + count, formals_.begin() + item.first_formal);
     }
 }
@@ -128,7 +128,7 @@ void Matcher<C>::gather(TableRange pattern,
 template <typename C>
 const float* Matcher<C>::formals(const Candidate& candidate, const ModulePlace& place) {
     if (!candidate.gathers) {
-        return own(place);
+        return own_parameters(place);
     }
     const BytecodeProduction& production = plan_.bytecode().productions[candidate.production];
     formals_.resize(production.formal_count);

@@ -42,12 +42,12 @@ struct ModulePlace {
 template <typename C>
 class Matcher {
 public:
-    /// `contexts` may be null if no production in force has a context.
+    /// `contexts` may be null if no active production has a context.
     Matcher(const Plan& plan, const WordView<C>& word, const ContextTables* contexts)
         : plan_(plan), word_(word), contexts_(contexts) {}
 
     /// The parameters of a module, stored in the word or constant.
-    [[nodiscard]] const float* own(const ModulePlace& place) const {
+    [[nodiscard]] const float* own_parameters(const ModulePlace& place) const {
         const Row& row = plan_.row(word_.codes[place.index]);
         return row.constants == kNone ? word_.parameters + place.parameter
                                       : plan_.bytecode().constants.data() + row.constants;

@@ -23,7 +23,7 @@ constexpr Code kCensusCodes = 4096;
 constexpr std::uint64_t kCountedInParallel = 1U << 22;
 /// Threads end at about the same time if each has several chunks, none of them too small.
 constexpr std::uint64_t kChunksPerThread = 6;
-constexpr std::uint64_t kLeastChunk = 1U << 14;
+constexpr std::uint64_t kMinChunk = 1U << 14;
 /// Shorter words take one thread less time than two need to synchronize. Threads are started a few
 /// generations before, because that takes as long as a word of kWorthStarting modules.
 constexpr std::uint64_t kWorthSharing = 1U << 17;
@@ -61,7 +61,7 @@ void Passes::report_progress(std::uint32_t generation, std::uint64_t modules) {
     }
 }
 
-bool Passes::concerns(const Word& word) const {
+bool Passes::may_rewrite_any(const Word& word) const {
     return visit_view(word, [this](const auto& view) { return may_rewrite(plan_, view); });
 }
 
@@ -79,7 +79,7 @@ Passes::run(const Word& in, Word& out, const PassKeys& keys, std::uint64_t other
     });
 }
 
-std::optional<Stop> Passes::no_memory(const Word& in, std::uint64_t bytes) {
+std::optional<Stop> Passes::report_out_of_memory(const Word& in, std::uint64_t bytes) {
     census_known_ = false;
     limit_.kind = LimitKind::Memory;
     limit_.predicted_modules = std::max(modules_, in.module_count());
@@ -108,7 +108,7 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
     }
     if (!records_.reserve(record_bytes + sizeof(R)) ||
         (searches && !contexts_.prepare(plan_, in))) {
-        return no_memory(in, before);
+        return report_out_of_memory(in, before);
     }
     cut(word);
     mask_.prepare(plan_, contexts());
@@ -129,7 +129,7 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
         return Stop::Limit;
     }
     if (!out.resize(modules_, parameters_)) {
-        return no_memory(in, limit_.predicted_bytes);
+        return report_out_of_memory(in, limit_.predicted_bytes);
     }
     if (const std::optional<Stop> stop = write<C, R>(word, out, keys)) {
         census_known_ = false;
@@ -146,14 +146,14 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
 template <typename C>
 void Passes::cut(const WordView<C>& word) {
     std::uint64_t size = std::max(options_.chunk_modules, 1U);
-    if (workers_.count() > 1 && size > kLeastChunk) {
+    if (workers_.count() > 1 && size > kMinChunk) {
         if (word.count >= kWorthStarting) {
             workers_.start();
         }
         size =
             word.count < kWorthSharing
                 ? kWorthSharing
-                : std::clamp(word.count / (workers_.count() * kChunksPerThread), kLeastChunk, size);
+                : std::clamp(word.count / (workers_.count() * kChunksPerThread), kMinChunk, size);
     }
     chunks_.assign((word.count + size - 1) / size, {});
     for (std::uint64_t i = 0; i < chunks_.size(); ++i) {
@@ -187,7 +187,7 @@ void Passes::place_chunks(const WordView<C>& word, bool stores) {
 
 /// Judged by the first modules of the chunk.
 template <typename C>
-bool Passes::mask_pays(const WordView<C>& word, const Chunk& chunk) const {
+bool Passes::is_mask_faster(const WordView<C>& word, const Chunk& chunk) const {
     if (!mask_.usable()) {
         return false;
     }
@@ -211,7 +211,7 @@ std::optional<Stop> Passes::count(const WordView<C>& word, const PassKeys& keys)
         Chunk& chunk = chunks_[index];
         Chooser<C> chooser(plan_, keys, word, contexts());
         R* const records = records_at<R>(chunk.begin.index);
-        chunk.masked = mask_pays(word, chunk);
+        chunk.masked = is_mask_faster(word, chunk);
         const CountResult result =
             chunk.masked
                 ? count_active(plan_, chooser, mask_, word, chunk.begin, chunk.end, records)

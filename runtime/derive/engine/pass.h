@@ -27,7 +27,7 @@ public:
     [[nodiscard]] std::optional<Stop>
     run(const Word& in, Word& out, const PassKeys& keys, std::uint64_t other_bytes);
     /// Whether some module of `word` may be rewritten as the plan is prepared.
-    [[nodiscard]] bool concerns(const Word& word) const;
+    [[nodiscard]] bool may_rewrite_any(const Word& word) const;
     /// Announces that the next word given to run() is not the one it wrote last.
     void forget() { census_known_ = false; }
 
@@ -58,7 +58,7 @@ private:
     template <typename C>
     void place_chunks(const WordView<C>& word, bool stores);
     template <typename C>
-    [[nodiscard]] bool mask_pays(const WordView<C>& word, const Chunk& chunk) const;
+    [[nodiscard]] bool is_mask_faster(const WordView<C>& word, const Chunk& chunk) const;
     template <typename C, typename R>
     [[nodiscard]] std::optional<Stop> count(const WordView<C>& word, const PassKeys& keys);
     template <typename C, typename R>
@@ -79,7 +79,7 @@ private:
                                                    const PassKeys& keys,
                                                    ModulePlace begin,
                                                    std::uint64_t end);
-    [[nodiscard]] std::optional<Stop> no_memory(const Word& in, std::uint64_t bytes);
+    [[nodiscard]] std::optional<Stop> report_out_of_memory(const Word& in, std::uint64_t bytes);
     [[nodiscard]] bool cancelled() const;
     void report_progress(std::uint32_t generation, std::uint64_t modules);
     template <typename R>

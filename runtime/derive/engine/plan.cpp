@@ -19,7 +19,7 @@ void append_code(Code code, std::uint32_t width, std::vector<std::byte>& pool) {
 }
 
 /// Programs with more codes are rewritten without folded templates.
-constexpr Code kMostFoldedCodes = 4096;
+constexpr Code kMaxFoldedCodes = 4096;
 
 bool uses_step(const Bytecode& bytecode, std::uint32_t first) {
     return first != kNone && contains(bytecode, first, Opcode::Step);
@@ -45,14 +45,14 @@ Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generat
     make_guards();
     make_entries();
     if (parallel_) {
-        if (has_parameters_ && bytecode_.code_count() <= kMostFoldedCodes) {
+        if (has_parameters_ && bytecode_.code_count() <= kMaxFoldedCodes) {
             folding_.index.emplace(bytecode_);
         }
         for (const Candidate& candidate : candidates_) {
-            in_force_.predecessor_count = std::max(in_force_.predecessor_count, candidate.modules);
+            active_.predecessor_count = std::max(active_.predecessor_count, candidate.modules);
         }
         for (std::uint32_t i = 0; i < families_.size(); ++i) {
-            put_in_force(i);
+            activate_family(i);
         }
     }
 }
@@ -70,22 +70,22 @@ void Plan::make_codes() {
     }
     codes_.pool.resize(codes_.pool.size() + kWordSlack);
 
-    std::uint32_t most_stored = 0;
+    std::uint32_t max_stored = 0;
     for (const BytecodeSymbol& symbol : bytecode_.symbols) {
-        most_stored = std::max(most_stored, symbol.parameter_count);
+        max_stored = std::max(max_stored, symbol.parameter_count);
         has_structure_ = has_structure_ || symbol.ignored ||
                          symbol.kind == SymbolKind::BranchOpen ||
                          symbol.kind == SymbolKind::BranchClose;
     }
-    has_parameters_ = most_stored != 0;
-    mixes_inputs_ = most_stored > 1;
+    has_parameters_ = max_stored != 0;
+    mixes_inputs_ = max_stored > 1;
     for (const BytecodeProduction& production : bytecode_.productions) {
         if (std::uint64_t{production.successor.codes.count} * codes_.width > codes_.wide_bytes) {
             codes_.wide_bytes = 32;
         }
     }
-    terms_.resize(most_stored); // for every copied module
-    for (std::uint32_t i = 0; i < most_stored; ++i) {
+    terms_.resize(max_stored); // for every copied module
+    for (std::uint32_t i = 0; i < max_stored; ++i) {
         terms_[i].input = i;
     }
 
@@ -139,13 +139,13 @@ void Plan::make_families() {
         family_of_production.push_back(index);
     }
     std::uint32_t first = 0;
-    std::uint32_t largest = 0;
+    std::uint32_t max_count = 0;
     for (Family& family : families_) {
         family.first = first;
         first += family.count;
-        largest = std::max(largest, family.count);
+        max_count = std::max(max_count, family.count);
     }
-    record_width_ = largest <= 0xFF ? 1 : 4;
+    record_width_ = max_count <= 0xFF ? 1 : 4;
 
     candidates_.resize(productions_.count);
     std::vector<std::uint32_t> filled(families_.size(), 0);
@@ -192,9 +192,9 @@ void Plan::make_families() {
 /// If every candidate of a family has a left context, a look at the left neighbour settles most
 /// modules; likewise on the right.
 void Plan::make_guards() {
-    constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 22;
+    constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 22;
     const Code codes = bytecode_.code_count();
-    if (std::uint64_t{codes} * families_.size() * 2 > kMostBytes) {
+    if (std::uint64_t{codes} * families_.size() * 2 > kMaxBytes) {
         return;
     }
     const auto accept = [&](std::uint32_t& guard, SymbolId symbol) {
@@ -300,8 +300,8 @@ void Plan::finish(Entry& entry) {
 
 void Plan::set_kind(Code code, RowKind kind) {
     Row& row = rows_[code];
-    in_force_.dynamic_rows -= row.kind != RowKind::Fixed ? 1 : 0;
-    in_force_.dynamic_rows += kind != RowKind::Fixed ? 1 : 0;
+    active_.dynamic_rows -= row.kind != RowKind::Fixed ? 1 : 0;
+    active_.dynamic_rows += kind != RowKind::Fixed ? 1 : 0;
     row.kind = kind;
     row.copies = row.copies && kind == RowKind::Fixed;
 }
@@ -325,23 +325,23 @@ void Plan::prepare(std::uint32_t generation) {
     for (const std::uint32_t index : varying_families_) {
         families_[index].current = false;
         if (parallel_) {
-            put_in_force(index);
+            activate_family(index);
         }
     }
 }
 
 void Plan::select_rule(std::uint32_t rule) {
-    if (in_force_.selected_rule != kNone) {
-        for (const Code code : codes_of(first_symbol(in_force_.selected_rule))) {
+    if (active_.selected_rule != kNone) {
+        for (const Code code : codes_of(first_symbol(active_.selected_rule))) {
             reset_row(code);
         }
     }
-    in_force_.needs_contexts = false;
-    in_force_.reads_contexts = false;
-    in_force_.selected_rule = rule;
-    in_force_.predecessor_count =
+    active_.needs_contexts = false;
+    active_.reads_contexts = false;
+    active_.selected_rule = rule;
+    active_.predecessor_count =
         bytecode_.productions[candidates_[families_[rule].first].production].predecessor.count;
-    put_in_force(rule);
+    activate_family(rule);
 }
 
 float Plan::rule_draw(std::uint32_t rule, std::uint32_t generation) const {

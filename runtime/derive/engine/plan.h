@@ -142,9 +142,9 @@ public:
          Stage stage = Stage::Rewrite);
 
     /// Updates rows and entries to rewrite words of age `generation`. In parallel mode all families
-    /// are in force.
+    /// are active.
     void prepare(std::uint32_t generation);
-    /// Puts only rule `rule` in force, in the other modes. Called after prepare().
+    /// Activates only rule `rule`, in the other modes. Called after prepare().
     void select_rule(std::uint32_t rule);
 
     [[nodiscard]] const Bytecode& bytecode() const { return bytecode_; }
@@ -185,20 +185,20 @@ public:
     /// Whether terms of an entry may read different parameters.
     [[nodiscard]] bool mixes_inputs() const { return mixes_inputs_; }
 
-    // properties of the rows in force
-    [[nodiscard]] bool all_fixed() const { return in_force_.dynamic_rows == 0; }
-    [[nodiscard]] bool needs_contexts() const { return in_force_.needs_contexts; }
-    [[nodiscard]] bool reads_contexts() const { return in_force_.reads_contexts; }
+    // properties of the active rows
+    [[nodiscard]] bool all_fixed() const { return active_.dynamic_rows == 0; }
+    [[nodiscard]] bool needs_contexts() const { return active_.needs_contexts; }
+    [[nodiscard]] bool reads_contexts() const { return active_.reads_contexts; }
     /// The max number of modules that a match uses up. It is above 1 in leftmost rewriting, and in
     /// a pass of one rule, where every match uses up this number.
-    [[nodiscard]] std::uint32_t predecessor_count() const { return in_force_.predecessor_count; }
+    [[nodiscard]] std::uint32_t predecessor_count() const { return active_.predecessor_count; }
     /// Modules used up by a match whose successor is `entry`.
     [[nodiscard]] std::uint32_t used_by(const Entry& entry) const {
         return entry.candidate == kNone ? 1 : candidates_[entry.candidate].modules;
     }
     /// Distance from a module to the first one that its right guard may check.
     [[nodiscard]] std::uint32_t guard_distance() const {
-        return parallel_ ? 1 : in_force_.predecessor_count;
+        return parallel_ ? 1 : active_.predecessor_count;
     }
     /// First symbol of the predecessor of `rule`.
     [[nodiscard]] SymbolId first_symbol(std::uint32_t rule) const;
@@ -224,7 +224,7 @@ private:
     void shape_condition(Candidate& candidate);
     void shape_entry(const Candidate& candidate, Entry& entry);
     [[nodiscard]] ShapeKnowledge knowledge(const Candidate& candidate) const;
-    void put_in_force(std::uint32_t family_index);
+    void activate_family(std::uint32_t family_index);
     void resolve(std::uint32_t family_index, Code code);
     void resolve_choice(const Family& family, std::uint32_t first_match, Code code);
     void resolve_fixed(Code code, const Entry& entry);
@@ -275,8 +275,8 @@ private:
         std::vector<std::uint32_t> block_of_code; // first own entry; kNone: those of the family
         std::uint64_t budget = 0; // candidates that may still be tried for folded modules
     };
-    /// Summary of the rows in force.
-    struct InForce {
+    /// Summary of the active rows.
+    struct ActiveFamilies {
         std::uint32_t dynamic_rows = 0; // that are not Fixed
         std::uint32_t predecessor_count = 1;
         std::uint32_t selected_rule = kNone; // kNone: all rules
@@ -304,7 +304,7 @@ private:
     TestTables tests_;
     CodeTables codes_;
     Folding folding_;
-    InForce in_force_;
+    ActiveFamilies active_;
 
     // facts of the program
     std::uint32_t record_width_ = 1;

@@ -9,8 +9,8 @@ namespace lsys {
 namespace {
 
 /// Larger templates and larger families are not folded.
-constexpr std::size_t kMostFoldedTemplateCodes = std::size_t{1} << 20;
-constexpr std::uint32_t kMostOwnEntries = 256;
+constexpr std::size_t kMaxFoldedTemplateCodes = std::size_t{1} << 20;
+constexpr std::uint32_t kMaxOwnEntries = 256;
 
 } // namespace
 
@@ -42,8 +42,8 @@ bool Plan::fold(Code code, Entry& entry) {
 /// or kNone if the program lacks one of these modules.
 std::uint32_t Plan::folded_template(const Candidate& candidate, const float* own) {
     const WordTemplate& successor = bytecode_.productions[candidate.production].successor;
-    if (candidate.gathers || is_drawn(bytecode_, successor) ||
-        folding_.codes.size() + successor.codes.count > kMostFoldedTemplateCodes ||
+    if (candidate.gathers || has_random_parameters(bytecode_, successor) ||
+        folding_.codes.size() + successor.codes.count > kMaxFoldedTemplateCodes ||
         contains(bytecode_, successor.arguments, Opcode::Step)) {
         return kNone;
     }
@@ -74,7 +74,7 @@ std::uint32_t Plan::folded_template(const Candidate& candidate, const float* own
 /// Folds the entries of a module that is rewritten in one of several ways.
 void Plan::fold_records(const Family& family, Code code) {
     Row& row = rows_[code];
-    if (!folding_.index || row.stored != 0 || family.count > kMostOwnEntries) {
+    if (!folding_.index || row.stored != 0 || family.count > kMaxOwnEntries) {
         return;
     }
     std::vector<Entry> block(entries_.begin() + row.base + 1,

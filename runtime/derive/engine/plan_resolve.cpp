@@ -1,4 +1,4 @@
-// Puts families in force: shapes their conditions and arguments, and resolves the rows of their
+// Activates families: shapes their conditions and arguments, and resolves the rows of their
 // codes.
 #include "grammar/base/contract.h"
 #include "runtime/derive/engine/plan.h"
@@ -111,13 +111,13 @@ void Plan::shape(Family& family) {
     family.current = true;
 }
 
-void Plan::put_in_force(std::uint32_t family_index) {
+void Plan::activate_family(std::uint32_t family_index) {
     Family& family = families_[family_index];
     if (!family.current) {
         shape(family);
     }
-    in_force_.needs_contexts = in_force_.needs_contexts || family.has_context;
-    in_force_.reads_contexts = in_force_.reads_contexts || family.reads_context;
+    active_.needs_contexts = active_.needs_contexts || family.has_context;
+    active_.reads_contexts = active_.reads_contexts || family.reads_context;
     const BytecodeProduction& example = bytecode_.productions[candidates_[family.first].production];
     folding_.budget = kFoldedBudget;
     for (const Code code : codes_of(bytecode_.patterns[example.predecessor.first].symbol)) {
@@ -198,7 +198,7 @@ void Plan::resolve(std::uint32_t family_index, Code code) {
 /// Makes the tests of a row if single comparisons alone decide: no contexts, no chance, no other
 /// conditions. Returns whether they do.
 bool Plan::resolve_tests(const Family& family, Code code) {
-    constexpr std::size_t kMostTests = 16;
+    constexpr std::size_t kMaxTests = 16;
     Row& row = rows_[code];
     if (row.constants != kNone) {
         return false;
@@ -210,7 +210,7 @@ bool Plan::resolve_tests(const Family& family, Code code) {
         if (candidate.condition == ConditionKind::Never) {
             continue;
         }
-        if (candidate.has_context || candidate.stochastic || found.size() == kMostTests ||
+        if (candidate.has_context || candidate.stochastic || found.size() == kMaxTests ||
             candidate.condition == ConditionKind::Expression ||
             (candidate.condition == ConditionKind::Comparisons && all.size() != 1)) {
             return false;
@@ -342,7 +342,7 @@ bool Plan::bake(const Row& row, Entry& entry) const {
     if (entry.general) {
         const bool steady =
             each_generation_ || !contains(bytecode_, production.successor.arguments, Opcode::Step);
-        if (is_drawn(bytecode_, production.successor) || !steady) {
+        if (has_random_parameters(bytecode_, production.successor) || !steady) {
             return false;
         }
         const EvalFrame frame{own, inputs_.globals, static_cast<float>(generation_), inputs_.steps};

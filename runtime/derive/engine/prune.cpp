@@ -41,7 +41,7 @@ void write_typed(Pruner& pruner, std::span<const C> codes, const Word& word, Wor
 PrunedSize pruned_size(Pruner& pruner, const Word& word) {
     pruner.begin_again();
     return word.visit([&](auto codes) {
-        if (!pruner.concerns(codes.data(), codes.size())) {
+        if (!pruner.may_prune(codes.data(), codes.size())) {
             return PrunedSize{word.module_count(), word.parameter_count()};
         }
         PrunedSize size;

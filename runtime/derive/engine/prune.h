@@ -42,7 +42,7 @@ public:
     }
     /// Whether a piece begins within a cut branch or holds a cut.
     template <typename C>
-    [[nodiscard]] bool concerns(const C* codes, std::uint64_t count) const {
+    [[nodiscard]] bool may_prune(const C* codes, std::uint64_t count) const {
         if (depth_ > 0) {
             return true;
         }

@@ -207,7 +207,7 @@ bool contains(const Bytecode& bytecode, std::uint32_t first, Opcode opcode) {
     return false;
 }
 
-bool is_drawn(const Bytecode& bytecode, const WordTemplate& successor) {
+bool has_random_parameters(const Bytecode& bytecode, const WordTemplate& successor) {
     return successor.draw_count != 0 ||
            (successor.arguments != kNone &&
             contains(bytecode, successor.arguments, Opcode::BranchDraw));

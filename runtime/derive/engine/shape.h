@@ -72,7 +72,7 @@ shapes_of(const Bytecode& bytecode, std::uint32_t first, const ShapeKnowledge& k
 /// Whether the expression at `first` contains `opcode`.
 [[nodiscard]] bool contains(const Bytecode& bytecode, std::uint32_t first, Opcode opcode);
 /// Whether the parameters that a successor stores depend on random numbers.
-[[nodiscard]] bool is_drawn(const Bytecode& bytecode, const WordTemplate& successor);
+[[nodiscard]] bool has_random_parameters(const Bytecode& bytecode, const WordTemplate& successor);
 /// Whether the expression at `first` (kNone: none) uses a formal outside [begin, end).
 [[nodiscard]] bool uses_formal_outside(const Bytecode& bytecode,
                                        std::uint32_t first,

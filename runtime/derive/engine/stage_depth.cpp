@@ -51,11 +51,11 @@ std::optional<std::uint32_t> longest_path(const std::vector<std::vector<std::uin
         }
     }
     std::vector<std::uint32_t> steps(parts.size(), 0);
-    std::uint32_t longest = 0;
+    std::uint32_t max_steps = 0;
     std::size_t done = 0;
     for (; done < ready.size(); ++done) {
         const std::uint32_t s = ready[done];
-        longest = std::max(longest, steps[s]);
+        max_steps = std::max(max_steps, steps[s]);
         for (const std::uint32_t part : parts[s]) {
             steps[part] = std::max(steps[part], steps[s] + 1);
             if (--users[part] == 0) {
@@ -63,7 +63,7 @@ std::optional<std::uint32_t> longest_path(const std::vector<std::vector<std::uin
             }
         }
     }
-    return done == parts.size() ? std::optional(longest) : std::nullopt;
+    return done == parts.size() ? std::optional(max_steps) : std::nullopt;
 }
 
 } // namespace
@@ -73,11 +73,12 @@ StageDepth stage_depth(const Bytecode& bytecode, Stage stage) {
     if (range.count == 0) {
         return {};
     }
-    const std::uint32_t most = stage == Stage::Decompose ? bytecode.settings.decompose_depth
-                                                         : bytecode.settings.interpret_depth;
+    const std::uint32_t max_passes = stage == Stage::Decompose ? bytecode.settings.decompose_depth
+                                                               : bytecode.settings.interpret_depth;
     const std::optional<std::uint32_t> way = longest_path(parts_of(bytecode, range));
-    const std::uint32_t needed = way ? *way + 1 : most + 1;
-    return {std::min(needed, most), needed > most && bytecode.settings.at_depth == AtDepth::Error};
+    const std::uint32_t needed = way ? *way + 1 : max_passes + 1;
+    return {std::min(needed, max_passes),
+            needed > max_passes && bytecode.settings.at_depth == AtDepth::Error};
 }
 
 } // namespace lsys

@@ -314,7 +314,7 @@ private:
             return evaluate_entry(plan_, keys_, matcher_, word_.first_position + place_.index,
                                   place_, entry, parameters_, fault);
         }
-        const float* const own = matcher_.own(place_);
+        const float* const own = matcher_.own_parameters(place_);
         if (entry.parameter_count > kEntryTerms) {
             const AffineTerm* const terms = plan_.terms().data() + entry.first_term;
             for (std::uint32_t i = 0; i < entry.parameter_count; ++i) {

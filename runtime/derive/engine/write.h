@@ -1,5 +1,5 @@
-// The writing pass: writes what the counting pass has counted. The common module costs one row, one
-// entry, one wide store of codes and one of parameters, and no branch.
+// The writing pass: writes the modules that the counting pass has counted. The common module costs
+// one row, one entry, one wide store of codes and one of parameters, and no branch.
 #pragma once
 
 #include "runtime/derive/engine/active_mask.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "grammar/base/outcome.h"
-#include "runtime/base/memory_border.h"
+#include "runtime/base/out_of_memory.h"
 #include "runtime/export/export.h"
 #include "runtime/turtle/turtle_diagnostic.h"
 
@@ -22,7 +22,7 @@ Outcome<void> finish(PieceWriter& out);
 /// The outcome of `run()`, or OutOfMemory with a message about `what`.
 template <typename Run>
 auto run_within_memory(std::string_view what, const Run& run) -> decltype(run()) {
-    return catch_no_memory(run, [what]() -> decltype(run()) {
+    return catch_out_of_memory(run, [what]() -> decltype(run()) {
         return {Stop::OutOfMemory, messages_of(no_memory_diagnostic(what))};
     });
 }

@@ -257,7 +257,7 @@ std::string forest_stats_json(const ForestScene& scene, const ForestStatsOptions
         if (options.different_trees) {
             json.member("different_trees", count_different_trees(forest, options.threads));
         }
-        json.member("branches", counts.branches).member("most_branches", counts.most_branches);
+        json.member("branches", counts.branches).member("most_branches", counts.max_branches);
         json.member("segments", counts.segments).member("objects", counts.objects);
         json.member("polygons", counts.polygons).member("triangles", plan.triangles());
         json.member("bytes", bytes).member("digest", fmt::format("{:016x}", counts.digest));

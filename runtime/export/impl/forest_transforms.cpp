@@ -69,7 +69,7 @@ private:
             const std::size_t to = std::min(end, end_of(*of));
             fill(plan_.groups().subspan(from, to - from), *piece, groups[0].first);
         });
-        hand_over(floats_);
+        pass_on(floats_);
     }
 
     /// Puts the instances of a piece that are in `groups`, all of one cell, into the window that
@@ -121,11 +121,11 @@ private:
                 };
                 array == 0 ? append(translation) : array == 1 ? append(rotation) : append(scale);
                 if (floats_.size() * sizeof(float) > kPieceBytes) {
-                    hand_over(floats_);
+                    pass_on(floats_);
                     floats_.clear();
                 }
             });
-            hand_over(floats_);
+            pass_on(floats_);
         }
     }
 
@@ -140,7 +140,7 @@ private:
         rotation[3] = pose.rotation.w;
     }
 
-    void hand_over(std::span<const float> floats) {
+    void pass_on(std::span<const float> floats) {
         stopped_ = stopped_ || !write_(std::as_bytes(floats));
     }
 

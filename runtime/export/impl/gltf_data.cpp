@@ -26,15 +26,15 @@ bool is_coloured(const Mesh& mesh, const MeshPart& part) {
         return false;
     }
     const glm::vec3 own(mesh.materials[part.material].colour);
-    std::uint32_t seen = ~std::uint32_t{0}; // a palette index with the material's colour
+    std::uint32_t last_colour = ~std::uint32_t{0}; // a palette index with the material's colour
     TriangleReader indices(mesh.indices);
     for (std::uint64_t i = 0; i < part.index_count; ++i) {
         const std::uint16_t colour = mesh.colours[indices[part.first_index + i]];
-        if (colour != seen) {
+        if (colour != last_colour) {
             if (palette_colour(colour) != own) {
                 return true;
             }
-            seen = colour;
+            last_colour = colour;
         }
     }
     return false;

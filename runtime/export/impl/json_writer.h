@@ -94,7 +94,7 @@ private:
     }
 
     PieceWriter& out_;
-    std::string closing_; // brackets of what is open, the innermost last
+    std::string closing_; // closing brackets of open values, the innermost last
     bool comma_ = false;  // before the next value
 };
 

@@ -8,13 +8,13 @@ namespace lsys {
 PieceWriter::PieceWriter(const ByteSink& sink)
     : sink_(sink), buffer_(new char[kPieceBytes]), at_(buffer_.get()), end_(at_ + kPieceBytes) {}
 
-void PieceWriter::hand_over(std::string_view piece) {
+void PieceWriter::pass_on(std::string_view piece) {
     stopped_ = stopped_ || !sink_(piece);
 }
 
 void PieceWriter::flush() {
     if (at_ != buffer_.get()) {
-        hand_over({buffer_.get(), static_cast<std::size_t>(at_ - buffer_.get())});
+        pass_on({buffer_.get(), static_cast<std::size_t>(at_ - buffer_.get())});
         at_ = buffer_.get();
     }
 }
@@ -34,7 +34,7 @@ void PieceWriter::put_bytes(std::span<const std::byte> bytes) {
     for (std::size_t first = 0; first < bytes.size() && !stopped_; first += kPieceBytes) {
         const std::span<const std::byte> piece =
             bytes.subspan(first, std::min(kPieceBytes, bytes.size() - first));
-        hand_over({reinterpret_cast<const char*>(piece.data()), piece.size()});
+        pass_on({reinterpret_cast<const char*>(piece.data()), piece.size()});
     }
 }
 

@@ -43,7 +43,7 @@ public:
 
 private:
     void flush();
-    void hand_over(std::string_view piece);
+    void pass_on(std::string_view piece);
 
     const ByteSink& sink_;
     std::unique_ptr<char[]> buffer_;

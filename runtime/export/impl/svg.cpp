@@ -125,13 +125,13 @@ void Drawing::put_segments() {
         return;
     }
     out_.put("<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
-    const float least = kHairline * side_;
+    const float min_width = kHairline * side_;
     const Segment* last = nullptr;
     for (std::size_t i = 0; i < skeleton_.segments.size() && !out_.stopped(); ++i) {
         const Segment& segment = skeleton_.segments[i];
-        const float width = std::max(width_of(segment), least);
+        const float width = std::max(width_of(segment), min_width);
         const bool same = last != nullptr && last->colour == segment.colour &&
-                          std::max(width_of(*last), least) == width;
+                          std::max(width_of(*last), min_width) == width;
         if (!same || !segment.linked || segment.parent != i - 1) {
             if (last != nullptr) {
                 out_.put("\"/>\n");

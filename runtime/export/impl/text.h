@@ -41,7 +41,7 @@ inline char* put_text(char* at, std::string_view text) {
 [[nodiscard]] std::string obj_identifier(std::string_view text);
 /// A letter or underscore, then letters, digits and underscores: other bytes become underscores.
 [[nodiscard]] std::string identifier(std::string_view text);
-/// `name`, with the least suffix _2, _3 ... that makes it differ from all of `taken` if need be.
+/// `name`, with the first suffix _2, _3 ... that makes it differ from all of `taken` if need be.
 [[nodiscard]] std::string unique_name(const std::vector<std::string>& taken,
                                       const std::string& name);
 

@@ -52,24 +52,24 @@ void aim(Joint& from, const glm::vec3& to) {
         std::min(length, static_cast<double>(std::numeric_limits<float>::max())));
 }
 
-void leave_out_joints(LargeVector<Joint>& joints, LargeVector<Joint>& spare, float tolerance) {
-    spare.clear();
+void leave_out_joints(LargeVector<Joint>& joints, LargeVector<Joint>& scratch, float tolerance) {
+    scratch.clear();
     std::size_t first = 0;
     while (first + 1 < joints.size()) {
-        spare.push_back(joints[first]);
+        scratch.push_back(joints[first]);
         std::size_t last = first + 1;
         while (last + 1 < joints.size() && last + 1 - first <= kMaxLeftOut &&
                stands_for(joints, first, last + 1, tolerance)) {
             ++last;
         }
         if (last > first + 1) {
-            aim(spare.back(), joints[last].centre);
+            aim(scratch.back(), joints[last].centre);
         }
         first = last;
     }
-    spare.push_back(joints.back());
-    spare.back().heading = spare[spare.size() - 2].heading;
-    joints.swap(spare);
+    scratch.push_back(joints.back());
+    scratch.back().heading = scratch[scratch.size() - 2].heading;
+    joints.swap(scratch);
 }
 
 } // namespace lsys

@@ -18,7 +18,7 @@ constexpr float kResolution = 4e-6F;
 // A radius below this part of the coordinates is 0; larger ones keep corners apart.
 constexpr float kNoRadius = 1e-8F;
 constexpr float kRadiusOfSide = 4e-7F;
-// Least radius of a ring as a part of its surroundings, so that its triangles have an area.
+// Min radius of a ring as a part of its surroundings, so that its triangles have an area.
 constexpr float kThinnest = 1e-9F;
 constexpr float kMinRadius = 1e-36F;
 constexpr float kMaxRadius = 1e36F;
@@ -32,13 +32,13 @@ constexpr float kMaxOfEdge = 0.7F;      // for a collar
 constexpr float kMaxParts = 16.0F;      // of an edge, cut for noise
 constexpr std::size_t kExtraJoints = 2; // of a run: a collar and the tip
 
-float greatest_coordinate(const glm::vec3& v) {
+float max_coordinate(const glm::vec3& v) {
     return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
 }
 
 /// The radius that can be drawn around `centre`; 0 if none can.
 float drawn_radius(float radius, const glm::vec3& centre, std::uint32_t sides) {
-    const float far = greatest_coordinate(centre);
+    const float far = max_coordinate(centre);
     if (!(radius > std::max(kNoRadius * far, kMinRadius))) {
         return 0.0F;
     }
@@ -56,7 +56,7 @@ std::uint8_t rings_of_bend(const glm::vec3& before, const glm::vec3& after) {
 }
 
 bool coincide(const glm::vec3& a, const glm::vec3& b, float radius) {
-    return !(greatest_coordinate(b - a) > kResolution * (greatest_coordinate(a) + radius));
+    return !(max_coordinate(b - a) > kResolution * (max_coordinate(a) + radius));
 }
 
 /// An odd number near `sides`. The width of a polygon varies with the view by 1 / cos(pi / 2n) for
@@ -85,7 +85,7 @@ AxisReader::AxisReader(const Skeleton& skeleton, const Axes& axes, const MeshOpt
         const std::uint32_t fewer = level == 0 ? whole : fewer_sides(whole >> level);
         sides_[i] = static_cast<std::uint8_t>(counts_ ? whole : fewer);
         widening_[i] = counts_ ? 1.0F : widening(whole, fewer);
-        most_sides_[whole] = static_cast<std::uint8_t>(fewer);
+        max_sides_[whole] = static_cast<std::uint8_t>(fewer);
     }
 }
 
@@ -266,7 +266,7 @@ bool AxisReader::begins_in_parent(Run& run) {
                    (after < kForked ? skeleton_.segments[after].base_radius : parent.tip_radius);
     std::uint32_t sides = sides_of(parent);
     if (counts_) {
-        sides = counts_->at(radius, most_sides_[sides_of(parent)]);
+        sides = counts_->at(radius, max_sides_[sides_of(parent)]);
         radius *= counts_->widening(sides_of(parent), sides);
     }
     const float hidden = kHidden * inner_radius(sides) * radius;
@@ -348,7 +348,7 @@ void AxisReader::fit_sides() {
         radii_.push_back(joint.radius);
         const bool flares = i < flare_.size() && flare_[i] > 0.0F;
         const std::uint32_t sides =
-            counts_->at(flares ? flare_[i] : joint.radius, most_sides_[joint.sides]);
+            counts_->at(flares ? flare_[i] : joint.radius, max_sides_[joint.sides]);
         joint.radius = std::min(joint.radius * counts_->widening(joint.sides, sides), kMaxRadius);
         joint.sides = static_cast<std::uint8_t>(sides);
     }

@@ -82,7 +82,7 @@ private:
     std::array<float, 256> widening_{};     // of the radius, for fewer sides
     // With a deviation, sides_ and joints have the sides of level 0 until fit_sides().
     std::optional<SideCounts> counts_;
-    std::array<std::uint8_t, kMaxSides + 1> most_sides_{}; // of the level, by the sides of level 0
+    std::array<std::uint8_t, kMaxSides + 1> max_sides_{}; // of the level, by the sides of level 0
     float hidden_ = 0.0F;          // radius of the corners of an open base, at most
     std::array<float, 2> flare_{}; // radii of the collar at any angle; 0: none
     LargeVector<float> radii_;

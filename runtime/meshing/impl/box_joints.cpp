@@ -15,17 +15,17 @@ namespace lsys {
 
 namespace {
 
-// Least part of the smaller radius of the greater one.
+// Min ratio of the smaller to the larger radius.
 constexpr float kMinTaper = 0.05F;
 // A single child continues its parent if it bends by less than 60 degrees.
 constexpr float kStraight = 0.5F;
 // Below this cosine, no side of a joint faces a child.
 constexpr float kFacing = 0.35F;
-// Least length of a child as a multiple of its way out of the joint.
+// Min length of a child as a multiple of its way out of the joint.
 constexpr float kOutside = 1.25F;
 constexpr std::size_t kSides = 5; // of a joint: four and the top
 
-/// Least extent that floats can represent at the place of the segment.
+/// Min extent that floats can represent at the place of the segment.
 bool is_drawn(const Segment& segment) {
     const glm::vec3 end = tip(segment);
     const float far =
@@ -95,9 +95,9 @@ private:
     };
     /// Half sides of the box of a segment.
     [[nodiscard]] Widths widths(const Segment& segment) const {
-        const float least = kMinTaper * std::max(segment.base_radius, segment.tip_radius);
-        return {width_ * std::max(segment.base_radius, least),
-                width_ * std::max(segment.tip_radius, least)};
+        const float min_radius = kMinTaper * std::max(segment.base_radius, segment.tip_radius);
+        return {width_ * std::max(segment.base_radius, min_radius),
+                width_ * std::max(segment.tip_radius, min_radius)};
     }
 
     void give(std::uint32_t segment, const BoxSocket& socket) {

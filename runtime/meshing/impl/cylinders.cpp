@@ -52,8 +52,8 @@ Cone cone_of(const Segment& segment, const MeshOptions& options) {
         far = std::max({far, std::abs(segment.base[i]), std::abs(end[i])});
     }
     const auto drawn = [&](float radius) {
-        const float least = std::max(4e-7F * static_cast<float>(cone.sides) * far, 1e-18F);
-        return radius > least ? std::min(radius, kMaxRadius) : 0.0F;
+        const float min_radius = std::max(4e-7F * static_cast<float>(cone.sides) * far, 1e-18F);
+        return radius > min_radius ? std::min(radius, kMaxRadius) : 0.0F;
     };
     cone.base_radius = drawn(segment.base_radius);
     cone.tip_radius = drawn(segment.tip_radius);

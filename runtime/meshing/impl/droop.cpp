@@ -14,9 +14,9 @@ namespace lsys {
 
 namespace {
 
-// Rows of prepared leaves, at most.
+// Max rows of prepared leaves.
 constexpr std::size_t kMaxRows = 16;
-// Greatest turn of a leaf that stands on its edge, radians.
+// Max turn of a leaf that stands on its edge, radians.
 constexpr float kSidewaysTurn = 2.1F;
 
 /// Part of the whole turn that is reached at a distance from the base: bending fades to the tip.
@@ -57,8 +57,8 @@ void Droop::bend(const ShapePart& part,
     across = length > 1e-5F ? across / length : glm::vec3(0.0F, 0.0F, -1.0F);
     const glm::vec3 axis(across.z, 0.0F, -across.x);
     // Sideways a blade is stiff, and would fold at its inner edge.
-    const float most = glm::mix(std::numbers::pi_v<float>, kSidewaysTurn, std::abs(across.x));
-    const float whole = amount * std::min(std::atan2(length, down.y), most);
+    const float max_turn = glm::mix(std::numbers::pi_v<float>, kSidewaysTurn, std::abs(across.x));
+    const float turn = amount * std::min(std::atan2(length, down.y), max_turn);
 
     struct Row {
         glm::vec3 centre;
@@ -67,7 +67,7 @@ void Droop::bend(const ShapePart& part,
     };
     std::array<Row, kMaxRows> rows;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-        const float angle = whole * turn_parts_[i];
+        const float angle = turn * turn_parts_[i];
         const float c = std::cos(angle);
         const float s = std::sin(angle);
         rows[i] = {.centre = glm::vec3(0.0F),

@@ -16,21 +16,21 @@ namespace lsys {
 /// `sides` sides: the mean width of a convex shape is its circumference / pi (Cauchy).
 [[nodiscard]] float widening(std::uint32_t sides, std::uint32_t fewer);
 
-/// Least number of sides, by radius, that keeps a polygon within a distance of its circle.
+/// Min number of sides, by radius, that keeps a polygon within a distance of its circle.
 class SideCounts {
 public:
     /// `deviation`: greater than 0, in the unit of radii.
     explicit SideCounts(float deviation);
 
     /// The smallest odd number for which radius * (1 - cos(pi / sides)) is at most the deviation,
-    /// and `most` if that is less. Does not fall where the radius rises. Widened, the polygon
+    /// and `max_sides` if that is less. Does not fall where the radius rises. Widened, the polygon
     /// deviates by less: its corners from outside, its sides from inside.
-    [[nodiscard]] std::uint32_t at(float radius, std::uint32_t most) const {
+    [[nodiscard]] std::uint32_t at(float radius, std::uint32_t max_sides) const {
         std::uint32_t sides = kMinSides;
-        while (sides < most && !(radius <= reach_[sides])) {
+        while (sides < max_sides && !(radius <= reach_[sides])) {
             sides += 2;
         }
-        return sides < most ? sides : most;
+        return sides < max_sides ? sides : max_sides;
     }
 
     /// widening() from a table.
@@ -39,7 +39,7 @@ public:
     }
 
 private:
-    std::array<float, kMaxSides + 1> reach_{};       // the greatest radius, by sides
+    std::array<float, kMaxSides + 1> reach_{};       // max radius, by sides
     std::array<float, kMaxSides + 1> half_around_{}; // half of the circumference
 };
 

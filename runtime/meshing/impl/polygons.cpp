@@ -42,7 +42,7 @@ std::span<const glm::vec3> corners_of(const Skeleton& skeleton, const Polygon& p
 /// Newell's normal; for a polygon whose parts cancel each other, that of its largest corner.
 bool find_normal(std::span<const glm::vec3> corners, glm::dvec3& normal) {
     glm::dvec3 largest{0.0};
-    double largest_length = 0.0;
+    double max_length = 0.0;
     double extent = 0.0;
     const glm::dvec3 first(corners.front());
     normal = glm::dvec3(0.0);
@@ -52,16 +52,16 @@ bool find_normal(std::span<const glm::vec3> corners, glm::dvec3& normal) {
         const glm::dvec3 area = glm::cross(a, b);
         const double length = std::sqrt(glm::dot(area, area));
         extent = std::max({extent, glm::dot(a, a), glm::dot(b, b)});
-        if (length > largest_length) {
-            largest_length = length;
+        if (length > max_length) {
+            max_length = length;
             largest = area;
         }
         normal += area;
     }
-    if (!(largest_length > 1e-13 * extent)) {
+    if (!(max_length > 1e-13 * extent)) {
         return false;
     }
-    if (!(std::sqrt(glm::dot(normal, normal)) > 1e-9 * largest_length)) {
+    if (!(std::sqrt(glm::dot(normal, normal)) > 1e-9 * max_length)) {
         normal = largest;
     }
     return normalize(normal);

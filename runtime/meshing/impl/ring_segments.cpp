@@ -141,12 +141,12 @@ private:
 
     [[nodiscard]] std::uint32_t
     find_nearest(const glm::vec3& point, std::uint32_t first, std::uint32_t end) const {
-        double least = std::numeric_limits<double>::max();
+        double min_distance = std::numeric_limits<double>::max();
         std::uint32_t nearest = first;
         for (std::uint32_t k = first; k < end; ++k) {
             const double away = distance(point, skeleton_.segments[chain_[k]]);
-            if (away < least) {
-                least = away;
+            if (away < min_distance) {
+                min_distance = away;
                 nearest = k;
             }
         }

@@ -30,8 +30,8 @@ private:
         std::uint32_t corner = 0;
         std::uint32_t previous = kNone;
         std::uint32_t next = kNone;
-        std::uint32_t order = 0; // interleaved bits of the coordinates
-        std::uint32_t lower = kNone;
+        std::uint32_t order = 0;     // interleaved bits of the coordinates
+        std::uint32_t lower = kNone; // neighbours in this order
         std::uint32_t higher = kNone;
     };
 

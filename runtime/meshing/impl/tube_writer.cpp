@@ -80,7 +80,7 @@ TubeWriter::TubeWriter(const MeshBlock& block, const MeshOptions& options, std::
 
 void TubeWriter::write(const Run& run) {
     at_ = begin(run);
-    go(run, run.joints.size());
+    advance(run, run.joints.size());
 }
 
 TubeWriter::Place TubeWriter::begin(const Run& run) const {
@@ -95,7 +95,7 @@ TubeWriter::Place TubeWriter::begin(const Run& run) const {
 
 void TubeWriter::write(const Run& run, Place& place, std::size_t end) {
     at_ = place;
-    go(run, end);
+    advance(run, end);
     place = at_;
 }
 
@@ -111,12 +111,12 @@ void TubeWriter::skip(const Run& run, Place& place, std::size_t end) const {
         const std::uint32_t rings = joint.rings + (joint.colour != before.colour ? 1U : 0U);
         place.vertex += std::uint64_t{rings} * columns_of(joint.sides, options_);
         place.arc += static_cast<double>(before.length);
-        carry(before.heading, joint.heading, place);
+        transport_normal(before.heading, joint.heading, place);
     }
     place.joint = end;
 }
 
-void TubeWriter::go(const Run& run, std::size_t end) {
+void TubeWriter::advance(const Run& run, std::size_t end) {
     const std::span<const Joint> joints = run.joints;
     const std::size_t last = joints.size() - 1;
     std::optional<BarkNoise> noise;
@@ -167,7 +167,7 @@ void TubeWriter::go(const Run& run, std::size_t end) {
             ring.colour = joint.colour;
             put_ring(ring);
         }
-        carry(before.heading, joint.heading, at_);
+        transport_normal(before.heading, joint.heading, at_);
     }
     at_.joint = end;
     at_.arc = arc;
@@ -177,7 +177,7 @@ void TubeWriter::go(const Run& run, std::size_t end) {
 }
 
 /// Carries the normal of the place around a joint from one edge to the next, both unit.
-void TubeWriter::carry(const glm::vec3& in, const glm::vec3& out, Place& place) {
+void TubeWriter::transport_normal(const glm::vec3& in, const glm::vec3& out, Place& place) {
     if (in == out) {
         return;
     }

@@ -61,10 +61,10 @@ private:
         std::uint16_t colour = 0;
     };
 
-    void go(const Run& run, std::size_t end);
+    void advance(const Run& run, std::size_t end);
     void set_straight(const glm::vec3& edge, Ring& ring) const;
     void set_mitred(const glm::vec3& in, const glm::vec3& out, Ring& ring) const;
-    static void carry(const glm::vec3& in, const glm::vec3& out, Place& place);
+    static void transport_normal(const glm::vec3& in, const glm::vec3& out, Place& place);
     void bend(const Joint& before, const Joint& joint, Ring& ring);
     void put_ring(const Ring& ring);
     void put_textured(const Ring& ring, std::uint64_t first);

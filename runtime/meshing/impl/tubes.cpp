@@ -61,10 +61,10 @@ struct Piece {
 };
 
 std::vector<Piece> make_pieces(std::uint64_t segments, std::size_t colours) {
-    const std::uint64_t most =
+    const std::uint64_t max_pieces =
         std::max<std::uint64_t>(kMaxLists / std::max<std::size_t>(colours, 1), 1);
     const std::uint64_t size = std::max(std::clamp(segments / kPieces, kMinOfPiece, kMaxOfPiece),
-                                        (segments + most - 1) / most);
+                                        (segments + max_pieces - 1) / max_pieces);
     std::vector<Piece> pieces;
     for (std::uint64_t begin = 0; begin < segments; begin += size) {
         Piece& piece = pieces.emplace_back();

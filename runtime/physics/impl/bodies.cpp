@@ -21,12 +21,12 @@ namespace lsys {
 
 namespace {
 
-constexpr double kShown = 0.5; // share of a sheet's area facing the wind
+constexpr double kExposedShare = 0.5; // of a sheet's area facing the wind
 
 double magnitude(float value) {
-    const auto greatest = static_cast<double>(std::numeric_limits<float>::max());
+    const auto max_float = static_cast<double>(std::numeric_limits<float>::max());
     const auto given = static_cast<double>(value);
-    return given > 0.0 ? std::min(given, greatest) : 0.0;
+    return given > 0.0 ? std::min(given, max_float) : 0.0;
 }
 
 double finite_or_0(double value) {
@@ -135,7 +135,7 @@ void add_sheet(double area, double surface_mass, const glm::dvec3& place, Body& 
     body.mass += mass;
     load.first_moment += mass * place;
     body.inertia += point_inertia(mass, place);
-    load.sail += kShown * area;
+    load.sail += kExposedShare * area;
 }
 
 } // namespace

@@ -27,7 +27,7 @@ constexpr double kMinInertia = 1e-13;         // of the trace: bound of rounding
 constexpr double kMaxTurn = std::numbers::pi; // in a step: faster motion cannot be represented
 
 /// Quadratic forms of a body and of its joint.
-struct Own {
+struct BodyForms {
     Symmetric spin_spin;
     Rows spin_velocity;
     Symmetric velocity_velocity;
@@ -58,11 +58,11 @@ void add_stiffness(const glm::dvec3& arm,
             -0.5 * f * (arm.y * force.z + arm.z * force.y)};
 }
 
-Own own_forms(const Body& body,
-              const BodyMotion& motion,
-              const glm::dquat& turn,
-              const glm::dmat3& axes,
-              const Forces& forces) {
+BodyForms own_forms(const Body& body,
+                    const BodyMotion& motion,
+                    const glm::dquat& turn,
+                    const glm::dmat3& axes,
+                    const Forces& forces) {
     const double h = forces.step;
     const glm::dvec3 centre = axes * body.centre;
     const Symmetric inertia = rotated(body.inertia, axes);
@@ -73,7 +73,7 @@ Own own_forms(const Body& body,
 
     glm::dvec3 force = body.mass * forces.gravity;
     double hold = 0.0;
-    Own own;
+    BodyForms own;
     if (forces.drag > 0.0) {
         hold = wind_drag(body, turn, motion.velocity + arm_velocity, forces);
         own.wind = hold * forces.wind;
@@ -97,7 +97,10 @@ Own own_forms(const Body& body,
 }
 
 /// Adds the form of a child, whose base is at `offset` from its parent's, to its parent.
-void add_child(const Reduced& child, const glm::dvec3& offset, const Forces& forces, Own& own) {
+void add_child(const Reduced& child,
+               const glm::dvec3& offset,
+               const Forces& forces,
+               BodyForms& own) {
     // M = spin_velocity + [r] velocity_velocity, rows; then
     // spin_spin + M^T-like terms of u = u_p + w_p x r, see the head of this file.
     const Rows n = rows_of(child.velocity_velocity);
@@ -130,7 +133,7 @@ void add_child(const Reduced& child, const glm::dvec3& offset, const Forces& for
 }
 
 /// Eliminates the body's own spin from its forms.
-void eliminate(const Own& own,
+void eliminate(const BodyForms& own,
                const Body& body,
                const BodyMotion& motion,
                const Forces& forces,
@@ -156,7 +159,7 @@ void eliminate(const Own& own,
     Symmetric sum = inertia;
     sum += joint;
     if (forces.exactness > 0.0 && !is_positive(sum)) {
-        const double more = 2.0 * std::abs(least_eigenvalue(sum));
+        const double more = 2.0 * std::abs(min_eigenvalue(sum));
         inertia.add_diagonal(more);
         sum.add_diagonal(more);
     }
@@ -205,7 +208,7 @@ void solve_spins(PlantBodies& plant, const Forces& forces, Workers& workers) {
             const Body& body = bodies[b];
             const glm::dquat& turn = plant.poses[b].turn;
             const glm::dmat3 axes = glm::mat3_cast(turn);
-            Own own = own_forms(body, plant.motion[b], turn, axes, forces);
+            BodyForms own = own_forms(body, plant.motion[b], turn, axes, forces);
             for (std::uint32_t c = body.first_child; c < body.first_child + body.child_count; ++c) {
                 add_child(plant.reduced[c & plant.reduced_mask], axes * bodies[c].offset, forces,
                           own);

@@ -66,17 +66,18 @@ struct Symmetric {
 
 /// Whether `a` is positive definite, with a margin for rounding.
 [[nodiscard]] inline bool is_positive(const Symmetric& a) {
-    const double least = 1e-12 * a.trace();
-    if (!(a.xx > least)) {
+    const double min_pivot = 1e-12 * a.trace();
+    if (!(a.xx > min_pivot)) {
         return false;
     }
     const double d1 = a.yy - a.xy * a.xy / a.xx;
     const double e21 = a.yz - a.xz * a.xy / a.xx;
-    return least >= 0.0 && d1 > least && a.zz - a.xz * a.xz / a.xx - e21 * e21 / d1 > least;
+    return min_pivot >= 0.0 && d1 > min_pivot &&
+           a.zz - a.xz * a.xz / a.xx - e21 * e21 / d1 > min_pivot;
 }
 
 /// The smallest eigenvalue of `a`, by Smith 1961, "Eigenvalues of a symmetric 3 x 3 matrix".
-[[nodiscard]] inline double least_eigenvalue(const Symmetric& a) {
+[[nodiscard]] inline double min_eigenvalue(const Symmetric& a) {
     const double mean = a.trace() / 3.0;
     const double x = a.xx - mean;
     const double y = a.yy - mean;

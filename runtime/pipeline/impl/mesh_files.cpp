@@ -160,7 +160,7 @@ private:
 
     void read(const Found& found, const Project& project) {
         const std::string& path = found.path;
-        const auto say = [&](std::string message) {
+        const auto add_note = [&](std::string message) {
             Library& library = *found.library;
             warn(library.path, library.text, library.file, found.picture->file, std::move(message));
         };
@@ -178,11 +178,11 @@ private:
             budget_.pictures[path] = picture;
         }
         if (found.picture->has_options) {
-            say("options before the name of a picture are left out");
+            add_note("options before the name of a picture are left out");
         }
         if (mesh_.texture_coordinates.empty()) {
-            say(fmt::format("`{}` has no texture coordinates to show this picture by",
-                            shown_path(path_)));
+            add_note(fmt::format("`{}` has no texture coordinates to show this picture by",
+                                 shown_path(path_)));
             return;
         }
         mesh_.picture = std::move(picture);

@@ -14,8 +14,8 @@ namespace lsys {
 
 namespace {
 
-constexpr double kLeastSide = 0.25;     // m, of a region: several steps of binary32 anywhere
-constexpr double kLeastSpacing = 0.001; // m
+constexpr double kMinSide = 0.25;     // m, of a region: several steps of binary32 anywhere
+constexpr double kMinSpacing = 0.001; // m
 /// Max places to sample in a density map, which may be black nearly everywhere.
 constexpr double kMaxMapPlaces = 1.0e9;
 /// Trees of a Poisson disk sample in a square of the spacing: random sequential adsorption covers
@@ -25,19 +25,19 @@ constexpr double kDiskTrees = 0.70;
 struct Bound {
     std::string_view name;
     double value;
-    double least;
-    double most;
+    double min;
+    double max;
 };
 
 bool within(const Bound& bound) {
-    return bound.value >= bound.least && bound.value <= bound.most; // false for NaN
+    return bound.value >= bound.min && bound.value <= bound.max; // false for NaN
 }
 
 Result<void> check_growth(std::size_t number, const SpeciesGrowth& growth) {
     const auto wide = [](float value) { return static_cast<double>(value); };
     const std::array<Bound, 8> bounds{
-        Bound{"greatest radius", wide(growth.greatest_radius), 0.01, 1000.0},
-        Bound{"growth rate", wide(growth.rate), 1.0e-4, wide(growth.greatest_radius)},
+        Bound{"greatest radius", wide(growth.max_radius), 0.01, 1000.0},
+        Bound{"growth rate", wide(growth.rate), 1.0e-4, wide(growth.max_radius)},
         Bound{"tolerance of shade", wide(growth.tolerance), 0.0, 1.0},
         Bound{"spread of vigour", wide(growth.vigour_spread), 0.0, 0.9},
         Bound{"lifespan", static_cast<double>(growth.lifespan), 1.0, kMaxYears},
@@ -48,7 +48,7 @@ Result<void> check_growth(std::size_t number, const SpeciesGrowth& growth) {
     for (const Bound& bound : bounds) {
         if (!within(bound)) {
             return Error{fmt::format("the {} of species {} is {}; it must be from {} to {}",
-                                     bound.name, number, bound.value, bound.least, bound.most)};
+                                     bound.name, number, bound.value, bound.min, bound.max)};
         }
     }
     return {};
@@ -67,11 +67,11 @@ Result<void> check_species(const PlacementOptions& options) {
                                      species.share)};
         }
         shares += species.share;
-        if (!(species.least_scale > 0.0F && species.least_scale <= species.greatest_scale &&
-              std::isfinite(species.greatest_scale))) {
+        if (!(species.min_scale > 0.0F && species.min_scale <= species.max_scale &&
+              std::isfinite(species.max_scale))) {
             return Error{fmt::format(
                 "the scales of species {} are from {} to {}; they must be above 0 and in order", i,
-                species.least_scale, species.greatest_scale)};
+                species.min_scale, species.max_scale)};
         }
         if (!(species.lowest <= species.highest) || std::isnan(species.steepest)) {
             return Error{fmt::format(
@@ -104,13 +104,13 @@ Result<double> expected_trees(const PlacementOptions& options) {
     const auto check = [](const Bound& bound) -> Result<void> {
         if (!within(bound)) {
             return Error{fmt::format("the {} of the placement is {}; it must be from {} to {}",
-                                     bound.name, bound.value, bound.least, bound.most)};
+                                     bound.name, bound.value, bound.min, bound.max)};
         }
         return {};
     };
-    const Bound spacing{"spacing", options.spacing, kLeastSpacing, kFarthest};
-    const Bound density{"density", options.density, 1.0 / (kFarthest * kFarthest),
-                        1.0 / (kLeastSpacing * kLeastSpacing)};
+    const Bound spacing{"spacing", options.spacing, kMinSpacing, kMaxCoordinate};
+    const Bound density{"density", options.density, 1.0 / (kMaxCoordinate * kMaxCoordinate),
+                        1.0 / (kMinSpacing * kMinSpacing)};
     const double area = options.region.area();
     Result<void> checked;
     double trees = 0.0;
@@ -167,9 +167,9 @@ Result<double> check_placement(const PlacementOptions& options) {
     if (const Result<void> checked = check_region(options.region); !checked) {
         return checked.error();
     }
-    if (options.region.width < kLeastSide || options.region.depth < kLeastSide) {
+    if (options.region.width < kMinSide || options.region.depth < kMinSide) {
         return Error{fmt::format("a region of {} by {} m is too small for trees; the least is {} m",
-                                 options.region.width, options.region.depth, kLeastSide)};
+                                 options.region.width, options.region.depth, kMinSide)};
     }
     if (const Result<void> checked = check_species(options); !checked) {
         return checked.error();

@@ -31,7 +31,7 @@ Order draw_order(std::uint64_t key, std::uint32_t cell) {
         const PhiloxBlock words = placement_draws(key, cell, kCellBlock + block);
         for (std::uint32_t i = 0; i < 4; ++i) {
             const std::uint32_t at = 4 * block + i;
-            std::swap(order[at], order[at + below(words[i], kPlaces - at)]);
+            std::swap(order[at], order[at + number_below(words[i], kPlaces - at)]);
         }
     }
     return order;

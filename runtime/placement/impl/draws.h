@@ -35,8 +35,8 @@ placement_draws(std::uint64_t key, std::uint64_t position, std::uint32_t block) 
     return static_cast<double>(word) * 0x1p-32;
 }
 
-/// A number below `count`.
-[[nodiscard]] inline std::uint32_t below(std::uint32_t word, std::uint32_t count) {
+/// A word as a number below `count`.
+[[nodiscard]] inline std::uint32_t number_below(std::uint32_t word, std::uint32_t count) {
     return static_cast<std::uint32_t>((std::uint64_t{word} * count) >> 32U);
 }
 

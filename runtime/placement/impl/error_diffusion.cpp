@@ -1,10 +1,10 @@
 // DensityMap: a density map turned into places by error diffusion (Floyd and Steinberg 1976, "An
 // adaptive algorithm for spatial greyscale"), as Deussen et al. 1998, "Realistic modeling and
 // rendering of plant ecosystems", section 4.2, place plants. The region is cut into squares in
-// which white means one tree. Each square is given the mean of the map over it plus what its
-// neighbours owe; half a tree or more becomes one, at a drawn place in the square. The threshold is
-// drawn around a half and rows run to and fro (Ulichney 1988, "Dithering with blue noise"), which
-// breaks up the patterns of plain error diffusion and changes no sum.
+// which white means one tree. Each square is given the mean of the map over it plus the error of
+// its neighbours; half a tree or more becomes one, at a drawn place in the square. The threshold is
+// drawn around a half and rows run alternately forward and back (Ulichney 1988, "Dithering with
+// blue noise"), which breaks up the patterns of plain error diffusion and changes no sum.
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/grey_sampler.h"
 #include "runtime/placement/impl/methods.h"
@@ -44,22 +44,22 @@ LargeVector<std::uint32_t> diffuse(const PlacementOptions& options, const Square
     const GreySampler grey(*options.density_map, options.map_region.value_or(options.region));
     LargeVector<std::uint32_t> chosen;
     // a square of margin on each side takes the error beyond the border
-    std::vector<double> owed(squares.columns + 2);
-    std::vector<double> owed_next(squares.columns + 2);
+    std::vector<double> error(squares.columns + 2);
+    std::vector<double> next_error(squares.columns + 2);
     for (std::uint32_t row = 0; row < squares.rows; ++row) {
-        const bool forth = (row & 1U) == 0;
-        std::fill(owed_next.begin(), owed_next.end(), 0.0);
+        const bool is_forward = (row & 1U) == 0;
+        std::fill(next_error.begin(), next_error.end(), 0.0);
         for (std::uint32_t step = 0; step < squares.columns; ++step) {
-            const std::uint32_t column = forth ? step : squares.columns - 1 - step;
+            const std::uint32_t column = is_forward ? step : squares.columns - 1 - step;
             const std::size_t here = column + 1;
-            const std::size_t ahead = forth ? here + 1 : here - 1;
-            const std::size_t behind = forth ? here - 1 : here + 1;
+            const std::size_t ahead = is_forward ? here + 1 : here - 1;
+            const std::size_t behind = is_forward ? here - 1 : here + 1;
             const double trees =
                 options.density * grey.integral({options.region.x + column * squares.width,
                                                  options.region.z + row * squares.depth,
                                                  squares.width, squares.depth});
             const std::uint32_t number = row * squares.columns + column;
-            const double wanted = trees + owed[here];
+            const double wanted = trees + error[here];
             double left = wanted;
             if (wanted > 0.5 * (1.0 - kThresholdSpan)) { // else no threshold is as low
                 const double threshold =
@@ -70,18 +70,18 @@ LargeVector<std::uint32_t> diffuse(const PlacementOptions& options, const Square
                     left -= 1.0;
                 }
             }
-            owed[ahead] += left * (7.0 / 16.0);
-            owed_next[behind] += left * (3.0 / 16.0);
-            owed_next[here] += left * (5.0 / 16.0);
-            owed_next[ahead] += left * (1.0 / 16.0);
+            error[ahead] += left * (7.0 / 16.0);
+            next_error[behind] += left * (3.0 / 16.0);
+            next_error[here] += left * (5.0 / 16.0);
+            next_error[ahead] += left * (1.0 / 16.0);
         }
         // Nothing is lost at the border.
-        owed_next[1] += owed_next.front();
-        owed_next[squares.columns] += owed_next.back();
-        owed_next[forth ? squares.columns : 1] += owed[forth ? squares.columns + 1 : 0];
-        owed_next.front() = 0.0;
-        owed_next.back() = 0.0;
-        std::swap(owed, owed_next);
+        next_error[1] += next_error.front();
+        next_error[squares.columns] += next_error.back();
+        next_error[is_forward ? squares.columns : 1] += error[is_forward ? squares.columns + 1 : 0];
+        next_error.front() = 0.0;
+        next_error.back() = 0.0;
+        std::swap(error, next_error);
     }
     return chosen;
 }

@@ -27,14 +27,14 @@ double GreySampler::at(double x, double z) const {
 
 double GreySampler::integral(const Region& region) const {
     // the region in pixels, clipped to the map
-    const auto cut = [](double at, std::uint32_t count) {
+    const auto clip = [](double at, std::uint32_t count) {
         return std::clamp(at, 0.0, static_cast<double>(count));
     };
-    const double left = cut((region.x - span_.x) * columns_per_metre_, map_.columns);
+    const double left = clip((region.x - span_.x) * columns_per_metre_, map_.columns);
     const double right =
-        cut((region.x + region.width - span_.x) * columns_per_metre_, map_.columns);
-    const double top = cut((region.z - span_.z) * rows_per_metre_, map_.rows);
-    const double bottom = cut((region.z + region.depth - span_.z) * rows_per_metre_, map_.rows);
+        clip((region.x + region.width - span_.x) * columns_per_metre_, map_.columns);
+    const double top = clip((region.z - span_.z) * rows_per_metre_, map_.rows);
+    const double bottom = clip((region.z + region.depth - span_.z) * rows_per_metre_, map_.rows);
     double sum = 0.0;
     for (auto row = static_cast<std::uint32_t>(top); row < bottom; ++row) {
         double row_sum = 0.0;

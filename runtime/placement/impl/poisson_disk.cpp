@@ -123,8 +123,9 @@ LargeVector<glm::vec2> DiskSampler::sample() {
     add({coordinate_within(region.x, region.width, first[0]),
          coordinate_within(region.z, region.depth, first[1])});
     for (std::uint64_t step = 0; !active_.empty(); ++step) {
-        const std::uint32_t chosen = below(placement_draws(options_.key, step, kStepBlock)[0],
-                                           static_cast<std::uint32_t>(active_.size()));
+        const std::uint32_t chosen =
+            number_below(placement_draws(options_.key, step, kStepBlock)[0],
+                         static_cast<std::uint32_t>(active_.size()));
         if (const auto point = find_around(points_[active_[chosen]], step)) {
             add(*point);
         } else {

@@ -59,18 +59,20 @@ std::uint32_t TreeMaker::choose_species(std::uint32_t word, float x, float heigh
     return last;
 }
 
-Tree TreeMaker::dress(std::uint32_t number, std::uint16_t species, const PhiloxBlock& words) const {
+Tree TreeMaker::make_appearance(std::uint32_t number,
+                                std::uint16_t species,
+                                const PhiloxBlock& words) const {
     const PlacementSpecies& kind = options_.species[species];
     Tree tree;
     tree.yaw = kTurn * unit_interval(words[1]);
-    tree.scale = draw_in_range(kind.least_scale, kind.greatest_scale, unit_interval(words[2]));
+    tree.scale = draw_in_range(kind.min_scale, kind.max_scale, unit_interval(words[2]));
     tree.number = number;
     tree.species = species;
     return tree;
 }
 
-Tree TreeMaker::looks_of(std::uint32_t number, std::uint16_t species) const {
-    return dress(number, species, placement_draws(options_.key, number, kLooksBlock));
+Tree TreeMaker::appearance_of(std::uint32_t number, std::uint16_t species) const {
+    return make_appearance(number, species, placement_draws(options_.key, number, kLooksBlock));
 }
 
 void TreeMaker::make(std::uint32_t number, float x, float z, TreeChunk& chunk) const {
@@ -82,7 +84,7 @@ void TreeMaker::make(std::uint32_t number, float x, float z, TreeChunk& chunk) c
         ++chunk.refused;
         return;
     }
-    Tree tree = dress(number, static_cast<std::uint16_t>(species), words);
+    Tree tree = make_appearance(number, static_cast<std::uint16_t>(species), words);
     tree.position = {x, height, z};
     chunk.trees.push_back(tree);
 }

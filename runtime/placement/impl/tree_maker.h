@@ -27,7 +27,7 @@ public:
     /// Whether `species` can live at a place.
     [[nodiscard]] bool can_live(std::uint16_t species, float x, float z) const;
     /// The tree `number` of a known species, without position and age.
-    [[nodiscard]] Tree looks_of(std::uint32_t number, std::uint16_t species) const;
+    [[nodiscard]] Tree appearance_of(std::uint32_t number, std::uint16_t species) const;
 
 private:
     static constexpr std::uint32_t kNoSpecies = 0xFFFFFFFFu;
@@ -35,7 +35,7 @@ private:
     [[nodiscard]] std::uint32_t
     choose_species(std::uint32_t word, float x, float height, float z) const;
     [[nodiscard]] Tree
-    dress(std::uint32_t number, std::uint16_t species, const PhiloxBlock& words) const;
+    make_appearance(std::uint32_t number, std::uint16_t species, const PhiloxBlock& words) const;
 
     const PlacementOptions& options_;
     const Terrain& terrain_;

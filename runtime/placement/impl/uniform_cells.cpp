@@ -14,16 +14,16 @@ namespace lsys {
 namespace {
 
 constexpr std::uint32_t kPlaceBits = 6;
-constexpr std::uint32_t kMostPlaces = 1U << kPlaceBits; // more come once in 10^18 cells
+constexpr std::uint32_t kMaxPlaces = 1U << kPlaceBits; // more come once in 10^18 cells
 constexpr double kMeanPlaces = 16.0;
 constexpr double kNoPlaceChance = 1.1253517471925912e-7; // exp(-16)
 
 /// Chances of at most 0, 1, ... places, times 2^32.
 constexpr auto kThresholds = [] {
-    std::array<std::uint64_t, kMostPlaces> thresholds{};
+    std::array<std::uint64_t, kMaxPlaces> thresholds{};
     double chance = kNoPlaceChance;
     double sum = 0.0;
-    for (std::uint32_t places = 0; places < kMostPlaces; ++places) {
+    for (std::uint32_t places = 0; places < kMaxPlaces; ++places) {
         sum += chance;
         thresholds[places] = static_cast<std::uint64_t>(sum * 0x1p32);
         chance *= kMeanPlaces / (places + 1);

@@ -63,9 +63,10 @@ private:
     void read_line(std::uint32_t line) {
         line_ = line;
         offsets_.clear();
-        const std::uint32_t shown = std::min(line, source_.line_count());
-        std::uint32_t at = source_.line_begin(shown);
-        const std::uint32_t end = at + static_cast<std::uint32_t>(source_.line_text(shown).size());
+        const std::uint32_t clamped = std::min(line, source_.line_count());
+        std::uint32_t at = source_.line_begin(clamped);
+        const std::uint32_t end =
+            at + static_cast<std::uint32_t>(source_.line_text(clamped).size());
         while (at < end) {
             offsets_.push_back(at);
             at += character_length(source_.text().substr(at, end - at));
@@ -128,9 +129,9 @@ SceneValue convert(const toml::node& node, std::uint32_t level, Places& places) 
         value.text = node.as_string()->get();
         break;
     case toml::node_type::integer:
-        value.kind = SceneValueKind::Whole;
-        value.whole = node.as_integer()->get();
-        value.real = static_cast<double>(value.whole);
+        value.kind = SceneValueKind::Integer;
+        value.integer = node.as_integer()->get();
+        value.real = static_cast<double>(value.integer);
         break;
     case toml::node_type::floating_point:
         value.kind = SceneValueKind::Real;
@@ -197,7 +198,7 @@ void report_syntax(const toml::parse_error& error, Places& places, Diagnostics& 
 
 /// toml++ and the reader of its tables recurse over the parts of a key. toml++ limits the depth of
 /// values, but not of keys.
-constexpr std::uint32_t kMostKeyParts = 16;
+constexpr std::uint32_t kMaxKeyParts = 16;
 
 bool is_bare(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -246,7 +247,7 @@ std::optional<SourceSpan> find_long_key(FileId file, std::string_view text) {
         if (is_part) {
             begin = after_dot ? begin : at;
             parts = after_dot ? parts + 1 : 1;
-            if (parts > kMostKeyParts) {
+            if (parts > kMaxKeyParts) {
                 return SourceSpan{file, static_cast<std::uint32_t>(begin),
                                   static_cast<std::uint32_t>(end)};
             }
@@ -269,7 +270,7 @@ std::string_view kind_text(SceneValueKind kind) {
         return "a list";
     case SceneValueKind::Text:
         return "a text";
-    case SceneValueKind::Whole:
+    case SceneValueKind::Integer:
         return "a whole number";
     case SceneValueKind::Real:
         return "a number with a fraction";
@@ -293,7 +294,7 @@ read_toml(FileId file, const SourceMap& sources, Diagnostics& diagnostics) {
     Places places(file, source);
     if (const std::optional<SourceSpan> key = find_long_key(file, source.text())) {
         diagnostics.add(DiagnosticCode::SceneSyntax, *key,
-                        fmt::format("a key of more than {} parts", kMostKeyParts));
+                        fmt::format("a key of more than {} parts", kMaxKeyParts));
         return std::nullopt;
     }
     const toml::parse_result result = toml::parse(source.text());

@@ -12,15 +12,15 @@
 
 namespace lsys {
 
-enum class SceneValueKind : std::uint8_t { Table, List, Text, Whole, Real, Truth, Date };
+enum class SceneValueKind : std::uint8_t { Table, List, Text, Integer, Real, Truth, Date };
 
 struct SceneEntry;
 
 struct SceneValue {
     SceneValueKind kind = SceneValueKind::Table;
     SourceSpan span;                 // of a table, its heading or the whole inline table
-    std::int64_t whole = 0;          // Whole
-    double real = 0.0;               // Real, and Whole rounded
+    std::int64_t integer = 0;        // Integer
+    double real = 0.0;               // Real, and Integer rounded
     std::string text;                // Text
     std::vector<SceneValue> items;   // List
     std::vector<SceneEntry> entries; // Table

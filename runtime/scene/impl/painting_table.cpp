@@ -14,8 +14,8 @@ namespace lsys {
 namespace {
 
 constexpr std::size_t kNumbersOfTree = 5;
-constexpr double kLeastScale = 1e-3;
-constexpr double kGreatestScale = 1e3;
+constexpr double kMinScale = 1e-3;
+constexpr double kMaxScale = 1e3;
 
 /// One row of `trees`: species, x, z, yaw, scale.
 void read_tree(const SceneValue& row,
@@ -24,26 +24,26 @@ void read_tree(const SceneValue& row,
                Painting& painting) {
     if (row.kind != SceneValueKind::List || row.items.size() != kNumbersOfTree ||
         row.items[0].kind != SceneValueKind::Text) {
-        reader.bad(row.span,
-                   "a painted tree is a list: its species' name, x, z, yaw in degrees, scale");
+        reader.report_bad_value(
+            row.span, "a painted tree is a list: its species' name, x, z, yaw in degrees, scale");
         return;
     }
     const auto species = std::find(names.begin(), names.end(), row.items[0].text);
     if (species == names.end()) {
-        Diagnostic& error = reader.bad(row.items[0].span,
-                                       fmt::format("there is no species `{}`", row.items[0].text));
+        Diagnostic& error = reader.report_bad_value(
+            row.items[0].span, fmt::format("there is no species `{}`", row.items[0].text));
         if (const auto nearest = nearest_name(row.items[0].text, names)) {
             error.help.push_back(fmt::format("did you mean `{}`?", *nearest));
         }
         return;
     }
-    const NumberRange place{-kFarthest, kFarthest, false, "m"};
+    const NumberRange place{-kMaxCoordinate, kMaxCoordinate, false, "m"};
     const auto x = reader.number_of(row.items[1], "x of a painted tree", place);
     const auto z = reader.number_of(row.items[2], "z of a painted tree", place);
     const auto yaw = reader.number_of(row.items[3], "the yaw of a painted tree",
                                       {-360.0, 360.0, false, "degrees"});
     const auto scale = reader.number_of(row.items[4], "the scale of a painted tree",
-                                        {kLeastScale, kGreatestScale, false, {}});
+                                        {kMinScale, kMaxScale, false, {}});
     if (x && z && yaw && scale) {
         painting.trees.push_back({static_cast<std::uint16_t>(species - names.begin()),
                                   static_cast<float>(*x), static_cast<float>(*z),
@@ -62,11 +62,12 @@ void read_painting_table(const SceneValue* table, Scene& scene, Diagnostics& dia
             return nullptr;
         }
         if (entry->value.kind != SceneValueKind::List) {
-            reader.bad(entry->value.span, fmt::format("`{}` must be a list", key));
+            reader.report_bad_value(entry->value.span, fmt::format("`{}` must be a list", key));
             return nullptr;
         }
         if (entry->value.items.size() > kMaxPainted) {
-            reader.bad(entry->value.span, fmt::format("`{}` has more than 10,000,000 trees", key));
+            reader.report_bad_value(entry->value.span,
+                                    fmt::format("`{}` has more than 10,000,000 trees", key));
             return nullptr;
         }
         return &entry->value.items;
@@ -83,8 +84,8 @@ void read_painting_table(const SceneValue* table, Scene& scene, Diagnostics& dia
     if (const std::vector<SceneValue>* const erased = list("erased")) {
         for (const SceneValue& number : *erased) {
             if (const auto value =
-                    reader.whole_of(number, "the number of an erased tree",
-                                    {0, std::numeric_limits<std::uint32_t>::max()})) {
+                    reader.integer_of(number, "the number of an erased tree",
+                                      {0, std::numeric_limits<std::uint32_t>::max()})) {
                 scene.painting.erased.push_back(static_cast<std::uint32_t>(*value));
             }
         }

@@ -32,12 +32,12 @@ constexpr std::array<MethodRow, 8> kMethods{{
     {.name = "density-cells", .density = true, .map = true},
 }};
 
-constexpr std::uint64_t kUsualCount = 1000;
-constexpr double kUsualSpacing = 5.0;  // m
-constexpr double kUsualDensity = 0.04; // 400 per hectare
-constexpr std::uint32_t kUsualYears = 100;
-constexpr double kLeastSpacing = 0.001; // m
-constexpr double kDiskTrees = 0.7;      // PoissonDisk: trees per square of the spacing
+constexpr std::uint64_t kDefaultCount = 1000;
+constexpr double kDefaultSpacing = 5.0;  // m
+constexpr double kDefaultDensity = 0.04; // 400 per hectare
+constexpr std::uint32_t kDefaultYears = 100;
+constexpr double kMinSpacing = 0.001; // m
+constexpr double kDiskTrees = 0.7;    // PoissonDisk: trees per square of the spacing
 
 /// The sentence about keys that the method does not read.
 std::string keys_of(const MethodRow& method) {
@@ -60,10 +60,10 @@ void check_disk(TableReader& reader, const PlacementOptions& placement) {
         kDiskTrees * placement.region.area() / (placement.spacing * placement.spacing);
     if (placement.method == PlacementMethod::PoissonDisk &&
         trees > static_cast<double>(kMaxTrees)) {
-        reader.bad(reader.span_of("spacing"),
-                   fmt::format("about {} trees; one placement has at most {}",
-                               grouped_digits(static_cast<std::uint64_t>(trees)),
-                               grouped_digits(kMaxTrees)));
+        reader.report_bad_value(reader.span_of("spacing"),
+                                fmt::format("about {} trees; one placement has at most {}",
+                                            grouped_digits(static_cast<std::uint64_t>(trees)),
+                                            grouped_digits(kMaxTrees)));
     }
 }
 
@@ -89,44 +89,45 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
         if (!wanted) {
             static_cast<void>(reader.entry(key));
             if (!any) {
-                reader.refuse(key, because,
-                              reader.has("method") ? reader.span_of("method") : SourceSpan{});
+                reader.report_conflicting_key(
+                    key, because, reader.has("method") ? reader.span_of("method") : SourceSpan{});
             }
         }
         return wanted;
     };
-    placement.count = kUsualCount;
-    placement.spacing = kUsualSpacing;
-    placement.density = kUsualDensity;
-    placement.years = kUsualYears;
+    placement.count = kDefaultCount;
+    placement.spacing = kDefaultSpacing;
+    placement.density = kDefaultDensity;
+    placement.years = kDefaultYears;
     if (reads(method.count, "count")) {
-        placement.count = reader.whole("count", {1, kMaxTrees}).value_or(kUsualCount);
+        placement.count = reader.integer("count", {1, kMaxTrees}).value_or(kDefaultCount);
     }
     if (reads(method.spacing, "spacing")) {
-        if (const auto spacing = reader.number("spacing", {kLeastSpacing, kFarthest, false, "m"})) {
+        if (const auto spacing =
+                reader.number("spacing", {kMinSpacing, kMaxCoordinate, false, "m"})) {
             placement.spacing = *spacing;
             check_disk(reader, placement);
         }
     }
     if (reads(method.density, "density")) {
         placement.density = reader
-                                .number("density", {1.0 / (kFarthest * kFarthest),
-                                                    1.0 / (kLeastSpacing * kLeastSpacing), false,
+                                .number("density", {1.0 / (kMaxCoordinate * kMaxCoordinate),
+                                                    1.0 / (kMinSpacing * kMinSpacing), false,
                                                     "trees a square metre"})
-                                .value_or(kUsualDensity);
+                                .value_or(kDefaultDensity);
     }
     if (reads(method.map, "map")) {
         if (auto map = reader.file("map")) {
             scene.density_map = std::move(*map);
         } else if (!reader.has("map")) {
-            reader.missing("map", fmt::format("the method is `{}`", method.name))
+            reader.report_missing("map", fmt::format("the method is `{}`", method.name))
                 .help.emplace_back("name a picture beside the scene: `map = \"density.png\"`");
         }
         placement.map_region = placement.region;
     }
     if (reads(method.years, "years")) {
-        placement.years =
-            static_cast<std::uint32_t>(reader.whole("years", {0, kMaxYears}).value_or(kUsualYears));
+        placement.years = static_cast<std::uint32_t>(
+            reader.integer("years", {0, kMaxYears}).value_or(kDefaultYears));
     }
     reader.finish();
 }

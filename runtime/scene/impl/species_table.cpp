@@ -15,8 +15,8 @@ namespace lsys {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-constexpr std::uint64_t kMaxWhole32 = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint64_t kMaxWhole63 = std::numeric_limits<std::int64_t>::max();
+constexpr std::uint64_t kMaxInteger32 = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint64_t kMaxInteger63 = std::numeric_limits<std::int64_t>::max();
 constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
 constexpr std::size_t kMaxStages = 256;
 constexpr double kMaxSeedsOfYear = 254.0;
@@ -38,12 +38,12 @@ struct SpeciesReader {
     SceneSpecies& species;
     PlacementSpecies& placed;
 
-    float number(std::string_view key, const NumberRange& range, float usual) {
+    float number(std::string_view key, const NumberRange& range, float fallback) {
         const std::optional<double> value = reader.number(key, range);
-        return value ? float_of(*value) : usual;
+        return value ? float_of(*value) : fallback;
     }
-    std::uint32_t whole(std::string_view key, WholeRange range, std::uint32_t usual) {
-        return static_cast<std::uint32_t>(reader.whole(key, range).value_or(usual));
+    std::uint32_t integer(std::string_view key, IntegerRange range, std::uint32_t fallback) {
+        return static_cast<std::uint32_t>(reader.integer(key, range).value_or(fallback));
     }
 };
 
@@ -52,7 +52,7 @@ void read_grammar(SpeciesReader& from) {
         from.species.grammar = std::move(*grammar);
         from.species.name = stem_of(from.species.grammar.path);
     } else if (!from.reader.has("grammar")) {
-        from.reader.missing("grammar", "the species is to be drawn")
+        from.reader.report_missing("grammar", "the species is to be drawn")
             .help.emplace_back("name a grammar beside the scene: `grammar = \"pine.lsys\"`");
     }
     const auto optional_name = [&](std::string_view key, SceneName& name) {
@@ -88,24 +88,26 @@ void read_stage_list(SpeciesReader& from) {
     }
     const SceneValue& value = list->value;
     if (value.kind != SceneValueKind::List) {
-        Diagnostic& error =
-            from.reader.bad(value.span, "`stages` must be a list of numbers of generations");
+        Diagnostic& error = from.reader.report_bad_value(
+            value.span, "`stages` must be a list of numbers of generations");
         error.label = fmt::format("this is {}", kind_text(value.kind));
         return;
     }
     if (value.items.empty() || value.items.size() > kMaxStages) {
-        from.reader.bad(value.span, fmt::format("`stages` has {} numbers; it takes 1 to {}",
-                                                value.items.size(), kMaxStages));
+        from.reader.report_bad_value(value.span,
+                                     fmt::format("`stages` has {} numbers; it takes 1 to {}",
+                                                 value.items.size(), kMaxStages));
         return;
     }
     for (const SceneValue& item : value.items) {
-        const auto stage = from.reader.whole_of(item, "a stage", {0, kMaxWhole32 - 1});
+        const auto stage = from.reader.integer_of(item, "a stage", {0, kMaxInteger32 - 1});
         if (!stage) {
             continue;
         }
         if (!from.species.stages.empty() && *stage <= from.species.stages.back()) {
-            from.reader.bad(item.span, fmt::format("stages rise: {} does not come after {}", *stage,
-                                                   from.species.stages.back()));
+            from.reader.report_bad_value(item.span,
+                                         fmt::format("stages rise: {} does not come after {}",
+                                                     *stage, from.species.stages.back()));
             continue;
         }
         from.species.stages.push_back(static_cast<std::uint32_t>(*stage));
@@ -115,34 +117,36 @@ void read_stage_list(SpeciesReader& from) {
 /// Reads `n`, or `stages` with `years_of_stage` if plants have an age.
 void read_stages(SpeciesReader& from, bool ages) {
     TableReader& reader = from.reader;
-    const auto generations = reader.whole("n", {0, kMaxWhole32 - 1});
+    const auto generations = reader.integer("n", {0, kMaxInteger32 - 1});
     read_stage_list(from);
     const auto years = reader.number("years_of_stage", {0.0, kMaxYears, true, "years"});
     if (!reader.has("stages")) {
         if (generations) {
             from.species.stages = {static_cast<std::uint32_t>(*generations)};
         }
-        reader.refuse("years_of_stage", "the species has no `stages`", {});
+        reader.report_conflicting_key("years_of_stage", "the species has no `stages`", {});
         return;
     }
-    reader.refuse("n", "`stages` says how many generations there are", reader.span_of("stages"));
+    reader.report_conflicting_key("n", "`stages` says how many generations there are",
+                                  reader.span_of("stages"));
     if (!ages) {
-        reader.refuse("stages", "plants have an age with the method `domination` alone", {});
+        reader.report_conflicting_key("stages",
+                                      "plants have an age with the method `domination` alone", {});
         return;
     }
     if (years) {
         from.species.years_of_stage = float_of(*years);
     } else if (!reader.has("years_of_stage") && from.species.stages.size() > 1) {
-        reader.missing("years_of_stage", "the species has `stages`")
+        reader.report_missing("years_of_stage", "the species has `stages`")
             .help.emplace_back("say how many years a plant needs for each: `years_of_stage = 10`");
     }
 }
 
 void read_cache(SpeciesReader& from) {
     CacheOptions& cache = from.species.cache;
-    cache.heroes = from.whole("heroes", {1, kMaxHeroes}, cache.heroes);
-    cache.seed = from.reader.whole("seed", {0, kMaxWhole63}).value_or(cache.seed);
-    cache.cap = from.whole("cache_cap", {0, kMaxWhole32}, cache.cap);
+    cache.heroes = from.integer("heroes", {1, kMaxHeroes}, cache.heroes);
+    cache.seed = from.reader.integer("seed", {0, kMaxInteger63}).value_or(cache.seed);
+    cache.cap = from.integer("cache_cap", {0, kMaxInteger32}, cache.cap);
     cache.tolerance = from.number("tolerance", {0.0, 1.0, false, {}}, cache.tolerance);
     from.species.rho = from.number("rho", {0.0, 1.0, false, {}}, from.species.rho);
 }
@@ -151,8 +155,8 @@ void read_place(SpeciesReader& from) {
     PlacementSpecies& placed = from.placed;
     placed.share = from.reader.number("share", {0.0, 1.0e9, false, {}}).value_or(placed.share);
     if (const auto scale = from.reader.ordered_pair("scale", {1.0e-3, 1000.0, false, {}})) {
-        placed.least_scale = float_of((*scale)[0]);
-        placed.greatest_scale = float_of((*scale)[1]);
+        placed.min_scale = float_of((*scale)[0]);
+        placed.max_scale = float_of((*scale)[1]);
     }
     if (const auto altitude =
             from.reader.ordered_pair("altitude", {-kUnbounded, kUnbounded, false, "m"})) {
@@ -173,22 +177,23 @@ void read_growth(const SceneValue* table, PlacementSpecies& placed, Diagnostics&
             value = float_of(*found);
         }
     };
-    const auto whole = [&](std::string_view key, WholeRange range, std::uint32_t& value) {
-        value = static_cast<std::uint32_t>(reader.whole(key, range).value_or(value));
+    const auto integer = [&](std::string_view key, IntegerRange range, std::uint32_t& value) {
+        value = static_cast<std::uint32_t>(reader.integer(key, range).value_or(value));
     };
-    number("greatest_radius", {0.01, 1000.0, false, "m"}, growth.greatest_radius);
+    number("greatest_radius", {0.01, 1000.0, false, "m"}, growth.max_radius);
     number("rate", {1.0e-4, 1000.0, false, "m a year"}, growth.rate);
     number("shade_tolerance", {0.0, 1.0, false, {}}, growth.tolerance);
     number("vigour_spread", {0.0, 0.9, false, {}}, growth.vigour_spread);
-    whole("lifespan", {1, kMaxYears}, growth.lifespan);
-    whole("maturity", {1, std::uint64_t{2} * kMaxYears}, growth.maturity);
+    integer("lifespan", {1, kMaxYears}, growth.lifespan);
+    integer("maturity", {1, std::uint64_t{2} * kMaxYears}, growth.maturity);
     number("seeds", {0.0, kMaxSeedsOfYear, false, "a year"}, growth.seeds);
     number("seed_distance", {0.0, 1.0e5, false, "m"}, growth.seed_distance);
-    if (growth.rate > growth.greatest_radius) {
+    if (growth.rate > growth.max_radius) {
         const SourceSpan at = reader.span_of(reader.has("rate") ? "rate" : "greatest_radius");
-        reader.bad(at, fmt::format("plants grow by {} m in a year, farther than their greatest "
-                                   "radius of {} m",
-                                   growth.rate, growth.greatest_radius));
+        reader.report_bad_value(
+            at, fmt::format("plants grow by {} m in a year, farther than their greatest "
+                            "radius of {} m",
+                            growth.rate, growth.max_radius));
     }
     reader.finish();
 }
@@ -205,7 +210,8 @@ void read_one(const SceneValue& table, Scene& scene, Diagnostics& diagnostics) {
     read_place(from);
     read_growth(from.reader.table("growth"), placed, diagnostics);
     if (!ages) {
-        from.reader.refuse("growth", "plants grow with the method `domination` alone", {});
+        from.reader.report_conflicting_key("growth",
+                                           "plants grow with the method `domination` alone", {});
     }
     from.reader.finish();
 }

@@ -67,7 +67,7 @@ constexpr KeyPlace kPlaces[] = {
 };
 
 /// The shortest text that reads back equal; whole numbers with commas.
-std::string shown(double value) {
+std::string number_text(double value) {
     if (value == std::floor(value) && std::abs(value) < 1e15) {
         return (value < 0.0 ? "-" : "") +
                grouped_digits(static_cast<std::uint64_t>(std::abs(value)));
@@ -80,18 +80,19 @@ std::string with_unit(std::string text, std::string_view unit) {
 }
 
 std::string range_text(const NumberRange& range) {
-    const bool open = std::isinf(range.most);
-    if (open && std::isinf(range.least)) {
+    const bool open = std::isinf(range.max);
+    if (open && std::isinf(range.min)) {
         return "be a number";
     }
-    if (range.above) {
-        return open ? with_unit(fmt::format("be above {}", shown(range.least)), range.unit)
-                    : with_unit(fmt::format("be above {} and at most {}", shown(range.least),
-                                            shown(range.most)),
+    if (range.excludes_min) {
+        return open ? with_unit(fmt::format("be above {}", number_text(range.min)), range.unit)
+                    : with_unit(fmt::format("be above {} and at most {}", number_text(range.min),
+                                            number_text(range.max)),
                                 range.unit);
     }
-    return open ? with_unit(fmt::format("be {} or more", shown(range.least)), range.unit)
-                : with_unit(fmt::format("be from {} to {}", shown(range.least), shown(range.most)),
+    return open ? with_unit(fmt::format("be {} or more", number_text(range.min)), range.unit)
+                : with_unit(fmt::format("be from {} to {}", number_text(range.min),
+                                        number_text(range.max)),
                             range.unit);
 }
 
@@ -106,51 +107,52 @@ const SceneEntry* TableReader::entry(std::string_view key) {
     return table_ == nullptr ? nullptr : find_entry(*table_, key);
 }
 
-Diagnostic& TableReader::bad(SourceSpan span, std::string message) {
+Diagnostic& TableReader::report_bad_value(SourceSpan span, std::string message) {
     return diagnostics_.add(DiagnosticCode::BadSceneValue, span, std::move(message));
 }
 
-Diagnostic&
-TableReader::wrong_kind(const SceneValue& value, std::string_view what, std::string_view wanted) {
-    Diagnostic& error = bad(value.span, fmt::format("{} must be {}", what, wanted));
+Diagnostic& TableReader::report_wrong_kind(const SceneValue& value,
+                                           std::string_view what,
+                                           std::string_view wanted) {
+    Diagnostic& error = report_bad_value(value.span, fmt::format("{} must be {}", what, wanted));
     error.label = fmt::format("this is {}", kind_text(value.kind));
     return error;
 }
 
 std::optional<double>
 TableReader::number_of(const SceneValue& value, std::string_view what, const NumberRange& range) {
-    if (value.kind != SceneValueKind::Whole && value.kind != SceneValueKind::Real) {
-        wrong_kind(value, what, "a number");
+    if (value.kind != SceneValueKind::Integer && value.kind != SceneValueKind::Real) {
+        report_wrong_kind(value, what, "a number");
         return std::nullopt;
     }
     const double number = value.real;
-    const bool enough = range.above ? number > range.least : number >= range.least;
-    if (!(enough && number <= range.most)) { // also for NaN
-        bad(value.span,
-            fmt::format("{} is {}; it must {}", what, shown(number), range_text(range)));
+    const bool enough = range.excludes_min ? number > range.min : number >= range.min;
+    if (!(enough && number <= range.max)) { // also for NaN
+        report_bad_value(value.span, fmt::format("{} is {}; it must {}", what, number_text(number),
+                                                 range_text(range)));
         return std::nullopt;
     }
     return number;
 }
 
 std::optional<std::uint64_t>
-TableReader::whole_of(const SceneValue& value, std::string_view what, WholeRange range) {
-    if (value.kind != SceneValueKind::Whole) {
-        wrong_kind(value, what, "a whole number");
+TableReader::integer_of(const SceneValue& value, std::string_view what, IntegerRange range) {
+    if (value.kind != SceneValueKind::Integer) {
+        report_wrong_kind(value, what, "a whole number");
         return std::nullopt;
     }
-    if (value.whole < 0 || static_cast<std::uint64_t>(value.whole) < range.least ||
-        static_cast<std::uint64_t>(value.whole) > range.most) {
-        const bool open = range.most >= std::uint64_t{1} << 53;
-        const NumberRange wide{static_cast<double>(range.least),
-                               open ? HUGE_VAL : static_cast<double>(range.most),
+    if (value.integer < 0 || static_cast<std::uint64_t>(value.integer) < range.min ||
+        static_cast<std::uint64_t>(value.integer) > range.max) {
+        const bool open = range.max >= std::uint64_t{1} << 53;
+        const NumberRange wide{static_cast<double>(range.min),
+                               open ? HUGE_VAL : static_cast<double>(range.max),
                                false,
                                {}};
-        bad(value.span,
-            fmt::format("{} is {}; it must {}", what, shown(value.real), range_text(wide)));
+        report_bad_value(value.span, fmt::format("{} is {}; it must {}", what,
+                                                 number_text(value.real), range_text(wide)));
         return std::nullopt;
     }
-    return static_cast<std::uint64_t>(value.whole);
+    return static_cast<std::uint64_t>(value.integer);
 }
 
 std::optional<double> TableReader::number(std::string_view key, const NumberRange& range) {
@@ -159,10 +161,10 @@ std::optional<double> TableReader::number(std::string_view key, const NumberRang
                             : number_of(found->value, fmt::format("`{}`", key), range);
 }
 
-std::optional<std::uint64_t> TableReader::whole(std::string_view key, WholeRange range) {
+std::optional<std::uint64_t> TableReader::integer(std::string_view key, IntegerRange range) {
     const SceneEntry* const found = entry(key);
     return found == nullptr ? std::nullopt
-                            : whole_of(found->value, fmt::format("`{}`", key), range);
+                            : integer_of(found->value, fmt::format("`{}`", key), range);
 }
 
 std::optional<std::string> TableReader::text(std::string_view key) {
@@ -171,14 +173,15 @@ std::optional<std::string> TableReader::text(std::string_view key) {
         return std::nullopt;
     }
     if (found->value.kind != SceneValueKind::Text) {
-        wrong_kind(found->value, fmt::format("`{}`", key), "a text");
+        report_wrong_kind(found->value, fmt::format("`{}`", key), "a text");
         return std::nullopt;
     }
     const std::string& text = found->value.text;
     const bool plain = std::none_of(text.begin(), text.end(),
                                     [](char c) { return static_cast<unsigned char>(c) < 0x20; });
     if (text.empty() || !plain) {
-        bad(found->value.span,
+        report_bad_value(
+            found->value.span,
             fmt::format("`{}` {}", key, plain ? "is empty" : "holds a control character"));
         return std::nullopt;
     }
@@ -204,7 +207,7 @@ std::optional<std::size_t> TableReader::choice(std::string_view key,
         return static_cast<std::size_t>(found - names.begin());
     }
     const SourceSpan span = span_of(key);
-    Diagnostic& error = bad(span, fmt::format("there is no {} `{}`", key, *name));
+    Diagnostic& error = report_bad_value(span, fmt::format("there is no {} `{}`", key, *name));
     if (const auto nearest = nearest_name(*name, {names.begin(), names.end()})) {
         error.help.push_back(fmt::format("did you mean `{}`?", *nearest));
         error.fixes.push_back({fmt::format("write `{}`", *nearest),
@@ -224,17 +227,18 @@ TableReader::pair(std::string_view key, const NumberRange& range, bool lone) {
     }
     const SceneValue& value = found->value;
     const std::string what = fmt::format("`{}`", key);
-    if (lone && (value.kind == SceneValueKind::Whole || value.kind == SceneValueKind::Real)) {
+    if (lone && (value.kind == SceneValueKind::Integer || value.kind == SceneValueKind::Real)) {
         const std::optional<double> both = number_of(value, what, range);
         return both ? std::optional(std::array<double, 2>{*both, *both}) : std::nullopt;
     }
     if (value.kind != SceneValueKind::List) {
-        wrong_kind(value, what, lone ? "a number or a list of two" : "a list of two numbers");
+        report_wrong_kind(value, what,
+                          lone ? "a number or a list of two" : "a list of two numbers");
         return std::nullopt;
     }
     if (value.items.size() != 2) {
-        bad(value.span,
-            fmt::format("{} must be a list of two numbers, not of {}", what, value.items.size()));
+        report_bad_value(value.span, fmt::format("{} must be a list of two numbers, not of {}",
+                                                 what, value.items.size()));
         return std::nullopt;
     }
     const std::optional<double> first =
@@ -248,8 +252,9 @@ std::optional<std::array<double, 2>> TableReader::ordered_pair(std::string_view 
                                                                const NumberRange& range) {
     const std::optional<std::array<double, 2>> ends = pair(key, range, false);
     if (ends && (*ends)[0] > (*ends)[1]) {
-        bad(span_of(key), fmt::format("`{}` begins at {} and ends below it, at {}", key,
-                                      shown((*ends)[0]), shown((*ends)[1])));
+        report_bad_value(span_of(key),
+                         fmt::format("`{}` begins at {} and ends below it, at {}", key,
+                                     number_text((*ends)[0]), number_text((*ends)[1])));
         return std::nullopt;
     }
     return ends;
@@ -261,13 +266,13 @@ const SceneValue* TableReader::table(std::string_view key) {
         return nullptr;
     }
     if (found->value.kind != SceneValueKind::Table) {
-        wrong_kind(found->value, fmt::format("`{}`", key), "a table");
+        report_wrong_kind(found->value, fmt::format("`{}`", key), "a table");
         return nullptr;
     }
     return &found->value;
 }
 
-Diagnostic& TableReader::missing(std::string_view key, std::string_view why) {
+Diagnostic& TableReader::report_missing(std::string_view key, std::string_view why) {
     SourceSpan at = span();
     if (name_.empty()) {
         at.end = at.begin; // the file has no heading to underline
@@ -277,7 +282,9 @@ Diagnostic& TableReader::missing(std::string_view key, std::string_view why) {
     return error;
 }
 
-void TableReader::refuse(std::string_view key, std::string_view because, SourceSpan cause) {
+void TableReader::report_conflicting_key(std::string_view key,
+                                         std::string_view because,
+                                         SourceSpan cause) {
     if (!has(key)) {
         return;
     }

@@ -18,15 +18,15 @@ namespace lsys {
 
 /// The range of a number.
 struct NumberRange {
-    double least = 0.0;
-    double most = 0.0;
-    bool above = false; // `least` itself is out of range
+    double min = 0.0;
+    double max = 0.0;
+    bool excludes_min = false;
     std::string_view unit;
 };
 
-struct WholeRange {
-    std::uint64_t least = 0;
-    std::uint64_t most = 0;
+struct IntegerRange {
+    std::uint64_t min = 0;
+    std::uint64_t max = 0;
 };
 
 class TableReader {
@@ -39,7 +39,7 @@ public:
     /// Each of these returns the value of `key`, or none if the key is missing or was reported.
     [[nodiscard]] const SceneEntry* entry(std::string_view key);
     [[nodiscard]] std::optional<double> number(std::string_view key, const NumberRange& range);
-    [[nodiscard]] std::optional<std::uint64_t> whole(std::string_view key, WholeRange range);
+    [[nodiscard]] std::optional<std::uint64_t> integer(std::string_view key, IntegerRange range);
     [[nodiscard]] std::optional<std::string> text(std::string_view key);
     /// The path of a file, which may not exist.
     [[nodiscard]] std::optional<SceneFile> file(std::string_view key);
@@ -58,14 +58,14 @@ public:
     [[nodiscard]] std::optional<double>
     number_of(const SceneValue& value, std::string_view what, const NumberRange& range);
     [[nodiscard]] std::optional<std::uint64_t>
-    whole_of(const SceneValue& value, std::string_view what, WholeRange range);
+    integer_of(const SceneValue& value, std::string_view what, IntegerRange range);
 
     /// Reports that the table needs `key`.
-    Diagnostic& missing(std::string_view key, std::string_view why);
-    Diagnostic& bad(SourceSpan span, std::string message);
+    Diagnostic& report_missing(std::string_view key, std::string_view why);
+    Diagnostic& report_bad_value(SourceSpan span, std::string message);
     /// Reports `key`, if present, as not allowed. `because` is a sentence about `cause`, the place
     /// of the value that forbids it, which may be empty.
-    void refuse(std::string_view key, std::string_view because, SourceSpan cause);
+    void report_conflicting_key(std::string_view key, std::string_view because, SourceSpan cause);
     /// Reports the keys that were not read. Called after all others.
     void finish();
 
@@ -79,7 +79,8 @@ public:
     }
 
 private:
-    Diagnostic& wrong_kind(const SceneValue& value, std::string_view what, std::string_view wanted);
+    Diagnostic&
+    report_wrong_kind(const SceneValue& value, std::string_view what, std::string_view wanted);
 
     const SceneValue* table_;
     std::string name_;

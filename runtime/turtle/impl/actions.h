@@ -14,7 +14,7 @@ namespace lsys {
 /// Arguments of a module that the turtle reads.
 inline constexpr std::uint32_t kTurtleArguments = 4;
 
-/// Cosine and sine of half an angle: what a rotation of a quaternion needs.
+/// Cosine and sine of half an angle, for rotations by quaternions.
 struct HalfAngle {
     double cosine = 1.0;
     double sine = 0.0;

@@ -65,7 +65,7 @@ bool Turtle::State::forward(const Action& action, const float* arguments, float 
 }
 
 /// A segment that tapers: length, base width, tip width.
-bool Turtle::State::tapered(const Action& action, const float* arguments) {
+bool Turtle::State::draw_tapered(const Action& action, const float* arguments) {
     const float length = action.given > 0 ? arguments[0] : now.step;
     const float base = action.given > 1 ? arguments[1] : now.width;
     const float tip_width = action.given > 2 ? arguments[2] : base;
@@ -130,7 +130,7 @@ bool Turtle::State::restore() {
     return true;
 }
 
-TurtlePlace Turtle::State::place_now() const {
+TurtlePlace Turtle::State::current_place() const {
     const Pose& pose = now.pose;
     TurtlePlace place;
     place.position = {pose.x, pose.y, pose.z};
@@ -166,7 +166,7 @@ bool Turtle::State::save_branch(const Action& action, const float* arguments) {
     if (action.stored > kBranchArguments) {
         start.formals = {arguments + kBranchArguments, action.stored - kBranchArguments};
     }
-    start.place = place_now();
+    start.place = current_place();
     start.segment = now.moved ? kNoSegment : now.segment;
     start.drawn = drawn();
     if (options.branches->begin(start)) {
@@ -229,8 +229,8 @@ void Turtle::State::set_sides(float sides) {
 }
 
 void Turtle::State::set_colour(double index) {
-    constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
-    const double fitting = std::clamp(std::round(index), 0.0, kMost);
+    constexpr double kMaxColour = std::numeric_limits<std::uint16_t>::max();
+    const double fitting = std::clamp(std::round(index), 0.0, kMaxColour);
     if (fitting != std::round(index)) {
         note(TurtleFaultKind::ColourOutOfRange);
     }
@@ -242,7 +242,7 @@ void Turtle::State::scale_angle(float factor) {
     now.turn = half_angle(static_cast<double>(now.angle));
 }
 
-bool Turtle::State::obey(const Action& action, const float* arguments) {
+bool Turtle::State::execute(const Action& action, const float* arguments) {
     const Settings& settings = bytecode.settings;
     // The angle of a turn that is not constant: from the word, or the setting as it is now.
     const auto turn = [&]() -> HalfAngle {
@@ -263,7 +263,7 @@ bool Turtle::State::obey(const Action& action, const float* arguments) {
     case TurtleOperation::HalfForward:
         return forward(action, arguments, 0.5F);
     case TurtleOperation::TaperedForward:
-        return tapered(action, arguments);
+        return draw_tapered(action, arguments);
     case TurtleOperation::Move:
     case TurtleOperation::HalfMove: {
         const float part = action.operation == TurtleOperation::HalfMove ? 0.5F : 1.0F;

@@ -24,7 +24,7 @@ bool Turtle::State::wide_forward(const Action& action, const float* arguments, f
     return fine;
 }
 
-/// Pitch, roll and yaw by as many angles as there are.
+/// Pitch, roll and yaw by the given angles; missing ones are 0.
 void Turtle::State::turn_by(const Action& action, const float* arguments) {
     const auto angle = [&](std::uint8_t index) {
         return half_angle(action.given > index ? static_cast<double>(arguments[index]) : 0.0);

@@ -65,7 +65,7 @@ void roll_upright(Pose& pose);
 /// Turns the heading by e |H x T| radians towards T (ABOP 2.3); `tropism` is T and e.
 void bend(Pose& pose, const std::array<float, 4>& tropism);
 
-/// Turns the heading towards a point by the least turn; nothing where it is there.
+/// Turns the heading towards a point by the shortest rotation; none at that point.
 void aim(Pose& pose, const std::array<float, 3>& point);
 
 [[nodiscard]] inline glm::vec3 position_of(const Pose& p) {

@@ -18,7 +18,7 @@
 
 namespace lsys {
 
-inline constexpr std::size_t kModulesBetweenLooks = std::size_t{1} << 16;
+inline constexpr std::size_t kModulesBetweenChecks = std::size_t{1} << 16;
 inline constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
 inline constexpr float kPercent = 0.01F;
 inline constexpr double kFullTurn = 360.0;
@@ -45,11 +45,10 @@ struct Brush {
     bool moved = false; // since the segment was drawn
 };
 
-/// Where words are texts: the last command, which is obeyed when what follows is known, and the
-/// text of its parameter.
+/// The last command of a word that is text, executed once the text of its parameter is complete.
 struct PendingCommand {
-    static constexpr std::size_t kLongest = 1023;
-    bool there = false;
+    static constexpr std::size_t kMaxLength = 1023;
+    bool is_set = false;
     bool in_parameter = false;
     Action action;
     std::uint64_t position = 0;
@@ -111,12 +110,12 @@ struct Turtle::State {
     template <typename C>
     void run_text(std::span<const C> codes, const float*& parameters, const Origin* origins);
     bool take_character(const Action& action, Code character, const float* arguments);
-    bool obey_pending();
+    bool execute_pending();
     bool take_origin(const Origin& origin);
     /// Executes one action. Returns false if the drawing has ended; `end.stop` is the reason.
-    bool obey(const Action& action, const float* arguments);
+    bool execute(const Action& action, const float* arguments);
     bool forward(const Action& action, const float* arguments, float part);
-    bool tapered(const Action& action, const float* arguments);
+    bool draw_tapered(const Action& action, const float* arguments);
     bool draw(double length, float base_width, float tip_width, float spring, const float* mass);
     Segment& put_segment(const Pose& base,
                          float length,
@@ -130,7 +129,7 @@ struct Turtle::State {
     bool restore();
     bool skip(const Action& action);
     bool save_branch(const Action& action, const float* arguments);
-    [[nodiscard]] TurtlePlace place_now() const;
+    [[nodiscard]] TurtlePlace current_place() const;
     [[nodiscard]] DrawnCounts drawn() const;
     bool quick_forward(const Action& action, const float* arguments, Pose& pose);
     void close_polygon();
@@ -155,13 +154,13 @@ struct Turtle::State {
         note(kind);
         return stop(Stop::Diagnosed);
     }
-    /// Makes room in `items` for one more; false: the drawing has ended.
+    /// Makes room in `items` for one more; returns false after stopping the drawing.
     template <typename Items>
     bool has_room(Items& items);
     bool is_finite_pose();
     [[nodiscard]] std::uint16_t order() const {
-        constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
-        return static_cast<std::uint16_t>(std::min(stack.size(), kMost));
+        constexpr std::size_t kMaxOrder = std::numeric_limits<std::uint16_t>::max();
+        return static_cast<std::uint16_t>(std::min(stack.size(), kMaxOrder));
     }
 
     const Bytecode& bytecode;
@@ -186,11 +185,11 @@ struct Turtle::State {
     TurtleTraits traits;
     bool has_tropism = false;
     bool has_second_heading = false; // some module moves along it
-    // The last segment whose mass was worked out.
-    double massed_length = -1.0;
-    float massed_base = -1.0F;
-    float massed_tip = -1.0F;
-    float massed = 0.0F;
+    // The mass of the last segment, kept for equal ones.
+    double kept_length = -1.0;
+    float kept_base = -1.0F;
+    float kept_tip = -1.0F;
+    float kept_mass = 0.0F;
 };
 
 template <typename Items>
@@ -218,17 +217,17 @@ bool Turtle::State::has_room(Items& items) {
 
 /// Volume of a truncated cone times the density.
 inline float Turtle::State::mass_of(double length, float base_width, float tip_width) {
-    if (length != massed_length || base_width != massed_base || tip_width != massed_tip) {
-        massed_length = length;
-        massed_base = base_width;
-        massed_tip = tip_width;
+    if (length != kept_length || base_width != kept_base || tip_width != kept_tip) {
+        kept_length = length;
+        kept_base = base_width;
+        kept_tip = tip_width;
         const double a = 0.5 * static_cast<double>(base_width);
         const double b = 0.5 * static_cast<double>(tip_width);
         const double volume = std::numbers::pi / 3.0 * std::abs(length) * (a * a + a * b + b * b);
-        massed = static_cast<float>(
+        kept_mass = static_cast<float>(
             std::min(volume * static_cast<double>(bytecode.settings.density), kMaxFloat));
     }
-    return massed;
+    return kept_mass;
 }
 
 /// The next segment of the path, for which there is room.

@@ -1,6 +1,5 @@
 // Words that are texts (L3D): a `(` right behind a command begins the text of its parameter, up to
-// the first `)`. So a command is obeyed when the module behind it, or that parenthesis, has been
-// seen.
+// the first `)`. So a command is executed when the module behind it, or that parenthesis, is read.
 #include "runtime/turtle/impl/text_commands.h"
 
 #include "runtime/turtle/impl/state.h"
@@ -24,20 +23,20 @@ float leading_number(std::string_view text) {
     return value;
 }
 
-bool Turtle::State::obey_pending() {
-    pending.there = false;
+bool Turtle::State::execute_pending() {
+    pending.is_set = false;
     position = pending.position;
     code = pending.code;
     origin = pending.origin;
     const Action& action = pending.action;
-    return cut != 0 ? skip(action) : obey(action, action.arguments.data());
+    return cut != 0 ? skip(action) : execute(action, action.arguments.data());
 }
 
-/// False: the drawing has ended.
+/// Returns false once the drawing has ended.
 bool Turtle::State::take_character(const Action& action, Code character, const float* arguments) {
     if (pending.in_parameter) {
         if (action.operation != TurtleOperation::ParameterEnd) {
-            if (pending.text.size() < PendingCommand::kLongest) {
+            if (pending.text.size() < PendingCommand::kMaxLength) {
                 pending.text += action.character == '\0' ? '?' : action.character;
             }
             return true;
@@ -50,23 +49,23 @@ bool Turtle::State::take_character(const Action& action, Code character, const f
             pending.action.given = 1;
             pending.action.arguments[0] = value;
         }
-        return obey_pending();
+        return execute_pending();
     }
-    if (pending.there) {
+    if (pending.is_set) {
         if (action.operation == TurtleOperation::ParameterBegin) {
             pending.in_parameter = true;
             pending.text.clear();
             return true;
         }
-        if (!obey_pending()) {
+        if (!execute_pending()) {
             return false;
         }
     }
-    pending.there = true;
+    pending.is_set = true;
     if (action.operation == TurtleOperation::SaveBranch) { // it may have any number of arguments
         pending.action = {};
         code = character;
-        return cut != 0 ? skip(action) : obey(action, arguments);
+        return cut != 0 ? skip(action) : execute(action, arguments);
     }
     pending.action = action;
     for (std::uint32_t i = 0; i < action.given; ++i) {

@@ -137,9 +137,10 @@ TEST_CASE("an expression that needs too deep a stack does not verify") {
 TEST_CASE("sites are checked") {
     CHECK(said_of([](Bytecode& b) { b.sites[1].span.file = FileId{1}; }) ==
           "site 1 lies in no file");
-    CHECK(said_of([](Bytecode& b) { b.site_ranges[0].site = 5; }) == "site mark 0 is out of place");
+    CHECK(said_of([](Bytecode& b) { b.site_ranges[0].site = 5; }) ==
+          "site range 0 is out of place");
     CHECK(said_of([](Bytecode& b) { b.site_ranges.push_back(b.site_ranges[0]); }) ==
-          "site mark 1 is out of place");
+          "site range 1 is out of place");
 }
 
 TEST_CASE("places of modules are checked") {

@@ -44,7 +44,7 @@ Uint128 portable(Native value) {
 #ifdef __SIZEOF_INT128__
 TEST_CASE("128-bit arithmetic agrees with the compiler's own") {
     std::mt19937_64 random(3);
-    constexpr Native kMost = ~Native{0};
+    constexpr Native kMaxNative = ~Native{0};
     for (int round = 0; round < 20'000; ++round) {
         const Uint128 a = any_number(random);
         const Uint128 b = any_number(random);
@@ -56,8 +56,8 @@ TEST_CASE("128-bit arithmetic agrees with the compiler's own") {
         CHECK(a + b == portable(x + y));
         CHECK(a - b == portable(x - y));
         CHECK(a * b == portable(x * y));
-        CHECK(checked_add(a, b).has_value() == (y <= kMost - x));
-        CHECK(checked_multiply(a, b).has_value() == (y == 0 || x <= kMost / y));
+        CHECK(checked_add(a, b).has_value() == (y <= kMaxNative - x));
+        CHECK(checked_multiply(a, b).has_value() == (y == 0 || x <= kMaxNative / y));
         CHECK(divide(a, divisor).quotient == portable(x / divisor));
         CHECK(divide(a, divisor).remainder == x % divisor);
         CHECK(to_double(a) == static_cast<double>(x));

@@ -78,7 +78,7 @@ TEST_CASE("a definition of the command line replaces the expression") {
     REQUIRE(c.outcome.program);
     const Program& program = *c.outcome.program;
     CHECK(program.constants[0].value == 5.0F);
-    CHECK_FALSE(program.constants[0].is_drawn);
+    CHECK_FALSE(program.constants[0].is_random);
     CHECK(program.constants[1].value == 2.0F);
     // The range that was replaced still took a number.
     REQUIRE(program.globals.size() == 1);

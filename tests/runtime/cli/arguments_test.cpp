@@ -8,13 +8,13 @@ using namespace lsys;
 using namespace lsys;
 
 TEST_CASE("whole numbers are taken within their bounds only") {
-    CHECK(parse_whole("0", 0, 9).value() == 0);
-    CHECK(parse_whole("18446744073709551615", 0, ~std::uint64_t{0}).value() == ~std::uint64_t{0});
-    CHECK(parse_whole("10", 0, 9).error().message == "`10` is not a whole number from 0 to 9");
+    CHECK(parse_integer("0", 0, 9).value() == 0);
+    CHECK(parse_integer("18446744073709551615", 0, ~std::uint64_t{0}).value() == ~std::uint64_t{0});
+    CHECK(parse_integer("10", 0, 9).error().message == "`10` is not a whole number from 0 to 9");
     for (const char* text :
          {"", "-1", "+1", "1.5", "1e3", " 1", "1 ", "0x1", "18446744073709551616"}) {
         INFO(text);
-        CHECK(!parse_whole(text, 0, ~std::uint64_t{0}).ok());
+        CHECK(!parse_integer(text, 0, ~std::uint64_t{0}).ok());
     }
 }
 

@@ -41,9 +41,9 @@ TEST_CASE("overrides of a species are stronger than those of all species") {
     REQUIRE(apply(overrides, scene));
     CHECK(scene.species[0].cache.heroes == 5);
     CHECK(scene.species[1].cache.heroes == 9);
-    CHECK(scene.placement.species[0].least_scale == 1.0F);
-    CHECK(scene.placement.species[1].least_scale == 2.0F);
-    CHECK(scene.placement.species[1].greatest_scale == 2.0F);
+    CHECK(scene.placement.species[0].min_scale == 1.0F);
+    CHECK(scene.placement.species[1].min_scale == 2.0F);
+    CHECK(scene.placement.species[1].max_scale == 2.0F);
 }
 
 TEST_CASE("of two overrides the one applied last wins") {

@@ -78,13 +78,13 @@ double thinning_slope(const PlacementOptions& options) {
 
 TEST_CASE("a stand of one age thins itself with a slope of -1.5") {
     for (const std::uint64_t key : {1U, 2U, 3U}) {
-        for (const float greatest_radius : {6.0F, 25.0F}) {
+        for (const float max_radius : {6.0F, 25.0F}) {
             for (const float tolerance : {0.1F, 0.5F}) {
-                CAPTURE(key, greatest_radius, tolerance);
+                CAPTURE(key, max_radius, tolerance);
                 PlacementOptions options = stand(40'000, 200.0);
                 options.key = key;
                 options.species[0].growth.seeds = 0.0F;
-                options.species[0].growth.greatest_radius = greatest_radius;
+                options.species[0].growth.max_radius = max_radius;
                 options.species[0].growth.tolerance = tolerance;
                 CHECK(std::abs(thinning_slope(options) + 1.5) < 0.15);
             }
@@ -133,7 +133,7 @@ TEST_CASE("circles of very different sizes find each other") {
     options.species[0].growth.tolerance = 1.0F; // stays
     options.species[1].share = 0.005;
     options.species[1].growth.rate = 3.0F;
-    options.species[1].growth.greatest_radius = 9.0F;
+    options.species[1].growth.max_radius = 9.0F;
     const Domination forest = grown(options, 6);
     std::size_t small_dominated = 0;
     std::size_t small_under = 0;
@@ -189,8 +189,8 @@ TEST_CASE("plants keep number, place and species, age by a year, and never shrin
 
 TEST_CASE("trees of a year carry age and size of their plants, and look the same every year") {
     PlacementOptions options = stand(2'000, 60.0);
-    options.species[0].least_scale = 0.8F;
-    options.species[0].greatest_scale = 1.2F;
+    options.species[0].min_scale = 0.8F;
+    options.species[0].max_scale = 1.2F;
     Domination forest = grown(options, 10);
     const LargeVector<Tree> young = forest.trees();
     for (int year = 0; year < 10; ++year) {

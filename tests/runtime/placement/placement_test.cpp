@@ -397,7 +397,7 @@ TEST_CASE("options without sense are named") {
               o.species[0].share = 0.0;
               o.species[1].share = 0.0;
           }) == "the shares of all species are 0");
-    CHECK(with(PlacementMethod::Uniform, [](Options& o) { o.species[1].least_scale = 3.0F; }) ==
+    CHECK(with(PlacementMethod::Uniform, [](Options& o) { o.species[1].min_scale = 3.0F; }) ==
           "the scales of species 1 are from 3 to 2; they must be above 0 and in order");
     CHECK(with(PlacementMethod::Uniform, [](Options& o) {
               o.species[0].lowest = 5.0F;

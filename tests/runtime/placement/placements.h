@@ -48,8 +48,8 @@ inline PlacementOptions small_forest(PlacementMethod method, const GreyMap& map,
     options.region = {-0.5 * side, -0.5 * side, side, side};
     options.species.resize(2);
     options.species[1].share = 0.5;
-    options.species[1].least_scale = 0.5F;
-    options.species[1].greatest_scale = 2.0F;
+    options.species[1].min_scale = 0.5F;
+    options.species[1].max_scale = 2.0F;
     options.count = static_cast<std::uint64_t>(0.3 * side * side);
     options.spacing = 1.5;
     options.density = 0.4;

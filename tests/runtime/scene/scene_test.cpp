@@ -101,7 +101,7 @@ altitude = [-inf, 900]
 slope = 45
 [species.growth]
 rate = 0.3
-greatest_radius = 4
+max_radius = 4
 shade_tolerance = 0.2
 vigour_spread = 0.1
 lifespan = 200
@@ -187,13 +187,13 @@ TEST_CASE("every key arrives where it belongs") {
     CHECK(pine.cache.tolerance == 0.05F);
     const lsys::PlacementSpecies& placed = scene.placement.species.at(0);
     CHECK(placed.share == 3.0);
-    CHECK(placed.least_scale == 0.5F);
-    CHECK(placed.greatest_scale == 1.5F);
+    CHECK(placed.min_scale == 0.5F);
+    CHECK(placed.max_scale == 1.5F);
     CHECK(placed.lowest == -std::numeric_limits<float>::infinity());
     CHECK(placed.highest == 900.0F);
     CHECK(placed.steepest == Approx(1.0F));
     CHECK(placed.growth.rate == 0.3F);
-    CHECK(placed.growth.greatest_radius == 4.0F);
+    CHECK(placed.growth.max_radius == 4.0F);
     CHECK(placed.growth.tolerance == 0.2F);
     CHECK(placed.growth.vigour_spread == 0.1F);
     CHECK(placed.growth.lifespan == 200);

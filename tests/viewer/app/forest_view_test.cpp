@@ -55,10 +55,10 @@ public:
 
     /// One picture, as a window makes it. `seconds` that it is said to have taken.
     bool step(double seconds = 0.0) {
-        views.shown().update();
-        const bool drew = views.shown().draw(kWidth, kHeight);
+        views.current().update();
+        const bool drew = views.current().draw(kWidth, kHeight);
         if (drew) {
-            views.shown().shown(seconds);
+            views.current().picture_shown(seconds);
         }
         return drew;
     }
@@ -436,11 +436,11 @@ TEST_CASE("dropped files show plants and forests in turn") {
     viewed.press();
     drop(files.folder / "bush.lsys");
     REQUIRE(viewed.views.forest() != nullptr);
-    WindowInput closes;
-    closes.closes = true;
-    controls.apply(closes, 0.01, area, viewed.views, panels);
+    WindowInput closing;
+    closing.close_requested = true;
+    controls.apply(closing, 0.01, area, viewed.views, panels);
     CHECK_FALSE(panels.quits);
-    controls.apply(closes, 0.01, area, viewed.views, panels);
+    controls.apply(closing, 0.01, area, viewed.views, panels);
     CHECK(panels.quits);
     drop(files.folder / "bush.lsys");
     CHECK(viewed.views.plant() != nullptr);

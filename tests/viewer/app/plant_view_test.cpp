@@ -40,7 +40,7 @@ public:
     void step() {
         view.update();
         if (view.draw(64, 48)) {
-            view.shown(0.0);
+            view.picture_shown(0.0);
         }
     }
     /// Steps until `done`, but not for ever.

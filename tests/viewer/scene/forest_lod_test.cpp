@@ -243,8 +243,8 @@ TEST_CASE("what wind moves into the view is drawn") {
         CHECK(moved.clusters.size() >= still.clusters.size());
     }
     const Sway sway = sway_in(windy.wind);
-    CHECK(sway.of(10.0F, 5.0F) > 2.0F);
-    CHECK(sway_in(calm.wind).of(10.0F, 5.0F) == 0.0F);
+    CHECK(sway.displacement(10.0F, 5.0F) > 2.0F);
+    CHECK(sway_in(calm.wind).displacement(10.0F, 5.0F) == 0.0F);
 }
 
 TEST_CASE("all corners of a tree lie within its sphere") {

@@ -80,8 +80,8 @@ std::array<std::int8_t, 2> octahedral(const glm::vec3& n) {
     if (n.z < 0.0F) {
         e = {std::copysign(1.0F - std::abs(e.y), e.x), std::copysign(1.0F - std::abs(e.x), e.y)};
     }
-    const auto part = [](float v) { return static_cast<std::int8_t>(std::lround(v * 127.0F)); };
-    return {part(e.x), part(e.y)};
+    const auto snorm8 = [](float v) { return static_cast<std::int8_t>(std::lround(v * 127.0F)); };
+    return {snorm8(e.x), snorm8(e.y)};
 }
 
 /// Textured by the program; pictures from files are reduced to their mean colour.

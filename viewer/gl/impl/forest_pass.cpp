@@ -32,7 +32,7 @@ constexpr float kGroundBeyond = 3000.0F; // m, range of the ground beyond the fo
 /// Box of the casters between two heights that can shade the map. `shadow_from_world`: see
 /// shadow_matrix().
 Bounds casters_of(const glm::mat4& shadow_from_world, float low, float high) {
-    constexpr float kFarthest = -3.0F; // in map depths, for a low sun
+    constexpr float kMinDepth = -3.0F; // in map depths, for a low sun
     const glm::mat4 world_from_shadow = glm::inverse(shadow_from_world);
     Bounds casters;
     for (const float x : {-1.0F, 1.0F}) {
@@ -41,8 +41,8 @@ Bounds casters_of(const glm::mat4& shadow_from_world, float low, float high) {
             const glm::vec3 last(world_from_shadow * glm::vec4(x, y, 1.0F, 1.0F));
             const glm::vec3 along = last - first; // downwards
             const auto depth_at = [&](float height) {
-                const float depth = along.y < 0.0F ? (height - first.y) / along.y : kFarthest;
-                return glm::clamp(depth, kFarthest, 1.0F);
+                const float depth = along.y < 0.0F ? (height - first.y) / along.y : kMinDepth;
+                return glm::clamp(depth, kMinDepth, 1.0F);
             };
             casters.add(first + depth_at(high) * along);
             casters.add(first + depth_at(low) * along);

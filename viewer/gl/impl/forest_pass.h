@@ -35,12 +35,11 @@ public:
     [[nodiscard]] bool bake_impostors(double seconds, MaterialTextures& textures);
     /// Adds or removes a tree: ForestLod::change_tree().
     void change_tree(std::uint32_t index, const Tree& tree, bool alive);
-    [[nodiscard]] bool shows() const { return lod_ != nullptr; }
     [[nodiscard]] const Bounds& bounds() const { return lod_->bounds(); }
 
     /// Box of the shadow map for a camera; changes only in large steps of the camera.
     [[nodiscard]] Bounds shadow_bounds(const Frame& frame) const;
-    /// Selects what is drawn for the frame and uploads it.
+    /// Selects trees and branches for the frame and uploads them.
     void prepare(const Frame& frame);
     /// Draws all casters into the bound shadow map.
     void draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats);

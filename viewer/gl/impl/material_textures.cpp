@@ -14,11 +14,11 @@ constexpr float kOpaque = 0.5F; // min opacity of opaque texels
 
 /// Opaque part of the texels with opacities scaled by `factor`.
 double coverage(const std::vector<std::uint8_t>& texels, float factor) {
-    std::size_t there = 0;
+    std::size_t opaque_count = 0;
     for (std::size_t i = 3; i < texels.size(); i += 4) {
-        there += static_cast<float>(texels[i]) / 255.0F * factor >= kOpaque ? 1U : 0U;
+        opaque_count += static_cast<float>(texels[i]) / 255.0F * factor >= kOpaque ? 1U : 0U;
     }
-    return 4.0 * static_cast<double>(there) / static_cast<double>(texels.size());
+    return 4.0 * static_cast<double>(opaque_count) / static_cast<double>(texels.size());
 }
 
 /// Next mip level; colours are weighted by opacity.

@@ -24,8 +24,8 @@ void ShadowMap::begin(const glm::mat4& matrix) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     glViewport(0, 0, static_cast<GLsizei>(texels_), static_cast<GLsizei>(texels_));
     glDepthMask(GL_TRUE);
-    constexpr GLfloat kFarthest = 1.0F;
-    glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &kFarthest);
+    constexpr GLfloat kMaxDepth = 1.0F;
+    glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &kMaxDepth);
 }
 
 } // namespace lsys::view

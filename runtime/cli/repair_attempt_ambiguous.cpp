@@ -1,4 +1,4 @@
-// The comparison of repairs with their alternatives, a part of RepairAttempt.
+// RepairAttempt::ambiguous_statements(): comparison of repairs with their alternatives.
 #include "compiler/program/program_dump.h"
 #include "runtime/cli/alternative_repairs.h"
 #include "runtime/cli/repair_attempt.h"
@@ -27,7 +27,7 @@ std::set<ModuleName> modules_of(const Grammar& grammar) {
 
 } // namespace
 
-std::set<StatementKey> RepairAttempt::ambiguous() const {
+std::set<StatementKey> RepairAttempt::ambiguous_statements() const {
     std::set<StatementKey> keys;
     std::size_t compared = 0;
     for (const auto& [key, fixes] : applied_) {
