@@ -2,6 +2,7 @@
 // commands.cpp.
 #pragma once
 
+#include "runtime/base/memory_border.h"
 #include "runtime/derive/interpretation.h"
 #include "runtime/turtle/impl/actions.h"
 #include "runtime/turtle/impl/polygons.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -155,6 +155,15 @@ struct Turtle::State {
         note(kind);
         return stop(Stop::Diagnosed);
     }
+    /// Runs work(); false: no memory, and the drawing has ended.
+    template <typename Work>
+    bool within_memory(const Work& work) {
+        const auto run = [&] {
+            work();
+            return true;
+        };
+        return catch_no_memory(run, [this] { return stop(Stop::OutOfMemory); });
+    }
     /// Makes room in `items` for one more; false: the drawing has ended.
     template <typename Items>
     bool has_room(Items& items);
@@ -208,12 +217,7 @@ bool Turtle::State::has_room(Items& items) {
     if (skeleton.byte_count() + (room - items.size()) * item > options.max_bytes) {
         return stop(Stop::Limit);
     }
-    try {
-        items.reserve(room);
-    } catch (const std::bad_alloc&) {
-        return stop(Stop::OutOfMemory);
-    }
-    return true;
+    return within_memory([&] { items.reserve(room); });
 }
 
 /// Volume of a truncated cone times the density.
