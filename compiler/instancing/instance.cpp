@@ -6,33 +6,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace lsys {
-
-namespace {
-
-/// Reports a system to which instancing adds no variety.
-void note_variety(const Program& program, const Branches& branches, Diagnostics& diagnostics) {
-    const bool is_random = branches.axiom_is_random ||
-                           std::any_of(branches.kinds.begin(), branches.kinds.end(),
-                                       [](const BranchKind& kind) { return kind.is_random; });
-    if (!is_random) {
-        diagnostics
-            .add(DiagnosticCode::NoVariety, program.axiom.span,
-                 "nothing that this system derives is left to chance, so all its plants are equal")
-            .notes.emplace_back("instancing adds no variety to it");
-    } else if (branches.kinds.empty()) {
-        diagnostics
-            .add(DiagnosticCode::NoVariety, program.axiom.span,
-                 "no branch of this system holds a module with a production")
-            .notes.emplace_back("nothing can be put in place of anything, so its plants are "
-                                "copies of the heroes");
-    }
-}
-
-} // namespace
 
 std::optional<InstancedSystem> compile_instanced(Program program,
                                                  const Names& names,
@@ -43,7 +19,6 @@ std::optional<InstancedSystem> compile_instanced(Program program,
     if (!branches) {
         return std::nullopt;
     }
-    note_variety(program, *branches, diagnostics);
     instance_branches(program, *branches, rho);
     std::optional<Bytecode> bytecode = lower(program, names, sources);
     if (!bytecode) {
@@ -70,7 +45,6 @@ std::optional<std::string> list_instanced(const Program& program,
     if (!branches) {
         return std::nullopt;
     }
-    note_variety(program, *branches, diagnostics);
     std::vector<std::uint32_t> counts(program.productions.size(), 0);
     for (const BranchSite& site : branches->sites) {
         ++counts[site.production];

@@ -1,5 +1,6 @@
 #include "runtime/base/png_samples.h"
 
+#include "runtime/base/out_of_memory.h"
 #include "runtime/base/size_text.h"
 
 #include <fmt/format.h>
@@ -8,7 +9,6 @@
 #include <csetjmp>
 #include <cstddef>
 #include <cstring>
-#include <new>
 #include <png.h>
 #include <string>
 
@@ -117,14 +117,12 @@ read_with(png_structp png, png_infop info, const PngRequest& request, PngInput& 
 }
 
 void append(png_structp png, png_bytep bytes, png_size_t count) {
-    bool appended = true;
-    try {
+    const auto add = [&] {
         auto* const file = static_cast<std::string*>(png_get_io_ptr(png));
         file->append(reinterpret_cast<const char*>(bytes), count);
-    } catch (const std::bad_alloc&) {
-        appended = false;
-    }
-    if (!appended) {
+        return true;
+    };
+    if (!catch_out_of_memory(add, [] { return false; })) {
         fail_to_write(png, "no memory");
     }
 }

@@ -29,8 +29,9 @@ struct Imported {
     std::uint64_t warnings = 0;
 };
 
-/// A .lsys text with `#n = generations;` in place of its own `#n`, or at its begin.
-std::string with_generations(std::string text, std::uint32_t generations) {
+/// A .lsys text with the generations and constants of the command line in place of its own. A text
+/// without `#n` gets one at its begin.
+std::string with_options(std::string text, const GrammarOptions& options) {
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
@@ -39,14 +40,27 @@ std::string with_generations(std::string text, std::uint32_t generations) {
     };
     const FileId file = sources.add("translation", text);
     const Ast ast = parse_lsys(file, {sources, names, diagnostics, load});
-    const std::string statement = fmt::format("#n = {};", generations);
-    const auto own =
-        std::find_if(ast.statements.begin(), ast.statements.end(),
-                     [](const Statement& each) { return each.kind == StatementKind::Generations; });
-    if (own == ast.statements.end()) {
-        return statement + '\n' + text;
+    std::string generations =
+        options.generations ? fmt::format("#n = {};", *options.generations) : std::string();
+    // From the end, so that the places of earlier statements stay.
+    for (std::size_t i = ast.statements.size(); i-- > 0;) {
+        const Statement& own = ast.statements[i];
+        std::string statement;
+        if (own.kind == StatementKind::Generations) {
+            statement = std::exchange(generations, {});
+        } else if (own.kind == StatementKind::Define) {
+            const std::string_view name = names.text(ast.defines[own.index].name);
+            for (const Definition& definition : options.definitions) {
+                if (definition.name == name) {
+                    statement = fmt::format("#define {} {};", name, definition.value);
+                }
+            }
+        }
+        if (!statement.empty()) {
+            text.replace(own.span.begin, own.span.end - own.span.begin, statement);
+        }
     }
-    return text.replace(own->span.begin, own->span.end - own->span.begin, statement);
+    return generations.empty() ? text : generations + '\n' + text;
 }
 
 /// Whether a grammar can hold the number: its numbers are binary32.
@@ -77,15 +91,11 @@ ExitStatus import_text(const std::string& path,
     const ExitStatus status = console.show(made.diagnostics, *made.grammar.sources);
     imported.warnings = made.diagnostics.count(Severity::Warning);
     if (status == ExitStatus::Ok) {
-        std::string translation = std::move(made.grammar.translation);
-        if (options.generations) {
-            translation = with_generations(std::move(translation), *options.generations);
-        }
         imported.text = fmt::format(
             "// Imported from `{}`, {}{}.\n{}", fs::path(shown_path(path)).filename().string(),
             row_of(imported.dialect).title,
             options.system.empty() ? std::string() : fmt::format(": {}", options.system),
-            format_text(translation));
+            format_text(with_options(std::move(made.grammar.translation), options)));
     }
     return status;
 }

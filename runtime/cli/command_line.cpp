@@ -239,7 +239,9 @@ void add_import(CLI::App& app, ImportCommand& command) {
     add_grammar(app, command.grammar, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
-    app.footer("The output derives the same word as the input; -n becomes its #n.\n"
+    app.footer("The output derives the same word as the input; -n becomes its #n, and -D the "
+               "values of its "
+               "#define.\n"
                "Example: lsc import tree.l -o tree.lsys");
 }
 

@@ -195,11 +195,11 @@ private:
 };
 
 /// Replaces the heroes' triangles by the lists of the instances.
-InstanceMeshStatus
+std::optional<Stop>
 list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceMeshes& meshes) {
     Mesh& mesh = meshes.mesh;
     if (mesh.indices.size() / 3 > kMax) {
-        return InstanceMeshStatus::TooManyVertices;
+        return Stop::Failed;
     }
     const ListWriter lists(cache, mesh);
     mesh.segments = {};
@@ -241,12 +241,12 @@ list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceM
     }
     meshes.first_part.push_back(static_cast<std::uint32_t>(parts.size()));
     if (parts.size() > kMax) {
-        return InstanceMeshStatus::TooManyVertices;
+        return Stop::Failed;
     }
     const std::uint64_t vertex_bytes = mesh.byte_count() - mesh.indices.byte_count();
     if (indices > options.max_bytes / sizeof(std::uint32_t) ||
         vertex_bytes + indices * sizeof(std::uint32_t) > options.max_bytes) {
-        return InstanceMeshStatus::Limit;
+        return Stop::Limit;
     }
     LargeVector<std::uint32_t> listed;
     listed.resize(indices);
@@ -255,49 +255,39 @@ list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceM
     });
     mesh.indices = std::move(listed);
     mesh.parts = std::move(parts);
-    return InstanceMeshStatus::Ok;
+    return std::nullopt;
 }
 
-InstanceMeshStatus build(const InstanceCache& cache,
-                         const std::vector<UserMesh>& user_meshes,
-                         MeshOptions options,
-                         InstanceMeshes& meshes) {
-    if (options.method == MeshMethod::Boxes) {
-        return InstanceMeshStatus::Joined;
-    }
+std::optional<Stop> build(const InstanceCache& cache,
+                          const std::vector<UserMesh>& user_meshes,
+                          MeshOptions options,
+                          InstanceMeshes& meshes) {
     const Skeleton& heroes = cache.skeleton;
-    if (std::uint64_t{heroes.segments.size()} + heroes.objects.size() + heroes.polygons.size() >
-        kMax) {
-        return InstanceMeshStatus::TooManyVertices;
+    if (options.method == MeshMethod::Boxes ||
+        std::uint64_t{heroes.segments.size()} + heroes.objects.size() + heroes.polygons.size() >
+            kMax) {
+        return Stop::Failed;
     }
     options.segments = true;
-    switch (make_mesh(number_items(cache), user_meshes, options, meshes.mesh)) {
-    case MeshStatus::Ok:
-        return list_instances(cache, options, meshes);
-    case MeshStatus::TooManyVertices:
-        return InstanceMeshStatus::TooManyVertices;
-    case MeshStatus::Limit:
-        return InstanceMeshStatus::Limit;
-    case MeshStatus::OutOfMemory:
-        break;
-    }
-    return InstanceMeshStatus::OutOfMemory;
+    const std::optional<Stop> stop =
+        make_mesh(number_items(cache), user_meshes, options, meshes.mesh);
+    return stop ? stop : list_instances(cache, options, meshes);
 }
 
 } // namespace
 
-InstanceMeshStatus make_instance_meshes(const InstanceCache& cache,
-                                        const std::vector<UserMesh>& user_meshes,
-                                        const MeshOptions& options,
-                                        InstanceMeshes& meshes) {
+std::optional<Stop> make_instance_meshes(const InstanceCache& cache,
+                                         const std::vector<UserMesh>& user_meshes,
+                                         const MeshOptions& options,
+                                         InstanceMeshes& meshes) {
     meshes = {};
-    const InstanceMeshStatus status =
+    const std::optional<Stop> stop =
         catch_out_of_memory([&] { return build(cache, user_meshes, options, meshes); },
-                            [] { return InstanceMeshStatus::OutOfMemory; });
-    if (status != InstanceMeshStatus::Ok) {
+                            [] { return Stop::OutOfMemory; });
+    if (stop) {
         meshes = {};
     }
-    return status;
+    return stop;
 }
 
 InstancePose pose_of(const BranchInstance& branch, const Instance& instance) {

@@ -9,6 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,21 +40,15 @@ struct InstanceMeshes {
     }
 };
 
-enum class InstanceMeshStatus : std::uint8_t {
-    Ok,
-    TooManyVertices,
-    Limit,
-    OutOfMemory,
-    Joined, // MeshMethod::Boxes: a branch and its parent are one surface, which cannot be cut
-};
-
 /// A triangle belongs to all instances that contain its segment, object or polygon. A parent of a
 /// branch that is left out ends as if the branch were there. Leaves droop and bark noise runs as on
-/// the heroes. MeshOptions::segments is ignored; max_bytes limits the result.
-[[nodiscard]] InstanceMeshStatus make_instance_meshes(const InstanceCache& cache,
-                                                      const std::vector<UserMesh>& user_meshes,
-                                                      const MeshOptions& options,
-                                                      InstanceMeshes& meshes);
+/// the heroes. MeshOptions::segments is ignored; max_bytes limits the result. Returns as make_mesh()
+/// does; also Failed for MeshMethod::Boxes, since a branch and its parent are one surface there,
+/// which cannot be cut.
+[[nodiscard]] std::optional<Stop> make_instance_meshes(const InstanceCache& cache,
+                                                       const std::vector<UserMesh>& user_meshes,
+                                                       const MeshOptions& options,
+                                                       InstanceMeshes& meshes);
 
 /// Transform of the heroes' coordinates that puts an instance at `branch`.
 struct InstancePose {

@@ -14,10 +14,10 @@ namespace lsys {
 
 namespace {
 
-MeshStatus build(const Skeleton& skeleton,
-                 const std::vector<UserMesh>& user_meshes,
-                 const MeshOptions& options,
-                 Mesh& mesh) {
+std::optional<Stop> build(const Skeleton& skeleton,
+                          const std::vector<UserMesh>& user_meshes,
+                          const MeshOptions& options,
+                          Mesh& mesh) {
     MeshBuilder builder(options, mesh);
     if (skeleton.l3d_compatible_surface && options.method == MeshMethod::Tubes) {
         append_l3d_shapes(skeleton, builder);
@@ -27,7 +27,7 @@ MeshStatus build(const Skeleton& skeleton,
     switch (options.method) {
     case MeshMethod::Tubes:
         append_tubes(skeleton, options, builder);
-        if (options.segments && builder.status() == MeshStatus::Ok) {
+        if (options.segments && !builder.stop()) {
             name_ring_segments(skeleton, options, builder.segments());
         }
         break;
@@ -45,14 +45,14 @@ MeshStatus build(const Skeleton& skeleton,
 
 } // namespace
 
-MeshStatus make_mesh(const Skeleton& skeleton,
-                     const std::vector<UserMesh>& user_meshes,
-                     const MeshOptions& options,
-                     Mesh& mesh) {
+std::optional<Stop> make_mesh(const Skeleton& skeleton,
+                              const std::vector<UserMesh>& user_meshes,
+                              const MeshOptions& options,
+                              Mesh& mesh) {
     return catch_out_of_memory([&] { return build(skeleton, user_meshes, options, mesh); },
                                [&] {
                                    mesh = {};
-                                   return MeshStatus::OutOfMemory;
+                                   return Stop::OutOfMemory;
                                });
 }
 

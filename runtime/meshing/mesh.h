@@ -3,6 +3,7 @@
 // down, as in glTF.
 #pragma once
 
+#include "grammar/base/outcome.h"
 #include "runtime/meshing/triangle_list.h"
 #include "runtime/turtle/skeleton.h"
 
@@ -13,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -92,8 +94,6 @@ struct MeshOptions {
     friend bool operator==(const MeshOptions&, const MeshOptions&) = default;
 };
 
-enum class MeshStatus : std::uint8_t { Ok, TooManyVertices, Limit, OutOfMemory };
-
 /// A name in an OBJ or MTL file.
 struct ObjName {
     std::string name;
@@ -115,11 +115,12 @@ struct UserMesh {
 };
 
 /// Makes `mesh` from `skeleton`. `user_meshes`: meshes of Skeleton::mesh_files, in order. The
-/// result does not depend on the number of threads. TooManyVertices: more than 2^32 - 1.
-[[nodiscard]] MeshStatus make_mesh(const Skeleton& skeleton,
-                                   const std::vector<UserMesh>& user_meshes,
-                                   const MeshOptions& options,
-                                   Mesh& mesh);
+/// result does not depend on the number of threads. Returns nothing when it is done, else the
+/// reason why the mesh is empty. Limit: more than `max_bytes`; Failed: more than 2^32 - 1 vertices.
+[[nodiscard]] std::optional<Stop> make_mesh(const Skeleton& skeleton,
+                                            const std::vector<UserMesh>& user_meshes,
+                                            const MeshOptions& options,
+                                            Mesh& mesh);
 
 /// The mesh of make_mesh() as text: a line of counts, then one for each part, vertex and triangle.
 [[nodiscard]] std::uint64_t line_count(const Mesh& mesh);

@@ -6,9 +6,7 @@
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/impl/drawing_end.h"
 #include "runtime/pipeline/impl/mesh_files.h"
-#include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
-#include "runtime/turtle/turtle_diagnostic.h"
 
 #include <fmt/format.h>
 
@@ -308,6 +306,15 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
     return step.done(std::move(grown));
 }
 
+Step::Ended end_mesh_of_heroes(Stop stop, Step& step) {
+    if (stop == Stop::Failed) {
+        return step.fail(
+            "the heroes have more than 4,294,967,295 vertices; ask for fewer --heroes, "
+            "--sides or generations");
+    }
+    return step.end_too_large(stop, "the mesh of the heroes");
+}
+
 Outcome<std::vector<std::vector<InstanceMeshes>>>
 mesh_forest(const GrownForest& grown, const MeshOptions& options, const Project& project) {
     Step step(project);
@@ -318,21 +325,9 @@ mesh_forest(const GrownForest& grown, const MeshOptions& options, const Project&
     for (std::size_t s = 0; s < grown.forest.species.size(); ++s) {
         std::vector<InstanceMeshes>& made = meshes.emplace_back();
         for (const ForestStage& stage : grown.forest.species[s].stages) {
-            switch (make_instance_meshes(stage.cache, grown.user_meshes[s], limited,
-                                         made.emplace_back())) {
-            case InstanceMeshStatus::Ok:
-            case InstanceMeshStatus::Joined: // only with boxes, which are not offered
-                break;
-            case InstanceMeshStatus::TooManyVertices:
-                return step.fail("the heroes have more than 4,294,967,295 vertices; ask for fewer "
-                                 "--heroes, --sides or generations");
-            case InstanceMeshStatus::Limit:
-                step.diagnose(plant_limit_diagnostic("the mesh of the heroes", limited.max_bytes),
-                              nullptr);
-                return step.end(Stop::Limit);
-            case InstanceMeshStatus::OutOfMemory:
-                step.diagnose(no_memory_diagnostic("the mesh of the heroes"), nullptr);
-                return step.end(Stop::OutOfMemory);
+            if (const std::optional<Stop> stop = make_instance_meshes(
+                    stage.cache, grown.user_meshes[s], limited, made.emplace_back())) {
+                return end_mesh_of_heroes(*stop, step);
             }
         }
     }

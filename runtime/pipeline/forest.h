@@ -10,6 +10,7 @@
 #include "runtime/meshing/mesh.h"
 #include "runtime/pipeline/project.h"
 #include "runtime/pipeline/scene_overrides.h"
+#include "runtime/pipeline/step.h"
 #include "runtime/placement/placement.h"
 #include "runtime/scene/scene.h"
 #include "runtime/terrain/terrain.h"
@@ -65,6 +66,9 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
 /// Places the trees of `grown`.
 [[nodiscard]] Outcome<void>
 place_forest(const Scene& scene, const Project& project, GrownForest& grown);
+
+/// Ends a step by a stop of make_instance_meshes(), with its message.
+[[nodiscard]] Step::Ended end_mesh_of_heroes(Stop stop, Step& step);
 
 /// Meshes all instances; by species and stage.
 [[nodiscard]] Outcome<std::vector<std::vector<InstanceMeshes>>>

@@ -139,22 +139,17 @@ Outcome<Mesh> mesh_plant(const Plant& plant,
     limited.threads = project.threads;
     limited.max_bytes = project.limits.max_bytes;
     Mesh mesh;
-    switch (make_mesh(skeleton, plant.user_meshes, limited, mesh)) {
-    case MeshStatus::Ok:
+    const std::optional<Stop> stop = make_mesh(skeleton, plant.user_meshes, limited, mesh);
+    if (!stop) {
         return step.done(std::move(mesh));
-    case MeshStatus::TooManyVertices:
-        step.diagnose(plant_limit_diagnostic("the mesh", "4,294,967,295 vertices",
-                                             "ask for fewer sides with `--sides`, for a coarser "
-                                             "`--level`, or for fewer generations with `-n`"),
-                      nullptr);
-        return step.end(Stop::Limit);
-    case MeshStatus::Limit:
-        break;
-    case MeshStatus::OutOfMemory:
-        step.diagnose(no_memory_diagnostic("the mesh"), nullptr);
-        return step.end(Stop::OutOfMemory);
     }
-    step.diagnose(plant_limit_diagnostic("the mesh", limited.max_bytes), nullptr);
+    if (stop != Stop::Failed) {
+        return step.end_too_large(*stop, "the mesh");
+    }
+    step.diagnose(plant_limit_diagnostic("the mesh", "4,294,967,295 vertices",
+                                         "ask for fewer sides with `--sides`, for a coarser "
+                                         "`--level`, or for fewer generations with `-n`"),
+                  nullptr);
     return step.end(Stop::Limit);
 }
 

@@ -1,6 +1,7 @@
 #include "runtime/pipeline/step.h"
 
 #include "runtime/pipeline/grammar.h"
+#include "runtime/turtle/turtle_diagnostic.h"
 
 #include <fmt/format.h>
 
@@ -54,6 +55,13 @@ Step::Ended Step::end_diagnosed() {
             return std::any_of(all.begin(), all.end(), is_limit);
         });
     return end(limit ? Stop::Limit : Stop::Diagnosed);
+}
+
+Step::Ended Step::end_too_large(Stop stop, std::string_view what) {
+    diagnose(stop == Stop::Limit ? plant_limit_diagnostic(what, project_.limits.max_bytes)
+                                 : no_memory_diagnostic(what),
+             nullptr);
+    return end(stop);
 }
 
 Step::Ended Step::fail(Error error) {

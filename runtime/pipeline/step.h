@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace lsys {
@@ -68,6 +69,9 @@ public:
     [[nodiscard]] Ended end() { return end(stop_); }
     /// Ends with Stop::Limit if a diagnostic is about a limit, else with Stop::Diagnosed.
     [[nodiscard]] Ended end_diagnosed();
+    /// Ends with Stop::Limit or Stop::OutOfMemory, as `what` ("the mesh") does not fit into the
+    /// memory of the project or of the system.
+    [[nodiscard]] Ended end_too_large(Stop stop, std::string_view what);
     /// Ends with a failure of the environment or a limit of memory, or with Stop::Cancelled if the
     /// host has cancelled the step.
     [[nodiscard]] Ended fail(Error error);

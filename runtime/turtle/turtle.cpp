@@ -239,17 +239,15 @@ std::optional<Stop> Turtle::reserve(const Word& word) {
     if (bytes > state.options.max_bytes) {
         return state.end.stop = Stop::Limit;
     }
-    try {
+    state.within_memory([&] {
         state.skeleton.segments.reserve(std::min(segments, kMaxSkeletonItems));
         state.skeleton.objects.reserve(std::min(objects, kMaxSkeletonItems));
         if (origins) {
             state.skeleton.segment_origins.reserve(std::min(segments, kMaxSkeletonItems));
             state.skeleton.object_origins.reserve(std::min(objects, kMaxSkeletonItems));
         }
-    } catch (const std::bad_alloc&) {
-        return state.end.stop = Stop::OutOfMemory;
-    }
-    return std::nullopt;
+    });
+    return state.end.stop;
 }
 
 std::optional<Stop> Turtle::feed(const Word& word) {

@@ -55,8 +55,7 @@ bool add_stage(const std::string& grammar,
         return complain("no heroes");
     }
     stage.cache = std::move(outcome.cache);
-    return make_instance_meshes(stage.cache, {}, {}, meshes.emplace_back()) ==
-               InstanceMeshStatus::Ok ||
+    return !make_instance_meshes(stage.cache, {}, {}, meshes.emplace_back()) ||
            complain("no surfaces");
 }
 

@@ -35,7 +35,7 @@ struct Wood {
         stage.generations = generations;
         stage.cache = plant(grammar, generations, rho, options).cache;
         InstanceMeshes& made = meshes.emplace_back().emplace_back();
-        REQUIRE(make_instance_meshes(stage.cache, {}, {}, made) == InstanceMeshStatus::Ok);
+        REQUIRE(make_instance_meshes(stage.cache, {}, {}, made) == std::nullopt);
     }
     void add_trees(std::uint32_t count) {
         for (std::uint32_t i = 0; i < count; ++i) {

@@ -37,14 +37,14 @@ using Triangle = std::array<glm::dvec3, 3>;
 
 InstanceMeshes meshes_of(const InstanceCache& cache, const MeshOptions& options = {}) {
     InstanceMeshes meshes;
-    REQUIRE(make_instance_meshes(cache, {}, options, meshes) == InstanceMeshStatus::Ok);
+    REQUIRE(make_instance_meshes(cache, {}, options, meshes) == std::nullopt);
     REQUIRE(meshes.first_part.size() == cache.instances.size() + 1);
     return meshes;
 }
 
 Mesh plain_mesh(const Skeleton& skeleton, const MeshOptions& options = {}) {
     Mesh mesh;
-    REQUIRE(make_mesh(skeleton, {}, options, mesh) == MeshStatus::Ok);
+    REQUIRE(make_mesh(skeleton, {}, options, mesh) == std::nullopt);
     return mesh;
 }
 
@@ -307,14 +307,14 @@ TEST_CASE("surfaces of instances that cannot be are refused") {
     InstanceMeshes meshes;
     MeshOptions options;
     options.method = MeshMethod::Boxes;
-    CHECK(make_instance_meshes(planted.cache, {}, options, meshes) == InstanceMeshStatus::Joined);
+    CHECK(make_instance_meshes(planted.cache, {}, options, meshes) == Stop::Failed);
     options.method = MeshMethod::Tubes;
-    REQUIRE(make_instance_meshes(planted.cache, {}, options, meshes) == InstanceMeshStatus::Ok);
+    REQUIRE(make_instance_meshes(planted.cache, {}, options, meshes) == std::nullopt);
     options.max_bytes = meshes.mesh.byte_count() - 1;
-    CHECK(make_instance_meshes(planted.cache, {}, options, meshes) == InstanceMeshStatus::Limit);
+    CHECK(make_instance_meshes(planted.cache, {}, options, meshes) == Stop::Limit);
     CHECK(meshes.mesh.positions.empty());
     options.max_bytes = 100;
-    CHECK(make_instance_meshes(planted.cache, {}, options, meshes) == InstanceMeshStatus::Limit);
-    CHECK(make_instance_meshes({}, {}, {}, meshes) == InstanceMeshStatus::Ok);
+    CHECK(make_instance_meshes(planted.cache, {}, options, meshes) == Stop::Limit);
+    CHECK(make_instance_meshes({}, {}, {}, meshes) == std::nullopt);
     CHECK(meshes.first_part.size() == 1);
 }

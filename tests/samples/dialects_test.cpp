@@ -1,11 +1,12 @@
 // Grammars of other dialects: the lengths that their own programs give, and that what `lsc import`
 // writes derives the same word.
+#include "grammar/dialects/dialect.h"
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -65,22 +66,25 @@ const std::vector<Last> kLast{
     {"pine.l++", "15", "19370"}, {"round.l++", "64", "6554"},
 };
 
-/// Grammars of other dialects beside the cases.
+/// Grammars of other dialects: those beside the cases of each dialect, and samples.
 std::vector<fs::path> grammars() {
-    std::vector<fs::path> all;
-    for (const char* const folder : {"carey", "l3d", "sys"}) {
-        for (const fs::directory_entry& entry : fs::directory_iterator(kCases / folder / "parts")) {
-            all.push_back(entry.path());
+    std::set<fs::path> all;
+    for (const lsys::DialectRow& row : lsys::dialects()) {
+        const fs::path parts = kCases / fs::path(row.page).stem() / "parts";
+        if (row.dialect == lsys::Dialect::Lsys) {
+            continue;
+        }
+        for (const fs::directory_entry& entry : fs::directory_iterator(parts)) {
+            all.insert(entry.path());
         }
     }
     for (const fs::directory_entry& entry :
          fs::recursive_directory_iterator(fs::path(LSYS_SOURCE_DIR) / "samples")) {
         if (entry.path().extension() == ".rules") {
-            all.push_back(entry.path());
+            all.insert(entry.path());
         }
     }
-    std::sort(all.begin(), all.end());
-    return all;
+    return {all.begin(), all.end()};
 }
 
 } // namespace

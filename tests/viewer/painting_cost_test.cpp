@@ -79,7 +79,7 @@ PaintingCost cost_in(std::uint64_t count, bool undoes) {
     const std::unique_ptr<HeadlessContext> context = std::move(HeadlessContext::make().value());
     const std::unique_ptr<Renderer> renderer = std::move(Renderer::make(built_in_shader).value());
     ForestModel model;
-    REQUIRE(make_forest_model(forest, terrain, {{}}, {}, model) == InstanceMeshStatus::Ok);
+    REQUIRE(make_forest_model(forest, terrain, {{}}, {}, model) == std::nullopt);
     REQUIRE(renderer->show_forest(std::move(model)));
     Painter painter(forest.trees, {}, region, terrain, 1);
     const auto place = [&](std::uint32_t i) {

@@ -39,7 +39,7 @@ std::unique_ptr<Wood> make_wood(std::uint32_t count, float side, Terrain terrain
         wood->forest.trees.push_back(tree);
     }
     REQUIRE(view::make_forest_model(wood->forest, *wood->terrain, {{}}, {}, wood->model) ==
-            InstanceMeshStatus::Ok);
+            std::nullopt);
     return wood;
 }
 

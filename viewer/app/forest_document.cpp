@@ -2,7 +2,6 @@
 
 #include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
-#include "runtime/turtle/turtle_diagnostic.h"
 
 #include <algorithm>
 #include <chrono>
@@ -27,24 +26,13 @@ Outcome<void> make_model(const ViewOptions& options,
         known = {&before->model, before->grown.forest.key, before->mesh_options, grown.known};
     }
     document.mesh_options = mesh;
-    const InstanceMeshStatus made = make_forest_model(
-        grown.forest, *grown.terrain, grown.user_meshes, mesh, document.model, known);
-    switch (made) {
-    case InstanceMeshStatus::Ok:
-        break;
-    case InstanceMeshStatus::Joined:
+    if (mesh.method == MeshMethod::Boxes) {
         return step.fail("--method boxes: a branch and its parent are one surface there, so a "
                          "forest cannot be put together from them");
-    case InstanceMeshStatus::TooManyVertices:
-        return step.fail(
-            "the heroes have more than 4,294,967,295 vertices; ask for fewer --heroes, "
-            "--sides or generations");
-    case InstanceMeshStatus::Limit:
-        step.diagnose(plant_limit_diagnostic("the mesh of the heroes", mesh.max_bytes), nullptr);
-        return step.end(Stop::Limit);
-    case InstanceMeshStatus::OutOfMemory:
-        step.diagnose(no_memory_diagnostic("the mesh of the heroes"), nullptr);
-        return step.end(Stop::OutOfMemory);
+    }
+    if (const std::optional<Stop> stop = make_forest_model(
+            grown.forest, *grown.terrain, grown.user_meshes, mesh, document.model, known)) {
+        return end_mesh_of_heroes(*stop, step);
     }
     return step.done();
 }

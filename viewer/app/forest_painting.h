@@ -34,6 +34,12 @@ public:
     /// unsaved changes are kept. Returns a note for the user, which may be empty.
     [[nodiscard]] std::string set_document(std::shared_ptr<const ForestDocument> document);
 
+    /// Drops all that was painted, saved or not.
+    void clear() {
+        painter_.reset();
+        in_file_.reset();
+    }
+
     /// First intersection of a ray with the ground.
     [[nodiscard]] std::optional<glm::dvec3> pick(const Ray& ray);
     /// Moves the tool to `place` and applies it along the way. `begins`: starts a stroke there.

@@ -145,7 +145,8 @@ bool ForestView::update() {
 void ForestView::request_load() {
     requested_ = settings.edits;
     // After an error read all files again: the cause may lie in any.
-    loader_.request({options_, settings.edits, failed() ? nullptr : document_, SteadyClock::now()});
+    const bool is_known = !failed() && document_ != nullptr && document_->files.front() == file();
+    loader_.request({options_, settings.edits, is_known ? document_ : nullptr, SteadyClock::now()});
 }
 
 void ForestView::take_outcome(ForestOutcome outcome) {
@@ -179,6 +180,10 @@ void ForestView::swap(ForestOutcome outcome) {
         return;
     }
     document_ = document;
+    const bool is_other = before == nullptr || before->files.front() != document->files.front();
+    if (is_other) {
+        painting_.clear();
+    }
     has_impostors_ = false;
     if (std::exchange(frame_next_, false)) {
         settings.camera = overall;
@@ -192,7 +197,7 @@ void ForestView::swap(ForestOutcome outcome) {
     }
     settings.brush.species = static_cast<std::uint16_t>(
         std::min<std::size_t>(settings.brush.species, document_->scene.species.size() - 1));
-    if (before == nullptr) {
+    if (is_other) {
         const PlacementSpecies& first = placement.species.front();
         settings.brush.min_scale = first.min_scale;
         settings.brush.max_scale = first.max_scale;
@@ -298,9 +303,7 @@ void ForestView::play_or_pause() {
 }
 
 void ForestView::open(const std::string& file) {
-    options_.file = file;
-    options_.overrides = {};
-    options_.files = {file};
+    use_other_file(options_, file);
     settings.edits = {};
     settings.plays = false;
     frame_next_ = true;

@@ -210,4 +210,14 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     return options;
 }
 
+void use_other_file(ViewOptions& options, const std::string& file) {
+    options.file = file;
+    options.files = {file};
+    options.is_forest = is_scene(file);
+    options.overrides = {};
+    options.grammar = {};
+    options.seed.reset();
+    options.camera.clear();
+}
+
 } // namespace lsys::view

@@ -52,6 +52,10 @@ struct ViewOptions {
     std::string stats;      // JSON file; `-`: standard output
 };
 
+/// Makes `file` the one to open. Options about the grammars and the view of the former files are
+/// dropped: they belong to the files that the command line names.
+void use_other_file(ViewOptions& options, const std::string& file);
+
 using ParsedOptions = std::variant<ViewOptions, PrintText, UsageError>;
 [[nodiscard]] ParsedOptions parse_options(std::span<const std::string> arguments);
 

@@ -83,8 +83,7 @@ struct PlantMotion::State {
                 physics->step();
             }
             physics->pose(next.skeleton);
-            if (make_mesh(next.skeleton, document->plant.user_meshes, mesh_options, next.mesh) !=
-                MeshStatus::Ok) {
+            if (make_mesh(next.skeleton, document->plant.user_meshes, mesh_options, next.mesh)) {
                 return; // out of memory: keep the last moment
             }
             next.time = physics->time();

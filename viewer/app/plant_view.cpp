@@ -84,7 +84,7 @@ ViewOptions PlantView::wanted() const {
 std::uint32_t PlantView::default_generations() const {
     const std::uint32_t own =
         document_ == nullptr ? 0 : document_->grammar.bytecode.generations.value_or(0);
-    return options_.file == settings.file ? options_.grammar.generations.value_or(own) : own;
+    return options_.grammar.generations.value_or(own);
 }
 
 std::uint32_t PlantView::generations() const {
@@ -279,6 +279,7 @@ void PlantView::picture_shown(double draw_seconds) {
 }
 
 void PlantView::open(const std::string& file) {
+    use_other_file(options_, file);
     settings.file = file;
     settings.definitions.clear();
     settings.generations.reset();

@@ -48,17 +48,8 @@ void ViewSwitcher::open(const std::string& file) {
         plant_->open(file);
         return;
     }
-    // Options of the command line belong to its own file.
     ViewOptions options = options_;
-    options.file = file;
-    options.is_forest = is_forest;
-    options.overrides = {};
-    options.files = {file};
-    options.grammar.definitions.clear();
-    options.grammar.generations.reset();
-    options.grammar.dialect.clear();
-    options.seed.reset();
-    options.camera.clear();
+    use_other_file(options, file);
     make(options);
 }
 

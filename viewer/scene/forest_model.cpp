@@ -153,12 +153,12 @@ std::vector<Sphere> spheres_in_heroes(const InstanceCache& cache,
     return spheres;
 }
 
-InstanceMeshStatus make_form(const InstanceCache& cache,
-                             std::uint64_t key,
-                             const std::vector<UserMesh>& user_meshes,
-                             const MeshOptions& options,
-                             std::size_t max_impostors,
-                             TreeForm& form) {
+std::optional<Stop> make_form(const InstanceCache& cache,
+                              std::uint64_t key,
+                              const std::vector<UserMesh>& user_meshes,
+                              const MeshOptions& options,
+                              std::size_t max_impostors,
+                              TreeForm& form) {
     form.cache = &cache;
     const auto meshes = std::make_shared<TreeMeshes>();
     TreeMeshes& levels = *meshes;
@@ -166,18 +166,18 @@ InstanceMeshStatus make_form(const InstanceCache& cache,
     MeshOptions level_options = options;
     level_options.tangents = false;
     level_options.colours = false;
-    InstanceMeshStatus status = make_instance_meshes(cache, user_meshes, level_options, levels[0]);
-    if (status != InstanceMeshStatus::Ok) {
-        return status;
+    std::optional<Stop> stop = make_instance_meshes(cache, user_meshes, level_options, levels[0]);
+    if (stop) {
+        return stop;
     }
     find_impostors(form, key, max_impostors);
     measure_impostors(form, key, levels[0]);
     for (std::uint32_t level = 1; level < kTreeLevels; ++level) {
         level_options.level = options.level + level;
-        status = make_instance_meshes(coarsened(cache, level, form.height()), user_meshes,
-                                      level_options, levels[level]);
-        if (status != InstanceMeshStatus::Ok) {
-            return status;
+        stop = make_instance_meshes(coarsened(cache, level, form.height()), user_meshes,
+                                    level_options, levels[level]);
+        if (stop) {
+            return stop;
         }
     }
     for (std::uint32_t level = 0; level < kTreeLevels; ++level) {
@@ -199,7 +199,7 @@ InstanceMeshStatus make_form(const InstanceCache& cache,
             }
         });
     }
-    return InstanceMeshStatus::Ok;
+    return std::nullopt;
 }
 
 } // namespace
@@ -315,12 +315,12 @@ InstanceCache coarsened(const InstanceCache& cache, std::uint32_t level, float h
     return coarse;
 }
 
-InstanceMeshStatus make_forest_model(const Forest& forest,
-                                     const Terrain& terrain,
-                                     const std::vector<std::vector<UserMesh>>& user_meshes,
-                                     const MeshOptions& options,
-                                     ForestModel& model,
-                                     const KnownModel& known) {
+std::optional<Stop> make_forest_model(const Forest& forest,
+                                      const Terrain& terrain,
+                                      const std::vector<std::vector<UserMesh>>& user_meshes,
+                                      const MeshOptions& options,
+                                      ForestModel& model,
+                                      const KnownModel& known) {
     model = {};
     model.forest = &forest;
     model.terrain = &terrain;
@@ -343,15 +343,14 @@ InstanceMeshStatus make_forest_model(const Forest& forest,
             continue;
         }
         for (const ForestStage& stage : forest.species[s].stages) {
-            const InstanceMeshStatus status =
-                make_form(stage.cache, forest.key, user_meshes[s], options, max_impostors,
-                          model.forms.emplace_back());
-            if (status != InstanceMeshStatus::Ok) {
-                return status;
+            if (const std::optional<Stop> stop =
+                    make_form(stage.cache, forest.key, user_meshes[s], options, max_impostors,
+                              model.forms.emplace_back())) {
+                return stop;
             }
         }
     }
-    return InstanceMeshStatus::Ok;
+    return std::nullopt;
 }
 
 } // namespace lsys::view

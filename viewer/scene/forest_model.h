@@ -72,8 +72,9 @@ struct KnownModel {
 };
 
 /// Builds the model, reusing what `known` has. `user_meshes`: by species. `options.level`: of the
-/// finest level. Forest and terrain must outlive the model. Returns the reason of a failure.
-[[nodiscard]] InstanceMeshStatus
+/// finest level. Forest and terrain must outlive the model. Returns as make_instance_meshes()
+/// does.
+[[nodiscard]] std::optional<Stop>
 make_forest_model(const Forest& forest,
                   const Terrain& terrain,
                   const std::vector<std::vector<UserMesh>>& user_meshes,

@@ -57,10 +57,34 @@ public:
         });
         branches_.axiom_is_random = branches_.axiom_is_random || program_.axiom.draw_count != 0 ||
                                     !program_.globals.empty();
-        return instanceable_ ? std::optional(std::move(branches_)) : std::nullopt;
+        if (!instanceable_) {
+            return std::nullopt;
+        }
+        note_variety();
+        return std::move(branches_);
     }
 
 private:
+    /// Reports a system to which instancing adds no variety.
+    void note_variety() {
+        const bool is_random = branches_.axiom_is_random ||
+                               std::any_of(branches_.kinds.begin(), branches_.kinds.end(),
+                                           [](const BranchKind& kind) { return kind.is_random; });
+        if (!is_random) {
+            diagnostics_
+                .add(DiagnosticCode::NoVariety, program_.axiom.span,
+                     "nothing that this system derives is left to chance, so all its plants are "
+                     "equal")
+                .notes.emplace_back("instancing adds no variety to it");
+        } else if (branches_.kinds.empty()) {
+            diagnostics_
+                .add(DiagnosticCode::NoVariety, program_.axiom.span,
+                     "no branch of this system holds a module with a production")
+                .notes.emplace_back("nothing can be put in place of anything, so its plants are "
+                                    "copies of the heroes");
+        }
+    }
+
     /// A `[` that waits for its `]`.
     struct Open {
         std::uint32_t index = 0;

@@ -38,8 +38,8 @@ struct Branches {
     bool axiom_is_random = false;
 };
 
-/// Returns nothing if the system cannot be instanced, after reporting the reasons. Precondition:
-/// program.complete.
+/// Returns nothing if the system cannot be instanced, after reporting the reasons; also reports a
+/// system to which instancing adds no variety. Precondition: program.complete.
 [[nodiscard]] std::optional<Branches>
 find_branches(const Program& program, const Names& names, Diagnostics& diagnostics);
 

@@ -108,13 +108,13 @@ MeshBuilder::MeshBuilder(const MeshOptions& options, Mesh& mesh) : options_(opti
     mesh.materials.clear();
 }
 
-/// Adds to the counts of vertices and bytes; sets the status if they do not fit.
+/// Adds to the counts of vertices and bytes; stops if they do not fit.
 bool MeshBuilder::take(std::uint64_t vertices, std::uint64_t triangle_bytes) {
-    if (status_ != MeshStatus::Ok) {
+    if (stop_) {
         return false;
     }
     if (vertices > kMaxVertices - vertices_) {
-        status_ = MeshStatus::TooManyVertices;
+        stop_ = Stop::Failed;
         return false;
     }
     const std::uint64_t bytes_of_vertex = 2 * sizeof(glm::vec3) +
@@ -125,7 +125,7 @@ bool MeshBuilder::take(std::uint64_t vertices, std::uint64_t triangle_bytes) {
     const std::uint64_t limit = options_.max_bytes;
     const std::uint64_t vertex_bytes = (vertices_ + vertices) * bytes_of_vertex;
     if (vertex_bytes > limit || triangle_bytes_ + triangle_bytes > limit - vertex_bytes) {
-        status_ = MeshStatus::Limit;
+        stop_ = Stop::Limit;
         return false;
     }
     triangle_bytes_ += triangle_bytes;
@@ -224,10 +224,10 @@ bool MeshBuilder::reserve(std::uint32_t part,
     return true;
 }
 
-MeshStatus MeshBuilder::finish() {
-    if (status_ != MeshStatus::Ok) {
+std::optional<Stop> MeshBuilder::finish() {
+    if (stop_) {
         mesh_ = {};
-        return status_;
+        return stop_;
     }
     std::vector<std::uint32_t> order(parts_.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -259,7 +259,7 @@ MeshStatus MeshBuilder::finish() {
         }
     }
     parts_.clear();
-    return MeshStatus::Ok;
+    return std::nullopt;
 }
 
 } // namespace lsys

@@ -78,8 +78,8 @@ public:
     void set_pictures(std::vector<std::shared_ptr<const Texture>> pictures) {
         pictures_ = std::move(pictures);
     }
-    /// Ok until a limit is exceeded.
-    [[nodiscard]] MeshStatus status() const { return status_; }
+    /// None until a limit is exceeded, as of make_mesh().
+    [[nodiscard]] std::optional<Stop> stop() const { return stop_; }
     [[nodiscard]] std::uint64_t vertex_count() const { return vertices_; }
     /// Segments of all vertices so far; empty if the options leave them out.
     [[nodiscard]] std::span<VertexSegments> segments() {
@@ -102,8 +102,8 @@ public:
     [[nodiscard]] bool
     reserve(std::uint32_t part, std::uint64_t vertices, std::uint64_t indices, MeshBlock& block);
 
-    /// Joins the parts; the mesh is empty unless Ok is returned.
-    [[nodiscard]] MeshStatus finish();
+    /// Joins the parts; the mesh is empty if a Stop is returned.
+    [[nodiscard]] std::optional<Stop> finish();
 
 private:
     struct Part {
@@ -117,7 +117,7 @@ private:
 
     const MeshOptions& options_;
     Mesh& mesh_;
-    MeshStatus status_ = MeshStatus::Ok;
+    std::optional<Stop> stop_;
     std::uint64_t vertices_ = 0;
     std::uint64_t triangle_bytes_ = 0;
     std::vector<std::shared_ptr<const Texture>> pictures_;

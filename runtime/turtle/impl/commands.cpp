@@ -109,12 +109,7 @@ bool Turtle::State::save() {
     if (stack.size() == stack.capacity() && bytes > options.max_bytes) {
         return stop(Stop::Limit);
     }
-    try {
-        stack.push_back(now);
-    } catch (const std::bad_alloc&) {
-        return stop(Stop::OutOfMemory);
-    }
-    return true;
+    return within_memory([this] { stack.push_back(now); });
 }
 
 bool Turtle::State::restore() {
@@ -197,12 +192,10 @@ void Turtle::State::close_polygon() {
         polygon.parent = now.segment;
         polygon.order = order();
         polygon.colour = now.colour;
-        try {
+        within_memory([&] {
             skeleton.corners.insert(skeleton.corners.end(), corners.begin(), corners.end());
             skeleton.polygons.push_back(polygon);
-        } catch (const std::bad_alloc&) {
-            stop(Stop::OutOfMemory);
-        }
+        });
         if (skeleton.byte_count() > options.max_bytes) {
             stop(Stop::Limit);
         }

@@ -2,6 +2,7 @@
 // commands.cpp.
 #pragma once
 
+#include "runtime/base/out_of_memory.h"
 #include "runtime/derive/interpretation.h"
 #include "runtime/turtle/impl/actions.h"
 #include "runtime/turtle/impl/polygons.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -154,6 +154,15 @@ struct Turtle::State {
         note(kind);
         return stop(Stop::Diagnosed);
     }
+    /// Runs work(); returns false after stopping the drawing for want of memory.
+    template <typename Work>
+    bool within_memory(const Work& work) {
+        const auto run = [&] {
+            work();
+            return true;
+        };
+        return catch_out_of_memory(run, [this] { return stop(Stop::OutOfMemory); });
+    }
     /// Makes room in `items` for one more; returns false after stopping the drawing.
     template <typename Items>
     bool has_room(Items& items);
@@ -207,12 +216,7 @@ bool Turtle::State::has_room(Items& items) {
     if (skeleton.byte_count() + (room - items.size()) * item > options.max_bytes) {
         return stop(Stop::Limit);
     }
-    try {
-        items.reserve(room);
-    } catch (const std::bad_alloc&) {
-        return stop(Stop::OutOfMemory);
-    }
-    return true;
+    return within_memory([&] { items.reserve(room); });
 }
 
 /// Volume of a truncated cone times the density.

@@ -22,7 +22,7 @@ Mesh mesh_of(const Skeleton& plant, MeshOptions options) {
     options.segments = true;
     options.threads = 2;
     Mesh mesh;
-    REQUIRE(make_mesh(plant, {}, options, mesh) == MeshStatus::Ok);
+    REQUIRE(make_mesh(plant, {}, options, mesh) == std::nullopt);
     REQUIRE(mesh.segments.size() == mesh.positions.size());
     return mesh;
 }

@@ -102,7 +102,7 @@ Mesh meshed(const Skeleton& skeleton, const MeshOptions& options) {
     Mesh mesh;
     MeshBuilder builder(options, mesh);
     append_boxes(skeleton, options, builder);
-    REQUIRE(builder.finish() == MeshStatus::Ok);
+    REQUIRE(builder.finish() == std::nullopt);
     test::check_mesh(mesh, options);
     return mesh;
 }
@@ -385,12 +385,12 @@ TEST_CASE("too many subdivisions are refused before they are made") {
         const MeshOptions options = boxes(subdivisions);
         MeshBuilder builder(options, mesh);
         append_boxes(plant.skeleton, options, builder);
-        CHECK(builder.finish() == MeshStatus::TooManyVertices);
+        CHECK(builder.finish() == Stop::Failed);
     }
     Mesh mesh;
     MeshOptions options = boxes(4);
     options.max_bytes = 100'000;
     MeshBuilder builder(options, mesh);
     append_boxes(plant.skeleton, options, builder);
-    CHECK(builder.finish() == MeshStatus::Limit);
+    CHECK(builder.finish() == Stop::Limit);
 }

@@ -43,7 +43,7 @@ TEST_CASE("parts that come whole keep their triangles as they are", "[mesh]") {
     fill(block, 1);
     REQUIRE(builder.reserve(builder.part(wood_material(0)), 3, 3, block));
     fill(block, 2);
-    REQUIRE(builder.finish() == MeshStatus::Ok);
+    REQUIRE(builder.finish() == std::nullopt);
     REQUIRE(mesh.parts.size() == 2);
     CHECK(mesh.parts[0].index_count == 18'003);
     CHECK(mesh.parts[1].first_index == 18'003);
@@ -73,7 +73,7 @@ TEST_CASE("parts made in place come first, the others by material", "[mesh]") {
     fill(block, 3);
     REQUIRE(builder.reserve(builder.part(wood_material(0)), 3, 3, block)); // more of the first
     fill(block, 4);
-    REQUIRE(builder.finish() == MeshStatus::Ok);
+    REQUIRE(builder.finish() == std::nullopt);
 
     REQUIRE(mesh.parts.size() == 4);
     CHECK(mesh.materials[0].name == "bark");
@@ -101,7 +101,7 @@ TEST_CASE("arrays that the options leave out stay empty", "[mesh]") {
     MeshBlock block;
     REQUIRE(builder.reserve(builder.part(wood_material(0)), 3, 3, block));
     fill(block, 1);
-    REQUIRE(builder.finish() == MeshStatus::Ok);
+    REQUIRE(builder.finish() == std::nullopt);
     CHECK(mesh.texture_coordinates.empty());
     CHECK(mesh.tangents.empty());
     CHECK(mesh.colours.empty());
@@ -119,17 +119,17 @@ TEST_CASE("what does not fit is refused before room is made", "[mesh]") {
         MeshBuilder builder(options, mesh);
         const std::uint32_t part = builder.part(wood_material(0));
         REQUIRE(builder.reserve(part, 3, 3, block));
-        CHECK(builder.status() == MeshStatus::Ok);
+        CHECK(builder.stop() == std::nullopt);
         CHECK_FALSE(builder.reserve(part, 0, 1, block));
         CHECK_FALSE(builder.reserve(part, 0, 0, block));
-        CHECK(builder.finish() == MeshStatus::Limit);
+        CHECK(builder.finish() == Stop::Limit);
     }
     SECTION("by the reach of an index") {
         const MeshOptions options;
         MeshBuilder builder(options, mesh);
         CHECK_FALSE(
             builder.reserve(builder.part(wood_material(0)), std::uint64_t{1} << 32, 3, block));
-        CHECK(builder.finish() == MeshStatus::TooManyVertices);
+        CHECK(builder.finish() == Stop::Failed);
     }
     CHECK(mesh.positions.empty());
     CHECK(mesh.indices.empty());

@@ -16,7 +16,7 @@ Mesh meshed(const Skeleton& skeleton, const MeshOptions& options = {}) {
     Mesh mesh;
     MeshBuilder builder(options, mesh);
     append_cylinders(skeleton, options, builder);
-    REQUIRE(builder.finish() == MeshStatus::Ok);
+    REQUIRE(builder.finish() == std::nullopt);
     test::check_mesh(mesh, options);
     CHECK(test::triangles_turned_over(mesh) == 0);
     return mesh;

@@ -20,7 +20,7 @@ constexpr double kPi = std::numbers::pi;
 
 Mesh tubes(const Skeleton& skeleton, const MeshOptions& options) {
     Mesh mesh;
-    REQUIRE(make_mesh(skeleton, {}, options, mesh) == MeshStatus::Ok);
+    REQUIRE(make_mesh(skeleton, {}, options, mesh) == std::nullopt);
     test::check_mesh(mesh, options);
     return mesh;
 }

@@ -15,7 +15,7 @@ namespace {
 
 struct Meshed {
     Mesh mesh;
-    MeshStatus status = MeshStatus::Ok;
+    std::optional<Stop> stop;
 };
 
 Meshed try_meshed(const Skeleton& skeleton,
@@ -24,7 +24,7 @@ Meshed try_meshed(const Skeleton& skeleton,
     Meshed result;
     MeshBuilder builder(options, result.mesh);
     append_objects(skeleton, user_meshes, options, builder);
-    result.status = builder.finish();
+    result.stop = builder.finish();
     return result;
 }
 
@@ -32,7 +32,7 @@ Mesh meshed(const Skeleton& skeleton,
             const MeshOptions& options = {},
             const std::vector<UserMesh>& user_meshes = {}) {
     Meshed result = try_meshed(skeleton, user_meshes, options);
-    REQUIRE(result.status == MeshStatus::Ok);
+    REQUIRE(result.stop == std::nullopt);
     test::check_mesh(result.mesh, options);
     return std::move(result.mesh);
 }
@@ -215,6 +215,6 @@ TEST_CASE("objects over the limit leave the mesh empty") {
     MeshOptions options;
     options.max_bytes = 1000;
     const Meshed result = try_meshed(random_objects(4, 100), {}, options);
-    CHECK(result.status == MeshStatus::Limit);
+    CHECK(result.stop == Stop::Limit);
     CHECK(result.mesh.positions.empty());
 }

@@ -111,7 +111,7 @@ Mesh meshed(const Skeleton& skeleton, const MeshOptions& options = {}) {
     Mesh mesh;
     MeshBuilder builder(options, mesh);
     append_polygons(skeleton, options, builder);
-    REQUIRE(builder.finish() == MeshStatus::Ok);
+    REQUIRE(builder.finish() == std::nullopt);
     test::check_mesh(mesh, options);
     return mesh;
 }
@@ -316,6 +316,6 @@ TEST_CASE("polygons over the limit leave the mesh empty") {
     Mesh mesh;
     MeshBuilder builder(options, mesh);
     append_polygons(skeleton_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), options, builder);
-    CHECK(builder.finish() == MeshStatus::Limit);
+    CHECK(builder.finish() == Stop::Limit);
     CHECK(mesh.positions.empty());
 }

@@ -22,7 +22,7 @@ constexpr MeshOptions kBare{
 
 Mesh tubes(const Skeleton& skeleton, const MeshOptions& options) {
     Mesh mesh;
-    REQUIRE(make_mesh(skeleton, {}, options, mesh) == MeshStatus::Ok);
+    REQUIRE(make_mesh(skeleton, {}, options, mesh) == std::nullopt);
     test::check_mesh(mesh, options);
     return mesh;
 }
@@ -102,16 +102,16 @@ TEST_CASE("tubes are the same for any number of threads", "[mesh][tubes]") {
     REQUIRE(skeleton.segments.size() > std::size_t{3} * 4096); // pieces of work
     MeshOptions options{.threads = 1};
     Mesh one;
-    REQUIRE(make_mesh(skeleton, {}, options, one) == MeshStatus::Ok);
+    REQUIRE(make_mesh(skeleton, {}, options, one) == std::nullopt);
     for (const std::uint32_t threads : {2U, 3U}) {
         options.threads = threads;
         Mesh mesh;
-        REQUIRE(make_mesh(skeleton, {}, options, mesh) == MeshStatus::Ok);
+        REQUIRE(make_mesh(skeleton, {}, options, mesh) == std::nullopt);
         CHECK(same_bytes(one, mesh));
     }
     // And in memory that held another mesh.
     Mesh used = tubes(test::random_tree(8, 1), kBare);
-    REQUIRE(make_mesh(skeleton, {}, options, used) == MeshStatus::Ok);
+    REQUIRE(make_mesh(skeleton, {}, options, used) == std::nullopt);
     CHECK(same_bytes(one, used));
 }
 
@@ -182,7 +182,7 @@ TEST_CASE("an axis a million segments deep keeps its frame", "[mesh][tubes]") {
         last = plant.add(last, {std::sin(angle), std::cos(angle), 0.1F}, 1.0F, {.sides = 3});
     }
     Mesh mesh;
-    REQUIRE(make_mesh(plant.skeleton(), {}, kBare, mesh) == MeshStatus::Ok);
+    REQUIRE(make_mesh(plant.skeleton(), {}, kBare, mesh) == std::nullopt);
     REQUIRE(mesh.normals.size() > 3000000);
     float worst = 0.0F;
     for (const glm::vec3& normal : mesh.normals) {
@@ -250,9 +250,9 @@ TEST_CASE("limits of tubes are outcomes", "[mesh][tubes]") {
     MeshOptions options = kBare;
     const std::uint64_t bytes = tubes(skeleton, options).byte_count();
     options.max_bytes = bytes;
-    CHECK(make_mesh(skeleton, {}, options, mesh) == MeshStatus::Ok);
+    CHECK(make_mesh(skeleton, {}, options, mesh) == std::nullopt);
     options.max_bytes = bytes - 1;
-    CHECK(make_mesh(skeleton, {}, options, mesh) == MeshStatus::Limit);
+    CHECK(make_mesh(skeleton, {}, options, mesh) == Stop::Limit);
     CHECK(mesh.positions.empty());
     CHECK(mesh.indices.empty());
 }

@@ -23,7 +23,7 @@ constexpr float kPi = std::numbers::pi_v<float>;
 
 Mesh tubes(const Skeleton& skeleton, const MeshOptions& options) {
     Mesh mesh;
-    REQUIRE(make_mesh(skeleton, {}, options, mesh) == MeshStatus::Ok);
+    REQUIRE(make_mesh(skeleton, {}, options, mesh) == std::nullopt);
     test::check_mesh(mesh, options);
     return mesh;
 }

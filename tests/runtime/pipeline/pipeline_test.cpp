@@ -69,6 +69,40 @@ TEST_CASE("the pipeline says why there is no plant") {
     CHECK(grow_plant({}, grammar.value(), project).stop() == Stop::Cancelled);
 }
 
+TEST_CASE("the pipeline says why there is no mesh") {
+    Project project = project_of({{"tree.lsys", kTree}});
+    Outcome<Grammar> grammar = load_grammar("tree.lsys", {}, project);
+    REQUIRE(grammar);
+    const Outcome<Plant> plant = grow_plant({}, grammar.value(), project);
+    REQUIRE(plant);
+    project.limits.max_bytes = 100;
+    const Outcome<Mesh> mesh = mesh_plant(plant.value(), plant.value().skeleton, {}, project);
+    REQUIRE_FALSE(mesh);
+    CHECK(mesh.stop() == Stop::Limit);
+    const auto message_of = [](const Messages& messages) {
+        const Message& message = messages.all().at(0);
+        return message.diagnostics.all().empty() ? message.text
+                                                 : message.diagnostics.all()[0].message;
+    };
+    CHECK(message_of(mesh.messages()) == "the mesh does not fit into 100 B");
+
+    Step missing(project);
+    Outcome<void> ended = missing.end_too_large(Stop::OutOfMemory, "the mesh");
+    CHECK(ended.stop() == Stop::OutOfMemory);
+    CHECK(message_of(ended.messages()) == "the system has no memory for the mesh");
+
+    Step heroes(project);
+    ended = end_mesh_of_heroes(Stop::Limit, heroes);
+    CHECK(ended.stop() == Stop::Limit);
+    CHECK(message_of(ended.messages()) == "the mesh of the heroes does not fit into 100 B");
+    Step many(project);
+    ended = end_mesh_of_heroes(Stop::Failed, many);
+    CHECK(ended.stop() == Stop::Failed);
+    CHECK(message_of(ended.messages()) ==
+          "the heroes have more than 4,294,967,295 vertices; ask for fewer --heroes, --sides or "
+          "generations");
+}
+
 TEST_CASE("the pipeline grows a forest of one grammar and places its trees") {
     const Project project = project_of({{"tree.lsys", kTree}});
     const Outcome<LoadedScene> loaded = load_scene({"tree.lsys"}, {}, project);

@@ -411,6 +411,41 @@ TEST_CASE("slow pictures are coarser while something moves, and whole when all r
     CHECK_FALSE(forest.is_coarse());
 }
 
+TEST_CASE("another scene is opened without options, heroes and painting of the first") {
+    const WoodFolder first(wood(50));
+    write_text(first.folder / "bush.lsys", std::string("#define size 1;\n") + kBush);
+    const WoodFolder second(wood(40));
+    write_text(second.folder / "bush.lsys",
+               "#n = 2;\n#set names letters;\n#w : A;\n#p : A : * : F[+A]A;\n");
+    ViewOptions options = options_of(first.scene);
+    options.grammar.definitions = {{"size", 2.0F}};
+    options.grammar.generations = 1;
+    options.seed = 5;
+    Viewed viewed(options);
+    REQUIRE(viewed.until_swaps(1));
+    ForestView& forest = viewed.forest();
+    CHECK(forest.document()->grown.forest.species[0].stages[0].generations == 1);
+    CHECK(forest.document()->scene.species[0].cache.seed == 5);
+    viewed.look_at(30.0F, 30.0F);
+    forest.settings.tool = PaintTool::OneTree;
+    viewed.press();
+    REQUIRE(forest.is_unsaved());
+    viewed.views.open(second.scene); // refused
+    viewed.views.open(second.scene);
+    REQUIRE(viewed.until_trees(40));
+    const SceneSpecies& species = forest.document()->scene.species[0];
+    CHECK(species.definitions.empty());
+    CHECK(species.cache.seed == 0);
+    CHECK(forest.document()->grown.forest.species[0].stages[0].generations == 2);
+    CHECK_FALSE(forest.document()->grown.known[0]);
+    CHECK_FALSE(forest.is_unsaved());
+    CHECK_FALSE(forest.failed());
+    // Heroes of a scene in another folder are not those of the scene before it.
+    forest.open(first.scene);
+    REQUIRE(viewed.until_trees(50));
+    CHECK_FALSE(forest.document()->grown.known[0]);
+}
+
 TEST_CASE("dropped files show plants and forests in turn") {
     const WoodFolder files(wood(50));
     Viewed viewed(options_of(files.scene));

@@ -34,6 +34,24 @@ TEST_CASE("options switch shadows and the ground off") {
     CHECK_FALSE(bare.ground);
 }
 
+TEST_CASE("another file drops the options about the files of the command line") {
+    ViewOptions options =
+        parsed<ViewOptions>({"a.l", "b.l", "-D", "a=1", "-n", "3", "-s", "3", "--dialect", "l3d",
+                             "--heroes", "3", "--camera", "fov 30", "--no-shadows"});
+    use_other_file(options, "wood.toml");
+    ViewOptions fresh = parsed<ViewOptions>({"wood.toml", "--no-shadows"});
+    CHECK(options.file == fresh.file);
+    CHECK(options.files == fresh.files);
+    CHECK(options.is_forest);
+    CHECK(options.grammar == fresh.grammar);
+    CHECK(options.overrides == fresh.overrides);
+    CHECK(options.seed == fresh.seed);
+    CHECK(options.camera.empty());
+    CHECK_FALSE(options.shadows);
+    use_other_file(options, "tree.lsys");
+    CHECK_FALSE(options.is_forest);
+}
+
 TEST_CASE("an option of forests shows a grammar as a forest") {
     CHECK(parsed<ViewOptions>({"tree.lsys", "--heroes", "3"}).is_forest);
     CHECK(parsed<ViewOptions>({"wood.toml"}).is_forest);

@@ -209,6 +209,21 @@ TEST_CASE("another file is opened with all in view") {
     CHECK(viewed.view.document()->plant.generations == viewed.view.default_generations());
 }
 
+TEST_CASE("another file is opened without the options of the first") {
+    ViewOptions options = options_of(sample("teach-param"));
+    options.grammar.dialect = "lsys";
+    options.grammar.generations = 1;
+    Viewed viewed(options);
+    REQUIRE(viewed.until_swaps(1));
+    CHECK(viewed.view.generations() == 1);
+    const ScratchFolder scratch;
+    write_text(scratch / "figure.rules", "axiom: F\ngenerations: 3\nF=FF\n");
+    viewed.view.open(scratch / "figure.rules");
+    REQUIRE(viewed.until_swaps(2));
+    CHECK(viewed.view.default_generations() == 3);
+    CHECK(viewed.view.document()->plant.skeleton.segments.size() == 8);
+}
+
 TEST_CASE("keys change what is shown, letters move while flying") {
     Viewed viewed(options_of(sample("teach-param")));
     REQUIRE(viewed.until_swaps(1));
