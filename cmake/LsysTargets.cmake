@@ -49,6 +49,20 @@ function(lsys_precompile target)
   endif()
 endfunction()
 
+# lsys_unity(TARGETS...): batches of six sources per compiler run, because headers and templates take most of the
+# time of a source. Names of unnamed namespaces are unique within such a target. Libraries whose speed the benchmarks
+# measure are no such targets. OFF compiles each source alone, which clang-tidy, coverage and missing includes need.
+option(LSYS_UNITY "Compile sources of tests and programs in batches" OFF)
+function(lsys_unity)
+  set_target_properties(${ARGN} PROPERTIES UNITY_BUILD ${LSYS_UNITY} UNITY_BUILD_BATCH_SIZE 6)
+  if(LSYS_UNITY)
+    # g++ takes an unnamed namespace of an included source for one of a header.
+    foreach(target ${ARGN})
+      target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+    endforeach()
+  endif()
+endfunction()
+
 # lsys_library(NAME SOURCES... ) : a static library of ours.
 function(lsys_library name)
   add_library(${name} STATIC ${ARGN})

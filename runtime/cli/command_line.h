@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runtime/cli/options.h"
-#include "runtime/program/option_parsers.h"
+#include "runtime/program/usage.h"
 
 #include <cstdint>
 #include <span>

@@ -8,6 +8,7 @@
 #include "runtime/program/arguments.h"
 #include "runtime/program/message_options.h"
 #include "runtime/program/run_options.h"
+#include "runtime/program/usage.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -20,17 +21,6 @@
 #include <vector>
 
 namespace lsys {
-
-/// Text to print instead of running a command: --help, --version.
-struct PrintText {
-    std::string text;
-};
-
-/// A mistake in a command line.
-struct UsageError {
-    std::string message;
-    std::string help;
-};
 
 /// Adds an option whose value `parse` reads into `target`.
 template <typename Target, typename Parse>

@@ -18,8 +18,8 @@ using test::plant;
 
 namespace {
 
-const std::string kBush = "#set names letters; #object l LEAF; #w : A;"
-                          "#p : A : ~ 0.5 : F[+Al][-A]/A; #q : A : ~ 0.5 : F[+A]//Al;";
+const std::string kLeafyBush = "#set names letters; #object l LEAF; #w : A;"
+                               "#p : A : ~ 0.5 : F[+Al][-A]/A; #q : A : ~ 0.5 : F[+A]//Al;";
 
 /// A forest with its surfaces.
 struct Wood {
@@ -140,8 +140,8 @@ Shape shape_of(const Mesh& mesh) {
 
 TEST_CASE("an instance takes forty bytes of a GLB, whatever the cells") {
     Wood wood;
-    wood.add_species(kBush, 5);
-    wood.add_species(kBush, 4);
+    wood.add_species(kLeafyBush, 5);
+    wood.add_species(kLeafyBush, 4);
     wood.add_trees(700);
     const Exported one = exported(wood.scene(), ExportFormat::Glb);
     REQUIRE(!one.stop);
@@ -173,7 +173,7 @@ TEST_CASE("an instance takes forty bytes of a GLB, whatever the cells") {
 
 TEST_CASE("a forest has the same bytes for any number of threads") {
     Wood wood;
-    wood.add_species(kBush, 5);
+    wood.add_species(kLeafyBush, 5);
     wood.add_trees(1800);
     for (const ExportFormat format : export_formats()) {
         if (traits_of(format).write_forest == nullptr) {
@@ -194,7 +194,7 @@ TEST_CASE("a forest has the same bytes for any number of threads") {
 
 TEST_CASE("a forest has the same bytes however little room there is for its transforms") {
     Wood wood;
-    wood.add_species(kBush, 5);
+    wood.add_species(kLeafyBush, 5);
     wood.add_trees(700);
     for (const float cell : {0.0F, 200.0F}) {
         ForestExportInfo info;
@@ -213,7 +213,7 @@ TEST_CASE("a forest has the same bytes however little room there is for its tran
 
 TEST_CASE("the instances of a GLB stand where the baked forest has its triangles") {
     Wood wood;
-    wood.add_species(kBush, 5);
+    wood.add_species(kLeafyBush, 5);
     wood.add_trees(600);
     const Mesh baked = bake(wood.scene());
     test::check_mesh(baked, {});
@@ -308,7 +308,7 @@ TEST_CASE("transforms of more instances than are held at once are all there") {
 
 TEST_CASE("a forest that cannot be written is refused before a byte is") {
     Wood wood;
-    wood.add_species(kBush, 4);
+    wood.add_species(kLeafyBush, 4);
     CHECK(exported(wood.scene(), ExportFormat::Glb).error == kNothing);
     wood.add_trees(20);
     Wood bare;
@@ -348,7 +348,7 @@ TEST_CASE("a forest that cannot be written is refused before a byte is") {
 
 TEST_CASE("a ground without trees is a forest, and is baked with its material") {
     Wood wood;
-    wood.add_species(kBush, 4);
+    wood.add_species(kLeafyBush, 4);
     Mesh ground;
     ground.positions = {{0, 0, 0}, {0, 0, 9}, {9, 0, 0}};
     ground.normals = {{0, 1, 0}, {0, 1, 0}, {0, 1, 0}};
@@ -375,11 +375,11 @@ TEST_CASE("trees that look the same are not counted twice, whatever they are mad
     same.add_trees(500);
     CHECK(count_different_trees(same.forest, 0) == 1);
     Wood heroes;
-    heroes.add_species(kBush, 6, 0.0F);
+    heroes.add_species(kLeafyBush, 6, 0.0F);
     heroes.add_trees(500);
     CHECK(count_different_trees(heroes.forest, 0) == 10);
     Wood bushes;
-    bushes.add_species(kBush, 8);
+    bushes.add_species(kLeafyBush, 8);
     bushes.add_trees(2000);
     const std::uint64_t different = count_different_trees(bushes.forest, 1);
     CHECK(different > 1900);
@@ -388,8 +388,8 @@ TEST_CASE("trees that look the same are not counted twice, whatever they are mad
 
 TEST_CASE("statistics of a forest add up") {
     Wood wood;
-    wood.add_species(kBush, 5);
-    wood.add_species(kBush, 3);
+    wood.add_species(kLeafyBush, 5);
+    wood.add_species(kLeafyBush, 3);
     wood.add_trees(101);
     const json stats = json::parse(forest_stats_json(wood.scene(), {.different_trees = true}));
     const ForestCounts counts = count_forest(wood.forest, 0);

@@ -14,10 +14,12 @@
 
 using namespace lsys;
 using test::count_strangers;
+using test::heroes;
 using test::plain_plant;
 using test::plant;
 using test::Planted;
 using test::segments_of;
+using test::tree_of;
 using test::TreeSegment;
 
 namespace {
@@ -30,19 +32,6 @@ std::string sample(const std::string& name) {
     }
     FAIL("no sample " << name);
     return {};
-}
-
-Tree tree_of(std::uint32_t number) {
-    Tree tree;
-    tree.number = number;
-    return tree;
-}
-
-CacheOptions heroes(std::uint32_t count, std::uint64_t seed = 0) {
-    CacheOptions options;
-    options.heroes = count;
-    options.seed = seed;
-    return options;
 }
 
 /// What a tree looks like, for telling trees apart.

@@ -14,24 +14,13 @@
 #include <vector>
 
 using namespace lsys;
+using test::heroes;
 using test::plain_plant;
 using test::plant;
 using test::Planted;
+using test::tree_of;
 
 namespace {
-
-CacheOptions heroes(std::uint32_t count, std::uint64_t seed = 0) {
-    CacheOptions options;
-    options.heroes = count;
-    options.seed = seed;
-    return options;
-}
-
-Tree tree_of(std::uint32_t number) {
-    Tree tree;
-    tree.number = number;
-    return tree;
-}
 
 using Triangle = std::array<glm::dvec3, 3>;
 
@@ -146,9 +135,9 @@ count_strangers(const std::vector<Triangle>& a, const std::vector<Triangle>& b, 
     return strangers;
 }
 
-const std::string kBush = "#set names letters; #object l LEAF; #w : A;"
-                          "#p : A : ~ 0.5 : F[+Al][-A]/A; #q : A : ~ 0.3 : F[+A]//A;"
-                          "#r : A : ~ 0.2 : FF[&A]F[+l];";
+const std::string kMeshedBush = "#set names letters; #object l LEAF; #w : A;"
+                                "#p : A : ~ 0.5 : F[+Al][-A]/A; #q : A : ~ 0.3 : F[+A]//A;"
+                                "#r : A : ~ 0.2 : FF[&A]F[+l];";
 
 } // namespace
 
@@ -156,7 +145,7 @@ TEST_CASE("without taking, an instance has the triangles of the plain plant, bit
     const auto method = GENERATE(MeshMethod::Tubes, MeshMethod::Cylinders);
     MeshOptions options;
     options.method = method;
-    const Planted planted = plant(kBush, 6, 0.0F, heroes(4, 40));
+    const Planted planted = plant(kMeshedBush, 6, 0.0F, heroes(4, 40));
     const InstanceMeshes meshes = meshes_of(planted.cache, options);
     for (std::uint32_t i = 0; i < planted.cache.instances.size(); ++i) {
         const Instance& instance = planted.cache.instances[i];
@@ -165,7 +154,7 @@ TEST_CASE("without taking, an instance has the triangles of the plain plant, bit
             continue;
         }
         const auto expected =
-            triangles_of(plain_mesh(plain_plant(kBush, 6, 40 + instance.hero), options));
+            triangles_of(plain_mesh(plain_plant(kMeshedBush, 6, 40 + instance.hero), options));
         std::size_t found = 0;
         for (const MeshPart& part : meshes.parts_of(i)) {
             std::vector<std::array<double, 9>> ours;
@@ -235,7 +224,7 @@ TEST_CASE("where nothing is left to chance, a tree has the surface of the plain 
 }
 
 TEST_CASE("instances within one another share vertices") {
-    const Planted planted = plant(kBush, 6, 0.5F, heroes(10));
+    const Planted planted = plant(kMeshedBush, 6, 0.5F, heroes(10));
     const InstanceMeshes meshes = meshes_of(planted.cache);
     const Mesh heroes_mesh = plain_mesh(planted.cache.skeleton);
     // But for an end where a branch was passed over, which is a half ball and no disc.
@@ -291,7 +280,7 @@ TEST_CASE("a branch that is put elsewhere begins where and as wide as its parent
 }
 
 TEST_CASE("surfaces of instances are the same for any number of threads") {
-    const Planted planted = plant(kBush, 7, 0.5F, heroes(10));
+    const Planted planted = plant(kMeshedBush, 7, 0.5F, heroes(10));
     MeshOptions options;
     options.threads = 1;
     const InstanceMeshes one = meshes_of(planted.cache, options);
@@ -303,7 +292,7 @@ TEST_CASE("surfaces of instances are the same for any number of threads") {
 }
 
 TEST_CASE("surfaces of instances that cannot be are refused") {
-    const Planted planted = plant(kBush, 5, 0.5F, heroes(4));
+    const Planted planted = plant(kMeshedBush, 5, 0.5F, heroes(4));
     InstanceMeshes meshes;
     MeshOptions options;
     options.method = MeshMethod::Boxes;

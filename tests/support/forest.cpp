@@ -30,6 +30,19 @@ TreeSegment at(const BranchInstance& where,
 
 } // namespace
 
+CacheOptions heroes(std::uint32_t count, std::uint64_t seed) {
+    CacheOptions options;
+    options.heroes = count;
+    options.seed = seed;
+    return options;
+}
+
+Tree tree_of(std::uint32_t number) {
+    Tree tree;
+    tree.number = number;
+    return tree;
+}
+
 Planted
 plant(const std::string& grammar, std::uint32_t generations, float rho, CacheOptions options) {
     CompileOptions compile;

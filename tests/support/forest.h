@@ -18,6 +18,10 @@ struct Planted {
     InstanceCache cache;
 };
 
+/// Options with `count` heroes.
+[[nodiscard]] CacheOptions heroes(std::uint32_t count, std::uint64_t seed = 0);
+[[nodiscard]] Tree tree_of(std::uint32_t number);
+
 /// Requires success.
 [[nodiscard]] Planted
 plant(const std::string& grammar, std::uint32_t generations, float rho, CacheOptions options);

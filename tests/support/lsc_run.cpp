@@ -73,6 +73,10 @@ std::string ScratchFolder::operator/(std::string_view name) const {
     return (path_ / name).string();
 }
 
+std::size_t ScratchFolder::file_count() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path_), {}));
+}
+
 std::vector<Sample> all_samples() {
     std::vector<Sample> samples;
     for (const fs::directory_entry& entry : fs::directory_iterator(LSYS_SOURCE_DIR "/samples")) {

@@ -1,6 +1,7 @@
 // In-process runs of `lsc`, and helpers of their tests.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -34,6 +35,8 @@ public:
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     /// The path of a file in it, as an argument.
     [[nodiscard]] std::string operator/(std::string_view name) const;
+    /// Count of files and folders directly in it.
+    [[nodiscard]] std::size_t file_count() const;
 
 private:
     std::filesystem::path path_;

@@ -19,7 +19,7 @@ using namespace lsys::tests;
 
 namespace {
 
-struct Scene {
+struct PictureCase {
     std::string name;
     std::vector<std::string> arguments;
 };
@@ -92,7 +92,7 @@ SquareDifference difference_by_square(const Picture& a, const Picture& b, std::u
     return difference;
 }
 
-void compare(const Scene& scene) {
+void compare(const PictureCase& scene) {
     CAPTURE(scene.name);
     std::vector<std::string> arguments = scene.arguments;
     arguments.insert(arguments.end(), {"--size", "320x240"});
@@ -113,7 +113,7 @@ void compare(const Scene& scene) {
 } // namespace
 
 TEST_CASE("plants look as they did") {
-    compare(GENERATE(values<Scene>({
+    compare(GENERATE(values<PictureCase>({
         {"bush", {sample("abop-1-25-bush")}},
         {"carey-tree", {sample("carey-type-0")}},
         {"koch-island", {sample("abop-1-6-koch-island")}},
@@ -136,7 +136,7 @@ TEST_CASE("plants look as they did") {
 
 TEST_CASE("forests look as they did") {
     const std::string ten_thousand = LSYS_SOURCE_DIR "/tests/bench/view-forest.toml";
-    compare(GENERATE_COPY(values<Scene>({
+    compare(GENERATE_COPY(values<PictureCase>({
         {"mixed-forest",
          {scene("mixed-forest"), "--camera", "eye -10,40,-20 target 110,5,110", "--triangles",
           "300000"}},

@@ -11,7 +11,7 @@ namespace lsys::tests {
 
 namespace {
 
-constexpr const char* kBush = R"(#set names letters; #set angle 25; #w : A;
+constexpr const char* kWoodBush = R"(#set names letters; #set angle 25; #w : A;
 #p : A : ~ 0.5 : F[+A][-A]/A; #q : A : ~ 0.3 : F[+A]//A; #r : A : ~ 0.2 : FF[&A]F;)";
 
 std::unique_ptr<Wood> make_wood(std::uint32_t count, float side, Terrain terrain) {
@@ -20,7 +20,7 @@ std::unique_ptr<Wood> make_wood(std::uint32_t count, float side, Terrain terrain
     options.heroes = 6;
     ForestStage stage;
     stage.generations = 5;
-    stage.cache = test::plant(kBush, 5, 0.6F, options).cache;
+    stage.cache = test::plant(kWoodBush, 5, 0.6F, options).cache;
     ForestSpecies species;
     species.name = "bush";
     species.stages.push_back(std::move(stage));

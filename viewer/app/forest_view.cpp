@@ -13,7 +13,6 @@ namespace lsys::view {
 
 namespace {
 
-constexpr double kMilliseconds = 1e3;
 // Time for baking of impostors between two events, s.
 constexpr double kBakeTime = 0.02;
 // Limit per picture, so that a flying camera does not stutter.
@@ -23,7 +22,7 @@ constexpr double kSlowPicture = 0.12;
 constexpr double kRest = 0.25;
 constexpr std::uint64_t kMinTriangles = 20'000;
 
-ForestViewSettings first_settings(const ViewOptions& options) {
+ForestViewSettings first_forest_settings(const ViewOptions& options) {
     ForestViewSettings settings;
     settings.shadows = options.shadows;
     settings.antialiasing = options.samples > 1;
@@ -61,8 +60,9 @@ ForestView::ForestView(const ViewOptions& options,
                        const Console& console,
                        Renderer& renderer,
                        std::function<void()> wake)
-    : View(options, console, renderer), settings(first_settings(options)), wake_(std::move(wake)),
-      painting_(renderer), frame_next_(options.camera.empty()), loader_(make_forest, wake_),
+    : View(options, console, renderer), settings(first_forest_settings(options)),
+      wake_(std::move(wake)), painting_(renderer), frame_next_(options.camera.empty()),
+      loader_(make_forest, wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
                  files_changed(files, since);

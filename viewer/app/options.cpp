@@ -2,6 +2,7 @@
 
 #include "runtime/pipeline/forest.h"
 #include "runtime/program/arguments.h"
+#include "runtime/program/option_parsers.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

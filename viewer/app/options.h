@@ -6,8 +6,8 @@
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/scene_overrides.h"
 #include "runtime/program/message_options.h"
-#include "runtime/program/option_parsers.h"
 #include "runtime/program/run_options.h"
+#include "runtime/program/usage.h"
 #include "viewer/gl/renderer.h"
 #include "viewer/scene/camera.h"
 

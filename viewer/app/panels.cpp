@@ -36,7 +36,6 @@ Area picture_area(const PanelState& panels, float scale) {
 constexpr int kNameWidth = 12; // characters
 
 void time_row(const char* name, double seconds) {
-    constexpr double kMilliseconds = 1e3;
     line(fmt::format("{:<{}}{:>9.1f} ms", name, kNameWidth, kMilliseconds * seconds));
 }
 

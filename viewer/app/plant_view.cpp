@@ -11,8 +11,6 @@ namespace lsys::view {
 
 namespace {
 
-constexpr double kMilliseconds = 1e3;
-
 /// Whether both settings make the same plant.
 bool makes_same_plant(const PlantViewSettings& a, const PlantViewSettings& b) {
     return a.file == b.file && a.generations == b.generations && a.seed == b.seed &&
@@ -24,7 +22,7 @@ bool is_same(const Bending& a, const Bending& b) {
            a.forces.wind == b.forces.wind && a.forces.damping == b.forces.damping;
 }
 
-PlantViewSettings first_settings(const ViewOptions& options) {
+PlantViewSettings first_plant_settings(const ViewOptions& options) {
     PlantViewSettings settings;
     settings.file = options.file;
     settings.definitions = options.grammar.definitions;
@@ -51,8 +49,8 @@ PlantView::PlantView(const ViewOptions& options,
                      const Console& console,
                      Renderer& renderer,
                      std::function<void()> wake)
-    : View(options, console, renderer), settings(first_settings(options)), wake_(std::move(wake)),
-      frame_next_(options.camera.empty()), loader_(wake_),
+    : View(options, console, renderer), settings(first_plant_settings(options)),
+      wake_(std::move(wake)), frame_next_(options.camera.empty()), loader_(wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
                  const auto shaders =

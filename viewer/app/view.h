@@ -15,6 +15,8 @@
 
 namespace lsys::view {
 
+constexpr double kMilliseconds = 1e3; // per second
+
 /// A message in the overlay.
 struct ShownMessage {
     Severity severity = Severity::Note;

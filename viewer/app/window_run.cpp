@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kIdle = 0.5; // also the delay of Ctrl-C
 constexpr double kBusy = 0.02;
 // Limits the step of a flying camera after slow pictures, s.
-constexpr double kMaxTimeStep = 0.1;
+constexpr double kMaxFlightStep = 0.1;
 /// Pictures until ImGui settles after input.
 constexpr int kPicturesAfterInput = 3;
 
@@ -44,7 +44,7 @@ public:
         const WindowInput input = window_.wait(wait);
         const Clock::time_point now = Clock::now();
         const double passed =
-            std::min(std::chrono::duration<double>(now - last_).count(), kMaxTimeStep);
+            std::min(std::chrono::duration<double>(now - last_).count(), kMaxFlightStep);
         last_ = now;
         const bool flew = panels_.flies;
         const std::string file = switcher_.current().file();

@@ -16,7 +16,7 @@ namespace lsys {
 namespace {
 
 constexpr std::int64_t kUnbounded = std::int64_t{1} << 40; // beyond the depth of any text
-constexpr std::uint32_t kMaxRounds =
+constexpr std::uint32_t kMaxVisits =
     16; // changes of the bounds of a module before they are dropped
 
 /// Bounds of all words that a module can become: min and max depth at the end, lowest depth within.
@@ -77,7 +77,7 @@ public:
             if (next == depth_[s]) {
                 continue;
             }
-            if (++rounds_[s] > kMaxRounds) { // grows without bound
+            if (++rounds_[s] > kMaxVisits) { // grows without bound
                 next.low = next.low < depth_[s].low ? -kUnbounded : next.low;
                 next.high = next.high > depth_[s].high ? kUnbounded : next.high;
                 next.lowest = next.lowest < depth_[s].lowest ? -kUnbounded : next.lowest;

@@ -10,7 +10,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kMaxTogether = 1'000; // productions of a module; more are not compared
+constexpr std::size_t kMaxCompared = 1'000; // productions of a module; more are not compared
 
 void check_constant(const CheckInput& input,
                     const analysis::ProductionIndex& index,
@@ -250,7 +250,7 @@ void check_conditions(const CheckInput& input, Diagnostics& diagnostics) {
         }
         // With a production for every value, or with contexts, a gap may be intended.
         if (contexts || unconditional || !conditions || productions.size() < 2 ||
-            productions.size() > kMaxTogether) {
+            productions.size() > kMaxCompared) {
             continue;
         }
         if (const std::optional<RuleTable> table = make_rule_table(

@@ -202,13 +202,13 @@ private:
     }
 
     void report_covered(std::uint32_t p, const std::vector<std::uint32_t>& before) {
-        constexpr std::size_t kMaxLabels = 4;
+        constexpr std::size_t kMaxShown = 4;
         reported_.insert(p);
         Diagnostic& diagnostic = diagnostics_.add(
             DiagnosticCode::UnreachableProduction, production(p).name_span,
             fmt::format("{} is never used: earlier conditions hold wherever its own does",
                         quoted(input_.name(production(p).name))));
-        for (std::size_t i = 0; i < std::min(before.size(), kMaxLabels); ++i) {
+        for (std::size_t i = 0; i < std::min(before.size(), kMaxShown); ++i) {
             diagnostic.labels.push_back({production(before[i]).condition_span, "holds first"});
         }
         diagnostic.help.emplace_back(

@@ -16,13 +16,13 @@ namespace {
 
 constexpr std::uint64_t kManyModules = std::uint64_t{1} << 32;
 
-struct Fixture {
+struct EditedText {
     SourceMap sources;
     FileId file;
     Diagnostics diagnostics;
     std::size_t fix_count = 0;
 
-    explicit Fixture(std::string text) : file(sources.add("a.lsys", std::move(text))) {}
+    explicit EditedText(std::string text) : file(sources.add("a.lsys", std::move(text))) {}
 
     void add(std::vector<Edit> edits, bool machine_applicable = true) {
         Diagnostic diagnostic =
@@ -47,7 +47,7 @@ struct Fixture {
 } // namespace
 
 TEST_CASE("fixes are applied in any order of discovery") {
-    Fixture f("0123456789");
+    EditedText f("0123456789");
     f.add({f.edit(7, 8, "seven")});
     f.add({f.edit(2, 4, ""), f.edit(0, 0, "<")});
     CHECK(f.apply() == "<01456seven89");
@@ -55,43 +55,43 @@ TEST_CASE("fixes are applied in any order of discovery") {
 }
 
 TEST_CASE("of fixes that touch each other the first wins") {
-    Fixture overlap("0123456789");
+    EditedText overlap("0123456789");
     overlap.add({overlap.edit(2, 6, "A")});
     overlap.add({overlap.edit(5, 7, "B")});
     overlap.add({overlap.edit(0, 3, "C")});
     overlap.add({overlap.edit(3, 3, "D")});
     overlap.add({overlap.edit(6, 7, "E")});
     CHECK(overlap.apply() == "01AE789");
-    Fixture same("01");
+    EditedText same("01");
     same.add({same.edit(1, 1, "A")});
     same.add({same.edit(1, 1, "B")});
     same.add({same.edit(0, 2, "C")});
     same.add({same.edit(1, 2, "D")});
     CHECK(same.apply() == "0A1");
-    Fixture whole("0123");
+    EditedText whole("0123");
     whole.add({whole.edit(0, 1, "A"), whole.edit(3, 4, "B")});
     whole.add({whole.edit(1, 2, "C"), whole.edit(3, 4, "D")});
     CHECK(whole.apply() == "A12B");
 }
 
 TEST_CASE("fixes that are not certain are left alone") {
-    Fixture f("0123");
+    EditedText f("0123");
     f.add({f.edit(0, 1, "A")}, false);
     CHECK(f.apply() == "0123");
     CHECK(f.fix_count == 0);
 }
 
 TEST_CASE("a text with CRLF keeps it") {
-    Fixture f("ab\r\ncd\r\n");
+    EditedText f("ab\r\ncd\r\n");
     f.add({f.edit(1, 1, ";\n#")});
     CHECK(f.apply() == "a;\r\n#b\r\ncd\r\n");
-    Fixture plain("ab\n");
+    EditedText plain("ab\n");
     plain.add({plain.edit(1, 1, "\n")});
     CHECK(plain.apply() == "a\nb\n");
 }
 
 TEST_CASE("a fix that is not allowed leaves its place to others") {
-    Fixture f("0123");
+    EditedText f("0123");
     f.add({f.edit(0, 2, "A")});
     f.add({f.edit(1, 3, "B")});
     const ChosenFixes chosen =

@@ -30,14 +30,6 @@ int run(const std::vector<std::string>& arguments, const lsys::Io& io) {
     return lsys::lsc::run(arguments, io);
 }
 
-std::size_t file_count(const ScratchFolder& folder) {
-    std::size_t count = 0;
-    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-        ++count;
-    }
-    return count;
-}
-
 /// A stream whose reads run out of memory.
 class NoMemory : public std::streambuf {
 protected:
@@ -64,7 +56,7 @@ TEST_CASE("an interrupted run ends with 130 and leaves nothing") {
         CHECK(out.str().empty());
         CHECK(err.str().ends_with("lsc: interrupted\n"));
     }
-    CHECK(file_count(folder) == 0);
+    CHECK(folder.file_count() == 0);
 }
 
 TEST_CASE("standard output that fails ends with 2") {
@@ -134,7 +126,7 @@ TEST_CASE("a limit or an error leaves an earlier output file as it was") {
               1);
     }
     CHECK(read_text(folder / "word") == "before");
-    CHECK(file_count(folder) == 1);
+    CHECK(folder.file_count() == 1);
 }
 
 TEST_CASE("check --fix writes the file once and as a whole") {
@@ -147,7 +139,7 @@ TEST_CASE("check --fix writes the file once and as a whole") {
     CHECK(fixed.err.find("fixed: ") != std::string::npos);
     CHECK(read_text(folder / "a.lsys") == "#n = 1;\n#w : F(3 - 1);\n#include \"b.lsys\";\n");
     CHECK(read_text(folder / "b.lsys") == "#p : F(x) : * : F(x - 1);\n");
-    CHECK(file_count(folder) == 2);
+    CHECK(folder.file_count() == 2);
     const lsys::tests::LscRun again = lsys::tests::run_lsc({"check", folder / "a.lsys"}, "");
     CHECK(again.status == 0);
     CHECK(again.err == "");
@@ -232,5 +224,5 @@ TEST_CASE("check --fix writes all files of a grammar or none") {
               "or none\n");
     CHECK(read_text(folder / "a.lsys") == first);
     CHECK(read_text(folder / "closed/b.lsys") == second);
-    CHECK(file_count(folder) == 3);
+    CHECK(folder.file_count() == 3);
 }

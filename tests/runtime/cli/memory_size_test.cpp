@@ -13,7 +13,7 @@ using lsys::tests::write_text;
 
 namespace {
 
-constexpr std::uint64_t kNone = ~std::uint64_t{0};
+constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
 
 struct Root : ScratchFolder {
     void put(const std::string& path, const std::string& text) const {
@@ -27,11 +27,11 @@ struct Root : ScratchFolder {
 
 TEST_CASE("a machine without limits of cgroups has its physical memory") {
     const Root root;
-    CHECK(cgroup_memory(root.path()) == kNone);
+    CHECK(cgroup_memory(root.path()) == kNoLimit);
     root.put("proc/self/cgroup", "0::/user.slice\n");
-    CHECK(cgroup_memory(root.path()) == kNone);
+    CHECK(cgroup_memory(root.path()) == kNoLimit);
     root.put("sys/fs/cgroup/user.slice/memory.max", "max\n");
-    CHECK(cgroup_memory(root.path()) == kNone);
+    CHECK(cgroup_memory(root.path()) == kNoLimit);
     CHECK(half_of_memory() > (std::uint64_t{1} << 26));
 }
 

@@ -86,21 +86,13 @@ int wait_for(pid_t process) {
     return end_of(process).status;
 }
 
-std::size_t file_count(const ScratchFolder& folder) {
-    std::size_t count = 0;
-    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-        ++count;
-    }
-    return count;
-}
-
-constexpr const char* kEndless = "#n = 4000000000; #w : F F F F; #p : F : * : F;";
+constexpr const char* kFourEndless = "#n = 4000000000; #w : F F F F; #p : F : * : F;";
 
 } // namespace
 
 TEST_CASE("Ctrl-C ends a derivation with 130 and no file") {
     const ScratchFolder folder;
-    write_text(folder / "a.lsys", kEndless);
+    write_text(folder / "a.lsys", kFourEndless);
     for (const char* option : {"--all", "--count"}) {
         const Clock::time_point begin = Clock::now();
         const pid_t process =
@@ -114,12 +106,12 @@ TEST_CASE("Ctrl-C ends a derivation with 130 and no file") {
         CHECK(read_text(folder / "err") == "lsc: interrupted\n");
         CHECK(!std::filesystem::exists(folder / "out"));
     }
-    CHECK(file_count(folder) == 2); // the grammar and the messages
+    CHECK(folder.file_count() == 2); // the grammar and the messages
 }
 
 TEST_CASE("SIGTERM and SIGHUP end a derivation like Ctrl-C, with 143 and 129") {
     const ScratchFolder folder;
-    write_text(folder / "a.lsys", kEndless);
+    write_text(folder / "a.lsys", kFourEndless);
     for (const auto& [signal, status] : {std::pair{SIGTERM, 143}, std::pair{SIGHUP, 129}}) {
         for (const int times : {1, 2}) { // timeout(1) sends its signal twice
             const Clock::time_point begin = Clock::now();
@@ -127,14 +119,14 @@ TEST_CASE("SIGTERM and SIGHUP end a derivation like Ctrl-C, with 143 and 129") {
                                          "/dev/null",
                                          folder / "err"});
             std::this_thread::sleep_for(std::chrono::milliseconds(300));
-            CHECK(file_count(folder) == 3); // the output that is not finished
+            CHECK(folder.file_count() == 3); // the output that is not finished
             for (int i = 0; i < times; ++i) {
                 REQUIRE(::kill(process, signal) == 0);
             }
             CHECK(wait_for(process) == status);
             CHECK(Clock::now() - begin < std::chrono::seconds(10));
             CHECK(read_text(folder / "err") == "lsc: interrupted\n");
-            CHECK(file_count(folder) == 2);
+            CHECK(folder.file_count() == 2);
         }
     }
 }
@@ -150,11 +142,11 @@ TEST_CASE("a run that waits for a pipe ends soon after SIGTERM") {
     const pid_t process =
         start({{"dump", folder / "a.lsys", "--save-state", folder / "state"}, folder / "pipe"});
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    CHECK(file_count(folder) == 3); // the state that is not finished
+    CHECK(folder.file_count() == 3); // the state that is not finished
     REQUIRE(::kill(process, SIGTERM) == 0);
     CHECK(wait_for(process) == 143);
     CHECK(Clock::now() - begin < std::chrono::seconds(10));
-    CHECK(file_count(folder) == 2);
+    CHECK(folder.file_count() == 2);
     ::close(both);
 }
 
@@ -167,19 +159,19 @@ TEST_CASE("a second Ctrl-C does not wait, and leaves no file either") {
     const pid_t process =
         start({{"dump", folder / "a.lsys", "--save-state", folder / "state"}, folder / "pipe"});
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    CHECK(file_count(folder) == 3);
+    CHECK(folder.file_count() == 3);
     for (int i = 0; i < 2; ++i) {
         REQUIRE(::kill(process, SIGINT) == 0);
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
     CHECK(wait_for(process) == -SIGINT);
-    CHECK(file_count(folder) == 2);
+    CHECK(folder.file_count() == 2);
     ::close(both);
 }
 
 TEST_CASE("a run under nohup outlives SIGHUP") {
     const ScratchFolder folder;
-    write_text(folder / "a.lsys", kEndless);
+    write_text(folder / "a.lsys", kFourEndless);
     Child child{{"dump", "-q", folder / "a.lsys", "-o", folder / "out"}};
     child.ignored_signal = SIGHUP;
     const pid_t process = start(child);
@@ -283,7 +275,7 @@ TEST_CASE("a limit on the size of files is an error that leaves no file") {
     CHECK(wait_for(start(child)) == 2);
     CHECK(read_text(folder / "err") ==
           "lsc: error: cannot write `" + folder / "word" + "`: file too large\n");
-    CHECK(file_count(folder) == 2);
+    CHECK(folder.file_count() == 2);
 }
 
 TEST_CASE("files that belong together are written all or not at all") {
@@ -300,14 +292,14 @@ TEST_CASE("files that belong together are written all or not at all") {
         CHECK(wait_for(start(child)) == 2);
         CHECK(read_text(folder / "err") ==
               "lsc: error: cannot write `" + folder / "x.usda" + "`: file too large\n");
-        CHECK(file_count(folder) == 2);
+        CHECK(folder.file_count() == 2);
         child.file_size = RLIM_INFINITY;
         CHECK(wait_for(start(child)) == 0);
-        CHECK(file_count(folder) > 3);
+        CHECK(folder.file_count() > 3);
         for (const char* name : {"x.usda", "x.bark.png", "x.bark_normals.png", "x.leaf.png"}) {
             std::filesystem::remove(folder / name);
         }
-        CHECK(file_count(folder) == 2);
+        CHECK(folder.file_count() == 2);
     }
 }
 
@@ -372,7 +364,7 @@ TEST_CASE("a plant that the system has no memory for is not blamed on the limit"
     CHECK(read_text(folder / "err") ==
           "lsc: error: the system has no memory for the skeleton [limit-reached]\n"
           "help: ask for fewer generations with `-n`\n");
-    CHECK(file_count(folder) == 2);
+    CHECK(folder.file_count() == 2);
 }
 
 TEST_CASE("pictures and meshes of files are within the limit on memory") {

@@ -23,7 +23,7 @@ std::string name_of(const Bytecode& bytecode, const RuntimeError& error) {
                : bytecode.productions[static_cast<std::size_t>(error.production)].name;
 }
 
-std::string repeated(const std::string& text, int count) {
+std::string repeated_text(const std::string& text, int count) {
     std::string all;
     for (int i = 0; i < count; ++i) {
         all += text;
@@ -52,7 +52,7 @@ TEST_CASE("an argument that is not finite") {
 TEST_CASE("the fast forms of arguments overflow as the general ones do") {
     BytecodeBuilder builder;
     builder.fold = GENERATE(true, false);
-    builder.axiom(repeated("F(1)", 100) + "G(1e30)F(1e38)" + repeated("F(1)", 100));
+    builder.axiom(repeated_text("F(1)", 100) + "G(1e30)F(1e38)" + repeated_text("F(1)", 100));
     builder.production("p : F(x) : * : F(x*4)").production("q : G(x) : * : G(x*x)");
     const Bytecode bytecode = builder.build();
     const RuntimeError error = error_every_way(bytecode, 1, 0);
@@ -64,7 +64,7 @@ TEST_CASE("the lowest position is reported, conditions before arguments") {
     BytecodeBuilder builder;
     builder.fold = GENERATE(true, false);
     SECTION("a condition after an argument") {
-        builder.axiom(repeated("A(1)", 50) + "B(0)" + repeated("A(1)", 20) + "A(0)");
+        builder.axiom(repeated_text("A(1)", 50) + "B(0)" + repeated_text("A(1)", 20) + "A(0)");
         builder.production("p : A(x) : 1/x > 0 && 1/x : C").production("q : B(x) : * : D(1/x)");
         const Bytecode bytecode = builder.build();
         const RuntimeError error = error_every_way(bytecode, 1, 0);
@@ -72,7 +72,7 @@ TEST_CASE("the lowest position is reported, conditions before arguments") {
         CHECK(error.position == 50);
     }
     SECTION("a condition that has no value") {
-        builder.axiom(repeated("A(1)", 50) + "A(0)B(0)");
+        builder.axiom(repeated_text("A(1)", 50) + "A(0)B(0)");
         builder.production("p : A(x) : 1/x : C").production("q : B(x) : * : D(1/x)");
         const Bytecode bytecode = builder.build();
         const RuntimeError error = error_every_way(bytecode, 1, 0);

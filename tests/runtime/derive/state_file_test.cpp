@@ -15,7 +15,7 @@ using test::BytecodeBuilder;
 
 namespace {
 
-BytecodeBuilder plant() {
+BytecodeBuilder plant_builder() {
     BytecodeBuilder builder;
     builder.global("c", "{1, 2}").axiom("A(0)");
     builder.production("p : A(x) : x < 4 ~ 0.5 : F(x*c)[+(30)A(x+1)]A(x)");
@@ -47,7 +47,7 @@ std::string saved_after(const Bytecode& bytecode, std::uint32_t age, std::uint32
 } // namespace
 
 TEST_CASE("five generations, then five more, are ten") {
-    BytecodeBuilder builder = plant();
+    BytecodeBuilder builder = plant_builder();
     builder.unused_symbols(GENERATE(0u, 300u, 66'000u));
     const Bytecode bytecode = builder.build();
     const std::string bytes = saved_after(bytecode, 5, 10);
@@ -74,7 +74,7 @@ TEST_CASE("an empty word can be saved") {
 }
 
 TEST_CASE("whatever is wrong with a saved state is said") {
-    const Bytecode bytecode = plant().build();
+    const Bytecode bytecode = plant_builder().build();
     const std::string bytes = saved_after(bytecode, 4, 10);
     const auto message = [&bytecode](const std::string& damaged) {
         const Result<SavedState> state = read_state(damaged, bytecode);
@@ -100,7 +100,7 @@ TEST_CASE("whatever is wrong with a saved state is said") {
     CHECK(message(with_byte(12, kModuleFileVersion + 1)) ==
           "the saved state was made by a newer lsc (its bytecode is version 6, this one reads 5)");
 
-    BytecodeBuilder other = plant();
+    BytecodeBuilder other = plant_builder();
     other.production("s : f : * : f f");
     const Result<SavedState> foreign = read_state(bytes, other.build());
     REQUIRE_FALSE(foreign.ok());
@@ -108,7 +108,7 @@ TEST_CASE("whatever is wrong with a saved state is said") {
 }
 
 TEST_CASE("no changed byte and no shortened file is accepted") {
-    const Bytecode bytecode = plant().build();
+    const Bytecode bytecode = plant_builder().build();
     const std::string bytes = saved_after(bytecode, 3, 10);
     for (std::size_t i = 0; i < bytes.size(); ++i) {
         std::string damaged = bytes;
@@ -119,7 +119,7 @@ TEST_CASE("no changed byte and no shortened file is accepted") {
 }
 
 TEST_CASE("sizes that would overflow are refused") {
-    const Bytecode bytecode = plant().build();
+    const Bytecode bytecode = plant_builder().build();
     std::string bytes = saved_after(bytecode, 3, 10);
     for (const std::size_t at : {std::size_t{40}, std::size_t{48}}) {
         for (const std::uint64_t size :
@@ -132,7 +132,7 @@ TEST_CASE("sizes that would overflow are refused") {
 }
 
 TEST_CASE("a consumer that fails ends the writing") {
-    const Bytecode bytecode = plant().build();
+    const Bytecode bytecode = plant_builder().build();
     const Word word(1);
     int calls = 0;
     CHECK_FALSE(write_state({}, word, [&calls](std::string_view) {

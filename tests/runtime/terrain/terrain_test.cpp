@@ -44,7 +44,7 @@ GreyMap plane(std::uint32_t columns, std::uint32_t rows) {
 }
 
 template <typename T>
-std::string error_of(const Result<T>& result) {
+std::string terrain_error_of(const Result<T>& result) {
     REQUIRE_FALSE(result);
     return result.error().message;
 }
@@ -202,7 +202,7 @@ TEST_CASE("every vertex of the ground's mesh lies at the height of its place") {
 TEST_CASE("terrains that cannot be say why") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinite = std::numeric_limits<double>::infinity();
-    CHECK(error_of(Terrain::flat({0.0, 0.0, 0.0, 5.0})) ==
+    CHECK(terrain_error_of(Terrain::flat({0.0, 0.0, 0.0, 5.0})) ==
           "a ground of 0 by 5 m; both sides must be above 0");
     CHECK_FALSE(Terrain::flat({0.0, 0.0, nan, 5.0}));
     CHECK_FALSE(Terrain::flat({0.0, 0.0, 5.0, -1.0}));
@@ -210,15 +210,15 @@ TEST_CASE("terrains that cannot be say why") {
     CHECK_FALSE(Terrain::flat({0.0, 0.0, infinite, 5.0}));
     CHECK_FALSE(Terrain::flat({0.0, 0.0, 2.0e6, 5.0}));
     CHECK_FALSE(Terrain::flat(kGround, nan));
-    CHECK(error_of(Terrain::height_map(kGround, map_of(1, 1, {7}), {})) ==
+    CHECK(terrain_error_of(Terrain::height_map(kGround, map_of(1, 1, {7}), {})) ==
           "a height map of 1 by 1 pixels; it takes at least 2 by 2");
     CHECK_FALSE(Terrain::height_map(kGround, map_of(2, 1, {7, 7}), {}));
-    CHECK(error_of(
+    CHECK(terrain_error_of(
               Terrain::height_map(kGround, plane(2, 2), {0.0, infinite, HeightFilter::Bilinear})) ==
           "the highest height of the terrain is inf m; it must be from -1000000 to 1000000");
     NoiseOptions options;
     options.octaves = 0;
-    CHECK(error_of(Terrain::noise(kGround, options)) ==
+    CHECK(terrain_error_of(Terrain::noise(kGround, options)) ==
           "the octaves of the terrain's noise is 0; it must be from 1 to 16");
     options = {};
     options.gain = nan;

@@ -31,7 +31,7 @@ std::string wood(int trees, const std::string& more = {}) {
            "\n\n[[species]]\nname = \"bush\"\ngrammar = \"bush.lsys\"\nheroes = 3\n" + more;
 }
 
-ViewOptions options_of(const std::string& file) {
+ViewOptions forest_options(const std::string& file) {
     ViewOptions options;
     options.file = file;
     options.is_forest = true;
@@ -43,9 +43,9 @@ ViewOptions options_of(const std::string& file) {
 }
 
 /// The views of a window that was opened with a scene, and what they say.
-class Viewed {
+class ViewedForest {
 public:
-    explicit Viewed(const ViewOptions& options)
+    explicit ViewedForest(const ViewOptions& options)
         : context_(std::move(HeadlessContext::make().value())),
           console_({in_, out_, err, false, nullptr, "lsview"}, options.messages),
           renderer(std::move(Renderer::make(built_in_shader).value())),
@@ -131,7 +131,7 @@ void wait_for_watch() {
 
 TEST_CASE("a scene is shown, and one that changes in its place") {
     const WoodFolder files(wood(200));
-    Viewed viewed(options_of(files.scene));
+    ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
     CHECK(viewed.err.str().find("wood.toml: 200 trees of 1 species") != std::string::npos);
     CHECK(viewed.forest().stats().drawn.triangles > 0);
@@ -155,7 +155,7 @@ TEST_CASE("a scene is shown, and one that changes in its place") {
 
 TEST_CASE("a scene or grammar in error leaves the picture as it was") {
     const WoodFolder files(wood(100));
-    Viewed viewed(options_of(files.scene));
+    ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
     const std::vector<std::uint8_t> before = viewed.picture();
     wait_for_watch();
@@ -185,7 +185,7 @@ TEST_CASE("a scene or grammar in error leaves the picture as it was") {
 
 TEST_CASE("a scene that is deleted while it is shown is told, and comes back") {
     const WoodFolder files(wood(50));
-    Viewed viewed(options_of(files.scene));
+    ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
     const std::vector<std::uint8_t> before = viewed.picture();
     wait_for_watch();
@@ -208,7 +208,7 @@ TEST_CASE("a scene that is deleted while it is shown is told, and comes back") {
 TEST_CASE("what a scene names and is missing is told at its place, and waited for") {
     const WoodFolder files(wood(20));
     std::filesystem::remove(files.folder / "bush.lsys");
-    Viewed viewed(options_of(files.scene));
+    ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
     CHECK(viewed.forest().document() == nullptr);
     CHECK(viewed.forest().messages().find("wood.toml:15:") != std::string::npos);
@@ -226,7 +226,7 @@ TEST_CASE("what a scene names and is missing is told at its place, and waited fo
 
 TEST_CASE("what is set in the window takes the place of what the scene says") {
     const WoodFolder files(wood(100));
-    Viewed viewed(options_of(files.scene));
+    ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
     SceneOverrides& edits = viewed.forest().settings.edits;
     edits.count = 40;
@@ -258,7 +258,7 @@ TEST_CASE("a forest grows from its first year to its last") {
     const WoodFolder files("key = 3\n[terrain]\nsize = 40\n[placement]\nmethod = \"domination\"\n"
                            "count = 60\nyears = 30\n[[species]]\nname = \"bush\"\n"
                            "grammar = \"bush.lsys\"\nstages = [1, 3]\nyears_of_stage = 10\n");
-    Viewed viewed(options_of(files.scene));
+    ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
     CHECK(viewed.forest().default_years() == 30);
     CHECK(viewed.forest().years() == 30);
@@ -276,7 +276,7 @@ TEST_CASE("a forest grows from its first year to its last") {
 
 TEST_CASE("trees are painted, undone, saved, and read again") {
     const WoodFolder files(wood(50));
-    Viewed viewed(options_of(files.scene));
+    ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
     ForestView& forest = viewed.forest();
     forest.settings.tool = PaintTool::OneTree;
@@ -305,7 +305,7 @@ TEST_CASE("trees are painted, undone, saved, and read again") {
     forest.undo();
     const std::string text = read_text(files.scene);
     CHECK(text.starts_with(wood(50)));
-    Viewed again(options_of(files.scene));
+    ViewedForest again(forest_options(files.scene));
     REQUIRE(again.until_swaps(1));
     CHECK(again.forest().painting().tree_count() == 59);
     CHECK(again.forest().painting().painted_count() == 9);
@@ -315,7 +315,7 @@ TEST_CASE("trees are painted, undone, saved, and read again") {
 
 TEST_CASE("trees erased from another placement than the file's are told when they are saved") {
     const WoodFolder files(wood(200));
-    Viewed viewed(options_of(files.scene));
+    ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
     ForestView& forest = viewed.forest();
     viewed.look_at(30.0F, 30.0F);
@@ -333,7 +333,7 @@ TEST_CASE("trees erased from another placement than the file's are told when the
 
 TEST_CASE("a brush and an eraser work along the way of the mouse") {
     const WoodFolder files(wood(1));
-    Viewed viewed(options_of(files.scene));
+    ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
     ForestView& forest = viewed.forest();
     forest.settings.tool = PaintTool::Brush;
@@ -365,7 +365,7 @@ TEST_CASE("a brush and an eraser work along the way of the mouse") {
 
 TEST_CASE("what is painted outlives a grammar that changes, and can still be undone") {
     const WoodFolder files(wood(50));
-    Viewed viewed(options_of(files.scene));
+    ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
     ForestView& forest = viewed.forest();
     forest.settings.tool = PaintTool::OneTree;
@@ -395,7 +395,7 @@ TEST_CASE("what is painted outlives a grammar that changes, and can still be und
 
 TEST_CASE("slow pictures are coarser while something moves, and whole when all rests") {
     const WoodFolder files(wood(50));
-    Viewed viewed(options_of(files.scene));
+    ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
     ForestView& forest = viewed.forest();
     viewed.look_at(30.0F, 30.0F);
@@ -448,7 +448,7 @@ TEST_CASE("another scene is opened without options, heroes and painting of the f
 
 TEST_CASE("dropped files show plants and forests in turn") {
     const WoodFolder files(wood(50));
-    Viewed viewed(options_of(files.scene));
+    ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
     Controls controls;
     PanelState panels;
@@ -484,7 +484,7 @@ TEST_CASE("dropped files show plants and forests in turn") {
 
 TEST_CASE("keys and mouse choose and use the tools of a forest") {
     const WoodFolder files(wood(10));
-    Viewed viewed(options_of(files.scene));
+    ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
     viewed.look_at(30.0F, 30.0F);
     ForestViewSettings& settings = viewed.forest().settings;
@@ -540,7 +540,7 @@ TEST_CASE("keys and mouse choose and use the tools of a forest") {
 
 TEST_CASE("a hundred exchanges of forests leave nothing behind") {
     const WoodFolder files(wood(20));
-    Viewed viewed(options_of(files.scene));
+    ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
     std::uint64_t objects = 0;
     for (std::uint64_t i = 1; i <= 100; ++i) {

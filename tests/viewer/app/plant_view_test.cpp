@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-ViewOptions options_of(const std::string& file) {
+ViewOptions plant_options(const std::string& file) {
     ViewOptions options;
     options.file = file;
     options.run.limits.max_bytes = std::uint64_t{1} << 30;
@@ -28,9 +28,9 @@ ViewOptions options_of(const std::string& file) {
 }
 
 /// A view of `file` and what it says.
-class Viewed {
+class ViewedPlant {
 public:
-    explicit Viewed(const ViewOptions& options)
+    explicit ViewedPlant(const ViewOptions& options)
         : context_(std::move(HeadlessContext::make().value())),
           console_({in_, out_, err, false, nullptr, "lsview"}, options.messages),
           renderer(std::move(Renderer::make(built_in_shader).value())),
@@ -92,7 +92,7 @@ TEST_CASE("a hundred reloads leave nothing behind") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     write_text(file, plant(1));
-    Viewed viewed(options_of(file));
+    ViewedPlant viewed(plant_options(file));
     REQUIRE(viewed.until_swaps(1));
     std::uint64_t objects = 0;
     for (int i = 1; i <= 100; ++i) {
@@ -113,7 +113,7 @@ TEST_CASE("a file that changes is shown, and one in error leaves the picture as 
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     write_text(file, plant(2));
-    Viewed viewed(options_of(file));
+    ViewedPlant viewed(plant_options(file));
     REQUIRE(viewed.until_swaps(1));
     CHECK(viewed.err.str().find("loaded " + file + ": 2 modules, 2 segments") != std::string::npos);
     const std::vector<std::uint8_t> before = viewed.picture();
@@ -139,7 +139,7 @@ TEST_CASE("a missing file that is included is waited for") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     write_text(file, "#include \"axiom.lsys\";\n#n = 0;\n");
-    Viewed viewed(options_of(file));
+    ViewedPlant viewed(plant_options(file));
     REQUIRE(viewed.until([&] { return viewed.view.failed(); }));
     CHECK(viewed.view.document() == nullptr);
     std::this_thread::sleep_for(100ms);
@@ -152,7 +152,7 @@ TEST_CASE("settings make the plant anew, and constants that vanish are let go") 
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     write_text(file, "#n = 3;\n#param a 2 {1, 5};\n#w : F(a) A;\n#p : A : * : F A;\n");
-    Viewed viewed(options_of(file));
+    ViewedPlant viewed(plant_options(file));
     REQUIRE(viewed.until_swaps(1));
     CHECK(viewed.view.generations() == 3);
     viewed.view.settings.definitions = {{"a", 4.0F}};
@@ -172,7 +172,7 @@ TEST_CASE("settings make the plant anew, and constants that vanish are let go") 
 }
 
 TEST_CASE("growth plays from the axiom to the end") {
-    Viewed viewed(options_of(sample("teach-param")));
+    ViewedPlant viewed(plant_options(sample("teach-param")));
     REQUIRE(viewed.until_swaps(1));
     viewed.view.settings.generations_per_second = 1000.0F;
     viewed.view.play_or_pause();
@@ -183,7 +183,7 @@ TEST_CASE("growth plays from the axiom to the end") {
 }
 
 TEST_CASE("a plant bends in the wind and stands again without") {
-    Viewed viewed(options_of(sample("crankshaw-7-1")));
+    ViewedPlant viewed(plant_options(sample("crankshaw-7-1")));
     REQUIRE(viewed.until_swaps(1));
     viewed.step();
     const std::vector<std::uint8_t> still = viewed.picture();
@@ -200,7 +200,7 @@ TEST_CASE("a plant bends in the wind and stands again without") {
 }
 
 TEST_CASE("another file is opened with all in view") {
-    Viewed viewed(options_of(sample("teach-param")));
+    ViewedPlant viewed(plant_options(sample("teach-param")));
     REQUIRE(viewed.until_swaps(1));
     const Camera before = viewed.view.settings.camera;
     viewed.view.open(sample("crankshaw-7-1"));
@@ -225,7 +225,7 @@ TEST_CASE("another file is opened without the options of the first") {
 }
 
 TEST_CASE("keys change what is shown, letters move while flying") {
-    Viewed viewed(options_of(sample("teach-param")));
+    ViewedPlant viewed(plant_options(sample("teach-param")));
     REQUIRE(viewed.until_swaps(1));
     PlantViewSettings& settings = viewed.view.settings;
     Controls controls;
@@ -274,7 +274,7 @@ TEST_CASE("keys change what is shown, letters move while flying") {
 }
 
 TEST_CASE("the mouse orbits, pans and zooms") {
-    Viewed viewed(options_of(sample("teach-param")));
+    ViewedPlant viewed(plant_options(sample("teach-param")));
     REQUIRE(viewed.until_swaps(1));
     Camera& camera = viewed.view.settings.camera;
     Controls controls;
@@ -306,9 +306,9 @@ TEST_CASE("shaders that change are compiled, and those with mistakes leave the p
     for (const auto& entry : std::filesystem::directory_iterator(shaders)) {
         std::filesystem::copy(entry.path(), folder.path() / entry.path().filename());
     }
-    ViewOptions options = options_of(sample("teach-param"));
+    ViewOptions options = plant_options(sample("teach-param"));
     options.shaders = folder / "";
-    Viewed viewed(options);
+    ViewedPlant viewed(options);
     REQUIRE(viewed.until_swaps(1));
     viewed.step();
     const std::vector<std::uint8_t> before = viewed.picture();

@@ -21,7 +21,7 @@ using namespace lsys::view;
 
 namespace {
 
-std::vector<Camera> cameras() {
+std::vector<Camera> ground_cameras() {
     return {{{120, 22, 120}, {60, 20, 60}, 60.0F},
             {{-300.3F, 60, 17.9F}, {120, 10, 120}, 40.0F},
             {{120, 700, 120}, {121, 0, 121}, 50.0F}};
@@ -32,7 +32,7 @@ std::vector<Camera> cameras() {
 TEST_CASE("corners lie on the terrain") {
     const Terrain terrain = hills(240.0F);
     TerrainLod lod(terrain, 3000.0F);
-    for (const Camera& camera : cameras()) {
+    for (const Camera& camera : ground_cameras()) {
         lod.select(make_frustum(camera, 1280, 720));
         for (std::uint32_t level = 0; level < lod.levels(); ++level) {
             const HeightGrid& grid = lod.grid(level);
@@ -54,7 +54,7 @@ TEST_CASE("corners lie on the terrain") {
 TEST_CASE("patches cover the ground once, and their heights are there") {
     const Terrain terrain = hills(240.0F);
     TerrainLod lod(terrain, 3000.0F);
-    for (const Camera& camera : cameras()) {
+    for (const Camera& camera : ground_cameras()) {
         Frustum everywhere = make_frustum(camera, 1280, 720);
         for (glm::vec4& plane : everywhere.planes) {
             plane = glm::vec4(0.0F, 0.0F, 0.0F, 1.0F);
@@ -92,7 +92,7 @@ TEST_CASE("patches cover the ground once, and their heights are there") {
 TEST_CASE("nothing in view is left out") {
     const Terrain terrain = hills(240.0F);
     TerrainLod lod(terrain, 3000.0F);
-    for (const Camera& camera : cameras()) {
+    for (const Camera& camera : ground_cameras()) {
         const Frustum frustum = make_frustum(camera, 1280, 720);
         lod.select(frustum);
         const std::vector<TerrainPatch> seen = lod.patches();
@@ -125,8 +125,8 @@ TEST_CASE("nothing in view is left out") {
 TEST_CASE("the surface that is drawn is near the terrain") {
     const Terrain terrain = hills(240.0F);
     TerrainLod lod(terrain, 3000.0F);
-    const glm::vec3 eye = cameras()[0].eye;
-    lod.select(make_frustum(cameras()[0], 1280, 720));
+    const glm::vec3 eye = ground_cameras()[0].eye;
+    lod.select(make_frustum(ground_cameras()[0], 1280, 720));
     std::mt19937 draws(2);
     std::uniform_real_distribution<float> around(-1.0F, 1.0F);
     for (const float reach : {5.0F, 20.0F, 60.0F, 200.0F}) {
@@ -148,9 +148,9 @@ TEST_CASE("the ground is the same wherever the camera was before") {
     const Terrain terrain = hills(240.0F);
     TerrainLod fresh(terrain, 3000.0F);
     TerrainLod used(terrain, 3000.0F);
-    const Frustum frustum = make_frustum(cameras()[0], 1280, 720);
+    const Frustum frustum = make_frustum(ground_cameras()[0], 1280, 720);
     fresh.select(frustum);
-    for (const Camera& camera : cameras()) {
+    for (const Camera& camera : ground_cameras()) {
         used.select(make_frustum(camera, 1280, 720));
     }
     used.select(frustum);
@@ -173,8 +173,8 @@ TEST_CASE("the device has the heights of the terrain") {
     Device device;
     TerrainPass pass(device);
     pass.show(terrain, 3000.0F);
-    pass.prepare(make_frustum(cameras()[0], 1280, 720));
-    pass.prepare(make_frustum(cameras()[1], 1280, 720));
+    pass.prepare(make_frustum(ground_cameras()[0], 1280, 720));
+    pass.prepare(make_frustum(ground_cameras()[1], 1280, 720));
     for (std::uint32_t level = 0; level < pass.lod()->levels(); ++level) {
         const HeightGrid& grid = pass.lod()->grid(level);
         if (!grid.is_valid) {
