@@ -101,7 +101,7 @@ altitude = [-inf, 900]
 slope = 45
 [species.growth]
 rate = 0.3
-max_radius = 4
+greatest_radius = 4
 shade_tolerance = 0.2
 vigour_spread = 0.1
 lifespan = 200
