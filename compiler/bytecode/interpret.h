@@ -48,7 +48,7 @@ struct UnknownDomain {
     static bool take(const Value& /*x*/, const std::uint32_t* /*at*/) { return true; }
 };
 
-/// Room for the stack of the verified code at `first`: little for short code, at most kMaxStack.
+/// Upper bound of the stack depth of the verified code at `first`, at most kMaxStack.
 [[nodiscard]] inline std::size_t stack_room(std::span<const std::uint32_t> words,
                                             std::uint32_t first) {
     std::size_t leaves = 0;

@@ -22,8 +22,8 @@ LSYS_COUNTED_ENUM(WeightRule, One, Any);
 /// Treatment of a module that `#decompose` or `#interpret` still matches at the max depth: it
 /// ends the run, or it stays as it is.
 LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
-/// The table of docs/language.md section 7 that gives modules their meaning for the turtle. It has
-/// been applied once the resolver is done: nothing behind it may ask for the profile but by name.
+/// The table of docs/language.md section 7 that gives modules their meaning for the turtle. The
+/// resolver applies it; later stages may only print its name.
 enum class TurtleProfile : std::uint8_t {
 #define LSYS_TURTLE_PROFILE(identifier, ...) identifier,
 #include "compiler/bytecode/turtle_profiles.def"
@@ -60,7 +60,7 @@ using Tropism = std::array<float, 4>;
 /// Max of `decompose_depth` and `interpret_depth`.
 inline constexpr std::uint32_t kMaxDepth = 100'000;
 /// The minimum of settings without one.
-inline constexpr float kAnyNumber = std::numeric_limits<float>::lowest();
+inline constexpr float kLowestNumber = std::numeric_limits<float>::lowest();
 
 struct Settings {
 #define LSYS_SETTING(type, field, initial, use, group) type field = initial;

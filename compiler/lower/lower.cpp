@@ -68,14 +68,14 @@ private:
     }
 
     WordTemplate word(const ProgramWord& word) {
-        WordTemplate made;
-        made.codes.first = static_cast<std::uint32_t>(bytecode_.template_codes.size());
-        made.codes.count = word.module_count;
-        made.draw_count = word.draw_count;
-        stored_.clear();
+        WordTemplate word_template;
+        word_template.codes.first = static_cast<std::uint32_t>(bytecode_.template_codes.size());
+        word_template.codes.count = word.module_count;
+        word_template.draw_count = word.draw_count;
+        stored_arguments_.clear();
         std::size_t argument = word.first_argument;
-        bytecode_.template_codes.resize(std::size_t{made.codes.first} + word.module_count);
-        Code* next = bytecode_.template_codes.data() + made.codes.first;
+        bytecode_.template_codes.resize(std::size_t{word_template.codes.first} + word.module_count);
+        Code* next = bytecode_.template_codes.data() + word_template.codes.first;
         for_each_symbol(program_, word, [&](std::size_t, SymbolId symbol) {
             const std::uint32_t count = bytecode_.symbol(symbol).parameter_count;
             auto code = static_cast<Code>(symbol);
@@ -83,19 +83,19 @@ private:
                 code = folder_.code(symbol, argument);
                 if (code == static_cast<Code>(symbol)) {
                     for (std::uint32_t k = 0; k < count; ++k) {
-                        stored_.push_back(program_.arguments[argument + k]);
+                        stored_arguments_.push_back(program_.arguments[argument + k]);
                     }
                 }
                 argument += count;
             }
             *next++ = code;
         });
-        places_.word(word, made.codes.first);
-        made.parameter_count = static_cast<std::uint32_t>(stored_.size());
-        if (!stored_.empty()) {
-            made.arguments = emitter_.arguments(stored_);
+        places_.word(word, word_template.codes.first);
+        word_template.parameter_count = static_cast<std::uint32_t>(stored_arguments_.size());
+        if (!stored_arguments_.empty()) {
+            word_template.arguments = emitter_.arguments(stored_arguments_);
         }
-        return made;
+        return word_template;
     }
 
     TableRange pattern(const ProgramPattern& pattern) {
@@ -109,25 +109,25 @@ private:
     }
 
     BytecodeProduction lowered(const Production& production) {
-        BytecodeProduction made;
-        made.name = names_.text(production.name);
-        made.name_site = emitter_.add_site(production.name_span);
-        made.rule = production.rule;
-        made.group = production.group;
-        made.stage = production.stage;
-        made.has_left = production.has_left;
-        made.has_right = production.has_right;
-        made.left = pattern(production.left);
-        made.predecessor = pattern(production.predecessor);
-        made.right = pattern(production.right);
-        made.formal_count = static_cast<std::uint32_t>(production.formals.size());
+        BytecodeProduction lowered;
+        lowered.name = names_.text(production.name);
+        lowered.name_site = emitter_.add_site(production.name_span);
+        lowered.rule = production.rule;
+        lowered.group = production.group;
+        lowered.stage = production.stage;
+        lowered.has_left = production.has_left;
+        lowered.has_right = production.has_right;
+        lowered.left = pattern(production.left);
+        lowered.predecessor = pattern(production.predecessor);
+        lowered.right = pattern(production.right);
+        lowered.formal_count = static_cast<std::uint32_t>(production.formals.size());
         if (production.condition != kNoValue) {
-            made.condition = emitter_.condition(production.condition, production.condition_span);
+            lowered.condition = emitter_.condition(production.condition, production.condition_span);
         }
-        made.stochastic = production.stochastic;
-        made.weight = production.stochastic ? production.weight : 0.0F;
-        made.successor = word(production.successor);
-        return made;
+        lowered.stochastic = production.stochastic;
+        lowered.weight = production.stochastic ? production.weight : 0.0F;
+        lowered.successor = word(production.successor);
+        return lowered;
     }
 
     const Program& program_;
@@ -136,7 +136,7 @@ private:
     CodeEmitter emitter_;
     ModuleFolder folder_;
     PlaceWriter places_;
-    std::vector<ValueId> stored_; // arguments of the current word
+    std::vector<ValueId> stored_arguments_; // arguments of the current word
 };
 
 } // namespace

@@ -122,7 +122,7 @@ struct Constant {
     NameId name = kNoName;
     SourceSpan span;
     bool is_param = false;
-    bool is_random = false; // its value is drawn as `global`, else it is `value`
+    bool is_random = false; // drawn when a derivation starts: globals[global]; else `value`
     bool is_used = false;
     float value = 0.0F;
     std::uint32_t global = kNone;

@@ -28,7 +28,7 @@ constexpr Commands<(sizes + ...)> joined(const Commands<sizes>&... tables) {
     return rows;
 }
 
-/// The rows with other operations, or other parameters than turtle_operations.def has for theirs.
+/// Rows whose parameters differ from those that turtle_operations.def gives their operation.
 constexpr TurtleCommand bare(std::string_view name, TurtleOperation operation) {
     return {name, operation, 0, ""};
 }

@@ -37,8 +37,8 @@ struct TurtleCommand {
 [[nodiscard]] const TurtleCommand* find_turtle_command(TurtleProfile profile,
                                                        std::string_view name);
 
-/// `[ ]` mean the same in every profile, `{ } .` in all but those of L3D, which has no polygons;
-/// they take no parameters and no #object binds them.
+/// Whether `name` is a bracket or polygon module: `[ ]` in every profile, `{ } .` in all but those
+/// of L3D, which has no polygons. These take no parameters and cannot be bound by #object.
 [[nodiscard]] bool is_structural(TurtleProfile profile, std::string_view name);
 /// Whether a module of this name takes no parameters (docs/language.md section 3).
 [[nodiscard]] bool takes_no_parameters(std::string_view name);

@@ -19,7 +19,7 @@ class Translation {
 public:
     /// `file`: the original, and the place of parts without a span.
     explicit Translation(FileId file) : Translation(file, kMaxSourceBytes) {}
-    /// With another limit of its size than that of files.
+    /// Limits the text to `max_bytes` instead of kMaxSourceBytes.
     Translation(FileId file, std::uint64_t max_bytes) : file_(file), max_bytes_(max_bytes) {}
 
     /// Appends the bytes of `span` unchanged.

@@ -83,8 +83,8 @@ public:
         const std::size_t at = index % kBlock;
         return {blocks_[index / kBlock].get() + at, std::min({count, size_ - index, kBlock - at})};
     }
-    /// The first index for which `holds(element)` is false. Precondition: it is true for the elements
-    /// before that index and false for all others.
+    /// The first index for which `holds(element)` is false. Precondition: it is true for the
+    /// elements before that index and false for all others.
     template <typename Predicate>
     [[nodiscard]] std::size_t partition_point(const Predicate& holds) const {
         std::size_t low = 0;
@@ -104,10 +104,10 @@ public:
             blocks_.push_back(std::make_unique<T[]>(kBlock));
         }
         const std::size_t at = size_ % kBlock;
-        const std::size_t made = std::min(count, kBlock - at);
+        const std::size_t appended = std::min(count, kBlock - at);
         T* const first = blocks_[size_ / kBlock].get() + at;
-        size_ += made;
-        return {first, made};
+        size_ += appended;
+        return {first, appended};
     }
     /// Removes all elements from `size` on.
     void truncate(std::size_t size) {

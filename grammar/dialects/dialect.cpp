@@ -62,7 +62,7 @@ std::optional<Dialect> find_dialect(std::string_view name) {
 }
 
 DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
-    // Only .lsys has this extension, and its comments may hold anything.
+    // The extension .lsys decides alone: comments of a .lsys file may look like any other dialect.
     if (has_extension(path, row_of(Dialect::Lsys).extensions)) {
         return {Dialect::Lsys, "its name"};
     }

@@ -197,7 +197,7 @@ private:
 
     std::string_view text_;
     std::string out_;
-    std::uint32_t column_ = 0;    // of out_, after a comment
+    std::uint32_t column_ = 0; // columns of the last line of out_ if it ends with a comment, else 0
     std::vector<LayoutRow> rows_; // the current group, not yet in out_
 };
 

@@ -50,7 +50,7 @@ struct PngSize {
 
 /// Prepares libpng to give samples in the form asked for. Returns false on failure, see
 /// PngInput::reason.
-bool read_size(png_structp png, png_infop info, PngForm form, PngSize& size) {
+bool prepare_reading(png_structp png, png_infop info, PngForm form, PngSize& size) {
     if (setjmp(png_jmpbuf(png)) != 0) {
         return false;
     }
@@ -89,7 +89,7 @@ read_with(png_structp png, png_infop info, const PngRequest& request, PngInput& 
         return Error{fmt::format("the PNG cannot be read: {}", input.reason.data())};
     };
     PngSize size;
-    if (!read_size(png, info, request.form, size)) {
+    if (!prepare_reading(png, info, request.form, size)) {
         return damaged();
     }
     const std::uint64_t pixels = std::uint64_t{size.columns} * size.rows;

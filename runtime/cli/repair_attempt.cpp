@@ -102,7 +102,8 @@ void RepairAttempt::read_files() {
 void RepairAttempt::read_syntax_errors() {
     with_syntax_errors_.clear();
     const std::vector<Diagnostic>& all = fixed_.compiled.diagnostics.all();
-    for (std::size_t i = 0; i < std::min(fixed_.compiled.syntax_diagnostics, all.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(fixed_.compiled.syntax_diagnostic_count, all.size());
+         ++i) {
         if (all[i].severity == Severity::Error) {
             for (StatementKey& key : statements_at(all[i].span)) {
                 with_syntax_errors_.insert(std::move(key));

@@ -44,7 +44,8 @@ private:
         std::uint32_t long_text = 0; // else its index in long_texts_
         std::uint32_t parameter_count = 0;
         bool starts_identifier = false;
-        bool ends_identifier = false; // an identifier without parameters
+        bool ends_identifier =
+            false; // the text ends with an identifier, since no parameters follow
     };
     /// Two neighbours as one short text; length 0 if they are written one by one.
     struct Pair {

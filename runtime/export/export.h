@@ -29,9 +29,9 @@ enum class ExportFormat : std::uint8_t {
 /// Place of the textures of a format's materials.
 enum class ExportPictures : std::uint8_t {
     None,
-    Inside,           // the file; readers multiply them by the colour of the material
-    FilesWithOpacity, // beside it, multiplied by the colour; opacity of leaves in files of its own
-    FilesWithRelief,  // beside it, multiplied by the colour; relief of bark as normal maps
+    Inside,           // embedded in the file; readers multiply them by the colour of the material
+    FilesWithOpacity, // separate files, likewise; the opacity of leaves in further files
+    FilesWithRelief,  // separate files, likewise; relief of bark as normal maps
 };
 
 struct ExportJob;

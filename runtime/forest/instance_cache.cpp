@@ -295,7 +295,8 @@ BranchInstance root_of(const Tree& tree) {
     return root;
 }
 
-/// Draw 0 of block `node` decides; the variant is floor(u * count), exactly.
+/// Chooses a variant of `slot`: number floor(u * variant_count), without rounding, for u = draw 0
+/// of block `node`.
 std::uint32_t
 TreeExpander::choose(const InstanceSlot& slot, std::uint32_t tree, std::uint32_t node) {
     if (node % kBlockRun == 0) {

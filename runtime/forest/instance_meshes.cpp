@@ -129,7 +129,7 @@ find_owners(const Mesh& mesh, std::span<const std::uint32_t> indices, std::uint6
     for (std::uint64_t t = 0; t < count; ++t) {
         owners.triangles[owners.first[owner(t)]++] = static_cast<std::uint32_t>(t);
     }
-    for (std::uint64_t i = item_count; i > 0; --i) { // back to where they began
+    for (std::uint64_t i = item_count; i > 0; --i) { // restore the start offsets
         owners.first[i] = owners.first[i - 1];
     }
     owners.first[0] = 0;

@@ -87,8 +87,8 @@ private:
     std::vector<float> values_ = std::vector<float>(std::size_t{kSize} * kSize);
 };
 
-/// Distance from `count` lines along v, 0 on them to 1 between them. A noise bends them, each other
-/// than its neighbour.
+/// Distance from `count` lines along v, 0 on them to 1 between them. Noise bends each line
+/// differently.
 class Lines {
 public:
     Lines(std::uint32_t count, std::uint32_t rows, std::uint32_t layer)

@@ -158,7 +158,7 @@ Result<CompiledText> compile_text(const std::string& path,
                             {*grammar.sources, grammar.names, compiled.diagnostics, load,
                              options.bug_compatible, options.system, &compiled.statements},
                             &grammar.translation);
-    compiled.syntax_diagnostics = compiled.diagnostics.all().size();
+    compiled.syntax_diagnostic_count = compiled.diagnostics.all().size();
     const bool foreign = text.dialect != Dialect::Lsys;
     if (foreign && compiled.diagnostics.has_errors()) {
         return compiled; // there is no whole translation to check

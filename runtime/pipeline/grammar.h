@@ -55,7 +55,7 @@ struct CompiledText {
     Diagnostics diagnostics;
     std::vector<SourceSpan> statements; // of all statements, also with errors
     /// Number of diagnostics of the syntax; they come first before sorting.
-    std::size_t syntax_diagnostics = 0;
+    std::size_t syntax_diagnostic_count = 0;
     bool has_bytecode = false;             // there are no errors
     std::optional<Error> definition_error; // -D names no constant
 };

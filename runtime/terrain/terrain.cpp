@@ -19,7 +19,8 @@ constexpr double kPeriod = 256.0; // cells after which stb's noise repeats
 /// Fraction of the finest feature over which slopes are measured. Coordinates in the noise are
 /// exact to 2^-17 of a cell, which leaves an error of 1 in 2,000.
 constexpr double kSlopePart = 1.0 / 32.0;
-constexpr double kMinSlopeStep = 0.05; // m; binary32 resolves no less far from the origin
+// In m; far from the origin binary32 cannot resolve a smaller step.
+constexpr double kMinSlopeStep = 0.05;
 /// Generation of the draws of terrains, beyond those of derivations.
 constexpr std::uint32_t kTerrainGeneration = 0xFFFFFFFCu;
 

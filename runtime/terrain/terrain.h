@@ -63,7 +63,7 @@ public:
     [[nodiscard]] glm::vec3 normal(float x, float z) const;
     /// Rise over run by the same differences: 0 is level, 1 is 45 degrees.
     [[nodiscard]] float slope(float x, float z) const;
-    /// Distance in m over which slopes are measured, from the finest feature.
+    /// Distance in m over which slopes are measured, in proportion to the finest feature.
     [[nodiscard]] double slope_step() const { return slope_step_; }
 
 private:

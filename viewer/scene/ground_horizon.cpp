@@ -15,8 +15,8 @@ namespace {
 constexpr float kTurn = 2.0F * std::numbers::pi_v<float>;
 constexpr float kFirst = 2.0F; // m: nearer ground occludes nothing
 constexpr float kRatio = 1.06F;
-/// Margin of slopes: the arc between two directions is taken as a line with the distances of its
-/// ends.
+/// Added to slopes: covers the error of taking the arc between two directions as a straight line
+/// between its ends.
 constexpr float kMargin = 5e-4F;
 
 /// Steps up to a distance; whole steps lie no farther.

@@ -36,8 +36,8 @@ float TerrainLod::morph_start(std::uint32_t level) {
     return kMorphStart * range(level);
 }
 
-TerrainLod::TerrainLod(const Terrain& terrain, float reach) : terrain_(terrain) {
-    while (levels_ < kTerrainLevels && range(levels_ - 1) < reach) {
+TerrainLod::TerrainLod(const Terrain& terrain, float view_distance) : terrain_(terrain) {
+    while (levels_ < kTerrainLevels && range(levels_ - 1) < view_distance) {
         ++levels_;
     }
 }
@@ -84,12 +84,12 @@ void TerrainLod::select(const Frustum& frustum) {
     }
     const std::uint32_t top = levels_ - 1;
     const double node = static_cast<double>(cell(top)) * kNodeCells;
-    const auto reach = static_cast<double>(range(top));
+    const auto view_distance = static_cast<double>(range(top));
     const auto index = [&](double at) { return static_cast<std::int64_t>(std::floor(at / node)); };
-    for (std::int64_t z = index(static_cast<double>(eye_.z) - reach);
-         z <= index(static_cast<double>(eye_.z) + reach); ++z) {
-        for (std::int64_t x = index(static_cast<double>(eye_.x) - reach);
-             x <= index(static_cast<double>(eye_.x) + reach); ++x) {
+    for (std::int64_t z = index(static_cast<double>(eye_.z) - view_distance);
+         z <= index(static_cast<double>(eye_.z) + view_distance); ++z) {
+        for (std::int64_t x = index(static_cast<double>(eye_.x) - view_distance);
+             x <= index(static_cast<double>(eye_.x) + view_distance); ++x) {
             visit({x, z, top}, frustum);
         }
     }

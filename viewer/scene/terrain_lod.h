@@ -46,8 +46,8 @@ struct HeightGrid {
 
 class TerrainLod {
 public:
-    /// The terrain must outlive this object. `reach`: range of the drawn ground, m.
-    TerrainLod(const Terrain& terrain, float reach);
+    /// The terrain must outlive this object. `view_distance`: range of the drawn ground, m.
+    TerrainLod(const Terrain& terrain, float view_distance);
 
     /// Updates the height grids for a camera and lists visible patches, finest levels first.
     void select(const Frustum& frustum);

@@ -50,7 +50,8 @@ private:
         word.first_argument = first_argument;
     }
 
-    /// Arguments of a SaveBranch in place of `bracket`; returns its symbol.
+    /// Appends the arguments of the SaveBranch that replaces `bracket`; returns the symbol of the
+    /// SaveBranch.
     SymbolId add_arguments(SourceSpan span, SymbolId bracket, const BranchSite& site) {
         const BranchKind& kind = branches_.kinds[site.id - 1];
         Value draw;

@@ -32,7 +32,7 @@ void check_pattern(const CheckInput& input,
 void check_cuts(const CheckInput& input, Diagnostics& diagnostics) {
     for (const Production& production : input.program.productions) {
         if (production.stage != Stage::Rewrite) {
-            continue; // the stages after the cuts can match it
+            continue; // #decompose and #interpret run after the cuts and can match `%`
         }
         check_pattern(input, production, production.predecessor,
                       "`%` is never rewritten, so this production is never used", diagnostics);

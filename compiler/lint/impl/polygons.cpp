@@ -101,9 +101,9 @@ private:
 
     void check_word(const ProgramWord& word, const char* where, bool may_be_inside) {
         std::optional<std::size_t> open;
-        bool broken = false;        // one error per word
-        bool may_nest = false;      // one warning per word, beside the error
-        std::uint32_t vertices = 0; // of the open polygon
+        bool error_reported = false; // one error per word
+        bool may_nest = false;       // one warning per word, beside the error
+        std::uint32_t vertices = 0;  // of the open polygon
         std::uint32_t moves = 0;
         bool may_grow = false; // some module in it is rewritten
         for (std::size_t i = word.first_module;
@@ -111,15 +111,15 @@ private:
             const SymbolId id = program_.modules[i].symbol;
             const Symbol& symbol = program_.symbol(id);
             if (symbol.kind == SymbolKind::PolygonOpen) {
-                if (open && !broken) {
-                    broken = true;
+                if (open && !error_reported) {
+                    error_reported = true;
                     Diagnostic& diagnostic = add(DiagnosticCode::NestedPolygon, word, i,
                                                  "a polygon begins within a polygon");
                     diagnostic.labels.push_back(
                         {module_name_span(input_, word, *open), "this one is still open"});
                     diagnostic.help.emplace_back(
                         "close the first with `}` before the second begins");
-                } else if (!open && may_be_inside && !broken && !may_nest) {
+                } else if (!open && may_be_inside && !error_reported && !may_nest) {
                     may_nest = true;
                     Diagnostic diagnostic = make_diagnostic(
                         DiagnosticCode::NestedPolygon, module_name_span(input_, word, i),
@@ -132,14 +132,14 @@ private:
                 vertices = moves = 0;
                 may_grow = false;
             } else if (symbol.kind == SymbolKind::PolygonClose) {
-                if (!open && !broken) {
-                    broken = true;
+                if (!open && !error_reported) {
+                    error_reported = true;
                     Diagnostic& diagnostic =
                         add(DiagnosticCode::UnbalancedPolygon, word, i,
                             fmt::format("`}}` ends no polygon of this {}", where));
                     diagnostic.help.push_back(
                         fmt::format("`{{` and `}}` balance in every {}", where));
-                } else if (open && !broken && !may_nest && !may_grow) {
+                } else if (open && !error_reported && !may_nest && !may_grow) {
                     check_size(word, *open, i, vertices, moves);
                 }
                 open.reset();
@@ -155,7 +155,7 @@ private:
                     "`.` adds the position to the polygon between `{` and `}`");
             }
         }
-        if (open && !broken) {
+        if (open && !error_reported) {
             Diagnostic& diagnostic = add(DiagnosticCode::UnbalancedPolygon, word, *open,
                                          fmt::format("`{{` is closed nowhere in this {}", where));
             diagnostic.help.push_back(fmt::format("`{{` and `}}` balance in every {}", where));

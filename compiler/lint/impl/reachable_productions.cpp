@@ -15,7 +15,8 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kMaxTogether = 1'000; // productions of a module; more are not compared
+constexpr std::size_t kMaxComparedProductions =
+    1'000; // productions of a module; more are not compared
 
 class PrecedenceCheck {
 public:
@@ -132,7 +133,7 @@ private:
     void check_covered(SymbolId symbol, std::span<const std::uint32_t> productions) {
         const bool plain = std::all_of(productions.begin(), productions.end(),
                                        [&](std::uint32_t p) { return is_context_free(p); });
-        if (!plain || productions.size() > kMaxTogether) {
+        if (!plain || productions.size() > kMaxComparedProductions) {
             return;
         }
         const std::optional<RuleTable> table =

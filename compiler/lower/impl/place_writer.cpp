@@ -21,7 +21,7 @@ PlaceWriter::PlaceWriter(const Program& program,
     }
 }
 
-void PlaceWriter::start(const SourceFile& file, std::uint32_t offset) {
+void PlaceWriter::set_position(const SourceFile& file, std::uint32_t offset) {
     file_ = &file;
     text_ = file.text();
     offset_ = offset;
@@ -84,13 +84,13 @@ void PlaceWriter::word(const ProgramWord& word, std::uint32_t first) {
         index += row.size();
         for (const ProgramModule module : row) {
             if (code == first) {
-                start(sources_.file(word.file), module.begin);
+                set_position(sources_.file(word.file), module.begin);
             }
             // Modules of a translated grammar may share a place, and need not be in the order
             // of the text.
             const bool ascends = module.begin >= offset_;
             if (!ascends) {
-                start(sources_.file(word.file), module.begin);
+                set_position(sources_.file(word.file), module.begin);
             }
             const std::uint32_t stride = module.begin - offset_;
             const bool plain = move_to(module.begin);

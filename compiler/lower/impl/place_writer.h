@@ -24,7 +24,7 @@ public:
     void word(const ProgramWord& word, std::uint32_t first);
 
 private:
-    void start(const SourceFile& file, std::uint32_t offset);
+    void set_position(const SourceFile& file, std::uint32_t offset);
     [[nodiscard]] bool move_to(std::uint32_t offset);
     [[nodiscard]] std::uint32_t length_of(const ProgramWord& word,
                                           const ProgramModule& module) const;

@@ -179,7 +179,7 @@ void SetResolver::read_number(const SetNode& node, ExpressionResolver& expressio
     // Modes have been read, and unknown keys reported.
 #define LSYS_NUMBER(field, initial, use, group, min, wanted)                                       \
     else if (key == #field) {                                                                      \
-        const NumberRange range{min, -kAnyNumber, false, wanted};                                  \
+        const NumberRange range{min, -kLowestNumber, false, wanted};                               \
         settings.field = read_one(node, range, expressions).value_or(settings.field);              \
     }
 #define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit)                           \

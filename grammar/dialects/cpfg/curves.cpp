@@ -116,7 +116,7 @@ std::vector<CurvePoint> sampled(const std::vector<CurvePoint>& points) {
     return samples;
 }
 
-/// The samples that are wanted for chords that keep to the tolerance (Douglas and Peucker).
+/// The samples of a polyline within the tolerance (Douglas and Peucker).
 std::vector<CurvePoint> chords(const std::vector<CurvePoint>& samples) {
     const auto [low, high] =
         std::minmax_element(samples.begin(), samples.end(),

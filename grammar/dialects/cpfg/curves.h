@@ -33,8 +33,8 @@ using FileBeside = std::function<std::optional<std::string>(std::string_view nam
 
 [[nodiscard]] CpfgView read_view(std::string_view text, const FileBeside& beside);
 
-/// The curve at `x`, an expression of .lsys; outside of the curve its ends. No chord is further
-/// from the curve than a thousandth of its height.
+/// The value of the curve at the .lsys expression `x`, clamped to the curve's ends. Piecewise
+/// linear, within a thousandth of the curve's range of values.
 [[nodiscard]] std::string curve_at(const CpfgCurve& curve, const std::string& x);
 
 } // namespace lsys

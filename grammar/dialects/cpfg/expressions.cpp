@@ -129,7 +129,7 @@ CpfgTerm CpfgExpressions::name(const CpfgExpression& node) {
             return {in_cpfg_parentheses(found->second.text), false, 0};
         }
     }
-    if (changed_.count(node.text) != 0) {
+    if (changed_globals_.count(node.text) != 0) {
         return in_step_
                    ? CpfgTerm{"0", false, 0}
                    : unsupported(node.span,

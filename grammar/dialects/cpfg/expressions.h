@@ -1,6 +1,6 @@
 // Expressions and statements of cpfg as expressions of .lsys: variables that statements assign are
-// replaced by their values. Variables that belong to the whole system are too, where each
-// step adds the same to them or makes them anew.
+// replaced by their values. Global variables are replaced too if each step adds the same amount to
+// them or assigns them before reading them.
 #pragma once
 
 #include "grammar/dialects/cpfg/curves.h"
@@ -90,7 +90,7 @@ private:
     void branch(const CpfgStatement& statement);
     void call_statement(const CpfgStatement& statement);
     void define_array(const CpfgStatement& statement);
-    void find_changed(const std::vector<int>& statements);
+    void find_changed_globals(const std::vector<int>& statements);
     void read_each_step();
     [[nodiscard]] int assignments(const std::vector<int>& statements, const std::string& to) const;
     /// Returns true when the expression has one of the names, or a random number.
@@ -125,7 +125,7 @@ private:
     std::vector<CpfgConstant> constants_;
     std::map<std::string, Array> arrays_;
     std::set<std::string> formals_;
-    std::set<std::string> changed_; // globals that blocks of a step assign
+    std::set<std::string> changed_globals_; // globals that blocks of a step assign
     std::set<std::string> warned_;
     CpfgNeeds needs_;
     Stage stage_ = Stage::Rewrite;

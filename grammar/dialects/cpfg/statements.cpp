@@ -18,14 +18,14 @@ constexpr std::array<std::string_view, 10> kProcedures{
 
 } // namespace
 
-void CpfgExpressions::find_changed(const std::vector<int>& statements) {
+void CpfgExpressions::find_changed_globals(const std::vector<int>& statements) {
     for (const int index : statements) {
         const CpfgStatement& statement = statement_at(index);
         if (statement.kind == CpfgStatementKind::Assign) {
-            changed_.insert(node_at(statement.target).text);
+            changed_globals_.insert(node_at(statement.target).text);
         }
-        find_changed(statement.block);
-        find_changed(statement.otherwise);
+        find_changed_globals(statement.block);
+        find_changed_globals(statement.otherwise);
     }
 }
 
@@ -47,9 +47,9 @@ void CpfgExpressions::read_header() {
 /// Sorts the variables that blocks of a step assign: incremented by each step, assigned anew by
 /// each step, or unknown.
 void CpfgExpressions::read_each_step() {
-    find_changed(session_.start_each);
-    find_changed(session_.end_each);
-    for (const std::string& variable : changed_) {
+    find_changed_globals(session_.start_each);
+    find_changed_globals(session_.end_each);
+    for (const std::string& variable : changed_globals_) {
         const int added = step_of(variable);
         if (added >= 0) {
             increments_[variable] = added;
@@ -58,9 +58,9 @@ void CpfgExpressions::read_each_step() {
         }
     }
     std::set<std::string> unknown; // with the variables that depend on an unknown one
-    for (std::size_t before = changed_.size() + 1; before != unknown.size();) {
+    for (std::size_t before = changed_globals_.size() + 1; before != unknown.size();) {
         before = unknown.size();
-        for (const std::string& variable : changed_) {
+        for (const std::string& variable : changed_globals_) {
             const bool known = increments_.count(variable) != 0 || reset_.count(variable) != 0;
             if (!known || depends(session_.start_each, variable, unknown) ||
                 depends(session_.end_each, variable, unknown)) {
@@ -131,7 +131,7 @@ int CpfgExpressions::step_of(const std::string& variable) const {
             const bool sum = value.kind == CpfgKind::Binary && value.text == "+" &&
                              node_at(value.parts[0]).kind == CpfgKind::Name &&
                              node_at(value.parts[0]).text == variable;
-            return sum && !uses(value.parts[1], changed_) ? value.parts[1] : -1;
+            return sum && !uses(value.parts[1], changed_globals_) ? value.parts[1] : -1;
         }
     }
     return -1;
@@ -213,7 +213,7 @@ void CpfgExpressions::begin(std::set<std::string> formals, Stage stage, CpfgDraw
     formals_.clear();
     stage_ = stage;
     draws_ = CpfgDraws::Inline;
-    if (!changed_.empty()) {
+    if (!changed_globals_.empty()) {
         enter_step();
     }
     formals_ = std::move(formals);
@@ -242,7 +242,8 @@ void CpfgExpressions::run(const CpfgStatement& statement) {
                             "an element of an array that is changed while the word is derived"));
             return;
         }
-        const bool global = globals_.count(target.text) != 0 || changed_.count(target.text) != 0;
+        const bool global =
+            globals_.count(target.text) != 0 || changed_globals_.count(target.text) != 0;
         if (!in_header_ && global && formals_.count(target.text) == 0) {
             static_cast<void>(
                 unsupported(statement.span, "`" + shown(target.text) +

@@ -182,11 +182,11 @@ BreakClass PieceReader::break_class() const {
 }
 
 /// Whether `after` repeats the symbol before it.
-bool PieceReader::continues_row(const Lexeme& after) const {
+bool PieceReader::continues_repeat(const Lexeme& after) const {
     return after.kind == LexemeKind::Module && before_.kind == LexemeKind::Module &&
            !after.blank_before && after.text[0] == before_.text[0] && after.text.size() == 1 &&
            before_.text.size() == 1 && !opens_bracket(after) && !closes_bracket(after) &&
-           row_ < kMaxRowLength;
+           repeat_count_ < kMaxRowLength;
 }
 
 bool PieceReader::ends_before(const Lexeme& after) const {
@@ -194,7 +194,7 @@ bool PieceReader::ends_before(const Lexeme& after) const {
         return false;
     }
     if (in_list_ && after.kind == LexemeKind::Module) {
-        return !continues_row(after);
+        return !continues_repeat(after);
     }
     if (in_list_ && after.kind == LexemeKind::Open) {
         return false;
@@ -203,7 +203,7 @@ bool PieceReader::ends_before(const Lexeme& after) const {
 }
 
 void PieceReader::take(Piece& piece) {
-    row_ = !piece.text.empty() && continues_row(now_) ? row_ + 1 : 1;
+    repeat_count_ = !piece.text.empty() && continues_repeat(now_) ? repeat_count_ + 1 : 1;
     if (now_.kind == LexemeKind::BlockComment) {
         has_comment_ = true;
         append_comment(now_.text, piece.text);

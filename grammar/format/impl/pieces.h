@@ -47,7 +47,7 @@ public:
 
 private:
     [[nodiscard]] bool ends_before(const Lexeme& after) const;
-    [[nodiscard]] bool continues_row(const Lexeme& after) const;
+    [[nodiscard]] bool continues_repeat(const Lexeme& after) const;
     [[nodiscard]] bool begins_cell() const;
     [[nodiscard]] BreakClass break_class() const;
     void describe(Piece& piece);
@@ -63,7 +63,7 @@ private:
     std::uint32_t colons_ = 0;
     std::uint32_t parentheses_ = 0;
     std::uint32_t brackets_ = 0;
-    std::uint32_t row_ = 1; // adjacent equal symbols, `////`
+    std::uint32_t repeat_count_ = 1; // adjacent equal symbols, `////`
     bool in_list_ = false;
     bool has_comment_ = false;
 };

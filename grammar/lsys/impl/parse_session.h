@@ -91,7 +91,7 @@ private:
     /// behind `//`. Statements that may belong together are judged together.
     void judge_fixes();
 
-    /// Range of indices in the sink: diagnostics of statements that may belong together.
+    /// Range of indices in context.diagnostics: those of statements that may belong together.
     struct JudgedDiagnostics {
         std::size_t first = 0;
         std::size_t end = 0;     // diagnostics before this index are judged

@@ -167,7 +167,7 @@ void ActiveMask::prepare(const Plan& plan, const ContextTables* contexts) {
         tables_.looks_right = tables_.looks_right || right != kNone;
         for (Code code = 0; code < codes; ++code) {
             // a module that a search passes by does not tell what lies beyond it
-            const bool passed_by = contexts->sight(code) != Sight::Module;
+            const bool passed_by = contexts->role(code) != ContextRole::Module;
             const std::uint8_t* const guards = plan.guards();
             if (left == kNone || passed_by || guards[left + code] != 0) {
                 tables_.left[code] |= bit;

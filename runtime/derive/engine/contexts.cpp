@@ -17,25 +17,25 @@ ContextTables::ContextTables(const Plan& plan) : has_structure_(plan.has_structu
     if (!needs_left_ && !needs_right_) {
         return;
     }
-    sights_.reserve(bytecode.code_count());
+    roles_.reserve(bytecode.code_count());
     for (Code code = 0; code < bytecode.code_count(); ++code) {
         const BytecodeSymbol& symbol = bytecode.symbol(bytecode.symbol_of(code));
-        sights_.push_back(symbol.kind == SymbolKind::BranchOpen    ? Sight::Open
-                          : symbol.kind == SymbolKind::BranchClose ? Sight::Close
-                          : symbol.ignored                         ? Sight::Ignored
-                                                                   : Sight::Module);
+        roles_.push_back(symbol.kind == SymbolKind::BranchOpen    ? ContextRole::Open
+                         : symbol.kind == SymbolKind::BranchClose ? ContextRole::Close
+                         : symbol.ignored                         ? ContextRole::Ignored
+                                                                  : ContextRole::Module);
     }
 }
 
 std::uint64_t ContextTables::held_bytes() const {
-    return sights_.size() + left_.held_bytes() + next_.held_bytes() + jump_.held_bytes() +
+    return roles_.size() + left_.held_bytes() + next_.held_bytes() + jump_.held_bytes() +
            offsets_.used();
 }
 
 std::uint64_t ContextTables::held_bytes_after(const Word& word) const {
     const std::uint64_t count = word.module_count();
     const std::uint64_t table = (count + 1) * IndexTable::width(count);
-    std::uint64_t bytes = sights_.size();
+    std::uint64_t bytes = roles_.size();
     if (has_structure_) {
         bytes += needs_left_ ? std::max(left_.held_bytes(), table) : 0;
         bytes += needs_right_ ? std::max(next_.held_bytes(), table) : 0;
@@ -79,7 +79,7 @@ bool ContextTables::build(const Plan& plan, std::span<const C> word) {
 template <typename C>
 bool ContextTables::is_plain(const C* codes) const {
     return std::all_of(codes, codes + count_,
-                       [this](C code) { return sights_[code] == Sight::Module; });
+                       [this](C code) { return roles_[code] == ContextRole::Module; });
 }
 
 /// Walks once, with a stack of the module to the left of each open `[`.
@@ -89,16 +89,16 @@ void ContextTables::build_left(const C* codes) {
     std::uint64_t left = kNowhere;
     for (std::uint64_t i = 0; i < count_; ++i) {
         left_.set(i, left);
-        switch (sights_[codes[i]]) {
-        case Sight::Module:
+        switch (roles_[codes[i]]) {
+        case ContextRole::Module:
             left = i;
             break;
-        case Sight::Ignored:
+        case ContextRole::Ignored:
             break;
-        case Sight::Open:
+        case ContextRole::Open:
             open.push_back(left);
             break;
-        case Sight::Close:
+        case ContextRole::Close:
             left = kNowhere; // without its `[`, nothing beyond it is on the path
             if (!open.empty()) {
                 left = open.back();
@@ -122,22 +122,22 @@ void ContextTables::build_right(const C* codes) {
     std::uint64_t seen = count_; // gap of the first module or bracket not ignored
     next_.set(count_, kNowhere);
     for (std::uint64_t i = count_; i-- > 0;) {
-        switch (sights_[codes[i]]) {
-        case Sight::Module:
+        switch (roles_[codes[i]]) {
+        case ContextRole::Module:
             next = i;
             seen = i;
             break;
-        case Sight::Ignored:
+        case ContextRole::Ignored:
             if (needs_jump_) {
                 jump_.set(i, seen);
             }
             break;
-        case Sight::Close:
+        case ContextRole::Close:
             closed.push_back({next, i + 1});
             next = kNowhere;
             seen = i;
             break;
-        case Sight::Open: {
+        case ContextRole::Open: {
             Closed after{kNowhere, count_};
             if (!closed.empty()) {
                 after = closed.back();

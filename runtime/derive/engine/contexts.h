@@ -19,7 +19,7 @@ namespace lsys {
 inline constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
 
 /// The role of a code in a context search.
-enum class Sight : std::uint8_t { Module, Ignored, Open, Close };
+enum class ContextRole : std::uint8_t { Module, Ignored, Open, Close };
 
 /// Indices into a word, of 4 bytes each if the word is short enough.
 class IndexTable {
@@ -67,7 +67,7 @@ public:
 
     /// Whether the word has neither brackets nor ignored modules.
     [[nodiscard]] bool plain() const { return plain_; }
-    [[nodiscard]] Sight sight(Code code) const { return sights_[code]; }
+    [[nodiscard]] ContextRole role(Code code) const { return roles_[code]; }
     /// The module left of module `index` on the path to the root, or kNowhere.
     [[nodiscard]] std::uint64_t left_of(std::uint64_t index) const {
         return plain_ ? index - 1 : left_.get(index); // 0 - 1 is kNowhere
@@ -101,10 +101,10 @@ private:
     template <typename C>
     [[nodiscard]] bool build(const Plan& plan, std::span<const C> word);
 
-    std::vector<Sight> sights_; // by code
-    IndexTable left_;           // by module
-    IndexTable next_;           // by gap
-    IndexTable jump_;           // by module
+    std::vector<ContextRole> roles_; // by code
+    IndexTable left_;                // by module
+    IndexTable next_;                // by gap
+    IndexTable jump_;                // by module
     Arena offsets_;
     std::uint64_t count_ = 0;
     bool plain_ = true;

@@ -56,10 +56,10 @@ bool Matcher<C>::matches_right(const BytecodeProduction& production, std::uint64
             if (contexts_->plain()) {
                 return false;
             }
-            if (gap < word_.count && contexts_->sight(word_.codes[gap]) == Sight::Ignored) {
+            if (gap < word_.count && contexts_->role(word_.codes[gap]) == ContextRole::Ignored) {
                 gap = contexts_->jump_from(gap);
             }
-            if (gap == word_.count || contexts_->sight(word_.codes[gap]) != Sight::Open) {
+            if (gap == word_.count || contexts_->role(word_.codes[gap]) != ContextRole::Open) {
                 return false;
             }
             branches_.push_back(contexts_->jump_from(gap));

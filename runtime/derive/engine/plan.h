@@ -144,7 +144,7 @@ public:
     /// Updates rows and entries to rewrite words of age `generation`. In parallel mode all families
     /// are active.
     void prepare(std::uint32_t generation);
-    /// Activates only rule `rule`, in the other modes. Called after prepare().
+    /// In all modes but parallel: activates only rule `rule`. Called after prepare().
     void select_rule(std::uint32_t rule);
 
     [[nodiscard]] const Bytecode& bytecode() const { return bytecode_; }

@@ -117,7 +117,7 @@ bool AxisReader::next(Run& run) {
 bool AxisReader::read(Run& run) {
     joints_.clear();
     stale_ = false;
-    plain_ = true;
+    rings_final_ = true;
     flare_ = {};
     const Segment* last = nullptr;
     bool pointed = false;
@@ -185,7 +185,7 @@ bool AxisReader::read(Run& run) {
             open ? std::min(joints_.front().radius, hidden_) : joints_.front().radius;
         run.radii = radii_;
     }
-    if (!plain_ || counts_ || options_.level > 0 || options_.bark_noise > 0.0F) {
+    if (!rings_final_ || counts_ || options_.level > 0 || options_.bark_noise > 0.0F) {
         set_rings();
     }
     run.joints = joints_;
@@ -200,7 +200,7 @@ void AxisReader::add(const Segment& segment, float radius) {
             centre = before.centre;
             joints_.pop_back();
             stale_ = true;
-            plain_ = false;
+            rings_final_ = false;
         } else if (stale_) {
             aim(before, centre);
             stale_ = false;
@@ -217,8 +217,8 @@ void AxisReader::add(const Segment& segment, float radius) {
     if (joints_.size() > 1) {
         const Joint& before = joints_[joints_.size() - 2];
         joint.rings = rings_of_bend(before.heading, joint.heading);
-        plain_ = plain_ && thick_beside(radius, before, joint.length) &&
-                 before.radius >= kThinnest * radius;
+        rings_final_ = rings_final_ && thick_beside(radius, before, joint.length) &&
+                       before.radius >= kThinnest * radius;
     }
 }
 
@@ -227,7 +227,7 @@ bool AxisReader::add_end(const glm::vec3& centre, float radius) {
     while (joints_.size() > 1 && coincide(joints_.back().centre, centre, joints_.back().radius)) {
         joints_.pop_back();
         stale_ = true;
-        plain_ = false;
+        rings_final_ = false;
     }
     Joint& before = joints_.back();
     if (coincide(before.centre, centre, std::max(before.radius, radius)) ||
@@ -242,8 +242,8 @@ bool AxisReader::add_end(const glm::vec3& centre, float radius) {
     end.radius = radius;
     end.length = 0.0F;
     end.rings = 1;
-    plain_ = plain_ && (radius == 0.0F || thick_beside(radius, before, 0.0F)) &&
-             before.radius >= kThinnest * std::max(radius, before.length);
+    rings_final_ = rings_final_ && (radius == 0.0F || thick_beside(radius, before, 0.0F)) &&
+                   before.radius >= kThinnest * std::max(radius, before.length);
     joints_.push_back(end);
     if (joints_.front().radius == 0.0F) { // a pointed end has the sides of the ring beside it
         joints_.front().sides = joints_[1].sides;

@@ -90,8 +90,8 @@ private:
     LargeVector<Joint> spare_;
     std::uint32_t segment_ = kNoSegment; // the next one to read
     bool attached_ = false;              // no segment of the axis was left out so far
-    bool plain_ = true;                  // no joint has to be looked at again
-    bool stale_ = false;                 // the last joint's heading is not known
+    bool rings_final_ = true; // the rings of all joints are final: set_rings() is not needed
+    bool stale_ = false;      // the last joint's heading is not known
 };
 
 } // namespace lsys

@@ -75,7 +75,7 @@ public:
     void write(const Segment& segment, std::uint32_t number, const Cone& cone) {
         number_ = number;
         axes_ = glm::mat3_cast(segment.frame);
-        around_ = directions(cone.sides);
+        ring_directions_ = directions(cone.sides);
         const float length = segment.length;
         const float slope = cone.base_radius - cone.tip_radius;
         const glm::vec2 normal = glm::normalize(glm::vec2(length, slope));
@@ -114,10 +114,13 @@ private:
         const bool point = ring.radius == 0.0F;
         const float step = 1.0F / static_cast<float>(sides);
         for (std::uint32_t i = 0; i < sides + (point ? 0U : 1U); ++i) {
-            glm::vec3 out = around_[i].cosine * axes_[2] + around_[i].sine * axes_[0];
-            glm::vec3 across = around_[i].cosine * axes_[0] - around_[i].sine * axes_[2];
+            glm::vec3 out =
+                ring_directions_[i].cosine * axes_[2] + ring_directions_[i].sine * axes_[0];
+            glm::vec3 across =
+                ring_directions_[i].cosine * axes_[0] - ring_directions_[i].sine * axes_[2];
             if (point) { // halfway to the next corner
-                out += around_[i + 1].cosine * axes_[2] + around_[i + 1].sine * axes_[0];
+                out += ring_directions_[i + 1].cosine * axes_[2] +
+                       ring_directions_[i + 1].sine * axes_[0];
                 out = glm::normalize(out);
                 across = glm::cross(axes_[1], out);
             }
@@ -137,7 +140,7 @@ private:
         const std::uint64_t first = vertex_;
         const bool up = ring.normal.y > 0.0F;
         for (std::uint32_t i = 0; i < sides; ++i) {
-            const Direction& at = around_[i];
+            const Direction& at = ring_directions_[i];
             const glm::vec3 out = at.cosine * axes_[2] + at.sine * axes_[0];
             block_.set(vertex_++, {.position = ring.centre + ring.radius * out,
                                    .normal = ring.normal.y * axes_[1],
@@ -163,7 +166,7 @@ private:
     std::uint64_t vertex_;
     std::uint64_t index_;
     glm::mat3 axes_{1.0F};
-    const Direction* around_ = nullptr;
+    const Direction* ring_directions_ = nullptr;
     std::uint32_t number_ = kNoSegment; // of the segment
 };
 

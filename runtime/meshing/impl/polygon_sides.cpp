@@ -25,7 +25,7 @@ SideCounts::SideCounts(float deviation) {
         // 1 - cos = sin^2 / (1 + cos), where nothing cancels.
         const float half = half_side(sides);
         reach_[sides] = deviation * (1.0F + inner_radius(sides)) / (half * half);
-        half_around_[sides] = static_cast<float>(sides) * half;
+        half_circumference_[sides] = static_cast<float>(sides) * half;
     }
 }
 

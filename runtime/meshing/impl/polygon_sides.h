@@ -35,12 +35,12 @@ public:
 
     /// widening() from a table.
     [[nodiscard]] float widening(std::uint32_t sides, std::uint32_t fewer) const {
-        return half_around_[sides] / half_around_[fewer];
+        return half_circumference_[sides] / half_circumference_[fewer];
     }
 
 private:
-    std::array<float, kMaxSides + 1> reach_{};       // max radius, by sides
-    std::array<float, kMaxSides + 1> half_around_{}; // half of the circumference
+    std::array<float, kMaxSides + 1> reach_{};              // max radius, by sides
+    std::array<float, kMaxSides + 1> half_circumference_{}; // half of the circumference
 };
 
 } // namespace lsys

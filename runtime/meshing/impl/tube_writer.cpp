@@ -14,8 +14,9 @@ namespace lsys {
 namespace {
 
 constexpr float kMaxSlope = 8.0F;
-constexpr std::uint32_t kStepsToDrift = 16; // edges after which a frame is made orthogonal again
-constexpr float kSpread = 0.2F;             // of the rings of one bend, in radii
+constexpr std::uint32_t kEdgesPerOrthogonalization =
+    16;                         // edges after which a frame is made orthogonal again
+constexpr float kSpread = 0.2F; // of the rings of one bend, in radii
 constexpr float kBluntHeight = 0.35F;
 // The ring between the end of a tube and the top of its half ball, in radii.
 constexpr float kBallRing = 0.75F;
@@ -191,7 +192,7 @@ void TubeWriter::transport_normal(const glm::vec3& in, const glm::vec3& out, Pla
                  glm::dot(normal, glm::cross(axis, in)) * glm::cross(axis, out);
     }
     // Renormalized, so that a million steps leave it a unit vector across the edge.
-    if (++place.steps % kStepsToDrift == 0) {
+    if (++place.steps % kEdgesPerOrthogonalization == 0) {
         normal -= out * glm::dot(out, normal);
         normal *= 1.5F - 0.5F * glm::dot(normal, normal);
     }

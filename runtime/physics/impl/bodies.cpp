@@ -47,8 +47,8 @@ glm::dvec3 heading_of(const glm::quat& frame) {
     return glm::normalize(q * (1.0 / std::sqrt(norm))) * glm::dvec3(0.0, 1.0, 0.0);
 }
 
-/// Sums of a body while loads are added.
-struct Load {
+/// Sums over the segment, objects and polygons of a body: mass times place, area of sheets.
+struct BodySums {
     glm::dvec3 first_moment{0.0};
     double sail = 0.0;
 };
@@ -104,7 +104,7 @@ void order_by_depth(const Skeleton& rest, Bodies& out) {
     }
 }
 
-void add_segment(const Segment& segment, Body& body, Load& load) {
+void add_segment(const Segment& segment, Body& body, BodySums& load) {
     const double length = magnitude(segment.length);
     const double base_radius = magnitude(segment.base_radius);
     const double tip_radius = magnitude(segment.tip_radius);
@@ -127,7 +127,8 @@ void add_segment(const Segment& segment, Body& body, Load& load) {
                     std::max(base_radius, tip_radius));
 }
 
-void add_sheet(double area, double surface_mass, const glm::dvec3& place, Body& body, Load& load) {
+void add_sheet(
+    double area, double surface_mass, const glm::dvec3& place, Body& body, BodySums& load) {
     if (!std::isfinite(area)) {
         return;
     }
@@ -161,7 +162,7 @@ UnitCone unit_cone(double length, double base_radius, double tip_radius) {
 Bodies make_bodies(const Skeleton& rest, double surface_mass) {
     Bodies out;
     order_by_depth(rest, out);
-    std::vector<Load> loads(out.bodies.size());
+    std::vector<BodySums> loads(out.bodies.size());
     for (std::size_t b = 0; b < out.bodies.size(); ++b) {
         Body& body = out.bodies[b];
         const Segment& segment = rest.segments[out.segments[b]];

@@ -70,7 +70,7 @@ public:
         if (mesh_.materials.empty()) {
             return;
         }
-        const Found first = find(mesh_.materials.front());
+        const FoundPicture first = find(mesh_.materials.front());
         for (const ObjName& material : mesh_.materials) {
             if (find(material).path != first.path) {
                 warn(path_, text_, obj_, material,
@@ -131,12 +131,12 @@ private:
     }
 
     /// The picture of a material; an empty path if it has none.
-    struct Found {
+    struct FoundPicture {
         std::string path;
         Library* library = nullptr;
         const MaterialPicture* picture = nullptr;
     };
-    Found find(const ObjName& material) {
+    FoundPicture find(const ObjName& material) {
         if (material.name.empty()) {
             return {};
         }
@@ -158,7 +158,7 @@ private:
         return {};
     }
 
-    void read(const Found& found, const Project& project) {
+    void read(const FoundPicture& found, const Project& project) {
         const std::string& path = found.path;
         const auto add_note = [&](std::string message) {
             Library& library = *found.library;

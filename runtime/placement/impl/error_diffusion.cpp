@@ -75,7 +75,7 @@ LargeVector<std::uint32_t> diffuse(const PlacementOptions& options, const Square
             next_error[here] += left * (5.0 / 16.0);
             next_error[ahead] += left * (1.0 / 16.0);
         }
-        // Nothing is lost at the border.
+        // Return the error of the margin squares to the squares at the border.
         next_error[1] += next_error.front();
         next_error[squares.columns] += next_error.back();
         next_error[is_forward ? squares.columns : 1] += error[is_forward ? squares.columns + 1 : 0];

@@ -34,7 +34,8 @@ constexpr double kCellSide = 1.0 + 0x1p-9;
 
 constexpr std::uint8_t kUndecided = 0xFF; // a round that never comes
 constexpr float kNowhere = 1.0e30F;       // a coordinate far from all others
-constexpr std::int64_t kReach = 2;        // quarters around one that the spacing reaches into
+// Quarter cells to each side that may hold a rival within the spacing.
+constexpr std::int64_t kNeighbourQuarters = 2;
 
 /// A candidate that is taken, and its round.
 struct Taken {
@@ -72,7 +73,8 @@ private:
         const std::int64_t cell = candidate / kCandidates;
         const std::int64_t column = 2 * (cell % cells_.columns) + (quarters_[candidate] & 1);
         const std::int64_t row = 2 * (cell / cells_.columns) + (quarters_[candidate] >> 1);
-        return static_cast<std::size_t>((row + kReach) * quarters_a_row_ + column + kReach);
+        return static_cast<std::size_t>((row + kNeighbourQuarters) * quarters_a_row_ + column +
+                                        kNeighbourQuarters);
     }
 
     const PlacementOptions& options_;
@@ -86,8 +88,8 @@ private:
     std::vector<std::uint32_t> order_before_;
     std::vector<std::uint8_t> taken_; // the round in which a candidate is taken
     std::vector<std::uint8_t> gone_;  // the round in which it is rejected
-    /// The cells' quarters, by rows, kReach more on each side. A quarter's diagonal is shorter than
-    /// the spacing, so at most one candidate is taken in it.
+    /// The cells' quarters, by rows, kNeighbourQuarters more on each side. A quarter's diagonal is
+    /// shorter than the spacing, so at most one candidate is taken in it.
     std::vector<Taken> taken_at_;
     std::int64_t quarters_a_row_ = 0;
 };
@@ -165,9 +167,10 @@ void PoissonBlock::decide_one(std::uint32_t candidate) {
     const auto z = static_cast<double>(places_[candidate].y);
     std::uint32_t gone = kUndecided;
     const auto row_size = static_cast<std::size_t>(quarters_a_row_);
-    const Taken* row = taken_at_.data() + quarter - kReach * row_size - kReach;
-    for (std::int64_t i = 0; i <= 2 * kReach; ++i, row += row_size) {
-        for (std::int64_t j = 0; j <= 2 * kReach; ++j) {
+    const Taken* row =
+        taken_at_.data() + quarter - kNeighbourQuarters * row_size - kNeighbourQuarters;
+    for (std::int64_t i = 0; i <= 2 * kNeighbourQuarters; ++i, row += row_size) {
+        for (std::int64_t j = 0; j <= 2 * kNeighbourQuarters; ++j) {
             const double dx = static_cast<double>(row[j].x) - x;
             const double dz = static_cast<double>(row[j].z) - z;
             gone = std::min(gone, dx * dx + dz * dz < squared_ ? row[j].round : kUndecided);
@@ -195,9 +198,9 @@ void PoissonBlock::decide(const CellRange& cells) {
     quarters_.resize(count);
     taken_.assign(count, kUndecided);
     gone_.assign(count, kUndecided);
-    quarters_a_row_ = 2 * (cells.columns + kReach);
-    taken_at_.assign(static_cast<std::size_t>(quarters_a_row_ * 2 * (cells.rows + kReach)),
-                     Taken{});
+    quarters_a_row_ = 2 * (cells.columns + kNeighbourQuarters);
+    taken_at_.assign(
+        static_cast<std::size_t>(quarters_a_row_ * 2 * (cells.rows + kNeighbourQuarters)), Taken{});
     draw_candidates();
     sort_by_rank();
     for (const std::uint32_t candidate : order_) {

@@ -41,13 +41,14 @@ public:
           points_at_(static_cast<std::size_t>(columns_ * rows_), kNoPoint) {
         for (std::int64_t row = -kReach; row <= kReach; ++row) {
             for (std::int64_t column = -kReach; column <= kReach; ++column) {
-                around_.push_back({row * columns_ + column, row * row + column * column});
+                neighbourhood_.push_back({row * columns_ + column, row * row + column * column});
             }
         }
         // The nearest cells reject most points.
-        std::sort(around_.begin(), around_.end(), [](const Offset& a, const Offset& b) {
-            return std::pair(a.squared, a.cells) < std::pair(b.squared, b.cells);
-        });
+        std::sort(neighbourhood_.begin(), neighbourhood_.end(),
+                  [](const Offset& a, const Offset& b) {
+                      return std::pair(a.squared, a.cells) < std::pair(b.squared, b.cells);
+                  });
     }
 
     LargeVector<glm::vec2> sample();
@@ -69,7 +70,7 @@ private:
     std::int64_t columns_;
     std::int64_t rows_;
     LargeVector<std::uint32_t> points_at_; // by cell; kReach empty cells around all
-    std::vector<Offset> around_;           // a cell's neighbourhood, itself included
+    std::vector<Offset> neighbourhood_;    // a cell's neighbourhood, itself included
     LargeVector<glm::vec2> points_;
     LargeVector<std::uint32_t> active_;
 };
@@ -83,7 +84,7 @@ void DiskSampler::add(glm::vec2 point) {
 
 bool DiskSampler::is_free(glm::vec2 point) const {
     const std::int64_t cell = cell_of(point);
-    for (const Offset& offset : around_) {
+    for (const Offset& offset : neighbourhood_) {
         const std::uint32_t other = points_at_[static_cast<std::size_t>(cell + offset.cells)];
         if (other == kNoPoint) {
             continue;

@@ -205,7 +205,8 @@ bool is_bare(char c) {
            c == '-';
 }
 
-/// One past the string that begins at `at`. Where toml++ takes none, it reads no further.
+/// One past the string that begins at `at`. A string that is not closed ends where toml++ stops
+/// reading it.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
     const char quote = text[at];
     const bool has_lines = at + 2 < text.size() && text[at + 1] == quote && text[at + 2] == quote;

@@ -115,7 +115,7 @@ void read_stage_list(SpeciesReader& from) {
 }
 
 /// Reads `n`, or `stages` with `years_of_stage` if plants have an age.
-void read_stages(SpeciesReader& from, bool ages) {
+void read_stages(SpeciesReader& from, bool has_ages) {
     TableReader& reader = from.reader;
     const auto generations = reader.integer("n", {0, kMaxInteger32 - 1});
     read_stage_list(from);
@@ -129,7 +129,7 @@ void read_stages(SpeciesReader& from, bool ages) {
     }
     reader.report_conflicting_key("n", "`stages` says how many generations there are",
                                   reader.span_of("stages"));
-    if (!ages) {
+    if (!has_ages) {
         reader.report_conflicting_key("stages",
                                       "plants have an age with the method `domination` alone", {});
         return;
@@ -203,13 +203,13 @@ void read_one(const SceneValue& table, Scene& scene, Diagnostics& diagnostics) {
     PlacementSpecies& placed = scene.placement.species.emplace_back();
     SpeciesReader from{TableReader(&table, "[[species]]", diagnostics), species, placed};
     species.span = table.span;
-    const bool ages = scene.placement.method == PlacementMethod::Domination;
+    const bool has_ages = scene.placement.method == PlacementMethod::Domination;
     read_grammar(from);
-    read_stages(from, ages);
+    read_stages(from, has_ages);
     read_cache(from);
     read_place(from);
     read_growth(from.reader.table("growth"), placed, diagnostics);
-    if (!ages) {
+    if (!has_ages) {
         from.reader.report_conflicting_key("growth",
                                            "plants grow with the method `domination` alone", {});
     }

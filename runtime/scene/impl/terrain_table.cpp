@@ -102,14 +102,14 @@ void read_terrain_table(const SceneValue* table, Scene& scene, Diagnostics& diag
     terrain.span = reader.span();
     const auto kind = reader.choice("kind", kKinds);
     read_region(reader, terrain.region);
-    // the keys of an unknown kind are unknown
-    const bool any = reader.has("kind") && !kind;
+    // for an unknown kind no key is reported as conflicting
+    const bool is_unknown_kind = reader.has("kind") && !kind;
     terrain.kind = static_cast<TerrainKind>(kind.value_or(0));
     const std::string because = fmt::format("the terrain is `{}`", kKinds[kind.value_or(0)]);
     const auto report_conflicting_key = [&](std::initializer_list<std::string_view> keys) {
         for (const std::string_view key : keys) {
             static_cast<void>(reader.entry(key));
-            if (!any) {
+            if (!is_unknown_kind) {
                 reader.report_conflicting_key(
                     key, because, reader.has("kind") ? reader.span_of("kind") : SourceSpan{});
             }

@@ -35,7 +35,7 @@ double cubic(const std::array<double, 4>& p, double t) {
 
 /// Samples index - 1 to index + 2 of `count`.
 template <typename Sample>
-std::array<double, 4> four(std::uint32_t index, std::uint32_t count, const Sample& sample) {
+std::array<double, 4> four_samples(std::uint32_t index, std::uint32_t count, const Sample& sample) {
     const double second = sample(index);
     const double third = sample(index + 1);
     const double first = index > 0 ? sample(index - 1) : 2.0 * second - third;
@@ -56,11 +56,11 @@ double interpolate_bicubic(const GreyMap& map, double column, double row) {
     const Place x = place(column, map.columns);
     const Place z = place(row, map.rows);
     const auto along_row = [&](std::uint32_t at_row) {
-        return cubic(four(x.index, map.columns,
-                          [&](std::uint32_t at) -> double { return map.at(at, at_row); }),
+        return cubic(four_samples(x.index, map.columns,
+                                  [&](std::uint32_t at) -> double { return map.at(at, at_row); }),
                      x.part);
     };
-    return cubic(four(z.index, map.rows, along_row), z.part);
+    return cubic(four_samples(z.index, map.rows, along_row), z.part);
 }
 
 } // namespace lsys

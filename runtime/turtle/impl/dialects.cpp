@@ -40,7 +40,8 @@ void Turtle::State::turn_left(double degrees) {
     now.second_heading = std::remainder(now.second_heading - degrees, kFullTurn);
 }
 
-/// To the right by half of the angles of a full turn, rounded down; mirrored or not.
+/// Turns clockwise in the plane by floor(n / 2) of the n angles in a full turn, whether or not the
+/// pose is mirrored.
 void Turtle::State::half_turn_snapped() {
     const double parts = std::round(kFullTurn / static_cast<double>(now.angle));
     const double degrees = std::floor(parts / 2.0) * kFullTurn / parts;

@@ -29,7 +29,7 @@ public:
     }
     /// A `.`.
     void vertex(const Pose& pose) { vertices_.push_back(position_of(pose)); }
-    /// The start or end of a step; also where no polygon is open.
+    /// Adds the start or end of a step to the path of the open polygon, if there is one.
     void path(const Pose& pose) {
         if (!open_.empty()) {
             add_to_path(position_of(pose));

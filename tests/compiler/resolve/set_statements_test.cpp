@@ -26,11 +26,11 @@ void check_number(std::string_view key, Value Settings::*field, float min, float
     const test::Compiled c = set(key, "7");
     CHECK(c.errors().empty());
     CHECK(c.outcome.program->settings.*field == static_cast<Value>(7));
-    if (min > kAnyNumber) {
+    if (min > kLowestNumber) {
         CHECK_FALSE(is_refused(key, fmt::format("{}", min)));
         CHECK(is_refused(key, fmt::format("{}", min - 1.0F)));
     }
-    if (max < -kAnyNumber) {
+    if (max < -kLowestNumber) {
         CHECK_FALSE(is_refused(key, fmt::format("{}", max)));
         CHECK(is_refused(key, fmt::format("{}", max + 1.0F)));
         CHECK(is_refused(key, "7.5"));
@@ -56,7 +56,7 @@ TEST_CASE("every setting of the table is read within its range") {
 #define LSYS_CHOICE(type, field, initial, use, group)                                              \
     check_choice(#field, &Settings::field, type::initial);
 #define LSYS_NUMBER(field, initial, use, group, min, wanted)                                       \
-    check_number(#field, &Settings::field, min, -kAnyNumber);
+    check_number(#field, &Settings::field, min, -kLowestNumber);
 #define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit)                           \
     check_number(#field, &Settings::field, min, max);
 #include "compiler/bytecode/settings.def"

@@ -89,8 +89,8 @@ Result<void> TerrainPass::reload(const ShaderSource& shaders) {
     return {};
 }
 
-void TerrainPass::show(const Terrain& terrain, float reach) {
-    lod_ = std::make_unique<TerrainLod>(terrain, reach);
+void TerrainPass::show(const Terrain& terrain, float view_distance) {
+    lod_ = std::make_unique<TerrainLod>(terrain, view_distance);
     if (!noise_) {
         noise_ = make_noise(*device_);
         std::vector<std::array<std::uint8_t, 2>> corners;

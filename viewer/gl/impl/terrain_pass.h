@@ -19,7 +19,7 @@ public:
     /// Error: a shader does not compile; the old one stays in use.
     [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
     /// Replaces the ground; it must outlive the pass or the next call.
-    void show(const Terrain& terrain, float reach);
+    void show(const Terrain& terrain, float view_distance);
     /// Selects patches for a camera and uploads new heights.
     void prepare(const Frustum& frustum);
     /// Draws the selected patches.
