@@ -84,9 +84,11 @@ TEST_CASE("sample scenes place their trees") {
         INFO(sample.name);
         names.insert(sample.name);
         const lsys::SceneTerrain& ground = sample.scene.terrain;
-        REQUIRE(ground.kind == lsys::TerrainKind::Noise);
+        REQUIRE(ground.kind != lsys::TerrainKind::HeightMap);
         const lsys::Result<lsys::Terrain> terrain =
-            lsys::Terrain::noise(ground.region, ground.noise);
+            ground.kind == lsys::TerrainKind::Flat
+                ? lsys::Terrain::flat(ground.region)
+                : lsys::Terrain::noise(ground.region, ground.noise);
         REQUIRE(terrain);
         lsys::PlacementOptions options = sample.scene.placement;
         lsys::GreyMap map;
@@ -118,5 +120,5 @@ TEST_CASE("sample scenes place their trees") {
         }
         CHECK(trees < 6000);
     }
-    CHECK(names == std::set<std::string>{"meadow", "mixed-forest", "pine-wood"});
+    CHECK(names == std::set<std::string>{"meadow", "mixed-forest", "pine-wood", "sys-figure-2"});
 }

@@ -119,14 +119,14 @@ TEST_CASE("plants look as they did") {
         {"koch-island", {sample("abop-1-6-koch-island")}},
         {"hilbert-space", {sample("abop-1-19-hilbert-space")}},
         {"ternary-tree", {sample("abop-2-8a")}},
-        {"thesis-7-1-bent", {sample("crankshaw-7-1"), "--gravity", "9.81"}},
-        {"thesis-7-1-wind", {sample("crankshaw-7-1"), "--wind", "3,0,0,0.5", "--time", "2"}},
+        {"bending-weight", {sample("teach-bending"), "--gravity", "9.81"}},
+        {"bending-wind", {sample("teach-bending"), "--wind", "3,0,0,0.5", "--time", "2"}},
         {"flowers", {sample("abop-lychnis")}},
         {"picture-of-a-file",
          {sample("teach-picture"), "--camera", "eye 1.4,1.6,1.4 target 0,1.1,0 fov 50"}},
-        {"wireframe", {sample("crankshaw-7-3"), "--wireframe"}},
+        {"wireframe", {LSYS_SOURCE_DIR "/tests/viewer/ternary.lsys", "--wireframe"}},
         {"skeleton-lines", {sample("abop-1-24d"), "--style", "none", "--lines", "skeleton"}},
-        {"turtle-path", {sample("crankshaw-7-1"), "--lines", "path"}},
+        {"turtle-path", {sample("teach-bending"), "--lines", "path"}},
         {"boxes", {sample("sys-figure-1"), "--method", "boxes"}},
         {"near",
          {sample("carey-type-0"), "--camera", "eye 2,1.2,2 target 0,1.5,0 fov 60", "--bark-noise",
@@ -224,8 +224,8 @@ TEST_CASE("the same picture every run, and of any stripes") {
     const std::vector<std::string> arguments = {sample("abop-1-25-bush"), "--size", "150x80"};
     CHECK(drawn(arguments) == drawn(arguments));
     // A picture of more pixels than are drawn at once, beside a smaller one of the same view.
-    const Picture large = decode_picture(drawn({sample("crankshaw-7-1"), "--size", "2600x2600"}));
-    const Picture small = decode_picture(drawn({sample("crankshaw-7-1"), "--size", "325x325"}));
+    const Picture large = decode_picture(drawn({sample("teach-bending"), "--size", "2600x2600"}));
+    const Picture small = decode_picture(drawn({sample("teach-bending"), "--size", "325x325"}));
     Picture reduced{325, 325, std::vector<std::uint8_t>(std::size_t{4} * 325 * 325)};
     for (std::size_t y = 0; y < 325; ++y) {
         for (std::size_t x = 0; x < 325; ++x) {
@@ -252,7 +252,7 @@ TEST_CASE("a picture may be one pixel") {
 TEST_CASE("a series has as many pictures as asked for, each another") {
     const ScratchFolder folder;
     const LscRun run =
-        run_lsview({sample("crankshaw-7-1"), "--screenshot", folder / "a.png", "--frames", "3",
+        run_lsview({sample("teach-bending"), "--screenshot", folder / "a.png", "--frames", "3",
                     "--turntable", "--size", "64x48", "--stats", "-"});
     CAPTURE(run.err);
     REQUIRE(run.status == 0);
@@ -268,7 +268,7 @@ TEST_CASE("a series has as many pictures as asked for, each another") {
 }
 
 TEST_CASE("wind moves a plant, and no wind leaves it as it is") {
-    const std::vector<std::string> still = {sample("crankshaw-7-1"), "--size", "160x120"};
+    const std::vector<std::string> still = {sample("teach-bending"), "--size", "160x120"};
     std::vector<std::string> calm = still;
     calm.insert(calm.end(), {"--wind", "0,0,0"});
     CHECK(drawn(still) == drawn(calm));

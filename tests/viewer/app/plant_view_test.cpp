@@ -183,7 +183,7 @@ TEST_CASE("growth plays from the axiom to the end") {
 }
 
 TEST_CASE("a plant bends in the wind and stands again without") {
-    ViewedPlant viewed(plant_options(sample("crankshaw-7-1")));
+    ViewedPlant viewed(plant_options(sample("teach-bending")));
     REQUIRE(viewed.until_swaps(1));
     viewed.step();
     const std::vector<std::uint8_t> still = viewed.picture();
@@ -203,7 +203,7 @@ TEST_CASE("another file is opened with all in view") {
     ViewedPlant viewed(plant_options(sample("teach-param")));
     REQUIRE(viewed.until_swaps(1));
     const Camera before = viewed.view.settings.camera;
-    viewed.view.open(sample("crankshaw-7-1"));
+    viewed.view.open(sample("teach-bending"));
     REQUIRE(viewed.until_swaps(2));
     CHECK_FALSE(viewed.view.settings.camera == before);
     CHECK(viewed.view.document()->plant.generations == viewed.view.default_generations());
