@@ -210,10 +210,10 @@ TEST_CASE("another file is opened with all in view") {
 }
 
 TEST_CASE("another file is opened without the options of the first") {
-    ViewOptions options = options_of(sample("teach-param"));
+    ViewOptions options = plant_options(sample("teach-param"));
     options.grammar.dialect = "lsys";
     options.grammar.generations = 1;
-    Viewed viewed(options);
+    ViewedPlant viewed(options);
     REQUIRE(viewed.until_swaps(1));
     CHECK(viewed.view.generations() == 1);
     const ScratchFolder scratch;
