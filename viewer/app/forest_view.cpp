@@ -191,6 +191,8 @@ void ForestView::swap(ForestOutcome outcome) {
     if (const std::string note = painting_.set_document(document_); !note.empty()) {
         set_note(note);
     }
+    is_other_placement_ = outcome.request.edits.changes_placement() ||
+                          outcome.request.options.overrides.changes_placement();
     const PlacementOptions& placement = document_->scene.placement;
     if (!outcome.request.edits.years) {
         default_years_ = placement.method == PlacementMethod::Domination ? placement.years : 0;
@@ -402,22 +404,26 @@ void ForestView::redo() {
 }
 
 void ForestView::save() {
-    if (!is_scene(file())) {
+    if (document_ == nullptr) {
+        set_note("no forest to save yet");
+        return;
+    }
+    // file() may be a scene that is still loading or has errors.
+    const std::string& scene = document_->files.front();
+    if (!is_scene(scene)) {
         set_note("this forest has no scene file to save to");
         return;
     }
     const std::lock_guard lock(saved_mutex_);
-    const Result<void> saved = painting_.save(file(), console_);
+    const Result<void> saved = painting_.save(scene, console_);
     if (!saved) {
         set_note(fmt::format("not saved: {}", saved.error().message));
         return;
     }
     saved_text_ = painting_.saved_text();
-    const bool is_other_placement =
-        settings.edits.changes_placement() || options_.overrides.changes_placement();
     // The file identifies them by number only.
-    const bool is_doubtful = is_other_placement && painting_.has_erased();
-    set_note(fmt::format("saved {}{}", file(),
+    const bool is_doubtful = is_other_placement_ && painting_.has_erased();
+    set_note(fmt::format("saved {}{}", scene,
                          is_doubtful
                              ? "; but trees were erased from another placement than the file's, "
                                "where other trees may have their numbers"
