@@ -30,6 +30,7 @@ ForestViewSettings first_forest_settings(const ViewOptions& options) {
     settings.windy = options.wind.has_value();
     settings.wind = options.wind.value_or(Wind{{5.0F, 0.0F, 0.0F}, 0.5F});
     settings.max_triangles = options.max_triangles;
+    settings.air = options.air;
     return settings;
 }
 
@@ -173,7 +174,7 @@ void ForestView::swap(ForestOutcome outcome) {
     const SteadyClock::time_point start = SteadyClock::now();
     const std::shared_ptr<ForestDocument> before = document_;
     const std::shared_ptr<ForestDocument> document = std::move(outcome.document);
-    const Camera overall = overview(*document, aspect_);
+    const Camera first_camera = first_view(*document, aspect_);
     if (Result<void> shown = renderer_->show_forest(document->model); !shown) {
         shader_message_ = shown.error().message;
         console_.error(shader_message_);
@@ -186,11 +187,13 @@ void ForestView::swap(ForestOutcome outcome) {
     }
     has_impostors_ = false;
     if (std::exchange(frame_next_, false)) {
-        settings.camera = overall;
+        settings.camera = first_camera;
     }
     if (const std::string note = painting_.set_document(document_); !note.empty()) {
         set_note(note);
     }
+    is_other_placement_ = outcome.request.edits.changes_placement() ||
+                          outcome.request.options.overrides.changes_placement();
     const PlacementOptions& placement = document_->scene.placement;
     if (!outcome.request.edits.years) {
         default_years_ = placement.method == PlacementMethod::Domination ? placement.years : 0;
@@ -227,7 +230,7 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
         frame.time = seconds_since(start_);
     }
     if (document_ != nullptr) {
-        frame.light = forest_light(*document_);
+        frame.light = forest_light(*document_, settings.air);
     }
     const bool moves = settings.windy || settings.plays || has_worked_ ||
                        (frame_ && !(frame_->camera == frame.camera));
@@ -305,6 +308,7 @@ void ForestView::play_or_pause() {
 void ForestView::open(const std::string& file) {
     use_other_file(options_, file);
     settings.edits = {};
+    settings.air.reset();
     settings.plays = false;
     frame_next_ = true;
     files_ = {file};
@@ -402,22 +406,26 @@ void ForestView::redo() {
 }
 
 void ForestView::save() {
-    if (!is_scene(file())) {
+    if (document_ == nullptr) {
+        set_note("no forest to save yet");
+        return;
+    }
+    // file() may be a scene that is still loading or has errors.
+    const std::string& scene = document_->files.front();
+    if (!is_scene(scene)) {
         set_note("this forest has no scene file to save to");
         return;
     }
     const std::lock_guard lock(saved_mutex_);
-    const Result<void> saved = painting_.save(file(), console_);
+    const Result<void> saved = painting_.save(scene, console_);
     if (!saved) {
         set_note(fmt::format("not saved: {}", saved.error().message));
         return;
     }
     saved_text_ = painting_.saved_text();
-    const bool is_other_placement =
-        settings.edits.changes_placement() || options_.overrides.changes_placement();
     // The file identifies them by number only.
-    const bool is_doubtful = is_other_placement && painting_.has_erased();
-    set_note(fmt::format("saved {}{}", file(),
+    const bool is_doubtful = is_other_placement_ && painting_.has_erased();
+    set_note(fmt::format("saved {}{}", scene,
                          is_doubtful
                              ? "; but trees were erased from another placement than the file's, "
                                "where other trees may have their numbers"

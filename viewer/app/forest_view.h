@@ -31,6 +31,7 @@ struct ForestViewSettings {
     bool wireframe = false;
     bool windy = false; // wind is on
     Wind wind;
+    std::optional<double> air; // visibility, km; none: default_visibility()
     std::uint64_t max_triangles = 1'500'000;
 
     bool plays = false;
@@ -104,7 +105,8 @@ public:
     void end_stroke();
     void undo();
     void redo();
-    /// Saves painted trees in the scene file and reports the result.
+    /// Saves painted trees in the file of the scene shown and reports the result. Another scene that
+    /// was opened since and has errors stays as it is.
     void save();
 
     /// Last forest without errors; null: none yet.
@@ -136,7 +138,8 @@ private:
     bool has_impostors_ = true;
     std::optional<SceneOverrides> requested_;
     std::uint32_t default_years_ = 0;
-    SteadyClock::time_point since_; // change that led to the forest shown
+    bool is_other_placement_ = false; // the forest shown is not placed as its file says
+    SteadyClock::time_point since_;   // change that led to the forest shown
     SteadyClock::time_point last_growth_;
     SteadyClock::time_point start_ = SteadyClock::now(); // of the wind
     std::optional<glm::vec2> pointed_;

@@ -331,6 +331,48 @@ TEST_CASE("trees erased from another placement than the file's are told when the
     CHECK(forest.note().find("erased from another placement") != std::string::npos);
 }
 
+TEST_CASE("what was painted is saved to the scene shown, not to one with errors opened since") {
+    const WoodFolder files(wood(50));
+    const std::string broken = files.folder / "broken.toml";
+    const std::string broken_text = wood(70) + "colour = 3\n";
+    write_text(broken, broken_text);
+    ViewedForest viewed(forest_options(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    viewed.look_at(30.0F, 30.0F);
+    viewed.forest().settings.tool = PaintTool::OneTree;
+    viewed.press();
+    REQUIRE(viewed.forest().painting().tree_count() == 51);
+    viewed.views.open(broken);
+    CHECK(viewed.forest().file() == files.scene); // asks first
+    viewed.views.open(broken);
+    REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
+    CHECK(viewed.forest().file() == broken);
+    viewed.forest().save();
+    CHECK(viewed.forest().note() == "saved " + files.scene);
+    CHECK_FALSE(viewed.forest().is_unsaved());
+    CHECK(read_text(broken) == broken_text);
+    const std::string saved = read_text(files.scene);
+    CHECK(saved.starts_with(wood(50)));
+    CHECK(saved.find("[painted]") != std::string::npos);
+    // The other scene comes without what was painted in the first.
+    wait_for_watch();
+    write_text(broken, wood(70));
+    REQUIRE(viewed.until_trees(70));
+    viewed.press();
+    viewed.forest().save();
+    CHECK(viewed.forest().note() == "saved " + broken);
+    CHECK(read_text(files.scene) == saved);
+}
+
+TEST_CASE("nothing is saved before a forest is shown") {
+    const WoodFolder files(wood(50) + "colour = 3\n");
+    ViewedForest viewed(forest_options(files.scene));
+    REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
+    viewed.forest().save();
+    CHECK(viewed.forest().note() == "no forest to save yet");
+    CHECK(read_text(files.scene) == wood(50) + "colour = 3\n");
+}
+
 TEST_CASE("a brush and an eraser work along the way of the mouse") {
     const WoodFolder files(wood(1));
     ViewedForest viewed(forest_options(files.scene));
