@@ -417,11 +417,11 @@ TEST_CASE("another scene is opened without options, heroes and painting of the f
     const WoodFolder second(wood(40));
     write_text(second.folder / "bush.lsys",
                "#n = 2;\n#set names letters;\n#w : A;\n#p : A : * : F[+A]A;\n");
-    ViewOptions options = options_of(first.scene);
+    ViewOptions options = forest_options(first.scene);
     options.grammar.definitions = {{"size", 2.0F}};
     options.grammar.generations = 1;
     options.seed = 5;
-    Viewed viewed(options);
+    ViewedForest viewed(options);
     REQUIRE(viewed.until_swaps(1));
     ForestView& forest = viewed.forest();
     CHECK(forest.document()->grown.forest.species[0].stages[0].generations == 1);
