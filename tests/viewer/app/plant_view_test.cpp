@@ -135,6 +135,21 @@ TEST_CASE("a file that changes is shown, and one in error leaves the picture as 
     CHECK(viewed.view.messages().empty());
 }
 
+TEST_CASE("a note goes away after a while") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    write_text(file, plant(1));
+    ViewedPlant viewed(plant_options(file));
+    View& view = viewed.view;
+    view.set_note("wrote plant-1.png");
+    const SteadyClock::time_point now = SteadyClock::now();
+    CHECK_FALSE(view.drop_old_note(now));
+    CHECK(view.note() == "wrote plant-1.png");
+    CHECK(view.drop_old_note(now + kNoteTime));
+    CHECK(view.note().empty());
+    CHECK_FALSE(view.drop_old_note(now + 2 * kNoteTime));
+}
+
 TEST_CASE("a missing file that is included is waited for") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
