@@ -81,6 +81,14 @@ Result<void> write_fixed(const std::string& path,
     return commit_all(outputs);
 }
 
+std::size_t count_fixes(const Diagnostics& diagnostics) {
+    std::size_t count = 0;
+    for (const Diagnostic& diagnostic : diagnostics.all()) {
+        count += diagnostic.fixes.size();
+    }
+    return count;
+}
+
 ExitStatus fix_file(const std::string& path,
                     const GrammarText& text,
                     const CheckCommand& command,
@@ -110,6 +118,10 @@ ExitStatus fix_file(const std::string& path,
     }
     const ExitStatus status =
         console.show(fixed.compiled.diagnostics, *fixed.compiled.grammar.sources);
+    if (const std::size_t offers = count_fixes(fixed.compiled.diagnostics); offers != 0) {
+        console.info(offers == 1 ? "1 repair is offered, and left to you"
+                                 : fmt::format("{} repairs are offered, and left to you", offers));
+    }
     for (const std::string& left : fixed.out_of_scope) {
         console.info(fmt::format("`{}` is left as it is: it lies outside the folder of `{}`", left,
                                  shown_path(path)));

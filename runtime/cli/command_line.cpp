@@ -348,7 +348,7 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
         std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
         app.parse(std::move(reversed));
     } catch (const CLI::CallForHelp&) {
-        return PrintText{command == nullptr ? app.help() : command->help("lsc")};
+        return PrintText{command == nullptr ? help_text(app, "") : help_text(*command, "lsc")};
     } catch (const CLI::CallForVersion&) {
         return PrintText{"lsc " LSC_VERSION "\n"};
     } catch (const CLI::ParseError& error) {

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <system_error>
 #include <utility>
 
 namespace lsys {
@@ -22,8 +23,27 @@ namespace {
 constexpr double kDefaultSize = 100.0; // m
 constexpr std::uint64_t kDefaultCount = 1000;
 
+/// The path of a file that is named in a file of `folder`; without `..`, unless a link makes that
+/// another file.
 std::string path_in(const std::string& folder, const std::string& path) {
-    return (std::filesystem::path(folder) / path).string();
+    const std::filesystem::path whole = std::filesystem::path(folder) / path;
+    const std::filesystem::path normal = whole.lexically_normal();
+    std::error_code missing;
+    return std::filesystem::equivalent(whole, normal, missing) ? normal.string() : whole.string();
+}
+
+/// Leaves out notes on equal plants where the scene asks for one plant.
+Diagnostics notes_for(const SceneSpecies& species, Diagnostics diagnostics) {
+    if (species.cache.heroes != 1) {
+        return diagnostics;
+    }
+    Diagnostics left;
+    for (const Diagnostic& diagnostic : diagnostics.all()) {
+        if (diagnostic.code != DiagnosticCode::NoVariety) {
+            left.add(diagnostic);
+        }
+    }
+    return left;
 }
 
 /// The scene of a list of grammars.
@@ -130,7 +150,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     Diagnostics diagnostics;
     std::optional<InstancedSystem> system = compile_instanced(
         std::move(*grammar.program), grammar.names, *grammar.sources, species.rho, diagnostics);
-    if (!step.diagnose(std::move(diagnostics), grammar.sources) || !system) {
+    if (!step.diagnose(notes_for(species, std::move(diagnostics)), grammar.sources) || !system) {
         return step.end(Stop::Diagnosed);
     }
     grammar.program.reset();

@@ -144,6 +144,16 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
         ->group("Mesh");
 }
 
+std::string help_text(const CLI::App& app, const std::string& program) {
+    std::string text;
+    for (const char c : app.help(program)) {
+        if (c != '\n' || !text.ends_with("\n\n")) {
+            text += c;
+        }
+    }
+    return text;
+}
+
 UsageError describe(const CLI::ParseError& error, const CLI::App& app, const std::string& command) {
     UsageError usage;
     usage.help = fmt::format("`{} --help` lists the options", command);

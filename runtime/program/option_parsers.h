@@ -77,6 +77,10 @@ inline Result<float> fraction(const std::string& text) {
 [[nodiscard]] UsageError
 describe(const CLI::ParseError& error, const CLI::App& app, const std::string& command);
 
+/// The text of `--help`, with one blank line between its parts. `program`: written before the name
+/// of `app`; empty for a program.
+[[nodiscard]] std::string help_text(const CLI::App& app, const std::string& program);
+
 void add_messages(CLI::App& app, MessageOptions& options);
 void add_deny(CLI::App& app, MessageOptions& options);
 void add_dialect(CLI::App& app, std::string& dialect);

@@ -113,7 +113,8 @@ void add_scene_overrides(CLI::App& app, SceneOverrides& overrides, const char* s
     add_parsed(app, "--key", overrides.key,
                integer(0, static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())),
                "Key of the forest: equal keys give equal forests (default 0)")
-        ->type_name("K");
+        ->type_name("K")
+        ->group("Placement");
     add_placement(app, overrides, size);
     add_cache(app, overrides);
 }

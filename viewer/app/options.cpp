@@ -155,11 +155,12 @@ void add_bending(CLI::App& app, ViewOptions& options) {
     add_parsed(
         app, "--gravity", options.gravity,
         [](const std::string& text) { return parse_number(text, 0.0F, kMaxGravity); },
-        "Let the plant bend under its weight: m/s^2, 9.81 on earth")
+        "Bend the plant under its weight, in m/s2 (9.81 on Earth)")
         ->type_name("G")
         ->group("Bending");
     add_parsed(app, "--wind", options.wind, parse_wind,
-               "Let wind bend it: x,y,z in m/s, and the gusts' part of it")
+               "Bend the plant, or move the forest, in wind, in m/s; GUST is the fraction that "
+               "varies")
         ->type_name("X,Y,Z[,GUST]")
         ->group("Bending");
 }
@@ -196,7 +197,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     try {
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
     } catch (const CLI::CallForHelp&) {
-        return PrintText{app.help()};
+        return PrintText{help_text(app, "")};
     } catch (const CLI::CallForVersion&) {
         return PrintText{"lsview " LSC_VERSION "\n"};
     } catch (const CLI::ParseError& error) {

@@ -3,9 +3,29 @@
 #include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace lsys::view {
+
+namespace {
+
+/// Explains a picture without a plant.
+void report_nothing_to_draw(const PlantDocument& document,
+                            const ViewOptions& options,
+                            Messages& messages) {
+    if (!document.mesh.indices.empty() || measure(document.plant.skeleton).length > 0.0) {
+        return;
+    }
+    const std::uint32_t generations =
+        options.grammar.generations.value_or(document.grammar.bytecode.generations.value_or(0));
+    messages.add_info(fmt::format("the plant has nothing to draw after {} generation{}",
+                                  generations, generations == 1 ? "" : "s"));
+    messages.add_help("`-n N` sets the number of generations; `lsc dump` prints the word");
+}
+
+} // namespace
 
 Outcome<std::shared_ptr<const PlantDocument>> make_plant_document(const ViewOptions& options,
                                                                   const Project& project) {
@@ -35,6 +55,7 @@ Outcome<std::shared_ptr<const PlantDocument>> make_plant_document(const ViewOpti
         return step.end();
     }
     document->mesh_seconds = meshing.seconds();
+    report_nothing_to_draw(*document, options, step.messages);
     return step.done<std::shared_ptr<const PlantDocument>>(document);
 }
 

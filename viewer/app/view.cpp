@@ -114,7 +114,16 @@ void View::write_screenshot() {
 
 void View::set_note(const std::string& note) {
     note_ = note;
+    note_since_ = SteadyClock::now();
     console_.info(note);
+}
+
+bool View::drop_old_note(SteadyClock::time_point now) {
+    if (note_.empty() || now - note_since_ < kNoteTime) {
+        return false;
+    }
+    note_.clear();
+    return true;
 }
 
 } // namespace lsys::view

@@ -3,11 +3,13 @@
 #pragma once
 
 #include "grammar/base/outcome.h"
+#include "runtime/pipeline/stopwatch.h"
 #include "runtime/program/console.h"
 #include "viewer/app/options.h"
 #include "viewer/gl/renderer.h"
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,6 +18,8 @@
 namespace lsys::view {
 
 constexpr double kMilliseconds = 1e3; // per second
+/// Time that a note stays on the screen.
+constexpr std::chrono::seconds kNoteTime{10};
 
 /// A message in the overlay.
 struct ShownMessage {
@@ -54,6 +58,8 @@ public:
     /// Writes the last picture to a new file and reports its name.
     void write_screenshot();
     void set_note(const std::string& note);
+    /// Removes the note once it was shown for kNoteTime. Returns whether it did.
+    bool drop_old_note(SteadyClock::time_point now);
 
     /// Messages of the last request, formatted as `lsc` does.
     [[nodiscard]] const std::string& messages() const { return text_; }
@@ -62,7 +68,7 @@ public:
     /// Whether the last request failed.
     [[nodiscard]] bool failed() const { return failed_; }
     [[nodiscard]] const std::string& shader_message() const { return shader_message_; }
-    /// Last note, for example "wrote plant-1.png".
+    /// Last note, for example "wrote plant-1.png"; empty if it is old.
     [[nodiscard]] const std::string& note() const { return note_; }
     [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
 
@@ -92,6 +98,7 @@ private:
     std::string text_;
     std::vector<ShownMessage> entries_;
     std::string note_;
+    SteadyClock::time_point note_since_;
     bool failed_ = false;
     std::atomic<bool> shaders_changed_{false};
 };

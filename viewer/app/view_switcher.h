@@ -25,6 +25,8 @@ public:
     /// Opens and frames another file: a scene as a forest, a grammar as a plant. With unsaved
     /// changes the first call only warns.
     void open(const std::string& file);
+    /// Makes the next open() with unsaved changes warn again.
+    void ask_again() { refused_.clear(); }
     /// Scene shown before the plant; empty: none.
     [[nodiscard]] const std::string& last_scene() const { return last_scene_; }
 

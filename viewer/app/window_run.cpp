@@ -59,7 +59,13 @@ public:
             window_.stay_open();
         }
         const bool has_news = switcher_.current().update();
-        if (input.any || has_news) {
+        const bool has_old_note = switcher_.current().drop_old_note(now);
+        if (has_old_note) {
+            // Without the question on the screen, the next Ctrl+Q is no answer to it.
+            panels_.asked_to_quit = false;
+            switcher_.ask_again();
+        }
+        if (input.any || has_news || has_old_note) {
             pictures_left_ = kPicturesAfterInput;
         }
         draw();

@@ -120,18 +120,24 @@ struct Window::State {
         }
     }
 
-    void press_key(int code, int scan_code, int action, int modifiers) {
+    /// Returns whether the key is for the panels too.
+    bool press_key(int code, int scan_code, int action, int modifiers) {
         input.any = true;
         const Key key = key_of(code, scan_code);
+        const bool types = !captured && ImGui::GetIO().WantTextInput;
         if (action == GLFW_RELEASE) {
             std::erase_if(keys, [code](const auto& held_key) { return held_key.first == code; });
-        } else if (key != Key::None && !ImGui::GetIO().WantTextInput) {
+            return true;
+        }
+        if (key != Key::None && !types) {
             input.presses.push_back(
                 {key, (modifiers & GLFW_MOD_CONTROL) != 0, (modifiers & GLFW_MOD_SHIFT) != 0});
             if (action == GLFW_PRESS) {
                 keys.emplace_back(code, key);
             }
         }
+        // Outside of text fields Tab starts to fly; ImGui would put the cursor into a field.
+        return types || (!captured && key != Key::Tab);
     }
 
     /// ImGui chains its own callbacks to these.
@@ -151,10 +157,6 @@ struct Window::State {
                 state.input.wheel += static_cast<float>(y);
             }
         });
-        glfwSetKeyCallback(
-            window, [](GLFWwindow* from, int code, int scan_code, int action, int modifiers) {
-                of(from).press_key(code, scan_code, action, modifiers);
-            });
         glfwSetCharCallback(window,
                             [](GLFWwindow* from, unsigned /*c*/) { of(from).input.any = true; });
         glfwSetDropCallback(window, [](GLFWwindow* from, int count, const char** paths) {
@@ -171,6 +173,16 @@ struct Window::State {
             state.keys.clear(); // releases may go to another window
             state.held = {};
         });
+    }
+
+    /// Replaces ImGui's own callback, and passes it the keys for the panels.
+    void install_key_callback() {
+        glfwSetKeyCallback(
+            window, [](GLFWwindow* from, int code, int scan_code, int action, int modifiers) {
+                if (of(from).press_key(code, scan_code, action, modifiers)) {
+                    ImGui_ImplGlfw_KeyCallback(from, code, scan_code, action, modifiers);
+                }
+            });
     }
 };
 
@@ -216,6 +228,7 @@ Window::make(const std::string& title, std::uint32_t width, std::uint32_t height
     ImGui::GetStyle().ScaleAllSizes(made->scale());
     ImGui::GetIO().FontGlobalScale = made->scale();
     ImGui_ImplGlfw_InitForOpenGL(state.window, true);
+    state.install_key_callback();
     ImGui_ImplOpenGL3_Init("#version 450 core");
     state.has_panels = true;
     return made;
@@ -276,6 +289,9 @@ void Window::capture_mouse(bool captured) {
     ImGuiIO& io = ImGui::GetIO();
     io.ConfigFlags = captured ? io.ConfigFlags | ImGuiConfigFlags_NoMouse
                               : io.ConfigFlags & ~ImGuiConfigFlags_NoMouse;
+    if (captured) {
+        ImGui::SetWindowFocus(nullptr); // ends typing
+    }
 }
 
 void Window::begin_panels() {

@@ -60,16 +60,19 @@ void add_skeleton(const Skeleton& skeleton, LineMaker& lines) {
     }
 }
 
+/// Jumps come first: later lines cover earlier ones, and a jump back along a branch lies on it.
 void add_path(const Skeleton& skeleton, LineMaker& lines) {
     glm::vec3 at{0.0F};
-    const std::size_t count = skeleton.segments.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const Segment& segment = skeleton.segments[i];
+    for (const Segment& segment : skeleton.segments) {
         if (glm::distance(at, segment.base) > 1e-5F * (1.0F + glm::length(at))) {
             lines.add(at, segment.base, kJump);
         }
         at = tip(segment);
-        lines.add(segment.base, at, ramp(part_of(i, count)));
+    }
+    const std::size_t count = skeleton.segments.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const Segment& segment = skeleton.segments[i];
+        lines.add(segment.base, tip(segment), ramp(part_of(i, count)));
     }
 }
 

@@ -22,6 +22,12 @@ TEST_CASE("the help of lsview names options as they are written") {
     CHECK(help.find("--no-shadows ") != std::string::npos);
     CHECK(help.find("--no-ground ") != std::string::npos);
     CHECK(help.find('{') == std::string::npos);
+    CHECK(help.find("\n\n\n") == std::string::npos);
+    const std::size_t placement = help.find("\nPlacement:\n");
+    REQUIRE(placement != std::string::npos);
+    CHECK(help.find("--key K") > placement);
+    CHECK(help.find("--key K") < help.find("\n\n", placement + 1));
+    CHECK(help.find("m/s2 (9.81 on Earth)") != std::string::npos);
 }
 
 TEST_CASE("options switch shadows and the ground off") {

@@ -135,6 +135,44 @@ TEST_CASE("a file that changes is shown, and one in error leaves the picture as 
     CHECK(viewed.view.messages().empty());
 }
 
+TEST_CASE("a plant that draws nothing is reported, and one that draws is not") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    const std::string text = "lsview: the plant has nothing to draw after 1 generation\n";
+    // Neither a bud nor a segment without length is visible.
+    for (const char* const axiom : {"A", "f(1) F(0)"}) {
+        write_text(file, std::string("#n = 1;\n#module A;\n#w : ") + axiom + ";\n");
+        const LscRun run = run_lsview({file, "--screenshot", folder / "a.png", "--size", "8x8"});
+        CAPTURE(axiom, run.err);
+        CHECK(run.status == 0);
+        CHECK(run.err.find(text) != std::string::npos);
+    }
+    ViewedPlant viewed(plant_options(file));
+    REQUIRE(viewed.until_swaps(1));
+    CHECK(viewed.view.messages().find(text) != std::string::npos);
+    CHECK_FALSE(viewed.view.failed());
+    CHECK_FALSE(viewed.view.entries().empty());
+    write_text(file, plant(1));
+    viewed.view.reload();
+    REQUIRE(viewed.until([&] { return viewed.view.entries().empty(); }));
+    CHECK(run_lsview({file, "--screenshot", folder / "a.png", "--size", "8x8"}).err.empty());
+}
+
+TEST_CASE("a note goes away after a while") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    write_text(file, plant(1));
+    ViewedPlant viewed(plant_options(file));
+    View& view = viewed.view;
+    view.set_note("wrote plant-1.png");
+    const SteadyClock::time_point now = SteadyClock::now();
+    CHECK_FALSE(view.drop_old_note(now));
+    CHECK(view.note() == "wrote plant-1.png");
+    CHECK(view.drop_old_note(now + kNoteTime));
+    CHECK(view.note().empty());
+    CHECK_FALSE(view.drop_old_note(now + 2 * kNoteTime));
+}
+
 TEST_CASE("a missing file that is included is waited for") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
