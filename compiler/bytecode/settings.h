@@ -57,6 +57,21 @@ struct TurtleTraits {
 /// A direction x y z and the susceptibility e.
 using Tropism = std::array<float, 4>;
 
+/// The pipe model: widths that follow from the tips (docs/language.md section 7.5).
+struct Pipe {
+    float exponent = 0.0F;  // 1 to kMaxPipeExponent; 0: widths are those of the turtle
+    float tip_width = 0.0F; // m, diameter
+
+    [[nodiscard]] bool is_set() const { return exponent != 0.0F; }
+    friend bool operator==(const Pipe&, const Pipe&) = default;
+};
+inline constexpr float kMinPipeExponent = 1.0F;
+inline constexpr float kMaxPipeExponent = 4.0F;
+
+/// The range of `height`, in m.
+inline constexpr float kMinHeight = 1e-6F;
+inline constexpr float kMaxHeight = 1e6F;
+
 /// Max of `decompose_depth` and `interpret_depth`.
 inline constexpr std::uint32_t kMaxDepth = 100'000;
 /// The minimum of settings without one.

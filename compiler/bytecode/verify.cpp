@@ -71,6 +71,15 @@ private:
         return fail(misfit, s.field);                                                              \
     }
 #include "compiler/bytecode/settings.def"
+        if (s.height != 0.0F && !(s.height >= kMinHeight && s.height <= kMaxHeight)) {
+            return fail("a plant {} m high", s.height);
+        }
+        const bool is_exponent =
+            s.pipe.exponent >= kMinPipeExponent && s.pipe.exponent <= kMaxPipeExponent;
+        if (s.pipe != Pipe{} && !(is_exponent && s.pipe.tip_width >= 0.0F)) {
+            return fail("a pipe model of exponent {} and width {}", s.pipe.exponent,
+                        s.pipe.tip_width);
+        }
         if (bytecode_.generations && *bytecode_.generations == kNone) {
             return fail("more generations than there can be");
         }

@@ -19,6 +19,16 @@ std::optional<InstancedSystem> compile_instanced(Program program,
     if (!branches) {
         return std::nullopt;
     }
+    if (program.settings.pipe.is_set() && rho > 0.0F && !branches->sites.empty()) {
+        Diagnostic& refusal =
+            diagnostics.add(DiagnosticCode::NotInstanceable, program.pipe_span,
+                            "the pipe model does not go with branches that stand for one another");
+        refusal.notes.emplace_back("the width of a segment follows from all tips that hang on it, "
+                                   "which differ where its branches are others");
+        refusal.help.emplace_back("let every tree be a whole hero: `rho = 0` for the species of a "
+                                  "scene, `--rho 0` for all");
+        return std::nullopt;
+    }
     instance_branches(program, *branches, rho);
     std::optional<Bytecode> bytecode = lower(program, names, sources);
     if (!bytecode) {

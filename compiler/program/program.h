@@ -160,6 +160,8 @@ struct Program {
     Settings settings;
     std::optional<std::uint32_t> generations;
     SourceSpan generations_span;    // of the number
+    SourceSpan height_span;         // of `height` in its #set; kNoFile: none
+    SourceSpan pipe_span;           // of `pipe` in its #set; kNoFile: none
     std::vector<std::string> files; // paths by FileId
     std::vector<WrittenName> written_names;
 

@@ -57,6 +57,12 @@ private:
             out_ += fmt::format("  tropism {} {} {} {}\n", s.tropism[0], s.tropism[1], s.tropism[2],
                                 s.tropism[3]);
         }
+        if (s.height != 0.0F) {
+            out_ += fmt::format("  height {}\n", s.height);
+        }
+        if (s.pipe.is_set()) {
+            out_ += fmt::format("  pipe {} {}\n", s.pipe.exponent, s.pipe.tip_width);
+        }
         if (s.has_seed) {
             out_ += fmt::format("  seed {}\n", s.seed);
         }

@@ -42,6 +42,9 @@ std::string find_conflict(const DumpCommand& command) {
     if (draws) {
         return {};
     }
+    if (command.height) {
+        return "only a drawn plant has a height, so --height goes with --stage skeleton or mesh";
+    }
     if (command.rho && command.stage != DumpStage::Instanced) {
         return "only --stage instanced has a probability, so --rho does not go with another stage";
     }

@@ -190,18 +190,20 @@ ExitStatus write_forest(Run& run, const std::string& path) {
 std::string stats_text(const Run& run, const ForestCounts& counts, double seconds) {
     const Forest& forest = run.grown.forest;
     const std::uint64_t different = count_different_trees(forest, run.command.run.threads);
-    std::string text = fmt::format(
-        "trees      {}, {} of them different\n"
-        "branches   {} ({:.1f} a tree, at most {})\n"
-        "segments   {}, objects {}, polygons {}\n"
-        "digest     {:016x}\n"
-        "heroes     {:.1f} ms, placement {:.1f} ms, expansion {:.1f} ms\n",
-        counts.trees, different, counts.branches,
-        counts.trees == 0
-            ? 0.0
-            : static_cast<double>(counts.branches) / static_cast<double>(counts.trees),
-        counts.max_branches, counts.segments, counts.objects, counts.polygons, counts.digest,
-        run.grown.cache_seconds * 1e3, run.grown.place_seconds * 1e3, seconds * 1e3);
+    std::string text =
+        fmt::format("trees      {}, {} of them different\n"
+                    "branches   {} ({:.1f} a tree, at most {})\n"
+                    "segments   {}, objects {}, polygons {}\n"
+                    "tallest    {:.4g} m\n"
+                    "digest     {:016x}\n"
+                    "heroes     {:.1f} ms, placement {:.1f} ms, expansion {:.1f} ms\n",
+                    counts.trees, different, counts.branches,
+                    counts.trees == 0
+                        ? 0.0
+                        : static_cast<double>(counts.branches) / static_cast<double>(counts.trees),
+                    counts.max_branches, counts.segments, counts.objects, counts.polygons,
+                    find_tallest(run.grown, run.project), counts.digest,
+                    run.grown.cache_seconds * 1e3, run.grown.place_seconds * 1e3, seconds * 1e3);
     std::vector<std::uint64_t> trees(forest.species.size(), 0);
     for (const Tree& tree : forest.trees) {
         ++trees[tree.species];
@@ -279,6 +281,11 @@ ExitStatus write_years(Run& run) {
             }
         }
         run.grown.forest.trees = domination.trees();
+        if (const ExitStatus sized =
+                run.console.take(size_forest(run.scene, run.project, run.grown));
+            sized != ExitStatus::Ok) {
+            return sized;
+        }
         const std::string path = numbered_path(run.command.output, frame);
         const ExitStatus status = write_forest(run, path);
         if (status != ExitStatus::Ok) {

@@ -91,6 +91,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
     add_mesh(app, command.mesh);
     add_grammar(app, command.grammar, command.run);
     add_seed(app, command.seed);
+    add_height(app, command.height);
     add_run_limits(app, command.run);
     add_parsed(app, "--steps", command.steps, integer(0, kMaxGenerations),
                "Derive only K generations in this run")
@@ -157,6 +158,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
         ->group("Physics");
     add_grammar(app, command.grammar, command.run);
     add_seed(app, command.seed);
+    add_height(app, command.height);
     add_run_limits(app, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
@@ -253,11 +255,13 @@ void add_stats(CLI::App& app, StatsCommand& command) {
     app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
         ->required();
     add_grammar(app, command.grammar, command.run);
+    add_height(app, command.height);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer("Sizes are predicted from the growth matrix; grammars with `#decompose` or `%` are "
                "derived and\n"
-               "counted. With --message-format json the table is JSON.\n"
+               "counted. A plant of at most a million modules is drawn too, and its height "
+               "printed. With\n--message-format json the table is JSON.\n"
                "Example: lsc stats -n 12 tree.lsys");
 }
 

@@ -3,10 +3,12 @@
 #include "runtime/cli/derivation_report.h"
 #include "runtime/derive/derive.h"
 #include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/plant.h"
 #include "runtime/program/arguments.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
 #include "runtime/program/memory_size.h"
+#include "runtime/turtle/plant_size.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -168,8 +171,30 @@ nlohmann::ordered_json json_size(const GenerationSize& size) {
     return object;
 }
 
-/// One JSON object per generation.
-std::string make_json(const GrowthPrediction& growth, bool predicted) {
+/// The height of the plant in m; none if it has too many modules to be drawn here, cannot be drawn
+/// or nothing of it can be seen. Folds the bytecode of the grammar.
+std::optional<double> find_height(const StatsCommand& command,
+                                  const Count& modules,
+                                  Grammar& grammar,
+                                  const Console& console) {
+    constexpr std::uint64_t kMaxModules = 1'000'000;
+    if (!modules.at_most(kMaxModules)) {
+        return std::nullopt;
+    }
+    PlantOptions options;
+    options.file = command.file;
+    options.generations = command.grammar.generations;
+    options.height = command.height;
+    const Outcome<Plant> plant = grow_plant(options, grammar, make_project(console, command.run));
+    if (!plant || bounds_of(plant.value().skeleton).empty) {
+        return std::nullopt;
+    }
+    return height_of(plant.value().skeleton);
+}
+
+/// One JSON object per generation; the last one has the height of the plant, in m.
+std::string
+make_json(const GrowthPrediction& growth, bool predicted, std::optional<double> height) {
     std::string text;
     for (std::size_t i = 0; i < growth.low.size(); ++i) {
         nlohmann::ordered_json object;
@@ -182,6 +207,9 @@ std::string make_json(const GrowthPrediction& growth, bool predicted) {
         object["high"] = json_size(growth.high[i]);
         if (growth.has_expected) {
             object["expected_modules"] = growth.expected_modules[i];
+        }
+        if (height && i + 1 == growth.low.size()) {
+            object["height_m"] = *height;
         }
         text += object.dump() + '\n';
     }
@@ -217,8 +245,15 @@ ExitStatus run_command(const StatsCommand& command, const Console& console) {
             return counted;
         }
     }
+    std::optional<double> height;
+    if (shown == wanted && counted == ExitStatus::Ok) {
+        height = find_height(command, growth.high.back().modules, grammar, console);
+    }
+    if (height) {
+        kind += fmt::format("height of the plant: {:.4g} m\n", *height);
+    }
     const std::string text = command.messages.format == MessageFormat::Json
-                                 ? make_json(growth, known)
+                                 ? make_json(growth, known, height)
                                  : make_table(growth, kind);
     if (const Result<void> written = write_file("-", text, console); !written) {
         return report_error(written.error(), console);

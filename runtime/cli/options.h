@@ -53,6 +53,7 @@ struct DumpCommand {
     std::string output = "-";
     DumpStage stage = DumpStage::Word;
     MeshOptions mesh;
+    std::optional<float> height; // m, of the plant
     bool all = false;
     bool count = false;
     bool stream = false;
@@ -72,6 +73,7 @@ struct ExportCommand {
     std::string output;
     std::optional<ExportFormat> format; // default: by the extension of the output
     MeshOptions mesh;
+    std::optional<float> height;  // m, of the plant
     std::optional<float> gravity; // m/s^2; gravity or wind bend the plant
     std::optional<Wind> wind;
     bool settle = false;
@@ -101,6 +103,7 @@ struct StatsCommand {
     MessageOptions messages;
     GrammarOptions grammar;
     RunOptions run;
+    std::optional<float> height; // m, of the plant
     std::string file;
 };
 

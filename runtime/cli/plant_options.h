@@ -11,6 +11,7 @@ template <typename Command>
     options.file = command.file;
     options.generations = command.grammar.generations;
     options.seed = command.seed;
+    options.height = command.height;
     options.stream = command.stream;
     return options;
 }

@@ -25,6 +25,8 @@ struct ForestSpecies {
     std::vector<ForestStage> stages; // by rising generations; at least one
     /// Years between two stages; 0: all plants have the last stage.
     float years_of_stage = 0.0F;
+    /// m, of the grammar's `#set height`: tree 0 of the last stage has it at scale 1; 0: none.
+    float height = 0.0F;
 };
 
 struct Forest {

@@ -2,11 +2,13 @@
 
 #include "compiler/instancing/instance.h"
 #include "grammar/dialects/dialect.h"
+#include "runtime/forest/tree_heights.h"
 #include "runtime/meshing/texture.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/impl/drawing_end.h"
 #include "runtime/pipeline/impl/mesh_files.h"
 #include "runtime/pipeline/stopwatch.h"
+#include "runtime/turtle/plant_size.h"
 
 #include <fmt/format.h>
 
@@ -121,6 +123,9 @@ Result<Terrain> make_terrain(const SceneTerrain& terrain,
 struct GrownStage {
     ForestStage stage;
     std::vector<UserMesh> user_meshes;
+    Settings settings;      // of the grammar
+    SourceSpan height_span; // of its `#set height`
+    std::shared_ptr<const SourceMap> sources;
 };
 
 Outcome<GrownStage> grow_stage(const SceneSpecies& species,
@@ -174,6 +179,18 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
         return step.end(*stop);
     }
     stage.cache = std::move(outcome.cache);
+    const Settings& settings = grammar.bytecode.settings;
+    grown.settings = settings;
+    grown.height_span = grammar.height_span;
+    grown.sources = grammar.sources;
+    if (settings.pipe.is_set()) {
+        // No branch is shared, so every hero is whole and has all its tips.
+        if (const std::optional<Stop> stop =
+                apply_pipe(settings.pipe, static_cast<double>(settings.density),
+                           project.limits.max_bytes, stage.cache.skeleton)) {
+            return step.end_too_large(*stop, "the pipe model");
+        }
+    }
     const bool any_hit = std::any_of(stage.cache.slots.begin(), stage.cache.slots.end(),
                                      [](const InstanceSlot& slot) { return slot.hits != 0; });
     if (system->kind_count != 0 && species.rho > 0.0F && !any_hit) {
@@ -183,6 +200,30 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
                         species.name));
     }
     return step.done(std::move(grown));
+}
+
+/// Scales the heroes of a species whose grammar has a height, so that tree 0 of the last stage has
+/// it at scale 1. Returns false if the plants are flat and a height is asked for, by the grammar or
+/// by `wants_height`.
+bool size_heroes(const Settings& settings, bool wants_height, ForestSpecies& species) {
+    if (settings.height == 0.0F && !wants_height) {
+        return true;
+    }
+    const InstanceCache& last = species.stages.back().cache;
+    const HeightTable table = make_height_table(last);
+    constexpr std::uint32_t kFirstTree = 0;
+    const std::optional<double> height = TreeMeasure(last, table, 0).height_of(kFirstTree);
+    if (height == 0.0) {
+        return false;
+    }
+    if (height && settings.height != 0.0F) {
+        species.height = settings.height;
+        for (ForestStage& stage : species.stages) {
+            scale_cache(static_cast<double>(settings.height) / *height,
+                        static_cast<double>(settings.density), stage.cache);
+        }
+    }
+    return true;
 }
 
 /// Whether both species have the same heroes from the same files.
@@ -296,6 +337,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
             messages = known.grown->messages[*at];
             step.messages.append(messages);
             made.stages = known.grown->forest.species[*at].stages;
+            made.height = known.grown->forest.species[*at].height;
             meshes = known.grown->user_meshes[*at];
             for (const UserMesh& mesh : meshes) {
                 const bool is_new =
@@ -304,6 +346,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
             }
             continue;
         }
+        GrownStage last;
         const std::size_t stages = std::max<std::size_t>(species.stages.size(), 1);
         for (std::size_t i = 0; i < stages; ++i) {
             const std::optional<std::uint32_t> generations =
@@ -318,12 +361,27 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
             if (!stage) {
                 return step.end(stage.stop());
             }
-            made.stages.push_back(std::move(stage.value().stage));
-            meshes = std::move(stage.value().user_meshes);
+            last = std::move(stage.value());
+            made.stages.push_back(std::move(last.stage));
+            meshes = std::move(last.user_meshes);
+        }
+        if (!size_heroes(last.settings, species.height_span.file != kNoFile, made)) {
+            const std::string message =
+                fmt::format("{}: its plants are flat, so they cannot be given a height", made.name);
+            if (species.height_span.file != kNoFile) {
+                return fail_at(species.height_span, Error{message}, loaded, step);
+            }
+            step.diagnose(make_diagnostic(DiagnosticCode::BadSetting, last.height_span, message),
+                          last.sources);
+            return step.end(Stop::Diagnosed);
         }
     }
     grown.cache_seconds = growing.seconds();
     return step.done(std::move(grown));
+}
+
+double find_tallest(const GrownForest& grown, const Project& project) {
+    return tallest_tree(grown.forest, project.threads);
 }
 
 Step::Ended end_mesh_of_heroes(Stop stop, Step& step) {
@@ -354,6 +412,23 @@ mesh_forest(const GrownForest& grown, const MeshOptions& options, const Project&
     return step.done(std::move(meshes));
 }
 
+Outcome<void> size_forest(const Scene& scene, const Project& project, GrownForest& grown) {
+    Step step(project);
+    std::vector<double> heights;
+    for (std::size_t s = 0; s < grown.forest.species.size(); ++s) {
+        const bool draws_height = scene.placement.species[s].max_height > 0.0F;
+        heights.push_back(draws_height ? 1.0 : static_cast<double>(grown.forest.species[s].height));
+    }
+    if (std::all_of(heights.begin(), heights.end(), [](double each) { return each == 0.0; })) {
+        return step.done();
+    }
+    if (const auto flat = size_trees(heights, project.threads, grown.forest)) {
+        return step.fail(fmt::format("{}: a tree lies flat, so it cannot be given a height",
+                                     grown.forest.species[*flat].name));
+    }
+    return step.done();
+}
+
 Outcome<void> place_forest(const Scene& scene, const Project& project, GrownForest& grown) {
     Step step(project);
     const Stopwatch placing;
@@ -368,6 +443,9 @@ Outcome<void> place_forest(const Scene& scene, const Project& project, GrownFore
         return step.fail(fmt::format("placement: {}", placed.error().message));
     }
     grown.forest.trees = std::move(placed.value().trees);
+    if (!step.take(size_forest(scene, project, grown))) {
+        return step.end();
+    }
     apply_painting(scene.painting, options.region, *grown.terrain, grown.forest.trees);
     grown.placed = placed.value().report;
     grown.place_seconds = placing.seconds();

@@ -63,9 +63,17 @@ struct KnownForest {
 [[nodiscard]] Outcome<GrownForest>
 grow_species(const LoadedScene& loaded, const Project& project, const KnownForest& known);
 
+/// Gives placed trees their heights: those of `height` of a species, else of `#set height` times
+/// the scale of the tree. Only once for a placement.
+[[nodiscard]] Outcome<void>
+size_forest(const Scene& scene, const Project& project, GrownForest& grown);
+
 /// Places the trees of `grown`.
 [[nodiscard]] Outcome<void>
 place_forest(const Scene& scene, const Project& project, GrownForest& grown);
+
+/// m, of the tallest tree, at its scale. Time is linear in the branches of all trees.
+[[nodiscard]] double find_tallest(const GrownForest& grown, const Project& project);
 
 /// Ends a step by a stop of make_instance_meshes(), with its message.
 [[nodiscard]] Step::Ended end_mesh_of_heroes(Stop stop, Step& step);

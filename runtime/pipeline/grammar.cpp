@@ -176,6 +176,9 @@ Result<CompiledText> compile_text(const std::string& path,
         compiled.diagnostics.drop_repairs("`#"); // they are .lsys text, invalid in the dialect
     }
     grammar.program = std::move(outcome.program);
+    if (grammar.program) {
+        grammar.height_span = grammar.program->height_span;
+    }
     if (outcome.bytecode) {
         grammar.bytecode = std::move(*outcome.bytecode);
         compiled.has_bytecode = true;

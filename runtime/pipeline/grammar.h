@@ -45,6 +45,7 @@ struct Grammar {
     Names names;
     std::optional<Program> program; // none for a .lsb file or after errors
     Bytecode bytecode;
+    SourceSpan height_span;      // of `height` in its #set; kNoFile: none, or a .lsb file
     std::string translation;     // to .lsys, of a grammar in another dialect
     bool is_module_file = false; // read from a .lsb: `sources` is empty
 };

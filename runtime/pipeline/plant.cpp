@@ -8,6 +8,7 @@
 #include "runtime/pipeline/impl/mesh_files.h"
 #include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
+#include "runtime/turtle/plant_size.h"
 #include "runtime/turtle/turtle.h"
 #include "runtime/turtle/turtle_diagnostic.h"
 
@@ -49,6 +50,41 @@ DerivationEnd draw_streamed(const DeriveOptions& options,
     plant.modules = outcome.modules;
     plant.derive_seconds = deriving.seconds();
     return turtle.end().stop ? DerivationEnd{} : std::move(outcome.end);
+}
+
+/// Gives the plant the widths and the height that settings or options ask for.
+std::optional<Stop>
+size_plant(const PlantOptions& options, const Grammar& grammar, Step& step, Skeleton& skeleton) {
+    const Settings& settings = grammar.bytecode.settings;
+    const auto density = static_cast<double>(settings.density);
+    if (settings.pipe.is_set()) {
+        const std::uint64_t max_bytes = step.project().limits.max_bytes;
+        if (const std::optional<Stop> stop =
+                apply_pipe(settings.pipe, density, max_bytes, skeleton)) {
+            step.diagnose(stop == Stop::Limit ? plant_limit_diagnostic("the pipe model", max_bytes)
+                                              : no_memory_diagnostic("the pipe model"),
+                          nullptr);
+            return stop;
+        }
+    }
+    const float height = options.height.value_or(settings.height);
+    if (height == 0.0F || scale_to_height(static_cast<double>(height), density, skeleton)) {
+        return std::nullopt;
+    }
+    const char* const help = "a plant grows upwards, along +Y; one that lies flat has no height "
+                             "that could be scaled";
+    if (!options.height && grammar.height_span.file != kNoFile) {
+        Diagnostic diagnostic =
+            make_diagnostic(DiagnosticCode::BadSetting, grammar.height_span,
+                            fmt::format("`height` is {} m, but the plant is flat", height));
+        diagnostic.help.emplace_back(help);
+        step.diagnose(std::move(diagnostic), grammar.sources);
+        return Stop::Diagnosed;
+    }
+    step.messages.add_error(fmt::format("{}{}: the plant is flat",
+                                        options.height ? "--height " : "`#set height` ", height));
+    step.messages.add_help(help);
+    return Stop::Failed;
 }
 
 } // namespace
@@ -127,6 +163,9 @@ Outcome<Plant> grow_plant(const PlantOptions& options, Grammar& grammar, const P
         return step.end(*stop);
     }
     plant.skeleton = turtle.take_skeleton();
+    if (const std::optional<Stop> stop = size_plant(options, grammar, step, plant.skeleton)) {
+        return step.end(*stop);
+    }
     return step.done(std::move(plant));
 }
 

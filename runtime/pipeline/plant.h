@@ -19,6 +19,7 @@ struct PlantOptions {
     std::string file;                         // path of the grammar, the base of files of `#object`
     std::optional<std::uint32_t> generations; // none: those of #n
     std::optional<std::uint64_t> seed;        // none: that of #set seed
+    std::optional<float> height;              // m; none: that of #set height
     bool stream = false;                      // store no word
     bool origins = false;                     // keep the origins of segments and objects
 };

@@ -63,6 +63,11 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         take(own.min_scale, placed.min_scale);
         take(own.max_scale, placed.max_scale);
         placed.max_scale = std::max(placed.max_scale, placed.min_scale);
+        if (placed.max_height > 0.0F) {
+            take(own.min_height, placed.min_height);
+            take(own.max_height, placed.max_height);
+            placed.max_height = std::max(placed.max_height, placed.min_height);
+        }
     }
     take(overrides.terrain, scene.terrain.kind);
     take(overrides.hill_height, scene.terrain.noise.height);

@@ -28,7 +28,9 @@ struct ForestTile {
 struct SpeciesOverrides {
     std::optional<double> share;
     std::optional<float> min_scale;
-    std::optional<float> max_scale; // raised to min_scale where it is less
+    std::optional<float> max_scale;  // raised to min_scale where it is less
+    std::optional<float> min_height; // m, of a species that has heights
+    std::optional<float> max_height; // raised to min_height where it is less
     std::optional<std::uint32_t> heroes;
     std::optional<float> rho;
 

@@ -53,6 +53,10 @@ struct PlacementSpecies {
     double share = 1.0; // of the trees, relative to other species that can live at a place
     float min_scale = 1.0F;
     float max_scale = 1.0F;
+    /// m, of a full-grown tree; 0: none. Else Tree::scale is such a height, drawn in place of a
+    /// scale, for size_trees().
+    float min_height = 0.0F;
+    float max_height = 0.0F;
     float lowest = -std::numeric_limits<float>::infinity();  // m, altitude
     float highest = std::numeric_limits<float>::infinity();  // m, altitude
     float steepest = std::numeric_limits<float>::infinity(); // rise over run: 1 is 45 degrees

@@ -91,6 +91,17 @@ void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed) {
         ->group("Grammar");
 }
 
+void add_height(CLI::App& app, std::optional<float>& height) {
+    const auto metres = [](const std::string& text) {
+        return parse_number(text, kMinHeight, kMaxHeight);
+    };
+    add_parsed(app, "--height", height, metres,
+               "Scale the plant evenly to this height, widths too (default: `#set height`, else "
+               "as drawn)")
+        ->type_name("METRES")
+        ->group("Grammar");
+}
+
 void add_run_limits(CLI::App& app, RunOptions& run) {
     run.limits.max_bytes = half_of_memory();
     add_parsed(app, "--max-memory", run.limits.max_bytes, parse_size,

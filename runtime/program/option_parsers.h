@@ -86,6 +86,8 @@ void add_deny(CLI::App& app, MessageOptions& options);
 void add_dialect(CLI::App& app, std::string& dialect);
 void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run);
 void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed);
+/// The height of the plant, in m.
+void add_height(CLI::App& app, std::optional<float>& height);
 /// The options of make_mesh().
 void add_mesh(CLI::App& app, MeshOptions& mesh);
 void add_run_limits(CLI::App& app, RunOptions& run);

@@ -66,8 +66,9 @@ struct SceneSpecies {
     std::vector<std::uint32_t> stages;
     float years_of_stage = 0.0F; // 0: one stage
     float rho = kSceneRho;
-    CacheOptions cache; // only heroes, seed, cap and tolerance are set
-    SourceSpan span;    // of `[[species]]`
+    CacheOptions cache;     // only heroes, seed, cap and tolerance are set
+    SourceSpan span;        // of `[[species]]`
+    SourceSpan height_span; // of the value of `height`; kNoFile: none
 };
 
 struct Scene {

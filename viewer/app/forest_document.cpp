@@ -80,6 +80,10 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
     if (project.is_cancelled()) {
         return step.end(Stop::Cancelled);
     }
+    constexpr std::size_t kMeasuredTrees = 20'000; // within a moment
+    if (document->grown.forest.trees.size() <= kMeasuredTrees) {
+        document->tallest = find_tallest(document->grown, project);
+    }
     const Stopwatch meshing;
     if (!step.take(make_model(options, known, project, *document))) {
         return step.end();

@@ -19,6 +19,7 @@ struct ForestDocument {
     ForestModel model; // refers to `grown`
     MeshOptions mesh_options;
     std::vector<std::string> files; // all files asked for, if recorded
+    std::optional<double> tallest;  // m, of the placed trees; none: too many to measure
     double parse_seconds = 0.0;
     double mesh_seconds = 0.0;
 };

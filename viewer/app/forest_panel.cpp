@@ -79,6 +79,9 @@ void draw_numbers(const ForestView& view) {
     const Region& region = document->scene.terrain.region;
     line(fmt::format("{} trees on {:.0f} x {:.0f} m", grouped(view.painting().tree_count()),
                      region.width, region.depth));
+    if (document->tallest) {
+        line(fmt::format("Tallest placed tree: {:.3g} m", *document->tallest));
+    }
     const PlacementReport& placed = document->grown.placed;
     if (placed.refused != 0) {
         line(fmt::format("{} places where no species grows", grouped(placed.refused)));
@@ -181,8 +184,17 @@ std::string draw_species(ForestView& view) {
             return ImGui::DragFloat("##value", &value, 0.005F, 0.01F, 100.0F, "%.3g",
                                     ImGuiSliderFlags_AlwaysClamp);
         };
-        draw_edit("Scale min", placed.min_scale, edit.min_scale, scale);
-        draw_edit("Scale max", placed.max_scale, edit.max_scale, scale);
+        const auto height = [](float& value) {
+            return ImGui::DragFloat("##value", &value, 0.05F, 0.01F, 200.0F, "%.3g m",
+                                    ImGuiSliderFlags_AlwaysClamp);
+        };
+        if (placed.max_height > 0.0F) {
+            draw_edit("Height min", placed.min_height, edit.min_height, height);
+            draw_edit("Height max", placed.max_height, edit.max_height, height);
+        } else {
+            draw_edit("Scale min", placed.min_scale, edit.min_scale, scale);
+            draw_edit("Scale max", placed.max_scale, edit.max_scale, scale);
+        }
         edit_integer("Heroes", species.cache.heroes, edit.heroes, 1U, 50U);
         draw_edit("Reuse (rho)", species.rho, edit.rho, [](float& value) {
             return ImGui::SliderFloat("##value", &value, 0.0F, 1.0F, "%.2f",

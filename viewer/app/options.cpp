@@ -177,6 +177,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     add_picture(app, options);
     add_grammar(app, options.grammar, options.run);
     add_seed(app, options.seed);
+    add_height(app, options.plant_height);
     add_bending(app, options);
     add_scene_overrides(app, options.overrides, "--forest-size");
     add_mesh(app, options.mesh);
@@ -212,6 +213,10 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     if (!options.is_forest && options.air) {
         return UsageError{"--air is the haze of a forest, and this is a plant", "leave it out"};
     }
+    if (options.is_forest && options.plant_height) {
+        return UsageError{"--height scales a plant, not a forest",
+                          "write `height = [min, max]` for each species of a scene"};
+    }
     if ((options.frames != 0 || !options.stats.empty()) && options.screenshot.empty()) {
         return UsageError{"--frames and --stats belong to pictures", "add `--screenshot FILE`"};
     }
@@ -244,6 +249,7 @@ void use_other_file(ViewOptions& options, const std::string& file) {
     options.overrides = {};
     options.grammar = {};
     options.seed.reset();
+    options.plant_height.reset();
     options.camera.clear();
     options.air.reset();
 }

@@ -24,10 +24,11 @@ struct ViewOptions {
     MessageOptions messages;
     GrammarOptions grammar;
     std::optional<std::uint64_t> seed;
-    std::vector<std::string> files; // a grammar, a scene, or the grammars of a forest
-    std::string file;               // front of `files`
-    bool is_forest = false;         // a scene, several grammars, or options of forests
-    SceneOverrides overrides;       // forests only; grammar and seed are those above
+    std::optional<float> plant_height; // m
+    std::vector<std::string> files;    // a grammar, a scene, or the grammars of a forest
+    std::string file;                  // front of `files`
+    bool is_forest = false;            // a scene, several grammars, or options of forests
+    SceneOverrides overrides;          // forests only; grammar and seed are those above
     MeshOptions mesh;
     RunOptions run;
 

@@ -2,6 +2,7 @@
 
 #include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
+#include "runtime/turtle/plant_size.h"
 
 #include <fmt/format.h>
 
@@ -43,12 +44,14 @@ Outcome<std::shared_ptr<const PlantDocument>> make_plant_document(const ViewOpti
     plant.file = options.file;
     plant.generations = options.grammar.generations;
     plant.seed = options.seed;
+    plant.height = options.plant_height;
     if (!step.take(grow_plant(plant, document->grammar, project), document->plant)) {
         return step.end();
     }
     if (project.is_cancelled()) {
         return step.end(Stop::Cancelled);
     }
+    document->height = height_of(document->plant.skeleton);
     const Stopwatch meshing;
     if (!step.take(mesh_plant(document->plant, document->plant.skeleton, options.mesh, project),
                    document->mesh)) {

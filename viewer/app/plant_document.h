@@ -14,7 +14,8 @@ namespace lsys::view {
 struct PlantDocument {
     Grammar grammar;
     Plant plant;
-    Mesh mesh; // at rest
+    Mesh mesh;           // at rest
+    double height = 0.0; // m, of the skeleton at rest
     double load_seconds = 0.0;
     double mesh_seconds = 0.0;
 };

@@ -34,6 +34,7 @@ void draw_numbers(const PlantView& view) {
                      grouped(plant.skeleton.segments.size())));
     line(fmt::format("{} triangles; profile {}", grouped(document->mesh.indices.size() / 3),
                      name_of(document->grammar.bytecode.settings.turtle)));
+    line(fmt::format("{:.4g} m high", document->height));
 }
 
 void draw_growth(PlantView& view) {

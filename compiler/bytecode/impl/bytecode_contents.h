@@ -66,6 +66,10 @@ void describe_value(Stream& stream, Value& value) {
         stream.number(value);
     } else if constexpr (std::is_same_v<Type, TurtleTraits>) {
         describe_traits(stream, value);
+    } else if constexpr (std::is_same_v<Type, Pipe>) {
+        auto& [exponent, tip_width] = value;
+        stream.real(exponent);
+        stream.real(tip_width);
     } else {
         for (auto& component : value) {
             describe_value(stream, component);

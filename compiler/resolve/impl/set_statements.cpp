@@ -175,6 +175,10 @@ void SetResolver::read_number(const SetNode& node, ExpressionResolver& expressio
         read_seed(node, expressions);
     } else if (key == "tropism") {
         read_tropism(node, expressions);
+    } else if (key == "height") {
+        read_height(node, expressions);
+    } else if (key == "pipe") {
+        read_pipe(node, expressions);
     }
     // Modes have been read, and unknown keys reported.
 #define LSYS_NUMBER(field, initial, use, group, min, wanted)                                       \
@@ -225,6 +229,40 @@ void SetResolver::read_tropism(const SetNode& node, ExpressionResolver& expressi
         }
     }
     settings.has_tropism = true;
+}
+
+void SetResolver::read_height(const SetNode& node, ExpressionResolver& expressions) {
+    const NumberRange range{kMinHeight, kMaxHeight, false,
+                            "a height in metres from 0.000001 to 1,000,000"};
+    if (const std::optional<float> height = read_one(node, range, expressions)) {
+        resolution_.program.settings.height = *height;
+        resolution_.program.height_span = node.key_span;
+    }
+}
+
+void SetResolver::read_pipe(const SetNode& node, ExpressionResolver& expressions) {
+    if (node.values.count != 2) {
+        bad_value(node, node.key_span, "takes two numbers: the exponent and the width of a tip");
+        return;
+    }
+    const std::optional<float> exponent = number_of(node, 0, expressions);
+    const std::optional<float> width = number_of(node, 1, expressions);
+    if (!exponent || !width) {
+        return;
+    }
+    const auto span_of = [&](std::uint32_t index) {
+        return resolution_.ast.set_values[node.values.first + index].span;
+    };
+    if (!(*exponent >= kMinPipeExponent && *exponent <= kMaxPipeExponent)) {
+        bad_value(node, span_of(0),
+                  fmt::format("begins with an exponent from 1 to 4, not {}", *exponent));
+    } else if (!(*width >= 0.0F && std::isfinite(*width))) {
+        bad_value(node, span_of(1),
+                  fmt::format("ends with the width of a tip, from 0 on, not {}", *width));
+    } else {
+        resolution_.program.settings.pipe = {*exponent, *width};
+        resolution_.program.pipe_span = node.key_span;
+    }
 }
 
 void SetResolver::read_seed(const SetNode& node, ExpressionResolver& expressions) {

@@ -73,6 +73,13 @@ Result<void> check_species(const PlacementOptions& options) {
                 "the scales of species {} are from {} to {}; they must be above 0 and in order", i,
                 species.min_scale, species.max_scale)};
         }
+        if (!(species.min_height >= 0.0F && species.min_height <= species.max_height &&
+              std::isfinite(species.max_height) &&
+              (species.min_height > 0.0F) == (species.max_height > 0.0F))) {
+            return Error{fmt::format(
+                "the heights of species {} are from {} to {} m; they must be above 0 and in order",
+                i, species.min_height, species.max_height)};
+        }
         if (!(species.lowest <= species.highest) || std::isnan(species.steepest)) {
             return Error{fmt::format(
                 "species {} lives from {} to {} m and up to a slope of {}: that is no range", i,

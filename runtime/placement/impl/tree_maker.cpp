@@ -65,7 +65,10 @@ Tree TreeMaker::make_appearance(std::uint32_t number,
     const PlacementSpecies& kind = options_.species[species];
     Tree tree;
     tree.yaw = kTurn * unit_interval(words[1]);
-    tree.scale = draw_in_range(kind.min_scale, kind.max_scale, unit_interval(words[2]));
+    const bool has_height = kind.max_height > 0.0F;
+    tree.scale =
+        draw_in_range(has_height ? kind.min_height : kind.min_scale,
+                      has_height ? kind.max_height : kind.max_scale, unit_interval(words[2]));
     tree.number = number;
     tree.species = species;
     return tree;

@@ -158,6 +158,16 @@ void read_place(SpeciesReader& from) {
         placed.min_scale = float_of((*scale)[0]);
         placed.max_scale = float_of((*scale)[1]);
     }
+    // Beyond any plant either way: the range of `#set height`.
+    if (const auto height = from.reader.ordered_pair("height", {1.0e-6, 1.0e6, false, "m"})) {
+        placed.min_height = float_of((*height)[0]);
+        placed.max_height = float_of((*height)[1]);
+        from.species.height_span = from.reader.span_of("height");
+    }
+    if (from.reader.has("height")) {
+        from.reader.report_conflicting_key("scale", "`height` says how high the trees are",
+                                           from.reader.span_of("height"));
+    }
     if (const auto altitude =
             from.reader.ordered_pair("altitude", {-kUnbounded, kUnbounded, false, "m"})) {
         placed.lowest = float_of((*altitude)[0]);

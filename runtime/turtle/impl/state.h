@@ -7,6 +7,7 @@
 #include "runtime/turtle/impl/actions.h"
 #include "runtime/turtle/impl/polygons.h"
 #include "runtime/turtle/impl/pose.h"
+#include "runtime/turtle/plant_size.h"
 #include "runtime/turtle/turtle.h"
 
 #include <algorithm>
@@ -227,9 +228,7 @@ inline float Turtle::State::mass_of(double length, float base_width, float tip_w
         kept_tip = tip_width;
         const double a = 0.5 * static_cast<double>(base_width);
         const double b = 0.5 * static_cast<double>(tip_width);
-        const double volume = std::numbers::pi / 3.0 * std::abs(length) * (a * a + a * b + b * b);
-        kept_mass = static_cast<float>(
-            std::min(volume * static_cast<double>(bytecode.settings.density), kMaxFloat));
+        kept_mass = mass_of_cone(length, a, b, static_cast<double>(bytecode.settings.density));
     }
     return kept_mass;
 }

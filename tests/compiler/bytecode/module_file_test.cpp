@@ -46,7 +46,7 @@ TEST_CASE("a module file reads back as what was written") {
 
 TEST_CASE("the bytes of a module file belong to its version") {
     // Where this number changes, older and newer files are not alike: raise kModuleFileVersion.
-    REQUIRE(kModuleFileVersion == 5);
+    REQUIRE(kModuleFileVersion == 6);
     CHECK(checksum(write_module_file(test::small_bytecode())) == 0xC6FF045930ACA350);
 }
 
@@ -77,11 +77,11 @@ TEST_CASE("foreign, older, newer and longer files are told apart") {
     CHECK(refusal("#w : A;\n") == "not a compiled grammar (.lsb)");
     std::string newer = bytes;
     newer[8] = static_cast<char>(kModuleFileVersion + 1);
-    CHECK(refusal(newer) == "made by a newer lsc (format 6, this one reads 5)");
+    CHECK(refusal(newer) == "made by a newer lsc (format 7, this one reads 6)");
     std::string older = bytes;
-    older[8] = 4;
+    older[8] = 5;
     CHECK(refusal(older) ==
-          "made by an older lsc (format 4, this one reads 5): compile the grammar again");
+          "made by an older lsc (format 5, this one reads 6): compile the grammar again");
     CHECK(refusal(bytes + "x") == "the file is damaged: 1 bytes follow its end");
     std::string damaged = bytes;
     damaged.back() = static_cast<char>(damaged.back() ^ 1);
@@ -125,4 +125,23 @@ TEST_CASE("random bytes after a good header are refused without harm") {
         }
         CHECK(refusal(bytes) != "accepted");
     }
+}
+
+TEST_CASE("sizes of a plant are read back and checked") {
+    Bytecode bytecode = test::small_bytecode();
+    bytecode.settings.height = 20.5F;
+    bytecode.settings.pipe = {2.5F, 0.01F};
+    const std::uint64_t word_digest = digest(test::small_bytecode());
+    CHECK(digest(bytecode) == word_digest); // saved words stay valid
+    const Result<Bytecode> read = read_module_file(write_module_file(bytecode));
+    REQUIRE(read.ok());
+    CHECK(read.value().settings.height == 20.5F);
+    CHECK(read.value().settings.pipe == Pipe{2.5F, 0.01F});
+    bytecode.settings.height = -1.0F;
+    CHECK(verify(bytecode) == "a plant -1 m high");
+    bytecode.settings.height = 1.0F;
+    bytecode.settings.pipe = {5.0F, 0.01F};
+    CHECK(verify(bytecode) == "a pipe model of exponent 5 and width 0.01");
+    bytecode.settings.pipe = {0.0F, 0.01F};
+    CHECK(verify(bytecode).has_value());
 }

@@ -76,6 +76,32 @@ TEST_CASE("a turtle profile gives the program its traits") {
     CHECK_FALSE(traits_of(TurtleProfile::Sidefx).object_moves);
 }
 
+TEST_CASE("a height is a number of metres") {
+    const test::Compiled c = set("height", "20.5");
+    CHECK(c.errors().empty());
+    CHECK(c.outcome.program->settings.height == 20.5F);
+    CHECK(set("width", "1").outcome.program->settings.height == 0.0F);
+    CHECK(set("height", "0.000001").errors().empty());
+    CHECK(set("height", "1000000").errors().empty());
+    for (const char* value : {"0", "-1", "0.0000009", "1000001", "2 3", "tall"}) {
+        CAPTURE(std::string(value));
+        CHECK_FALSE(set("height", value).errors().empty());
+    }
+}
+
+TEST_CASE("a pipe model is an exponent from 1 to 4 and a width") {
+    const test::Compiled c = set("pipe", "2.5 0.01");
+    CHECK(c.errors().empty());
+    CHECK(c.outcome.program->settings.pipe == Pipe{2.5F, 0.01F});
+    CHECK_FALSE(set("width", "1").outcome.program->settings.pipe.is_set());
+    CHECK(set("pipe", "1 0").errors().empty());
+    CHECK(set("pipe", "4 1").errors().empty());
+    for (const char* value : {"2", "0.9 1", "4.1 1", "2 -1", "2 1 1", "wide 1"}) {
+        CAPTURE(std::string(value));
+        CHECK_FALSE(set("pipe", value).errors().empty());
+    }
+}
+
 TEST_CASE("the help for an unknown key lists every setting") {
     const test::Compiled c = set("no_such_setting_at_all", "1");
     const Diagnostic* error = c.find(DiagnosticCode::UnknownKey);
@@ -83,7 +109,7 @@ TEST_CASE("the help for an unknown key lists every setting") {
     REQUIRE(error->help.size() == 1);
     CHECK(error->help[0] ==
           "the settings are `turtle`, `names`, `rewriting`, `choice`, `weights`, `random`, "
-          "`tropism`, `seed`, `at_depth`, `angle`, `step`, `width`, `angle_scale`, `step_scale`, "
-          "`width_scale`, `spring`, `density`, `damping`, `sides`, `decompose_depth`, "
-          "`interpret_depth`");
+          "`tropism`, `seed`, `at_depth`, `height`, `pipe`, `angle`, `step`, `width`, "
+          "`angle_scale`, `step_scale`, `width_scale`, `spring`, `density`, `damping`, `sides`, "
+          "`decompose_depth`, `interpret_depth`");
 }

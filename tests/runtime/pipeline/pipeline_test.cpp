@@ -1,9 +1,12 @@
 // The pipeline as a library: files come from memory, results are values.
+#include "runtime/forest/tree_heights.h"
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/plant.h"
+#include "runtime/turtle/plant_size.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <map>
 #include <string>
@@ -112,4 +115,151 @@ TEST_CASE("the pipeline grows a forest of one grammar and places its trees") {
     REQUIRE(place_forest(loaded.value().scene, project, grown.value()));
     CHECK(grown.value().forest.trees.size() == 1000);
     CHECK(grown.value().forest.species.at(0).stages.at(0).cache.heroes == 10);
+}
+
+namespace {
+
+const char* const kShrub = "#n = 4; #w : A; #p : A : ~ 0.6 : F(3) [ +(30) A ] [ &(50) A ] A;"
+                           "#q : A : ~ 0.4 : F A;";
+
+/// A forest of a scene of one species with these lines.
+Outcome<GrownForest> forest_of(const std::string& grammar,
+                               const std::string& species,
+                               const SceneOverrides& overrides = {}) {
+    const Project project =
+        project_of({{"a.lsys", grammar},
+                    {"a.toml", "[terrain]\nkind = \"flat\"\nsize = [40, 40]\n[placement]\nmethod = "
+                               "\"jittered\"\nspacing = 2\n[[species]]\ngrammar = \"a.lsys\"\n" +
+                                   species}});
+    Outcome<LoadedScene> loaded = load_scene({"a.toml"}, overrides, project);
+    REQUIRE(loaded);
+    Outcome<GrownForest> grown = grow_species(loaded.value(), project, {});
+    if (!grown) {
+        return grown;
+    }
+    Outcome<void> placed = place_forest(loaded.value().scene, project, grown.value());
+    if (!placed) {
+        return {placed.stop(), placed.messages()};
+    }
+    return grown;
+}
+
+bool says(const Outcome<GrownForest>& outcome, const std::string& text) {
+    const std::vector<Message>& all = outcome.messages().all();
+    return std::any_of(all.begin(), all.end(), [&](const Message& message) {
+        const std::vector<Diagnostic>& diagnostics = message.diagnostics.all();
+        return std::any_of(diagnostics.begin(), diagnostics.end(),
+                           [&](const Diagnostic& each) { return each.message == text; });
+    });
+}
+
+/// m, of each tree by its number.
+std::map<std::uint32_t, double> heights_of(const GrownForest& grown) {
+    std::map<std::uint32_t, double> heights;
+    const InstanceCache& cache = grown.forest.species[0].stages.back().cache;
+    const HeightTable table = make_height_table(cache);
+    TreeMeasure measure(cache, table, grown.forest.key);
+    for (const Tree& tree : grown.forest.trees) {
+        heights[tree.number] =
+            static_cast<double>(tree.scale) * measure.height_of(tree.number).value_or(0.0);
+    }
+    return heights;
+}
+
+} // namespace
+
+TEST_CASE("a species with heights draws them evenly, and tiles agree") {
+    const Outcome<GrownForest> whole = forest_of(kShrub, "height = [4, 9]\n");
+    REQUIRE(whole);
+    const std::map<std::uint32_t, double> heights = heights_of(whole.value());
+    CHECK(heights.size() == 400);
+    double sum = 0.0;
+    for (const auto& [number, height] : heights) {
+        CHECK(height > 4.0 - 1e-5);
+        CHECK(height < 9.0 + 1e-5);
+        sum += height;
+    }
+    // 400 even draws: the deviation of the mean is 5 / sqrt(12 * 400) = 0.07.
+    CHECK(sum / 400.0 == Approx(6.5).margin(0.3));
+    // The draw is that of the scale in its place.
+    const Outcome<GrownForest> scaled = forest_of(kShrub, "scale = [4, 9]\n");
+    REQUIRE(scaled);
+    for (const Tree& tree : scaled.value().forest.trees) {
+        CHECK(heights.at(tree.number) == Approx(tree.scale).epsilon(1e-5));
+    }
+    SceneOverrides tile;
+    tile.tile = ForestTile{0, 1, 20.0};
+    const Outcome<GrownForest> part = forest_of(kShrub, "height = [4, 9]\n", tile);
+    REQUIRE(part);
+    CHECK(part.value().forest.trees.size() == 100);
+    for (const Tree& tree : part.value().forest.trees) {
+        const auto& all = whole.value().forest.trees;
+        CHECK(std::any_of(all.begin(), all.end(), [&](const Tree& each) {
+            return each.number == tree.number && each.scale == tree.scale;
+        }));
+    }
+}
+
+TEST_CASE("trees have the height of their grammar, times their scale") {
+    const Outcome<GrownForest> grown =
+        forest_of(std::string("#set height 20;") + kShrub, "scale = [0.5, 0.5]\n");
+    REQUIRE(grown);
+    for (const auto& [number, height] : heights_of(grown.value())) {
+        CHECK(height == Approx(10.0).epsilon(1e-5));
+    }
+    // What is painted has a scale of its own: about 1 for the height of the grammar.
+    const InstanceCache& cache = grown.value().forest.species[0].stages[0].cache;
+    const HeightTable table = make_height_table(cache);
+    CHECK(TreeMeasure(cache, table, 0).height_of(0).value_or(0.0) == Approx(20.0).epsilon(1e-5));
+    // A height of the scene wins.
+    const Outcome<GrownForest> other =
+        forest_of(std::string("#set height 20;") + kShrub, "height = 3\n");
+    REQUIRE_FALSE(other);
+}
+
+TEST_CASE("flat species get no height") {
+    const char* const flat = "#n = 2; #w : +(90) A; #p : A : * : F A;";
+    const Outcome<GrownForest> scene = forest_of(flat, "height = [1, 2]\n");
+    REQUIRE_FALSE(scene);
+    CHECK(scene.stop() == Stop::Failed);
+    const char* const message = "a: its plants are flat, so they cannot be given a height";
+    CHECK(says(scene, message));
+    const Outcome<GrownForest> grammar = forest_of(std::string("#set height 3;") + flat, "");
+    REQUIRE_FALSE(grammar);
+    CHECK(grammar.stop() == Stop::Diagnosed);
+    CHECK(says(grammar, message));
+    CHECK(forest_of(flat, ""));
+}
+
+TEST_CASE("heroes that share no branch have the widths of the pipe model") {
+    const std::string piped = std::string("#set pipe 2 0.1;") + kShrub;
+    const Outcome<GrownForest> shared = forest_of(piped, "");
+    REQUIRE_FALSE(shared);
+    CHECK(says(shared, "the pipe model does not go with branches that stand for one another"));
+    const Outcome<GrownForest> grown = forest_of(piped, "rho = 0\nheroes = 3\n");
+    REQUIRE(grown);
+    const Skeleton& heroes = grown.value().forest.species[0].stages[0].cache.skeleton;
+    std::vector<double> sums(heroes.segments.size(), 0.0);
+    for (std::size_t i = heroes.segments.size(); i-- > 0;) {
+        const double width = 2.0 * static_cast<double>(heroes.segments[i].base_radius);
+        CHECK(width * width == Approx(sums[i] == 0.0 ? 0.01 : sums[i]).epsilon(1e-5));
+        if (heroes.segments[i].parent != kNoSegment) {
+            sums[heroes.segments[i].parent] += width * width;
+        }
+    }
+}
+
+TEST_CASE("a plant gets the height of its grammar or of its options") {
+    const Project project = project_of({{"a.lsys", "#n = 0; #set height 6; #w : F(2) F;"}});
+    PlantOptions options;
+    for (const float height : {6.0F, 15.0F}) {
+        Outcome<Grammar> grammar = load_grammar("a.lsys", {}, project);
+        REQUIRE(grammar);
+        if (height != 6.0F) {
+            options.height = height;
+        }
+        const Outcome<Plant> plant = grow_plant(options, grammar.value(), project);
+        REQUIRE(plant);
+        CHECK(height_of(plant.value().skeleton) == Approx(height));
+    }
 }

@@ -384,6 +384,10 @@ TEST_CASE("values out of range are named with their range") {
         {"[[species]]\ngrammar = \"b\"\nrho = nan", "`rho` is nan; it must be from 0 to 1"},
         {"[[species]]\ngrammar = \"b\"\nscale = [2, 1]",
          "`scale` begins at 2 and ends below it, at 1"},
+        {"[[species]]\ngrammar = \"b\"\nheight = [9, 8]",
+         "`height` begins at 9 and ends below it, at 8"},
+        {"[[species]]\ngrammar = \"b\"\nheight = [0, 8]",
+         "the first number of `height` is 0; it must be from 1e-06 to 1,000,000 m"},
         {"[[species]]\ngrammar = \"b\"\naltitude = [nan, 1]",
          "the first number of `altitude` is nan; it must be a number"},
         {"[[species]]\ngrammar = \"b\"\ndefine = { a = inf }", "`a` is inf; it must be from "},
@@ -520,6 +524,17 @@ TEST_CASE("painted trees and erased ones") {
     CHECK(scene.painting.trees[0].yaw == Approx(3.14159265F));
     CHECK(scene.painting.trees[0].scale == 0.5F);
     CHECK(scene.painting.erased == std::vector<std::uint32_t>{4, 9});
+}
+
+TEST_CASE("a species has heights or scales") {
+    const Scene scene = scene_of("[[species]]\ngrammar = \"a.lsys\"\nheight = [4, 9.5]\n");
+    CHECK(scene.placement.species.at(0).min_height == 4.0F);
+    CHECK(scene.placement.species.at(0).max_height == 9.5F);
+    CHECK(scene.placement.species.at(0).min_scale == 1.0F);
+    CHECK(scene_of(with_species("")).placement.species.at(0).max_height == 0.0F);
+    CHECK(parsed("[[species]]\ngrammar = \"a.lsys\"\nheight = [4, 9]\nscale = [1, 2]\n").messages ==
+          "4:1-6: `scale` says nothing here: `height` says how high the trees are "
+          "[conflicting-scene-keys]\n  this decides: [4, 9]\n");
 }
 
 TEST_CASE("mistakes in paintings are shown at their place") {

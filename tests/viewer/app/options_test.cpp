@@ -76,3 +76,11 @@ TEST_CASE("an option of forests shows a grammar as a forest") {
     CHECK(parsed<ViewOptions>({"wood.toml"}).is_forest);
     CHECK_FALSE(parsed<ViewOptions>({"tree.lsys", "-s", "3", "-D", "a=1"}).is_forest);
 }
+
+TEST_CASE("a plant has a height, a forest has none") {
+    CHECK(parsed<ViewOptions>({"tree.lsys", "--height", "12.5"}).plant_height == 12.5F);
+    CHECK_FALSE(parsed<ViewOptions>({"tree.lsys"}).plant_height);
+    CHECK(parsed<UsageError>({"wood.toml", "--height", "3"}).message ==
+          "--height scales a plant, not a forest");
+    CHECK_FALSE(parsed<UsageError>({"tree.lsys", "--height", "0"}).message.empty());
+}

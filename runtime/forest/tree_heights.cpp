@@ -1,0 +1,249 @@
+#include "runtime/forest/tree_heights.h"
+
+#include "runtime/base/workers.h"
+#include "runtime/forest/instance_meshes.h"
+#include "runtime/turtle/plant_size.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lsys {
+
+namespace {
+
+/// As of single plants (scale_to_height()).
+constexpr double kLeastHeight = 1e-6;
+constexpr std::uint64_t kTreesOfPiece = 1024;
+
+/// Calls visit(point) for all points that a box holds.
+template <typename Visit>
+void for_each_point(const InstanceCache& cache, const Instance& instance, const Visit& visit) {
+    const Skeleton& skeleton = cache.skeleton;
+    for (std::uint32_t r = 0; r < instance.range_count; ++r) {
+        const DrawnRange& range = cache.ranges[instance.first_range + r];
+        for (std::uint32_t i = range.begin.segments; i < range.end.segments; ++i) {
+            visit(skeleton.segments[i].base);
+            visit(tip(skeleton.segments[i]));
+        }
+        for (std::uint32_t i = range.begin.objects; i < range.end.objects; ++i) {
+            visit(skeleton.objects[i].position);
+        }
+        for (std::uint32_t i = range.begin.polygons; i < range.end.polygons; ++i) {
+            const Polygon& polygon = skeleton.polygons[i];
+            for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
+                visit(skeleton.corners[polygon.first_corner + c]);
+            }
+        }
+    }
+}
+
+struct Extent {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+};
+
+void add_points(const InstanceCache& cache,
+                std::uint32_t instance,
+                const glm::dvec3& up,
+                double offset,
+                Extent& extent) {
+    for_each_point(cache, cache.instances[instance], [&](const glm::vec3& point) {
+        const double height = up.x * static_cast<double>(point.x) +
+                              up.y * static_cast<double>(point.y) +
+                              up.z * static_cast<double>(point.z) + offset;
+        extent.low = std::min(extent.low, height);
+        extent.high = std::max(extent.high, height);
+    });
+}
+
+/// The direction of the heroes' coordinates that points upwards in an instance so placed.
+glm::dvec3 up_of(const InstancePose& pose) {
+    return glm::conjugate(glm::dquat(pose.rotation)) * glm::dvec3(0.0, 1.0, 0.0);
+}
+
+/// The measures of the last stages of all species of a forest, for one thread.
+class Measures {
+public:
+    Measures(const Forest& forest, const std::vector<HeightTable>& tables)
+        : forest_(forest), tables_(tables), measures_(tables.size()) {}
+
+    [[nodiscard]] std::optional<double> height_of(const Tree& tree) {
+        std::optional<TreeMeasure>& measure = measures_[tree.species];
+        if (!measure) {
+            measure.emplace(forest_.species[tree.species].stages.back().cache,
+                            tables_[tree.species], forest_.key);
+        }
+        return measure->height_of(tree.number);
+    }
+
+private:
+    const Forest& forest_;
+    const std::vector<HeightTable>& tables_;
+    std::vector<std::optional<TreeMeasure>> measures_;
+};
+
+std::uint64_t pieces_of(const Forest& forest) {
+    return (forest.trees.size() + kTreesOfPiece - 1) / kTreesOfPiece;
+}
+
+std::span<const Tree> piece_of(const Forest& forest, std::uint64_t piece) {
+    const std::uint64_t begin = piece * kTreesOfPiece;
+    return std::span<const Tree>(forest.trees)
+        .subspan(begin, std::min(kTreesOfPiece, forest.trees.size() - begin));
+}
+
+} // namespace
+
+HeightTable make_height_table(const InstanceCache& cache) {
+    HeightTable table;
+    Bounds all;
+    for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
+        const Instance& instance = cache.instances[i];
+        Bounds& box = table.boxes.emplace_back();
+        for_each_point(cache, instance, [&](const glm::vec3& point) { box.add(point); });
+        table.whole.emplace_back();
+        if (!box.empty) {
+            all.add(box.low);
+            all.add(box.high);
+        }
+    }
+    const glm::dvec3 size = glm::dvec3(all.high) - glm::dvec3(all.low);
+    table.least = kLeastHeight * std::max({size.x, size.y, size.z});
+    for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
+        const Instance& instance = cache.instances[i];
+        if (instance.slot == 0 && instance.exit_count == 0 && !table.boxes[i].empty) {
+            Extent extent;
+            const InstancePose pose = pose_of(BranchInstance{}, instance);
+            add_points(cache, i, up_of(pose), 0.0, extent);
+            table.whole[i] = extent.high - extent.low;
+        }
+    }
+    return table;
+}
+
+std::optional<double> TreeMeasure::height_of(std::uint32_t number) {
+    Tree tree;
+    tree.number = number;
+    const auto known = [&](double height) { return height > table_.least ? height : 0.0; };
+    if (const std::optional<double> whole = table_.whole[expander_.root_instance(tree)]) {
+        return known(*whole);
+    }
+    parts_.clear();
+    expander_.expand(tree, [&](const BranchInstance& branch) {
+        const Bounds& box = table_.boxes[branch.instance];
+        if (box.empty) {
+            return;
+        }
+        const InstancePose pose = pose_of(branch, cache_.instances[branch.instance]);
+        Part part;
+        part.instance = branch.instance;
+        part.up = up_of(pose);
+        part.offset = static_cast<double>(pose.translation.y);
+        part.low = part.offset;
+        part.high = part.offset;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double a = part.up[axis] * static_cast<double>(box.low[axis]);
+            const double b = part.up[axis] * static_cast<double>(box.high[axis]);
+            part.low += std::min(a, b);
+            part.high += std::max(a, b);
+        }
+        parts_.push_back(part);
+    });
+    if (parts_.empty()) {
+        return std::nullopt;
+    }
+    Extent extent;
+    const auto add = [&](const Part& part) {
+        add_points(cache_, part.instance, part.up, part.offset, extent);
+    };
+    // The parts that reach farthest come first, so that few others have to be read.
+    add(*std::max_element(parts_.begin(), parts_.end(),
+                          [](const Part& a, const Part& b) { return a.high < b.high; }));
+    add(*std::min_element(parts_.begin(), parts_.end(),
+                          [](const Part& a, const Part& b) { return a.low < b.low; }));
+    for (const Part& part : parts_) {
+        if (part.high > extent.high || part.low < extent.low) {
+            add(part);
+        }
+    }
+    return known(extent.high - extent.low);
+}
+
+void scale_cache(double factor, double density, InstanceCache& cache) {
+    scale_plant(factor, density, cache.skeleton);
+    for (Instance& instance : cache.instances) {
+        instance.position *= factor;
+    }
+    for (InstanceExit& exit : cache.exits) {
+        exit.position = glm::vec3(glm::dvec3(exit.position) * factor);
+    }
+}
+
+std::optional<std::uint16_t>
+size_trees(std::span<const double> heights, std::uint32_t threads, Forest& forest) {
+    std::vector<HeightTable> tables(forest.species.size());
+    for (std::size_t s = 0; s < tables.size(); ++s) {
+        if (heights[s] != 0.0) {
+            tables[s] = make_height_table(forest.species[s].stages.back().cache);
+        }
+    }
+    constexpr std::uint32_t kNoSpecies = ~std::uint32_t{0};
+    std::vector<std::uint32_t> flat(pieces_of(forest), kNoSpecies);
+    Workers workers(threads);
+    workers.for_each(flat.size(), [&](std::uint64_t piece) {
+        Measures measures(forest, tables);
+        for (std::uint64_t i = piece * kTreesOfPiece;
+             i < std::min<std::uint64_t>(forest.trees.size(), (piece + 1) * kTreesOfPiece); ++i) {
+            Tree& tree = forest.trees[i];
+            if (heights[tree.species] == 0.0) {
+                continue;
+            }
+            const std::optional<double> height = measures.height_of(tree);
+            if (!height) {
+                continue;
+            }
+            if (*height == 0.0) {
+                flat[piece] = std::min<std::uint32_t>(flat[piece], tree.species);
+                continue;
+            }
+            tree.scale = static_cast<float>(static_cast<double>(tree.scale) *
+                                            heights[tree.species] / *height);
+        }
+    });
+    const auto first = std::min_element(flat.begin(), flat.end());
+    if (first == flat.end() || *first == kNoSpecies) {
+        return std::nullopt;
+    }
+    return static_cast<std::uint16_t>(*first);
+}
+
+double tallest_tree(const Forest& forest, std::uint32_t threads) {
+    // Tables of all stages, since a young tree is as high as its own stage.
+    std::vector<std::vector<HeightTable>> tables;
+    for (const ForestSpecies& species : forest.species) {
+        std::vector<HeightTable>& stages = tables.emplace_back();
+        for (const ForestStage& stage : species.stages) {
+            stages.push_back(make_height_table(stage.cache));
+        }
+    }
+    std::vector<double> tallest(pieces_of(forest), 0.0);
+    Workers workers(threads);
+    workers.for_each(tallest.size(), [&](std::uint64_t piece) {
+        const InstanceCache* last = nullptr;
+        std::optional<TreeMeasure> measure;
+        for (const Tree& tree : piece_of(forest, piece)) {
+            const InstanceCache& cache = forest.cache_of(tree);
+            if (&cache != last) {
+                measure.emplace(cache, tables[tree.species][forest.stage_of(tree)], forest.key);
+                last = &cache;
+            }
+            tallest[piece] =
+                std::max(tallest[piece], static_cast<double>(tree.scale) *
+                                             measure->height_of(tree.number).value_or(0.0));
+        }
+    });
+    return tallest.empty() ? 0.0 : *std::max_element(tallest.begin(), tallest.end());
+}
+
+} // namespace lsys

@@ -1,0 +1,67 @@
+// Heights of the trees of a forest: boxes of trees that are put together from instances, and the
+// scales that give trees a height in metres (docs/language.md section 7.5). Used by the pipeline
+// after the placement; every height depends on the cache, the forest's key and the tree alone.
+#pragma once
+
+#include "runtime/forest/forest.h"
+#include "runtime/forest/instance_cache.h"
+#include "runtime/turtle/skeleton.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+/// What the heights of a cache's trees are computed from.
+struct HeightTable {
+    std::vector<Bounds> boxes; // of each instance, in the coordinates of the heroes
+    /// Heights of instances without exits; none for others.
+    std::vector<std::optional<double>> whole;
+    double least = 0.0; // m: a lower box counts as flat
+};
+[[nodiscard]] HeightTable make_height_table(const InstanceCache& cache);
+
+/// Measures trees of one cache at scale 1. Use one for each thread.
+class TreeMeasure {
+public:
+    /// `cache` and `table` outlive the measure; `key`: of the forest.
+    TreeMeasure(const InstanceCache& cache, const HeightTable& table, std::uint64_t key)
+        : cache_(cache), table_(table), expander_(cache, key) {}
+
+    /// m, from the lowest to the highest point: axes of segments, places of objects, corners of
+    /// polygons. 0: the tree is flat; none: nothing of it is drawn. Only instances whose boxes
+    /// reach beyond the points known so far are read.
+    [[nodiscard]] std::optional<double> height_of(std::uint32_t number);
+
+private:
+    struct Part {
+        std::uint32_t instance = 0;
+        glm::dvec3 up{}; // the height of a point is its product with `up`, plus `offset`
+        double offset = 0.0;
+        double low = 0.0; // of the box
+        double high = 0.0;
+    };
+
+    const InstanceCache& cache_;
+    const HeightTable& table_;
+    TreeExpander expander_;
+    std::vector<Part> parts_;
+};
+
+/// Scales a cache: its skeleton, entries and exits. Masses are those of `density`, in kg/m^3.
+void scale_cache(double factor, double density, InstanceCache& cache);
+
+/// Multiplies the scale of every tree of species s by heights[s] / its height at scale 1, so that
+/// it is scale * heights[s] metres high; a younger tree by that of its last stage. heights[s] = 0
+/// leaves the species as it is, and trees of which nothing is drawn stay. Returns the first species
+/// with a flat tree, whose scale is then left. 0 threads: as many as the machine has.
+[[nodiscard]] std::optional<std::uint16_t>
+size_trees(std::span<const double> heights, std::uint32_t threads, Forest& forest);
+
+/// m, of the tallest tree: its scale times the height of its plant, for all trees. Time is linear
+/// in the branches.
+[[nodiscard]] double tallest_tree(const Forest& forest, std::uint32_t threads);
+
+} // namespace lsys

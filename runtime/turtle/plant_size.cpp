@@ -1,0 +1,184 @@
+#include "runtime/turtle/plant_size.h"
+
+#include "grammar/base/contract.h"
+#include "runtime/base/out_of_memory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+/// Least height of a box, as a part of its longest side: below it lie rounding errors of turns.
+constexpr double kLeastHeight = 1e-6;
+
+double wide(float value) {
+    return static_cast<double>(value);
+}
+
+/// The base-2 logarithm of a number from 1 on. The series of the area tangent, for a mantissa
+/// within a factor sqrt(2) of 1; its first term left out is below 1e-18.
+double portable_log2(double value) {
+    constexpr int kTerms = 12;
+    int exponent = 0;
+    double mantissa = std::frexp(value, &exponent); // exact, 0.5 to 1
+    if (mantissa < 0.5 * std::numbers::sqrt2) {
+        mantissa *= 2.0;
+        --exponent;
+    }
+    const double z = (mantissa - 1.0) / (mantissa + 1.0);
+    double sum = 0.0;
+    for (int k = kTerms - 1; k >= 0; --k) {
+        sum = sum * z * z + 1.0 / (2.0 * k + 1.0);
+    }
+    return exponent + 2.0 * z * sum / std::numbers::ln2;
+}
+
+/// 2^value for a value from 0 to 1000: Taylor's series within half a power of two.
+double portable_exp2(double value) {
+    constexpr int kTerms = 16;
+    const double whole = std::floor(value + 0.5);
+    const double x = (value - whole) * std::numbers::ln2;
+    double sum = 1.0;
+    for (int k = kTerms; k > 0; --k) {
+        sum = 1.0 + sum * x / k;
+    }
+    return std::ldexp(sum, static_cast<int>(whole)); // exact
+}
+
+float mass_of(const Segment& segment, double density) {
+    return mass_of_cone(wide(segment.length), wide(segment.base_radius), wide(segment.tip_radius),
+                        density);
+}
+
+/// Calls change(segment) and lets its mass follow, unless the author has given it: a mass that is
+/// not that of its volume.
+template <typename Change>
+void change_segment(Segment& segment, double density, const Change& change) {
+    const bool follows = segment.mass == mass_of(segment, density);
+    change(segment);
+    if (follows) {
+        segment.mass = mass_of(segment, density);
+    }
+}
+
+} // namespace
+
+float mass_of_cone(double length, double base_radius, double tip_radius, double density) {
+    const double volume =
+        std::numbers::pi / 3.0 * std::abs(length) *
+        (base_radius * base_radius + base_radius * tip_radius + tip_radius * tip_radius);
+    return static_cast<float>(
+        std::min(volume * density, static_cast<double>(std::numeric_limits<float>::max())));
+}
+
+double pipe_factor(std::uint32_t count, double exponent) {
+    LSYS_CHECK(count >= 1 && exponent >= 1.0);
+    const auto tips = static_cast<double>(count);
+    if (count == 1 || exponent == 1.0) {
+        return tips;
+    }
+    if (exponent == 2.0) {
+        return std::sqrt(tips);
+    }
+    return portable_exp2(portable_log2(tips) / exponent);
+}
+
+std::optional<Stop>
+apply_pipe(const Pipe& pipe, double density, std::uint64_t max_bytes, Skeleton& skeleton) {
+    const std::size_t count = skeleton.segments.size();
+    if (skeleton.byte_count() + count * sizeof(std::uint32_t) > max_bytes) {
+        return Stop::Limit;
+    }
+    std::vector<std::uint32_t> tips;
+    const bool has_memory = catch_out_of_memory(
+        [&] {
+            tips.resize(count, 0);
+            return true;
+        },
+        [] { return false; });
+    if (!has_memory) {
+        return Stop::OutOfMemory;
+    }
+    std::uint32_t last_tips = 1;
+    double last_factor = 1.0;
+    for (std::size_t i = count; i-- > 0;) { // children come after their parents
+        Segment& segment = skeleton.segments[i];
+        tips[i] = std::max(tips[i], 1U);
+        if (segment.parent != kNoSegment) {
+            tips[segment.parent] += tips[i];
+        }
+        if (tips[i] != last_tips) {
+            last_tips = tips[i];
+            last_factor = pipe_factor(last_tips, wide(pipe.exponent));
+        }
+        const auto width = static_cast<float>(
+            std::min(last_factor * wide(pipe.tip_width), wide(std::numeric_limits<float>::max())));
+        change_segment(segment, density, [&](Segment& each) {
+            each.base_radius = 0.5F * width;
+            each.tip_radius = 0.5F * width;
+        });
+    }
+    return std::nullopt;
+}
+
+Bounds bounds_of(const Skeleton& skeleton) {
+    Bounds bounds;
+    for (const Segment& segment : skeleton.segments) {
+        bounds.add(segment.base);
+        bounds.add(tip(segment));
+    }
+    for (const PlacedObject& object : skeleton.objects) {
+        bounds.add(object.position);
+    }
+    for (const glm::vec3& corner : skeleton.corners) {
+        bounds.add(corner);
+    }
+    return bounds;
+}
+
+double height_of(const Skeleton& skeleton) {
+    const Bounds bounds = bounds_of(skeleton);
+    return wide(bounds.high.y) - wide(bounds.low.y);
+}
+
+void scale_plant(double factor, double density, Skeleton& skeleton) {
+    const auto scaled = [factor](float value) { return static_cast<float>(wide(value) * factor); };
+    const auto place = [&](const glm::vec3& at) {
+        return glm::vec3(scaled(at.x), scaled(at.y), scaled(at.z));
+    };
+    for (Segment& segment : skeleton.segments) {
+        change_segment(segment, density, [&](Segment& each) {
+            each.base = place(each.base);
+            each.length = scaled(each.length);
+            each.base_radius = scaled(each.base_radius);
+            each.tip_radius = scaled(each.tip_radius);
+        });
+    }
+    for (PlacedObject& object : skeleton.objects) {
+        object.position = place(object.position);
+        object.size = scaled(object.size);
+    }
+    for (glm::vec3& corner : skeleton.corners) {
+        corner = place(corner);
+    }
+}
+
+bool scale_to_height(double height, double density, Skeleton& skeleton) {
+    const Bounds bounds = bounds_of(skeleton);
+    if (bounds.empty) {
+        return true;
+    }
+    const glm::dvec3 size = glm::dvec3(bounds.high) - glm::dvec3(bounds.low);
+    if (!(size.y > kLeastHeight * std::max(size.x, size.z)) || size.y <= 0.0) {
+        return false;
+    }
+    scale_plant(height / size.y, density, skeleton);
+    return true;
+}
+
+} // namespace lsys

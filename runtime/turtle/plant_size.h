@@ -1,0 +1,46 @@
+// Sizes of a drawn plant: the widths of the pipe model and a height in metres (docs/language.md
+// section 7.5). Both change a skeleton after the turtle, widths first, and before everything that
+// reads metres: physics, meshing, placement.
+#pragma once
+
+#include "grammar/base/outcome.h"
+#include "runtime/turtle/skeleton.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace lsys {
+
+/// kg: the volume of a truncated cone times `density` (kg/m^3), at most the largest binary32.
+/// Lengths in m.
+[[nodiscard]] float
+mass_of_cone(double length, double base_radius, double tip_radius, double density);
+
+/// count^(1 / exponent) in binary64: the factor between the width of a tip and that of a segment
+/// with `count` tips above it. Made of operations that IEEE 754 rounds, so it has the same bits on
+/// every machine; the error is below 1e-13 of the value. Preconditions: count >= 1, 1 <= exponent.
+[[nodiscard]] double pipe_factor(std::uint32_t count, double exponent);
+
+/// Gives every segment the width pipe.tip_width * tips^(1 / pipe.exponent), rounded to binary32
+/// once; tips: the segments without children that hang on it, itself if it has none. Masses that
+/// are those of volume and `density` follow. Stop::Limit: the count of tips does not fit into
+/// `max_bytes` beside the skeleton; Stop::OutOfMemory. The skeleton is unchanged then.
+[[nodiscard]] std::optional<Stop>
+apply_pipe(const Pipe& pipe, double density, std::uint64_t max_bytes, Skeleton& skeleton);
+
+/// The box of a plant: axes of segments, places of objects, corners of polygons; without radii.
+[[nodiscard]] Bounds bounds_of(const Skeleton& skeleton);
+
+/// m, of bounds_of(); 0 of a plant of which nothing is drawn.
+[[nodiscard]] double height_of(const Skeleton& skeleton);
+
+/// Scales all lengths and widths by `factor`. Masses that are those of volume and `density`
+/// follow; masses and springs of the author stay.
+void scale_plant(double factor, double density, Skeleton& skeleton);
+
+/// Scales the plant evenly so that its box is `height` m high. Returns false, without a change, if
+/// the box has no height: less than a millionth of its longest side. A plant of which nothing is
+/// drawn stays empty.
+[[nodiscard]] bool scale_to_height(double height, double density, Skeleton& skeleton);
+
+} // namespace lsys
