@@ -57,6 +57,9 @@ private:
             out_ += fmt::format("  tropism {} {} {} {}\n", s.tropism[0], s.tropism[1], s.tropism[2],
                                 s.tropism[3]);
         }
+        if (s.has_spring) {
+            out_ += fmt::format("  spring {}\n", s.spring);
+        }
         if (s.has_seed) {
             out_ += fmt::format("  seed {}\n", s.seed);
         }

@@ -43,6 +43,7 @@ private:
     [[nodiscard]] std::optional<float>
     read_one(const SetNode& node, const NumberRange& range, ExpressionResolver& expressions);
     void read_tropism(const SetNode& node, ExpressionResolver& expressions);
+    void read_spring(const SetNode& node, ExpressionResolver& expressions);
     void read_seed(const SetNode& node, ExpressionResolver& expressions);
 
     Resolution& resolution_;
