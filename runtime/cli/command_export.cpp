@@ -155,6 +155,7 @@ ExitStatus write_bent(Export& run) {
     options.gravity = command.gravity.value_or(0.0F);
     options.wind = command.wind.value_or(Wind{});
     options.damping = run.grammar.bytecode.settings.damping;
+    options.load = run.grammar.bytecode.settings.load;
     options.threads = command.run.threads;
     // A whole number of steps per frame.
     const auto steps = static_cast<std::uint32_t>(
