@@ -26,7 +26,7 @@
 // The ground is part of V: a spring under each tip that is above it at rest, which is 0 there. What
 // the spring leaves in the ground, pose() raises (impl/ground.h).
 //
-// With LoadRule::Own a joint moves as if its segment stood alone on its parent, and V counts weights
+// With LoadRule::Own a joint moves as if its segment stood alone on its parent; V counts weights
 // at bases that stand still. settle() then solves joint by joint, from the root to the tips.
 //
 // settle() takes long steps, each from standstill and without dampers. Each goes downhill. The

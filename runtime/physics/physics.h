@@ -34,8 +34,8 @@ struct PhysicsOptions {
     float air_density = 1.225F;     // kg/m^3; 0: neither wind nor drag
     float surface_mass = 0.2F;      // kg/m^2, of leaves, flowers, other objects and polygons
     LoadRule load = LoadRule::Carried;
-    bool ground = true; // the plane y = 0 holds what is above it at rest
-    std::uint32_t threads = 0;      // 0: as many as the machine has
+    bool ground = true;        // the plane y = 0 holds what is above it at rest
+    std::uint32_t threads = 0; // 0: as many as the machine has
 };
 
 class PlantPhysics {
