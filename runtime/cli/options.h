@@ -101,6 +101,7 @@ struct StatsCommand {
     GrammarOptions grammar;
     RunOptions run;
     std::string file;
+    std::optional<float> gravity; // m/s^2; weighs the plant too
 };
 
 struct ImportCommand {
