@@ -22,7 +22,7 @@ namespace lsys {
 //      Rewriting mode Leftmost, profiles Fractint and Sidefx and their operations, HalfTurnSnapped
 //      to DivideAngle, were added without a new version.
 //   5  The contents of version 4, with all of these; traits of the turtle.
-//   6  Height and pipe model of the plant.
+//   6  Height and pipe model of the plant; springs from the elasticity, and the load of a joint.
 inline constexpr std::uint32_t kModuleFileVersion = 6;
 
 #define LSYS_VERSION_MATTERS                                                                       \
@@ -36,10 +36,11 @@ static_assert(kCountOf<ChoiceScope> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<WeightRule> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<RandomSource> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<AtDepth> == 2, LSYS_VERSION_MATTERS);
+static_assert(kCountOf<LoadRule> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<SymbolKind> == 5, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<PatternKind> == 3, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<Stage> == 3, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<Settings> == 27, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<Settings> == 30, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<TurtleTraits> == 9, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Pipe> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeSymbol> == 6, LSYS_VERSION_MATTERS);

@@ -21,6 +21,7 @@ constexpr EnumNames<RewritingMode> kRewritingModes{"parallel", "sequential", "cy
 constexpr EnumNames<ChoiceScope> kChoiceScopes{"module", "generation"};
 constexpr EnumNames<WeightRule> kWeightRules{"one", "any"};
 constexpr EnumNames<AtDepth> kAtDepths{"error", "stop"};
+constexpr EnumNames<LoadRule> kLoadRules{"carried", "own"};
 constexpr EnumNames<RandomSource> kRandomSources{"philox", "glibc"};
 constexpr EnumNames<TurtleProfile> kTurtleProfiles{
 #define LSYS_TURTLE_PROFILE(identifier, name, ...) name,
@@ -33,7 +34,7 @@ constexpr std::array<TurtleTraits, kCountOf<TurtleProfile>> kTurtleTraits{{
 // Names that are missing are empty and come last.
 static_assert(!kRewritingModes.back().empty() && !kChoiceScopes.back().empty() &&
                   !kWeightRules.back().empty() && !kAtDepths.back().empty() &&
-                  !kRandomSources.back().empty(),
+                  !kRandomSources.back().empty() && !kLoadRules.back().empty(),
               "an enumerator has no name");
 
 } // namespace
@@ -52,6 +53,9 @@ std::string_view name_of(WeightRule rule) {
 }
 std::string_view name_of(AtDepth at) {
     return name_in(kAtDepths, at);
+}
+std::string_view name_of(LoadRule load) {
+    return name_in(kLoadRules, load);
 }
 std::string_view name_of(TurtleProfile profile) {
     return name_in(kTurtleProfiles, profile);

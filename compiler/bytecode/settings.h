@@ -22,6 +22,8 @@ LSYS_COUNTED_ENUM(WeightRule, One, Any);
 /// Treatment of a module that `#decompose` or `#interpret` still matches at the max depth: it
 /// ends the run, or it stays as it is.
 LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
+/// Weight that bends a joint: of all that hangs on it, or of its own segment only.
+LSYS_COUNTED_ENUM(LoadRule, Carried, Own);
 /// The table of docs/language.md section 7 that gives modules their meaning for the turtle. The
 /// resolver applies it; later stages may only print its name.
 enum class TurtleProfile : std::uint8_t {
@@ -107,6 +109,7 @@ constexpr void for_each_setting(Values& settings, Function function) {
 [[nodiscard]] std::string_view name_of(RandomSource source);
 [[nodiscard]] std::string_view name_of(WeightRule rule);
 [[nodiscard]] std::string_view name_of(AtDepth at);
+[[nodiscard]] std::string_view name_of(LoadRule load);
 [[nodiscard]] std::string_view name_of(TurtleProfile profile);
 
 } // namespace lsys

@@ -63,6 +63,9 @@ private:
         if (s.pipe.is_set()) {
             out_ += fmt::format("  pipe {} {}\n", s.pipe.exponent, s.pipe.tip_width);
         }
+        if (s.has_spring) {
+            out_ += fmt::format("  spring {}\n", s.spring);
+        }
         if (s.has_seed) {
             out_ += fmt::format("  seed {}\n", s.seed);
         }

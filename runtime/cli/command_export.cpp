@@ -4,6 +4,7 @@
 #include "runtime/cli/output_set.h"
 #include "runtime/cli/plant_options.h"
 #include "runtime/cli/progress.h"
+#include "runtime/cli/weight_report.h"
 #include "runtime/derive/runtime_diagnostic.h"
 #include "runtime/export/export.h"
 #include "runtime/meshing/mesh.h"
@@ -146,6 +147,19 @@ ExitStatus write_animation(Export& run, PlantPhysics& physics) {
     return write_plant(run, first, command.output, &animation);
 }
 
+/// Warns of a plant that falls under its weight without wind. Large plants are not weighed: each
+/// trial settles them.
+ExitStatus check_weight(const Export& run, PhysicsOptions options) {
+    constexpr std::size_t kMaxSegments = 20'000;
+    const Skeleton& plant = run.plant.skeleton;
+    if (!(options.gravity > 0.0F) || plant.segments.size() > kMaxSegments) {
+        return ExitStatus::Ok;
+    }
+    options.wind = {};
+    return warn_of_fall(weigh(plant, run.grammar.bytecode.settings, options), run.grammar,
+                        run.console);
+}
+
 /// Writes the plant bent by weight and wind: at rest, or in frames of its motion.
 ExitStatus write_bent(Export& run) {
     const ExportCommand& command = run.command;
@@ -156,11 +170,15 @@ ExitStatus write_bent(Export& run) {
     options.gravity = command.gravity.value_or(0.0F);
     options.wind = command.wind.value_or(Wind{});
     options.damping = run.grammar.bytecode.settings.damping;
+    options.load = run.grammar.bytecode.settings.load;
     options.threads = command.run.threads;
     // A whole number of steps per frame.
     const auto steps = static_cast<std::uint32_t>(
         std::max(1.0F, std::ceil(kStepsPerSecond / command.frames_per_second)));
     options.time_step = 1.0F / (command.frames_per_second * static_cast<float>(steps));
+    if (const ExitStatus weight = check_weight(run, options); weight != ExitStatus::Ok) {
+        return weight;
+    }
     PlantPhysics physics(run.plant.skeleton, options);
     if ((command.settle || command.frames == 0) && !physics.settle(kRadians, kRounds)) {
         run.console.info("the plant has not quite come to rest");

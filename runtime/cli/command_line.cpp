@@ -254,6 +254,10 @@ void add_import(CLI::App& app, ImportCommand& command) {
 void add_stats(CLI::App& app, StatsCommand& command) {
     app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
         ->required();
+    const auto gravity = [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); };
+    add_parsed(app, "--gravity", command.gravity, gravity,
+               "Draw the plant too, and tell whether it bears its weight (9.81 on Earth)")
+        ->type_name("G");
     add_grammar(app, command.grammar, command.run);
     add_height(app, command.height);
     add_message_options(app, command.messages);

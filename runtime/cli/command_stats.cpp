@@ -1,6 +1,7 @@
 #include "compiler/growth/growth.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/derivation_report.h"
+#include "runtime/cli/weight_report.h"
 #include "runtime/derive/derive.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/plant.h"
@@ -216,12 +217,40 @@ make_json(const GrowthPrediction& growth, bool predicted, std::optional<double> 
     return text;
 }
 
+/// Grows the plant and reports on it under its weight.
+ExitStatus report_weight(const StatsCommand& command,
+                         const Project& project,
+                         Grammar& grammar,
+                         const Console& console) {
+    PlantOptions options;
+    options.file = command.file;
+    options.generations = command.grammar.generations;
+    Plant plant;
+    const ExitStatus status = console.take(grow_plant(options, grammar, project), plant);
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    const Settings& settings = grammar.bytecode.settings;
+    PhysicsOptions forces;
+    forces.gravity = *command.gravity;
+    forces.load = settings.load;
+    forces.threads = command.run.threads;
+    const WeightReport report = weigh(plant.skeleton, settings, forces);
+    const std::string text =
+        command.messages.format == MessageFormat::Json ? weight_json(report) : weight_text(report);
+    if (const Result<void> written = write_file("-", text, console); !written) {
+        return report_error(written.error(), console);
+    }
+    return warn_of_fall(report, grammar, console);
+}
+
 } // namespace
 
 ExitStatus run_command(const StatsCommand& command, const Console& console) {
     Grammar grammar;
-    const ExitStatus status = console.take(
-        load_grammar(command.file, command.grammar, make_project(console, command.run)), grammar);
+    const Project project = make_project(console, command.run);
+    const ExitStatus status =
+        console.take(load_grammar(command.file, command.grammar, project), grammar);
     if (status != ExitStatus::Ok) {
         return status;
     }
@@ -260,6 +289,9 @@ ExitStatus run_command(const StatsCommand& command, const Console& console) {
     }
     if (shown < wanted) {
         console.info(fmt::format("only the first {} of {} generations are shown", shown, wanted));
+    }
+    if (command.gravity && counted == ExitStatus::Ok) {
+        return report_weight(command, project, grammar, console);
     }
     return counted;
 }

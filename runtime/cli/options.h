@@ -105,6 +105,7 @@ struct StatsCommand {
     RunOptions run;
     std::optional<float> height; // m, of the plant
     std::string file;
+    std::optional<float> gravity; // m/s^2; weighs the plant too
 };
 
 struct ImportCommand {

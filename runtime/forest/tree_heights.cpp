@@ -170,8 +170,8 @@ std::optional<double> TreeMeasure::height_of(std::uint32_t number) {
     return known(extent.high - extent.low);
 }
 
-void scale_cache(double factor, double density, InstanceCache& cache) {
-    scale_plant(factor, density, cache.skeleton);
+void scale_cache(double factor, const StemMaterial& material, InstanceCache& cache) {
+    scale_plant(factor, material, cache.skeleton);
     for (Instance& instance : cache.instances) {
         instance.position *= factor;
     }

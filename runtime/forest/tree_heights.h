@@ -5,6 +5,7 @@
 
 #include "runtime/forest/forest.h"
 #include "runtime/forest/instance_cache.h"
+#include "runtime/turtle/plant_size.h"
 #include "runtime/turtle/skeleton.h"
 
 #include <cstdint>
@@ -50,8 +51,9 @@ private:
     std::vector<Part> parts_;
 };
 
-/// Scales a cache: its skeleton, entries and exits. Masses are those of `density`, in kg/m^3.
-void scale_cache(double factor, double density, InstanceCache& cache);
+/// Scales a cache: its skeleton, entries and exits. Masses and springs follow as in
+/// scale_plant().
+void scale_cache(double factor, const StemMaterial& material, InstanceCache& cache);
 
 /// Multiplies the scale of every tree of species s by heights[s] / its height at scale 1, so that
 /// it is scale * heights[s] metres high; a younger tree by that of its last stage. heights[s] = 0

@@ -23,12 +23,20 @@
 // bound of the energy (see there). Implicit Euler damps motions that are too fast for the time
 // step.
 //
+// The ground is part of V: a spring under each tip that is above it at rest, which is 0 there. What
+// the spring leaves in the ground, pose() raises (impl/ground.h).
+//
+// With LoadRule::Own a joint moves as if its segment stood alone on its parent; V counts weights
+// at bases that stand still. settle() then solves joint by joint, from the root to the tips.
+//
 // settle() takes long steps, each from standstill and without dampers. Each goes downhill. The
 // nearer the end, the more of the true second derivative of the energy it uses: in the end it is
 // Newton's method, which doubles the digits in each round.
 #include "runtime/physics/physics.h"
 
+#include "runtime/physics/impl/ground.h"
 #include "runtime/physics/impl/motion.h"
+#include "runtime/physics/impl/rotation.h"
 
 #include <algorithm>
 #include <bit>
@@ -67,6 +75,37 @@ PhysicsOptions usable(PhysicsOptions options) {
     return options;
 }
 
+/// The rotation of a body at rest on a joint that bears nothing else, on a parent with rotation
+/// `start`. Force F at arm c bends it towards F by the angle x with k x = |c| |F| sin(a - x), where
+/// a is the angle between c and F: one root from 0 to a.
+glm::dquat bent_by_itself(const Body& body, const glm::dquat& start, const Forces& forces) {
+    constexpr int kHalvings = 60;
+    constexpr int kWindRounds = 40; // the drag depends on the rotation
+    const glm::dvec3 centre = start * body.centre;
+    glm::dquat turn = start;
+    for (int round = 0; round < (forces.windy ? kWindRounds : 1); ++round) {
+        glm::dvec3 force = body.mass * forces.gravity;
+        if (forces.windy) {
+            force += wind_drag(body, turn, glm::dvec3(0.0), forces) * forces.wind;
+        }
+        const glm::dvec3 torque = glm::cross(centre, force);
+        const double size = glm::length(torque);
+        if (!(size > 0.0) || !std::isfinite(size)) {
+            return start;
+        }
+        const double most = glm::length(centre) * glm::length(force);
+        const double whole = std::atan2(size, glm::dot(centre, force));
+        double low = 0.0;
+        double high = whole;
+        for (int i = 0; i < kHalvings; ++i) {
+            const double middle = 0.5 * (low + high);
+            (body.spring * middle < most * std::sin(whole - middle) ? low : high) = middle;
+        }
+        turn = glm::normalize(rotation_of(low / size * torque) * start);
+    }
+    return turn;
+}
+
 /// A smooth function of time from -1 to 1, 0 at time 0.
 double gust_at(double time) {
     const double turns = 2.0 * std::numbers::pi * time;
@@ -81,7 +120,28 @@ Forces forces_of(const PhysicsOptions& options) {
     forces.wind = glm::dvec3(options.wind.velocity);
     forces.drag = 0.5 * kDragCoefficient * static_cast<double>(options.air_density);
     forces.windy = forces.drag > 0.0 && glm::length(forces.wind) > 0.0;
+    forces.ground = options.ground;
+    forces.own_load = options.load == LoadRule::Own;
     return forces;
+}
+
+/// Raises an object and its far end from the ground, if they are above it at rest.
+void lay_on_ground(const PlacedObject& rest, PlacedObject& object) {
+    const float length = std::abs(object.size);
+    if (rest.position.y < 0.0F) {
+        return;
+    }
+    object.position.y = std::max(object.position.y, 0.0F);
+    const glm::vec3 axis = heading(object.frame);
+    const float sink = -(object.position.y + length * axis.y);
+    if (!(sink > 0.0F) || rest.position.y + length * heading(rest.frame).y < 0.0F) {
+        return;
+    }
+    Body body;
+    body.tip = static_cast<double>(length) * glm::dvec3(axis);
+    body.clearance = -static_cast<double>(sink);
+    object.frame = glm::quat(glm::normalize(
+        raised(body, glm::dquat(1.0, 0.0, 0.0, 0.0), glm::dvec3(0.0)) * glm::dquat(object.frame)));
 }
 
 PlantBodies plant_of(const Skeleton& rest, double surface_mass) {
@@ -132,6 +192,30 @@ struct PlantPhysics::State {
         double share = 0.0; // part of the solved motion that was taken
         double turn = 0.0;  // rad, max
     };
+    /// The place of rest where each joint bears its own segment only: from the root to the tips,
+    /// each joint by itself.
+    void settle_own_loads() {
+        const std::vector<Body>& bodies = plant.rest.bodies;
+        plant.schedule.outward(workers, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t) {
+            for (std::uint32_t b = begin; b < end; ++b) {
+                const Body& body = bodies[b];
+                BodyPose at;
+                if (body.parent != kNoSegment) {
+                    const BodyPose& parent = plant.poses[body.parent];
+                    at.turn = parent.turn;
+                    at.shift = parent.shift + (parent.turn * body.offset - body.offset);
+                }
+                at.turn = bent_by_itself(body, at.turn, forces);
+                if (forces.ground) {
+                    at.turn = raised(body, at.turn, at.shift);
+                }
+                plant.poses[b] = at;
+            }
+        });
+        plant.motion.assign(plant.motion.size(), BodyMotion{});
+        look();
+    }
+
     /// Makes a step, which ends at standstill without `keep_velocity`.
     Step advance(const Forces& now, bool keep_velocity) {
         solve_spins(plant, now, workers);
@@ -193,6 +277,10 @@ void PlantPhysics::step() {
 
 bool PlantPhysics::settle(double tolerance, std::uint32_t max_rounds) {
     State& s = *state_;
+    if (s.forces.own_load) {
+        s.settle_own_loads();
+        return true;
+    }
     Forces long_step = s.forces;
     long_step.step = kRestStep;
     long_step.damping = 0.0;
@@ -234,13 +322,17 @@ const Skeleton& PlantPhysics::rest() const {
 void PlantPhysics::pose(Skeleton& out) const {
     const State& s = *state_;
     out = s.rest;
+    std::vector<BodyPose> poses = s.plant.poses;
+    if (s.options.ground) {
+        rest_on_ground(s.plant.rest, s.rest, poses);
+    }
     const auto moved = [&](std::uint32_t segment, const glm::vec3& point) {
-        const BodyPose& pose = s.plant.poses[s.plant.rest.places[segment]];
+        const BodyPose& pose = poses[s.plant.rest.places[segment]];
         const glm::dvec3 arm = glm::dvec3(point) - glm::dvec3(s.rest.segments[segment].base);
         return glm::vec3(glm::dvec3(point) + pose.shift + (pose.turn * arm - arm));
     };
     const auto turned = [&](std::uint32_t segment, const glm::quat& frame) {
-        const glm::dquat& turn = s.plant.poses[s.plant.rest.places[segment]].turn;
+        const glm::dquat& turn = poses[s.plant.rest.places[segment]].turn;
         return turn == glm::dquat(1.0, 0.0, 0.0, 0.0)
                    ? frame
                    : glm::quat(glm::normalize(turn * glm::dquat(frame)));
@@ -252,15 +344,21 @@ void PlantPhysics::pose(Skeleton& out) const {
     }
     for (PlacedObject& object : out.objects) {
         if (object.parent < out.segments.size()) {
+            const PlacedObject before = object;
             object.position = moved(object.parent, object.position);
             object.frame = turned(object.parent, object.frame);
+            if (s.options.ground) {
+                lay_on_ground(before, object);
+            }
         }
     }
     for (Polygon& polygon : out.polygons) {
         if (polygon.parent < out.segments.size()) {
             for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
                 glm::vec3& corner = out.corners[polygon.first_corner + c];
+                const float before = corner.y;
                 corner = moved(polygon.parent, corner);
+                corner.y = s.options.ground && before >= 0.0F ? std::max(corner.y, 0.0F) : corner.y;
             }
             polygon.frame = turned(polygon.parent, polygon.frame);
         }

@@ -4,7 +4,8 @@
 //
 // Always holds: everything is finite, for any skeleton; without wind the energy never
 // grows, for any springs, masses, lengths and time step; the same numbers for any number of
-// threads. The head of physics.cpp describes a step and proves this.
+// threads. The head of physics.cpp describes a step and proves this. On the ground no end of a
+// segment, object or corner is below y = 0 that is not at rest.
 #pragma once
 
 #include "runtime/turtle/skeleton.h"
@@ -32,7 +33,9 @@ struct PhysicsOptions {
     float time_step = 1.0F / 60.0F; // s, 1e-6 to 10; not finite: 1/60
     float air_density = 1.225F;     // kg/m^3; 0: neither wind nor drag
     float surface_mass = 0.2F;      // kg/m^2, of leaves, flowers, other objects and polygons
-    std::uint32_t threads = 0;      // 0: as many as the machine has
+    LoadRule load = LoadRule::Carried;
+    bool ground = true;        // the plane y = 0 holds what is above it at rest
+    std::uint32_t threads = 0; // 0: as many as the machine has
 };
 
 class PlantPhysics {

@@ -186,8 +186,8 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     if (settings.pipe.is_set()) {
         // No branch is shared, so every hero is whole and has all its tips.
         if (const std::optional<Stop> stop =
-                apply_pipe(settings.pipe, static_cast<double>(settings.density),
-                           project.limits.max_bytes, stage.cache.skeleton)) {
+                apply_pipe(settings.pipe, material_of(settings), project.limits.max_bytes,
+                           stage.cache.skeleton)) {
             return step.end_too_large(*stop, "the pipe model");
         }
     }
@@ -219,8 +219,8 @@ bool size_heroes(const Settings& settings, bool wants_height, ForestSpecies& spe
     if (height && settings.height != 0.0F) {
         species.height = settings.height;
         for (ForestStage& stage : species.stages) {
-            scale_cache(static_cast<double>(settings.height) / *height,
-                        static_cast<double>(settings.density), stage.cache);
+            scale_cache(static_cast<double>(settings.height) / *height, material_of(settings),
+                        stage.cache);
         }
     }
     return true;

@@ -56,11 +56,11 @@ DerivationEnd draw_streamed(const DeriveOptions& options,
 std::optional<Stop>
 size_plant(const PlantOptions& options, const Grammar& grammar, Step& step, Skeleton& skeleton) {
     const Settings& settings = grammar.bytecode.settings;
-    const auto density = static_cast<double>(settings.density);
+    const StemMaterial material = material_of(settings);
     if (settings.pipe.is_set()) {
         const std::uint64_t max_bytes = step.project().limits.max_bytes;
         if (const std::optional<Stop> stop =
-                apply_pipe(settings.pipe, density, max_bytes, skeleton)) {
+                apply_pipe(settings.pipe, material, max_bytes, skeleton)) {
             step.diagnose(stop == Stop::Limit ? plant_limit_diagnostic("the pipe model", max_bytes)
                                               : no_memory_diagnostic("the pipe model"),
                           nullptr);
@@ -68,7 +68,7 @@ size_plant(const PlantOptions& options, const Grammar& grammar, Step& step, Skel
         }
     }
     const float height = options.height.value_or(settings.height);
-    if (height == 0.0F || scale_to_height(static_cast<double>(height), density, skeleton)) {
+    if (height == 0.0F || scale_to_height(static_cast<double>(height), material, skeleton)) {
         return std::nullopt;
     }
     const char* const help = "a plant grows upwards, along +Y; one that lies flat has no height "

@@ -55,14 +55,23 @@ float mass_of(const Segment& segment, double density) {
                         density);
 }
 
-/// Calls change(segment) and lets its mass follow, unless the author has given it: a mass that is
-/// not that of its volume.
+float spring_of(const Segment& segment, double elasticity) {
+    return spring_of_beam(wide(segment.length), wide(segment.base_radius), wide(segment.tip_radius),
+                          elasticity);
+}
+
+/// Calls change(segment) and lets its mass and spring follow, unless the author has given them:
+/// values that are not those of its shape.
 template <typename Change>
-void change_segment(Segment& segment, double density, const Change& change) {
-    const bool follows = segment.mass == mass_of(segment, density);
+void change_segment(Segment& segment, const StemMaterial& material, const Change& change) {
+    const bool mass_follows = segment.mass == mass_of(segment, material.density);
+    const bool spring_follows = segment.spring == spring_of(segment, material.elasticity);
     change(segment);
-    if (follows) {
-        segment.mass = mass_of(segment, density);
+    if (mass_follows) {
+        segment.mass = mass_of(segment, material.density);
+    }
+    if (spring_follows) {
+        segment.spring = spring_of(segment, material.elasticity);
     }
 }
 
@@ -74,6 +83,17 @@ float mass_of_cone(double length, double base_radius, double tip_radius, double 
         (base_radius * base_radius + base_radius * tip_radius + tip_radius * tip_radius);
     return static_cast<float>(
         std::min(volume * density, static_cast<double>(std::numeric_limits<float>::max())));
+}
+
+float spring_of_beam(double length, double base_radius, double tip_radius, double elasticity) {
+    constexpr double kMax = std::numeric_limits<float>::max();
+    const double square = (base_radius + tip_radius) * (base_radius + tip_radius);
+    const double stiff = std::numbers::pi / 64.0 * square * square * elasticity;
+    return static_cast<float>(std::abs(length) * kMax > stiff ? stiff / std::abs(length) : kMax);
+}
+
+StemMaterial material_of(const Settings& settings) {
+    return {wide(settings.density), wide(settings.elasticity)};
 }
 
 double pipe_factor(std::uint32_t count, double exponent) {
@@ -88,8 +108,10 @@ double pipe_factor(std::uint32_t count, double exponent) {
     return portable_exp2(portable_log2(tips) / exponent);
 }
 
-std::optional<Stop>
-apply_pipe(const Pipe& pipe, double density, std::uint64_t max_bytes, Skeleton& skeleton) {
+std::optional<Stop> apply_pipe(const Pipe& pipe,
+                               const StemMaterial& material,
+                               std::uint64_t max_bytes,
+                               Skeleton& skeleton) {
     const std::size_t count = skeleton.segments.size();
     if (skeleton.byte_count() + count * sizeof(std::uint32_t) > max_bytes) {
         return Stop::Limit;
@@ -118,7 +140,7 @@ apply_pipe(const Pipe& pipe, double density, std::uint64_t max_bytes, Skeleton& 
         }
         const auto width = static_cast<float>(
             std::min(last_factor * wide(pipe.tip_width), wide(std::numeric_limits<float>::max())));
-        change_segment(segment, density, [&](Segment& each) {
+        change_segment(segment, material, [&](Segment& each) {
             each.base_radius = 0.5F * width;
             each.tip_radius = 0.5F * width;
         });
@@ -146,13 +168,13 @@ double height_of(const Skeleton& skeleton) {
     return wide(bounds.high.y) - wide(bounds.low.y);
 }
 
-void scale_plant(double factor, double density, Skeleton& skeleton) {
+void scale_plant(double factor, const StemMaterial& material, Skeleton& skeleton) {
     const auto scaled = [factor](float value) { return static_cast<float>(wide(value) * factor); };
     const auto place = [&](const glm::vec3& at) {
         return glm::vec3(scaled(at.x), scaled(at.y), scaled(at.z));
     };
     for (Segment& segment : skeleton.segments) {
-        change_segment(segment, density, [&](Segment& each) {
+        change_segment(segment, material, [&](Segment& each) {
             each.base = place(each.base);
             each.length = scaled(each.length);
             each.base_radius = scaled(each.base_radius);
@@ -168,7 +190,7 @@ void scale_plant(double factor, double density, Skeleton& skeleton) {
     }
 }
 
-bool scale_to_height(double height, double density, Skeleton& skeleton) {
+bool scale_to_height(double height, const StemMaterial& material, Skeleton& skeleton) {
     const Bounds bounds = bounds_of(skeleton);
     if (bounds.empty) {
         return true;
@@ -177,7 +199,7 @@ bool scale_to_height(double height, double density, Skeleton& skeleton) {
     if (!(size.y > kLeastHeight * std::max(size.x, size.z)) || size.y <= 0.0) {
         return false;
     }
-    scale_plant(height / size.y, density, skeleton);
+    scale_plant(height / size.y, material, skeleton);
     return true;
 }
 

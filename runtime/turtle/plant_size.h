@@ -3,6 +3,7 @@
 // reads metres: physics, meshing, placement.
 #pragma once
 
+#include "compiler/bytecode/settings.h"
 #include "grammar/base/outcome.h"
 #include "runtime/turtle/skeleton.h"
 
@@ -16,17 +17,31 @@ namespace lsys {
 [[nodiscard]] float
 mass_of_cone(double length, double base_radius, double tip_radius, double density);
 
+/// N m/rad: E I / length of a beam of the mean diameter d, I = pi d^4 / 64, at most the largest
+/// binary32, which one without length has: it is rigid. Lengths in m, `elasticity` E in Pa.
+[[nodiscard]] float
+spring_of_beam(double length, double base_radius, double tip_radius, double elasticity);
+
+/// What mass and spring of a segment follow from unless the author gives them.
+struct StemMaterial {
+    double density = 0.0;    // kg/m^3
+    double elasticity = 0.0; // Pa
+};
+[[nodiscard]] StemMaterial material_of(const Settings& settings);
+
 /// count^(1 / exponent) in binary64: the factor between the width of a tip and that of a segment
 /// with `count` tips above it. Made of operations that IEEE 754 rounds, so it has the same bits on
 /// every machine; the error is below 1e-13 of the value. Preconditions: count >= 1, 1 <= exponent.
 [[nodiscard]] double pipe_factor(std::uint32_t count, double exponent);
 
 /// Gives every segment the width pipe.tip_width * tips^(1 / pipe.exponent), rounded to binary32
-/// once; tips: the segments without children that hang on it, itself if it has none. Masses that
-/// are those of volume and `density` follow. Stop::Limit: the count of tips does not fit into
+/// once; tips: the segments without children that hang on it, itself if it has none. Masses and
+/// springs that are those of shape and `material` follow. Stop::Limit: the count of tips does not fit into
 /// `max_bytes` beside the skeleton; Stop::OutOfMemory. The skeleton is unchanged then.
-[[nodiscard]] std::optional<Stop>
-apply_pipe(const Pipe& pipe, double density, std::uint64_t max_bytes, Skeleton& skeleton);
+[[nodiscard]] std::optional<Stop> apply_pipe(const Pipe& pipe,
+                                             const StemMaterial& material,
+                                             std::uint64_t max_bytes,
+                                             Skeleton& skeleton);
 
 /// The box of a plant: axes of segments, places of objects, corners of polygons; without radii.
 [[nodiscard]] Bounds bounds_of(const Skeleton& skeleton);
@@ -34,13 +49,13 @@ apply_pipe(const Pipe& pipe, double density, std::uint64_t max_bytes, Skeleton& 
 /// m, of bounds_of(); 0 of a plant of which nothing is drawn.
 [[nodiscard]] double height_of(const Skeleton& skeleton);
 
-/// Scales all lengths and widths by `factor`. Masses that are those of volume and `density`
-/// follow; masses and springs of the author stay.
-void scale_plant(double factor, double density, Skeleton& skeleton);
+/// Scales all lengths and widths by `factor`. Masses and springs that are those of shape and
+/// `material` follow; those of the author stay.
+void scale_plant(double factor, const StemMaterial& material, Skeleton& skeleton);
 
 /// Scales the plant evenly so that its box is `height` m high. Returns false, without a change, if
 /// the box has no height: less than a millionth of its longest side. A plant of which nothing is
 /// drawn stays empty.
-[[nodiscard]] bool scale_to_height(double height, double density, Skeleton& skeleton);
+[[nodiscard]] bool scale_to_height(double height, const StemMaterial& material, Skeleton& skeleton);
 
 } // namespace lsys

@@ -19,7 +19,8 @@ Turtle::State::quick_forward(const Action& action, const float* arguments, Pose&
     }
     const float tip_width = now.width * now.taper;
     put_segment(pose, length, now.width, tip_width,
-                action.given > 1 ? arguments[1] : bytecode.settings.spring,
+                action.given > 1 ? arguments[1]
+                                 : spring_of(static_cast<double>(length), now.width, tip_width),
                 action.given > 2 ? arguments[2]
                                  : mass_of(static_cast<double>(length), now.width, tip_width));
     pose = tip;

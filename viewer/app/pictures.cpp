@@ -33,6 +33,7 @@ public:
         forces.gravity = options.gravity.value_or(0.0F);
         forces.wind = options.wind.value_or(Wind{});
         forces.damping = document.grammar.bytecode.settings.damping;
+        forces.load = document.grammar.bytecode.settings.load;
         forces.threads = options.run.threads;
         // Whole steps per frame.
         const double steps = std::max(1.0, std::ceil(kStepsPerSecond * seconds_of_frame_));

@@ -195,7 +195,9 @@ void draw_bending(PlantViewSettings& settings) {
     ImGui::Checkbox("Simulate", &settings.simulates);
     ImGui::SliderFloat("Gravity", &forces.gravity, 0.0F, 30.0F, "%.2f m/s^2");
     draw_wind(forces.wind);
-    ImGui::SliderFloat("Stiffness", &settings.bending.stiffness, 0.01F, 100.0F, "x%.3g",
+    // Ten decades, from trees that hang to stalks that stand. The digits of the format bound the
+    // smallest value of a logarithmic slider.
+    ImGui::SliderFloat("Stiffness", &settings.bending.stiffness, 1e-5F, 1e5F, "x%.6g",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     ImGui::SliderFloat("Damping", &forces.damping, 0.001F, 1000.0F, "%.3g N m s/rad",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);

@@ -20,7 +20,8 @@ bool makes_same_plant(const PlantViewSettings& a, const PlantViewSettings& b) {
 
 bool is_same(const Bending& a, const Bending& b) {
     return a.stiffness == b.stiffness && a.forces.gravity == b.forces.gravity &&
-           a.forces.wind == b.forces.wind && a.forces.damping == b.forces.damping;
+           a.forces.wind == b.forces.wind && a.forces.damping == b.forces.damping &&
+           a.forces.load == b.forces.load;
 }
 
 PlantViewSettings first_plant_settings(const ViewOptions& options) {
@@ -170,6 +171,7 @@ void PlantView::swap(LoadOutcome outcome) {
     if (std::exchange(frame_next_, false)) {
         settings.camera = first_view(settings.camera, renderer_->bounds(), aspect_);
     }
+    settings.bending.forces.load = document_->grammar.bytecode.settings.load;
     if (std::exchange(is_new_file_, false)) {
         settings.bending.forces.damping = document_->grammar.bytecode.settings.damping;
     }

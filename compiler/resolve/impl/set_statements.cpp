@@ -179,6 +179,8 @@ void SetResolver::read_number(const SetNode& node, ExpressionResolver& expressio
         read_height(node, expressions);
     } else if (key == "pipe") {
         read_pipe(node, expressions);
+    } else if (key == "spring") {
+        read_spring(node, expressions);
     }
     // Modes have been read, and unknown keys reported.
 #define LSYS_NUMBER(field, initial, use, group, min, wanted)                                       \
@@ -262,6 +264,20 @@ void SetResolver::read_pipe(const SetNode& node, ExpressionResolver& expressions
     } else {
         resolution_.program.settings.pipe = {*exponent, *width};
         resolution_.program.pipe_span = node.key_span;
+    }
+}
+
+void SetResolver::read_spring(const SetNode& node, ExpressionResolver& expressions) {
+    if (node.values.count == 1) {
+        const SetValue value = resolution_.ast.set_values[node.values.first];
+        if (value.is_word && resolution_.text(value.word) == "auto") {
+            return;
+        }
+    }
+    const NumberRange range{0.0F, -kLowestNumber, false, "`auto` or a stiffness from 0 on"};
+    if (const std::optional<float> number = read_one(node, range, expressions)) {
+        resolution_.program.settings.has_spring = true;
+        resolution_.program.settings.spring = *number;
     }
 }
 

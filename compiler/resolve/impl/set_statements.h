@@ -45,6 +45,7 @@ private:
     void read_tropism(const SetNode& node, ExpressionResolver& expressions);
     void read_height(const SetNode& node, ExpressionResolver& expressions);
     void read_pipe(const SetNode& node, ExpressionResolver& expressions);
+    void read_spring(const SetNode& node, ExpressionResolver& expressions);
     void read_seed(const SetNode& node, ExpressionResolver& expressions);
 
     Resolution& resolution_;

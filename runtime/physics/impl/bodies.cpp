@@ -22,6 +22,10 @@ namespace lsys {
 namespace {
 
 constexpr double kExposedShare = 0.5; // of a sheet's area facing the wind
+// 1/s^2: under its own load a tip sinks by 0.005 of the height of the plant, from where pose()
+// raises it.
+constexpr double kGroundSpring = 2e3;
+constexpr double kRounding = 1e-6; // of the plant's height: error of places
 
 double magnitude(float value) {
     const auto max_float = static_cast<double>(std::numeric_limits<float>::max());
@@ -118,6 +122,7 @@ void add_segment(const Segment& segment, Body& body, BodySums& load) {
     body.inertia.add_diagonal(body.mass * cone.along);
     load.first_moment = body.mass * cone.centre * axis;
     body.centre = cone.centre * axis;
+    body.tip = length * axis;
     const auto area = [](double value) {
         return static_cast<float>(
             std::min(value, static_cast<double>(std::numeric_limits<float>::max())));
@@ -137,6 +142,38 @@ void add_sheet(
     load.first_moment += mass * place;
     body.inertia += point_inertia(mass, place);
     load.sail += kExposedShare * area;
+}
+
+/// Tips at rest above the ground may sink to it, less their radius; those in the soil that carry
+/// something above it stay at their depth; nothing holds the others. `carried`: kg beyond each
+/// body, with its own.
+void add_ground(const Skeleton& rest, const std::vector<double>& carried, Bodies& out) {
+    const std::size_t count = out.bodies.size();
+    const auto tip_height = [&](std::size_t b) {
+        return place_of(rest.segments[out.segments[b]].base).y + out.bodies[b].tip.y;
+    };
+    double height = 0.0;
+    for (std::size_t b = 0; b < count; ++b) {
+        height = std::max(height, tip_height(b));
+    }
+    if (!(height > 0.0)) {
+        return;
+    }
+    std::vector<char> holds(count, 0);
+    for (std::size_t b = count; b-- > 0;) {
+        Body& body = out.bodies[b];
+        const double tip = tip_height(b);
+        holds[b] = static_cast<char>(holds[b] != 0 || tip >= -kRounding * height);
+        if (holds[b] == 0) {
+            continue;
+        }
+        const double radius = magnitude(rest.segments[out.segments[b]].tip_radius);
+        body.clearance = std::max(tip - radius, 0.0);
+        body.ground_spring = std::min(carried[b] * kGroundSpring / height, 1e30);
+        if (body.parent != kNoSegment) {
+            holds[body.parent] = 1;
+        }
+    }
 }
 
 } // namespace
@@ -215,6 +252,7 @@ Bodies make_bodies(const Skeleton& rest, double surface_mass) {
         }
         body.moment = moment;
     }
+    add_ground(rest, carried, out);
     return out;
 }
 

@@ -8,9 +8,13 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace lsys {
+
+/// Clearance of a body that the ground does not hold.
+inline constexpr double kNoGround = std::numeric_limits<double>::infinity();
 
 /// A rigid body. Vectors are from its base at rest, in the axes of the world.
 struct Body {
@@ -30,6 +34,10 @@ struct Body {
     float side = 0.0F; // m^2
     float end = 0.0F;
     float sail = 0.0F;
+    // The ground: its contact is at the tip.
+    glm::dvec3 tip{0.0};
+    double clearance = kNoGround; // m, of the tip above the lowest place that it may take
+    double ground_spring = 0.0;   // N/m
 };
 
 /// Bodies by depth, and within a depth by their parents, so that siblings are neighbours.

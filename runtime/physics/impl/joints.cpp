@@ -13,6 +13,10 @@
 // The second derivative of the spring's energy along a rotation is nowhere greater than k. So the
 // minimum lies downhill, however long the step. Forces::exactness replaces these bounds by the true
 // second derivatives.
+//
+// The ground is a spring 1/2 K depth^2 at the tips below it, with their force on all that carries
+// them; its second derivatives are bounded and made exact in the same way. With
+// Forces::own_load bases stand still and children are left out, so each joint is solved alone.
 #include "runtime/physics/impl/motion.h"
 
 #include <algorithm>
@@ -33,7 +37,7 @@ struct BodyForms {
     Symmetric velocity_velocity;
     glm::dvec3 spin{0.0};
     glm::dvec3 velocity{0.0};
-    glm::dvec3 wind{0.0};
+    glm::dvec3 push{0.0};
 };
 
 /// Adds `factor` times the second derivative, by rotations of `arm`, of the energy -arm . force of
@@ -58,6 +62,66 @@ void add_stiffness(const glm::dvec3& arm,
             -0.5 * f * (arm.y * force.z + arm.z * force.y)};
 }
 
+/// Adds the contact of the tip, if it is in the ground or reaches it within the step: a spring
+/// along Y, whose force is that at the end of the step.
+void add_contact(const Body& body,
+                 const BodyMotion& motion,
+                 const BodyPose& pose,
+                 const glm::dmat3& axes,
+                 const Forces& forces,
+                 BodyForms& own) {
+    if (!forces.ground || !(body.ground_spring > 0.0)) {
+        return;
+    }
+    const double h = forces.step;
+    const glm::dvec3 arm = axes * body.tip;
+    const double depth = ground_depth(body, pose);
+    const double speed = motion.velocity.y + glm::cross(motion.spin, arm).y;
+    if (!(depth - h * std::min(speed, 0.0) > 0.0)) {
+        return;
+    }
+    const glm::dvec3 push(0.0, body.ground_spring * depth, 0.0);
+    const double hold = h * h * body.ground_spring;
+    own.spin += h * glm::cross(arm, push);
+    // (w x arm).y = w . (-arm.z, 0, arm.x)
+    own.spin_spin +=
+        {hold * arm.z * arm.z, 0.0, hold * arm.x * arm.x, 0.0, -hold * arm.x * arm.z, 0.0};
+    if (depth > 0.0) {
+        add_stiffness(arm, push, h * h, forces.exactness, own.spin_spin);
+        own.push += push;
+    }
+    if (!forces.own_load) {
+        own.velocity += h * push;
+        own.spin_velocity.row[0].y -= hold * arm.z;
+        own.spin_velocity.row[2].y += hold * arm.x;
+        own.velocity_velocity.yy += hold;
+    }
+}
+
+/// The forms of a body that neither moves nor feels anything but its own rotation.
+BodyForms own_load_forms(const Body& body,
+                         const BodyMotion& motion,
+                         const glm::dquat& turn,
+                         const glm::dmat3& axes,
+                         const Forces& forces) {
+    const double h = forces.step;
+    const glm::dvec3 centre = axes * body.centre;
+    const glm::dvec3& w = motion.spin;
+    BodyForms own;
+    own.spin_spin = rotated(body.inertia, axes);
+    const glm::dvec3 angular = own.spin_spin * w;
+    glm::dvec3 force = body.mass * forces.gravity;
+    if (forces.drag > 0.0) {
+        const double hold = wind_drag(body, turn, glm::cross(w, centre), forces);
+        force += hold * forces.wind;
+        own.spin_spin += point_inertia(h * hold, centre);
+    }
+    own.spin = angular +
+               h * (glm::cross(centre, force) - centrifugal_factor(w, h) * glm::cross(w, angular));
+    add_stiffness(centre, force, h * h, forces.exactness, own.spin_spin);
+    return own;
+}
+
 BodyForms own_forms(const Body& body,
                     const BodyMotion& motion,
                     const glm::dquat& turn,
@@ -76,8 +140,8 @@ BodyForms own_forms(const Body& body,
     BodyForms own;
     if (forces.drag > 0.0) {
         hold = wind_drag(body, turn, motion.velocity + arm_velocity, forces);
-        own.wind = hold * forces.wind;
-        force += own.wind;
+        own.push = hold * forces.wind;
+        force += own.push;
     }
     own.spin =
         angular + body.mass * glm::cross(centre, motion.velocity) +
@@ -89,7 +153,7 @@ BodyForms own_forms(const Body& body,
     own.spin_spin += point_inertia(h * hold, centre);
     add_stiffness(axes * body.moment, forces.gravity, h * h, forces.exactness, own.spin_spin);
     if (forces.windy) {
-        add_stiffness(centre, own.wind, h * h, forces.exactness, own.spin_spin);
+        add_stiffness(centre, own.push, h * h, forces.exactness, own.spin_spin);
     }
     own.spin_velocity = cross_rows(heft * centre);
     own.velocity_velocity.add_diagonal(heft);
@@ -125,9 +189,9 @@ void add_child(const Reduced& child,
     own.velocity_velocity += child.velocity_velocity;
     own.spin += child.spin + glm::cross(offset, child.velocity);
     own.velocity += child.velocity;
-    if (forces.windy) {
-        own.wind += child.wind;
-        add_stiffness(offset, child.wind, forces.step * forces.step, forces.exactness,
+    if (child.push != glm::dvec3(0.0)) {
+        own.push += child.push;
+        add_stiffness(offset, child.push, forces.step * forces.step, forces.exactness,
                       own.spin_spin);
     }
 }
@@ -192,7 +256,7 @@ void eliminate(const BodyForms& own,
     reduced.velocity_velocity = own.velocity_velocity;
     reduced.velocity_velocity += scaled(symmetric_product(own.spin_velocity, from_velocity), -1.0);
     reduced.velocity = own.velocity - from_velocity.transposed_times(known);
-    reduced.wind = own.wind;
+    reduced.push = own.push;
 
     solution.offset = inverse_sum * known;
     solution.from_parent = from_parent;
@@ -208,8 +272,12 @@ void solve_spins(PlantBodies& plant, const Forces& forces, Workers& workers) {
             const Body& body = bodies[b];
             const glm::dquat& turn = plant.poses[b].turn;
             const glm::dmat3 axes = glm::mat3_cast(turn);
-            BodyForms own = own_forms(body, plant.motion[b], turn, axes, forces);
-            for (std::uint32_t c = body.first_child; c < body.first_child + body.child_count; ++c) {
+            BodyForms own = forces.own_load
+                                ? own_load_forms(body, plant.motion[b], turn, axes, forces)
+                                : own_forms(body, plant.motion[b], turn, axes, forces);
+            add_contact(body, plant.motion[b], plant.poses[b], axes, forces, own);
+            const std::uint32_t felt = forces.own_load ? 0 : body.child_count;
+            for (std::uint32_t c = body.first_child; c < body.first_child + felt; ++c) {
                 add_child(plant.reduced[c & plant.reduced_mask], axes * bodies[c].offset, forces,
                           own);
             }

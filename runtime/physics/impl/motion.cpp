@@ -57,11 +57,19 @@ void move_body(PlantBodies& plant,
     const glm::dvec3 centre = turn * body.centre;
     const glm::dvec3 arm_velocity = glm::cross(spin, centre);
     const glm::dvec3 own_spin = glm::conjugate(turn) * spin;
-    sum.motion +=
-        0.5 * (glm::dot(own_spin, body.inertia * own_spin) +
-               body.mass * glm::dot(motion.velocity, motion.velocity + 2.0 * arm_velocity));
-    const double stretched = 0.5 * body.spring * glm::dot(motion.bend, motion.bend);
-    const double lifted = -body.mass * glm::dot(forces.gravity, shift + (centre - body.centre));
+    double motion_term = glm::dot(own_spin, body.inertia * own_spin);
+    glm::dvec3 way_down = centre - body.centre;
+    if (!forces.own_load) {
+        motion_term += body.mass * glm::dot(motion.velocity, motion.velocity + 2.0 * arm_velocity);
+        way_down += shift;
+    }
+    sum.motion += 0.5 * motion_term;
+    double stretched = 0.5 * body.spring * glm::dot(motion.bend, motion.bend);
+    if (forces.ground && body.ground_spring > 0.0) {
+        const double depth = std::max(ground_depth(body, plant.next_poses[b]), 0.0);
+        stretched += 0.5 * body.ground_spring * depth * depth;
+    }
+    const double lifted = -body.mass * glm::dot(forces.gravity, way_down);
     sum.position += stretched + lifted;
     sum.terms += stretched + std::abs(lifted);
     if (forces.windy) {

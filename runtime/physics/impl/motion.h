@@ -21,6 +21,8 @@ struct Forces {
     glm::dvec3 wind{0.0};    // m/s
     double drag = 0.0;       // half the air's density times the drag coefficient
     bool windy = false;
+    bool ground = false;
+    bool own_load = false; // bodies do not feel what they carry
     /// Stiffness of weight, wind and springs: 0: the greatest of all directions; 1: the true one,
     /// negative in some directions; between: interpolated.
     double exactness = 0.0;
@@ -57,7 +59,7 @@ struct Reduced {
     Symmetric velocity_velocity;
     glm::dvec3 spin{0.0};
     glm::dvec3 velocity{0.0};
-    glm::dvec3 wind{0.0}; // N, on the body and all beyond it
+    glm::dvec3 push{0.0}; // N, of wind and ground, on the body and all beyond it
 };
 
 struct PlantBodies {
@@ -77,13 +79,18 @@ struct PlantBodies {
                                const glm::dvec3& velocity,
                                const Forces& forces);
 
+/// Depth of the tip of a body below the lowest place that it may take, negative above it.
+[[nodiscard]] inline double ground_depth(const Body& body, const BodyPose& pose) {
+    return -(body.clearance + pose.shift.y + (pose.turn * body.tip - body.tip).y);
+}
+
 /// Solution::spin of all bodies: the velocities at the end of an implicit step, if the plant kept
 /// its shape. Spoils Motion's velocity.
 void solve_spins(PlantBodies& plant, const Forces& forces, Workers& workers);
 
 struct Energies {
     double motion = 0.0;
-    double position = 0.0; // springs and weight; 0 at rest
+    double position = 0.0; // springs, weight and ground; 0 at rest
     double terms = 0.0;    // sum of the magnitudes of the terms of `position`
     double work = 0.0;     // by the wind
     double turn = 0.0;     // rad, max

@@ -20,9 +20,10 @@ bool Turtle::State::is_finite_pose() {
     return fault(TurtleFaultKind::NotFinite);
 }
 
-/// A segment of `length` from here on. `mass`: kg, or null where volume and density give it.
+/// A segment of `length` from here on. `spring` in N m / rad and `mass` in kg, or null for those
+/// that the settings and the shape give.
 bool Turtle::State::draw(
-    double length, float base_width, float tip_width, float spring, const float* mass) {
+    double length, float base_width, float tip_width, const float* spring, const float* mass) {
     if (has_tropism) {
         bend(now.pose, bytecode.settings.tropism);
     }
@@ -38,7 +39,8 @@ bool Turtle::State::draw(
         return fault(TurtleFaultKind::NotFinite);
     }
     Segment& segment =
-        put_segment(base, static_cast<float>(std::abs(length)), base_width, tip_width, spring,
+        put_segment(base, static_cast<float>(std::abs(length)), base_width, tip_width,
+                    spring != nullptr ? *spring : spring_of(length, base_width, tip_width),
                     mass != nullptr ? *mass : mass_of(length, base_width, tip_width));
     if (length < 0.0) { // half a turn about the right axis
         segment.frame = segment.frame * glm::quat(0.0F, 1.0F, 0.0F, 0.0F);
@@ -52,11 +54,11 @@ bool Turtle::State::forward(const Action& action, const float* arguments, float 
         return wide_forward(action, arguments, part);
     }
     const float length = (action.given > 0 ? arguments[0] : now.step) * part;
-    const float spring = action.given > 1 ? arguments[1] : bytecode.settings.spring;
     const float width = traits.width_is_relative ? 2.0F * std::abs(length) * now.width : now.width;
     now.sides = traits.l3d_compatible_surface ? l3d_sides(now.width) : now.sides;
     polygons.path(now.pose);
-    if (!draw(static_cast<double>(length), width, width * now.taper, spring,
+    if (!draw(static_cast<double>(length), width, width * now.taper,
+              action.given > 1 ? arguments + 1 : nullptr,
               action.given > 2 ? arguments + 2 : nullptr)) {
         return false;
     }
@@ -73,8 +75,8 @@ bool Turtle::State::draw_tapered(const Action& action, const float* arguments) {
         note(TurtleFaultKind::NegativeWidth);
     }
     polygons.path(now.pose);
-    if (!draw(static_cast<double>(length), std::max(base, 0.0F), std::max(tip_width, 0.0F),
-              bytecode.settings.spring, nullptr)) {
+    if (!draw(static_cast<double>(length), std::max(base, 0.0F), std::max(tip_width, 0.0F), nullptr,
+              nullptr)) {
         return false;
     }
     polygons.path(now.pose);

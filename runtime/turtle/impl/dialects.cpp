@@ -17,8 +17,7 @@ bool Turtle::State::wide_forward(const Action& action, const float* arguments, f
     }
     const float drawn_width = std::max(width, 0.0F);
     polygons.path(now.pose);
-    const bool fine = draw(static_cast<double>(length), drawn_width, drawn_width,
-                           bytecode.settings.spring, nullptr);
+    const bool fine = draw(static_cast<double>(length), drawn_width, drawn_width, nullptr, nullptr);
     polygons.path(now.pose);
     now.sides = sides;
     return fine;

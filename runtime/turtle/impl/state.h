@@ -117,14 +117,17 @@ struct Turtle::State {
     bool execute(const Action& action, const float* arguments);
     bool forward(const Action& action, const float* arguments, float part);
     bool draw_tapered(const Action& action, const float* arguments);
-    bool draw(double length, float base_width, float tip_width, float spring, const float* mass);
+    bool
+    draw(double length, float base_width, float tip_width, const float* spring, const float* mass);
     Segment& put_segment(const Pose& base,
                          float length,
                          float base_width,
                          float tip_width,
                          float spring,
                          float mass);
+    void keep_shape(double length, float base_width, float tip_width);
     float mass_of(double length, float base_width, float tip_width);
+    float spring_of(double length, float base_width, float tip_width);
     bool place(const Action& action, const float* arguments);
     bool save();
     bool restore();
@@ -200,6 +203,7 @@ struct Turtle::State {
     float kept_base = -1.0F;
     float kept_tip = -1.0F;
     float kept_mass = 0.0F;
+    float kept_spring = 0.0F;
 };
 
 template <typename Items>
@@ -220,17 +224,34 @@ bool Turtle::State::has_room(Items& items) {
     return within_memory([&] { items.reserve(room); });
 }
 
+/// Computes mass and spring of a segment, which are the same for most of its neighbours.
+inline void Turtle::State::keep_shape(double length, float base_width, float tip_width) {
+    if (length == kept_length && base_width == kept_base && tip_width == kept_tip) {
+        return;
+    }
+    kept_length = length;
+    kept_base = base_width;
+    kept_tip = tip_width;
+    const double a = 0.5 * static_cast<double>(base_width);
+    const double b = 0.5 * static_cast<double>(tip_width);
+    const Settings& settings = bytecode.settings;
+    kept_mass = mass_of_cone(length, a, b, static_cast<double>(settings.density));
+    kept_spring = spring_of_beam(length, a, b, static_cast<double>(settings.elasticity));
+}
+
 /// Volume of a truncated cone times the density.
 inline float Turtle::State::mass_of(double length, float base_width, float tip_width) {
-    if (length != kept_length || base_width != kept_base || tip_width != kept_tip) {
-        kept_length = length;
-        kept_base = base_width;
-        kept_tip = tip_width;
-        const double a = 0.5 * static_cast<double>(base_width);
-        const double b = 0.5 * static_cast<double>(tip_width);
-        kept_mass = mass_of_cone(length, a, b, static_cast<double>(bytecode.settings.density));
-    }
+    keep_shape(length, base_width, tip_width);
     return kept_mass;
+}
+
+/// Spring constant of a segment without a given one.
+inline float Turtle::State::spring_of(double length, float base_width, float tip_width) {
+    if (bytecode.settings.has_spring) {
+        return bytecode.settings.spring;
+    }
+    keep_shape(length, base_width, tip_width);
+    return kept_spring;
 }
 
 /// The next segment of the path, for which there is room.

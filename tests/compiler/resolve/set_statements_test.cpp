@@ -62,6 +62,24 @@ TEST_CASE("every setting of the table is read within its range") {
 #include "compiler/bytecode/settings.def"
 }
 
+TEST_CASE("the spring of all joints is a number or computed for each") {
+    const auto spring = [](const std::string& value) {
+        const test::Compiled c = set("spring", value);
+        CHECK(c.errors().empty());
+        const Settings& settings = c.outcome.program->settings;
+        return settings.has_spring ? settings.spring : -1.0F;
+    };
+    CHECK(spring("auto") == -1.0F);
+    CHECK(spring("0") == 0.0F);
+    CHECK(spring("7.5") == 7.5F);
+    CHECK(is_refused("spring", "-1"));
+    CHECK(is_refused("spring", "auto auto"));
+    CHECK_FALSE(Settings{}.has_spring);
+    const test::Compiled constant =
+        test::compile_text("#define stiff 12;\n#set spring stiff;\n#w : F;\n");
+    CHECK(constant.outcome.program->settings.spring == 12.0F);
+}
+
 TEST_CASE("a turtle profile gives the program its traits") {
     CHECK(test::compile_text("#w : F;\n").outcome.program->settings.traits == TurtleTraits{});
     for (const TurtleProfile profile : enumerators_of<TurtleProfile>()) {
@@ -109,7 +127,9 @@ TEST_CASE("the help for an unknown key lists every setting") {
     REQUIRE(error->help.size() == 1);
     CHECK(error->help[0] ==
           "the settings are `turtle`, `names`, `rewriting`, `choice`, `weights`, `random`, "
-          "`tropism`, `seed`, `at_depth`, `height`, `pipe`, `angle`, `step`, `width`, "
-          "`angle_scale`, `step_scale`, `width_scale`, `spring`, `density`, `damping`, `sides`, "
-          "`decompose_depth`, `interpret_depth`");
+          "`tropism`, `seed`, `spring`, `load`, `at_depth`, `height`, `pipe`, `angle`, `step`, "
+          "`width`, "
+          "`angle_scale`, `step_scale`, "
+          "`width_scale`, `elasticity`, `density`, `damping`, `sides`, `decompose_depth`, "
+          "`interpret_depth`");
 }

@@ -23,6 +23,7 @@ constexpr double kPi = std::numbers::pi;
 PhysicsOptions in_vacuum() {
     PhysicsOptions options;
     options.air_density = 0.0F;
+    options.ground = false;
     options.threads = 1;
     return options;
 }

@@ -11,6 +11,7 @@ using namespace lsys;
 namespace {
 
 constexpr double kDensity = 500.0;
+constexpr StemMaterial kWood{kDensity, 9e9};
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
 /// A rod whose mass is that of its volume.
@@ -70,7 +71,7 @@ TEST_CASE("a chain keeps the width of its tip") {
         for (int i = 0; i < 100; ++i) {
             last = test::add_segment(plant, last, test::leaning(0.0F), wood(1.0F, 3.0F));
         }
-        REQUIRE(apply_pipe({exponent, 0.02F}, kDensity, kNoLimit, plant) == std::nullopt);
+        REQUIRE(apply_pipe({exponent, 0.02F}, kWood, kNoLimit, plant) == std::nullopt);
         for (const Segment& segment : plant.segments) {
             CHECK(segment.base_radius == 0.01F);
             CHECK(segment.tip_radius == 0.01F);
@@ -81,7 +82,7 @@ TEST_CASE("a chain keeps the width of its tip") {
 TEST_CASE("the cross-section of a binary tree is that of its tips") {
     constexpr std::uint32_t kDepth = 10;
     Skeleton plant = binary_tree(kDepth);
-    REQUIRE(apply_pipe({2.0F, 0.25F}, kDensity, kNoLimit, plant) == std::nullopt);
+    REQUIRE(apply_pipe({2.0F, 0.25F}, kWood, kNoLimit, plant) == std::nullopt);
     for (std::uint32_t i = 0; i < plant.segments.size(); ++i) {
         const double width = width_of(plant.segments[i]);
         const double tips = std::ldexp(1.0, static_cast<int>(kDepth - level_of(i)));
@@ -95,7 +96,7 @@ TEST_CASE("widths of any plant satisfy the pipe model") {
     for (const float exponent : {1.0F, 1.5F, 2.0F, 2.49F, 3.0F, 4.0F}) {
         Skeleton plant = test::random_plant(numbers, 500, 1.0);
         const Skeleton before = plant;
-        REQUIRE(apply_pipe({exponent, 0.03F}, kDensity, kNoLimit, plant) == std::nullopt);
+        REQUIRE(apply_pipe({exponent, 0.03F}, kWood, kNoLimit, plant) == std::nullopt);
         const std::vector<double> expected =
             widths_by_definition(plant, static_cast<double>(exponent), 0.03);
         for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -112,9 +113,9 @@ TEST_CASE("widths of any plant satisfy the pipe model") {
 TEST_CASE("the pipe model needs room for a count of each segment") {
     Skeleton plant = binary_tree(3);
     const std::uint64_t bytes = plant.byte_count() + 4 * plant.segments.size();
-    CHECK(apply_pipe({2.0F, 1.0F}, kDensity, bytes - 1, plant) == Stop::Limit);
+    CHECK(apply_pipe({2.0F, 1.0F}, kWood, bytes - 1, plant) == Stop::Limit);
     CHECK(plant.segments[0].base_radius == 0.5F);
-    CHECK(apply_pipe({2.0F, 1.0F}, kDensity, bytes, plant) == std::nullopt);
+    CHECK(apply_pipe({2.0F, 1.0F}, kWood, bytes, plant) == std::nullopt);
 }
 
 TEST_CASE("factors of the pipe model are roots") {
@@ -140,12 +141,16 @@ TEST_CASE("a plant is scaled to its height, with its widths") {
             static_cast<double>(segment.length), static_cast<double>(segment.base_radius),
             static_cast<double>(segment.tip_radius), kDensity));
         segment.mass = static_cast<float>(mass);
+        segment.spring = spring_of_beam(static_cast<double>(segment.length),
+                                        static_cast<double>(segment.base_radius),
+                                        static_cast<double>(segment.tip_radius), kWood.elasticity);
     }
     plant.segments[5].mass = 1.25F; // the author's
+    plant.segments[7].spring = 30.0F;
     const Skeleton before = plant;
     const double old_height = height_of(before);
     CHECK(old_height == Approx(measure(before).height).epsilon(1e-6));
-    REQUIRE(scale_to_height(17.0, kDensity, plant));
+    REQUIRE(scale_to_height(17.0, kWood, plant));
     const double factor = 17.0 / old_height;
     CHECK(height_of(plant) == Approx(17.0).epsilon(1e-6));
     for (std::size_t i = 0; i < plant.segments.size(); ++i) {
@@ -157,8 +162,11 @@ TEST_CASE("a plant is scaled to its height, with its widths") {
         check_close(now.base_radius, then.base_radius, factor);
         check_close(now.tip_radius, then.tip_radius, factor);
         CHECK(now.frame == then.frame);
-        CHECK(now.spring == then.spring);
         const double volumes = i == 5 ? 1.0 : factor * factor * factor;
+        // d^4 / l: as the volume.
+        CHECK(static_cast<double>(now.spring) ==
+              Approx((i == 7 ? 1.0 : factor * factor * factor) * static_cast<double>(then.spring))
+                  .epsilon(1e-5));
         CHECK(static_cast<double>(now.mass) ==
               Approx(volumes * static_cast<double>(then.mass)).epsilon(1e-5));
     }
@@ -171,13 +179,13 @@ TEST_CASE("a plant is scaled to its height, with its widths") {
 
 TEST_CASE("a flat plant has no height, an empty one needs none") {
     Skeleton empty;
-    CHECK(scale_to_height(1.0, kDensity, empty));
+    CHECK(scale_to_height(1.0, kWood, empty));
     CHECK(height_of(empty) == 0.0);
     Skeleton flat;
     test::add_segment(flat, kNoSegment, test::leaning(1.5707964F), wood(2.0F, 0.1F));
-    CHECK_FALSE(scale_to_height(1.0, kDensity, flat)); // though its tip is 1e-7 m off
+    CHECK_FALSE(scale_to_height(1.0, kWood, flat)); // though its tip is 1e-7 m off
     CHECK(flat.segments[0].length == 2.0F);
     Skeleton point;
     point.objects.emplace_back();
-    CHECK_FALSE(scale_to_height(1.0, kDensity, point));
+    CHECK_FALSE(scale_to_height(1.0, kWood, point));
 }

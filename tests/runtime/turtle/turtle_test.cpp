@@ -123,12 +123,13 @@ TEST_CASE("length, width, spring and mass of a segment are its parameters") {
     REQUIRE(s.size() == 5);
     CHECK(s[0].length == 2.0F);
     CHECK(s[0].base_radius == 0.25F);
-    CHECK(s[0].spring == 30.0F);
+    CHECK(s[0].spring == Approx(9e9 * 3.14159265 / 64.0 * 0.0625 / 2.0)); // E I / l
     CHECK(s[0].mass == Approx(3.14159265 * 0.0625 * 2.0 * 500.0));
     CHECK(s[1].spring == 7.0F);
     CHECK(s[2].mass == 9.0F);
     CHECK(s[3].base_radius == 0.5F);
     CHECK(s[3].tip_radius == 0.25F);
+    CHECK(s[3].spring == Approx(9e9 * 3.14159265 / 64.0 * std::pow(0.75, 4) / 3.0));
     // Backwards: from where the turtle was, the other way.
     CHECK(s[4].length == 2.0F);
     CHECK(heading(s[4].frame).y == Approx(-1.0F));

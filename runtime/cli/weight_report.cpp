@@ -1,0 +1,134 @@
+#include "runtime/cli/weight_report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace lsys::lsc {
+
+namespace {
+
+constexpr std::uint32_t kRounds = 2000;
+
+/// The next number of two digits that is not smaller.
+double rounded_up(double value) {
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+    return std::ceil(value / unit - 1e-9) * unit;
+}
+
+std::string number_text(double value) {
+    return fmt::format("{:.2g}", value);
+}
+
+/// "`#set elasticity 1.2e+10`, or widths times 1.8"; empty if nothing was found.
+std::string advice(const WeightReport& report) {
+    std::vector<std::string> ways;
+    if (report.elasticity) {
+        ways.push_back(fmt::format("`#set elasticity {};`", number_text(*report.elasticity)));
+    }
+    if (report.spring) {
+        ways.push_back(fmt::format("`#set spring {};`", number_text(*report.spring)));
+    }
+    if (report.width_factor) {
+        ways.push_back(fmt::format("widths times {}", number_text(*report.width_factor)));
+    }
+    return ways.empty() ? "" : fmt::format("it stands with {}", fmt::join(ways, ", or with "));
+}
+
+bool has_one_spring(const Skeleton& plant) {
+    return !plant.segments.empty() &&
+           std::all_of(plant.segments.begin(), plant.segments.end(), [&](const Segment& segment) {
+               return segment.spring == plant.segments[0].spring && segment.spring > 0.0F;
+           });
+}
+
+} // namespace
+
+WeightReport weigh(const Skeleton& plant, const Settings& settings, const PhysicsOptions& options) {
+    WeightReport report;
+    report.gravity = static_cast<double>(options.gravity);
+    report.stability = stability_of(plant, options);
+    report.height_left = bent_height(plant, options, kRounds);
+    if (report.stands()) {
+        return report;
+    }
+    const std::optional<double> stiffer = standing_factor(plant, options, Stiffening::Springs);
+    const auto elasticity = static_cast<double>(settings.elasticity);
+    if (!settings.has_spring && has_automatic_springs(plant, elasticity)) {
+        if (stiffer && elasticity > 0.0) {
+            report.elasticity = rounded_up(elasticity * *stiffer);
+        }
+        if (const auto wider = standing_factor(plant, options, Stiffening::Widths)) {
+            report.width_factor = rounded_up(*wider);
+        }
+    } else if (stiffer && settings.has_spring && has_one_spring(plant)) {
+        report.spring = rounded_up(static_cast<double>(settings.spring) * *stiffer);
+    }
+    return report;
+}
+
+std::string weight_text(const WeightReport& report) {
+    std::string text = fmt::format("under {:.4g} m/s2 the plant keeps {:.0f} % of its height",
+                                   report.gravity, 100.0 * report.height_left);
+    const Stability& stability = report.stability;
+    if (std::isfinite(stability.load_factor)) {
+        text += fmt::format("; it buckles at {:.3g} times its weight", stability.load_factor);
+    }
+    text += '\n';
+    if (stability.trunk_factor) {
+        text += fmt::format("the trunk, {:.3g} m long and {:.3g} m wide, alone as a column buckles "
+                            "at {:.3g} times its weight\n",
+                            stability.trunk_length, stability.trunk_width, *stability.trunk_factor);
+        if (*stability.trunk_factor < 1.0) { // Greenhill: the factor grows with the width squared
+            text += fmt::format("it is too thin by {:.3g} m\n",
+                                stability.trunk_width *
+                                    (1.0 / std::sqrt(*stability.trunk_factor) - 1.0));
+        }
+    }
+    const std::string ways = advice(report);
+    if (!ways.empty()) {
+        text += ways + '\n';
+    }
+    return text;
+}
+
+std::string weight_json(const WeightReport& report) {
+    nlohmann::ordered_json object;
+    const Stability& stability = report.stability;
+    const auto add = [&](const char* name, const std::optional<double>& value) {
+        if (value && std::isfinite(*value)) {
+            object[name] = *value;
+        }
+    };
+    object["gravity"] = report.gravity;
+    object["height_left"] = report.height_left;
+    object["stands"] = report.stands();
+    add("load_factor", stability.load_factor);
+    object["trunk_length"] = stability.trunk_length;
+    object["trunk_width"] = stability.trunk_width;
+    add("trunk_factor", stability.trunk_factor);
+    add("standing_width_factor", report.width_factor);
+    add("standing_elasticity", report.elasticity);
+    add("standing_spring", report.spring);
+    return object.dump() + '\n';
+}
+
+ExitStatus
+warn_of_fall(const WeightReport& report, const Grammar& grammar, const Console& console) {
+    if (report.stands()) {
+        return ExitStatus::Ok;
+    }
+    Diagnostics diagnostics;
+    Diagnostic& warning =
+        diagnostics.add(DiagnosticCode::WeakStem, {},
+                        fmt::format("the plant sinks to {:.0f} % of its height under {:.4g} m/s2",
+                                    100.0 * report.height_left, report.gravity));
+    const std::string ways = advice(report);
+    warning.help.push_back(ways.empty() ? "make its segments wider or stiffer" : ways);
+    return console.show(diagnostics, *grammar.sources);
+}
+
+} // namespace lsys::lsc

@@ -1,0 +1,49 @@
+// A tip that stands above the ground at rest can always be out of it: its base is, and a level
+// segment has both ends at one height. Bases away from the parent's tip are raised by themselves.
+#include "runtime/physics/impl/ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsys {
+
+glm::dquat raised(const Body& body, const glm::dquat& turn, const glm::dvec3& shift) {
+    const double depth = ground_depth(body, {turn, shift});
+    if (!(depth > 0.0)) {
+        return turn;
+    }
+    const glm::dvec3 arm = turn * body.tip;
+    const double length = glm::length(arm);
+    const double level = std::hypot(arm.x, arm.z);
+    if (!(length > 0.0)) {
+        return turn;
+    }
+    // The direction of a tip that hangs straight down is as good as any other.
+    const double x = level > 1e-9 * length ? arm.x / level : 1.0;
+    const double z = level > 1e-9 * length ? arm.z / level : 0.0;
+    const double height = std::clamp((arm.y + depth) / length, -1.0, 1.0);
+    const double angle = std::asin(height) - std::asin(std::clamp(arm.y / length, -1.0, 1.0));
+    // About (-z, 0, x), which takes the level direction (x, 0, z) to +Y.
+    const double half = 0.5 * angle;
+    const glm::dquat up(std::cos(half), std::sin(half) * glm::dvec3(-z, 0.0, x));
+    return glm::normalize(up * turn);
+}
+
+void rest_on_ground(const Bodies& plant, const Skeleton& rest, std::vector<BodyPose>& poses) {
+    for (std::size_t b = 0; b < plant.bodies.size(); ++b) {
+        const Body& body = plant.bodies[b];
+        BodyPose& pose = poses[b];
+        const Segment& segment = rest.segments[plant.segments[b]];
+        if (body.parent != kNoSegment) {
+            const BodyPose& parent = poses[body.parent];
+            pose.shift = parent.shift + (parent.turn * body.offset - body.offset);
+            const auto base = static_cast<double>(segment.base.y);
+            if (!segment.linked && (base >= 0.0 || body.clearance < kNoGround)) {
+                pose.shift.y = std::max(pose.shift.y, -std::max(base, 0.0));
+            }
+        }
+        pose.turn = raised(body, pose.turn, pose.shift);
+    }
+}
+
+} // namespace lsys

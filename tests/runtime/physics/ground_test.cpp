@@ -1,0 +1,163 @@
+// The ground and the rule of loads.
+#include "runtime/physics/physics.h"
+#include "tests/runtime/plants.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+using namespace lsys;
+using namespace lsys::test;
+
+namespace {
+
+/// The lowest of the ends of segments, objects and corners of `bent` that `rest` has above the
+/// ground.
+double lowest(const Skeleton& rest, const Skeleton& bent) {
+    float low = 1.0F;
+    const auto see = [&](const glm::vec3& before, const glm::vec3& after) {
+        if (before.y >= 0.0F) {
+            low = std::min(low, after.y);
+        }
+    };
+    for (std::size_t i = 0; i < rest.segments.size(); ++i) {
+        see(tip(rest.segments[i]), tip(bent.segments[i]));
+        see(rest.segments[i].base, bent.segments[i].base);
+    }
+    for (std::size_t i = 0; i < rest.objects.size(); ++i) {
+        const auto end = [](const PlacedObject& object) {
+            return object.position + object.size * heading(object.frame);
+        };
+        see(rest.objects[i].position, bent.objects[i].position);
+        if (rest.objects[i].position.y >= 0.0F) {
+            see(end(rest.objects[i]), end(bent.objects[i]));
+        }
+    }
+    for (std::size_t i = 0; i < rest.corners.size(); ++i) {
+        see(rest.corners[i], bent.corners[i]);
+    }
+    return static_cast<double>(low);
+}
+
+} // namespace
+
+TEST_CASE("nothing that stands above the ground ends below it, and energy does not grow") {
+    std::mt19937 numbers(4);
+    for (int plant_number = 0; plant_number < 60; ++plant_number) {
+        Skeleton plant = random_plant(numbers, 1 + below(numbers, 40), 0.5);
+        plant.corners = {{0.0F, 1.0F, 0.0F}, {0.3F, 0.5F, 0.1F}, {0.0F, 0.4F, 0.2F}};
+        plant.polygons.push_back({.first_corner = 0, .corner_count = 3, .parent = 0});
+        PhysicsOptions options;
+        options.threads = 1;
+        options.damping = plant_number % 2 == 0 ? 0.01F : 1.0F;
+        options.load = plant_number % 3 == 0 ? LoadRule::Own : LoadRule::Carried;
+        PlantPhysics physics(plant, options);
+        Skeleton bent;
+        double energy = physics.energy();
+        for (int i = 0; i < 120; ++i) {
+            physics.step();
+            REQUIRE(std::isfinite(physics.energy()));
+            REQUIRE(physics.energy() <= energy);
+            energy = physics.energy();
+            physics.pose(bent);
+            CAPTURE(plant_number, i);
+            REQUIRE(lowest(plant, bent) >= -2e-5);
+        }
+        static_cast<void>(physics.settle(1e-6, 300));
+        physics.pose(bent);
+        CAPTURE(plant_number);
+        CHECK(lowest(plant, bent) >= -2e-5);
+    }
+}
+
+TEST_CASE("a stalk without stiffness lies on the ground, at its radius") {
+    Skeleton plant;
+    const std::uint32_t first =
+        add_segment(plant, kNoSegment, leaning(0.3F), rod(1.0F, 0.02F, 0.0F, 1.0F));
+    add_segment(plant, first, leaning(0.2F), rod(1.0F, 0.02F, 0.0F, 1.0F));
+    PhysicsOptions options;
+    options.threads = 1;
+    for (const LoadRule load : {LoadRule::Carried, LoadRule::Own}) {
+        options.load = load;
+        PlantPhysics physics(plant, options);
+        REQUIRE(physics.settle(1e-8, 500));
+        Skeleton bent;
+        physics.pose(bent);
+        for (const Segment& segment : bent.segments) {
+            CHECK(tip(segment).y == Approx(0.02).margin(1e-6));
+        }
+        CHECK(tip(bent.segments[1]).x > 1.9F);
+    }
+    // Without the ground it hangs.
+    options.load = LoadRule::Carried;
+    options.ground = false;
+    PlantPhysics hanging(plant, options);
+    REQUIRE(hanging.settle(1e-8, 500));
+    Skeleton bent;
+    hanging.pose(bent);
+    CHECK(tip(bent.segments[1]).y == Approx(-2.0).margin(1e-5));
+}
+
+TEST_CASE("what is away from the ground does not feel it") {
+    const Skeleton plant = tree(2, 4);
+    PhysicsOptions options;
+    options.threads = 1;
+    PlantPhysics with(plant, options);
+    options.ground = false;
+    PlantPhysics without(plant, options);
+    for (int i = 0; i < 30; ++i) {
+        with.step();
+        without.step();
+    }
+    Skeleton a;
+    Skeleton b;
+    with.pose(a);
+    without.pose(b);
+    CHECK(same(a, b));
+}
+
+TEST_CASE("with own loads each joint bears its own segment only") {
+    // k (a - a_parent - rest angle) = m g l / 2 sin(a), from the root on.
+    constexpr double kMoment = 2.0 * 9.81 * 1.5 / 2.0;
+    Skeleton plant;
+    std::uint32_t last = kNoSegment;
+    const std::array<double, 4> leans = {0.3, 0.6, 1.0, 1.3};
+    for (const double lean : leans) {
+        last = add_segment(plant, last, leaning(static_cast<float>(lean)),
+                           rod(1.5F, 0.03F, 30.0F, 2.0F));
+    }
+    PhysicsOptions options;
+    options.air_density = 0.0F;
+    options.ground = false;
+    options.threads = 1;
+    options.load = LoadRule::Own;
+    PlantPhysics physics(plant, options);
+    REQUIRE(physics.settle(1e-9, 100));
+    Skeleton bent;
+    physics.pose(bent);
+    double parent = 0.0; // its turn since rest
+    for (std::size_t i = 0; i < leans.size(); ++i) {
+        double low = 0.0;
+        double high = std::numbers::pi;
+        for (int round = 0; round < 100; ++round) {
+            const double middle = 0.5 * (low + high);
+            const double angle = leans[i] + parent + middle;
+            (30.0 * middle < kMoment * std::sin(angle) ? low : high) = middle;
+        }
+        parent += low;
+        const glm::vec3 up = heading(bent.segments[i].frame);
+        CHECK(std::atan2(static_cast<double>(up.x), static_cast<double>(up.y)) ==
+              Approx(leans[i] + parent).margin(3e-6));
+    }
+    // A straight trunk bears any crown, which is why the printed springs hold.
+    Skeleton straight;
+    last = add_segment(straight, kNoSegment, leaning(0.0F), rod(1.0F, 0.03F, 1.0F, 100.0F));
+    add_segment(straight, last, leaning(1.2F), rod(1.0F, 0.03F, 1e4F, 100.0F));
+    PlantPhysics standing(straight, options);
+    REQUIRE(standing.settle(1e-9, 100));
+    standing.pose(bent);
+    CHECK(heading(bent.segments[0].frame).y == Approx(1.0F));
+}

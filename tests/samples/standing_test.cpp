@@ -1,0 +1,114 @@
+// The plants of the gallery stand under their weight.
+#include "runtime/physics/stability.h"
+#include "runtime/pipeline/plant.h"
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace lsys;
+
+Skeleton skeleton_of(const std::string& name) {
+    const std::string path =
+        std::string(LSYS_SOURCE_DIR) + "/samples/" + name + "/" + name + ".lsys";
+    Project project;
+    project.threads = 1;
+    project.host.read_file = [](const std::string& file,
+                                const ReadLimit& /*limit*/) -> Result<std::string> {
+        return tests::read_text(file);
+    };
+    project.host.read_named_file = project.host.read_file;
+    project.host.file_exists = [](const std::string& file) {
+        return std::filesystem::exists(file);
+    };
+    Outcome<Grammar> grammar = load_grammar(path, {}, project);
+    REQUIRE(grammar);
+    PlantOptions options;
+    options.file = path;
+    Outcome<Plant> plant = grow_plant(options, grammar.value(), project);
+    REQUIRE(plant);
+    return std::move(plant.value().skeleton);
+}
+
+double height_left(const std::string& name) {
+    PhysicsOptions options;
+    options.gravity = 9.81F;
+    options.threads = 1;
+    return bent_height(skeleton_of(name), options, 2000);
+}
+
+const std::vector<std::string> kTrees = {"abop-2-6-monopodial", "abop-2-8a",        "abop-2-8b",
+                                         "abop-2-8d",           "bench-w3-ternary", "carey-type-0",
+                                         "carey-type-1",        "carey-type-2",     "teach-param"};
+const std::vector<std::string> kOthers = {
+    "abop-1-24b",
+    "abop-1-24c",
+    "abop-1-24f",
+    "abop-1-25-bush",
+    "abop-1-26-plant",
+    "abop-1-27-stochastic",
+    "abop-1-31a",
+    "abop-1-31b",
+    "abop-1-31c",
+    "abop-1-31d",
+    "abop-1-31e",
+    "abop-2-7-sympodial",
+    "abop-3-2-crocus",
+    "abop-lychnis",
+    "abop-mycelis",
+    "bench-w2-weed",
+    "bench-w4-bush",
+    "bench-w5-conditional",
+    "crankshaw-2-11-random",
+    "crankshaw-7-1",
+    "crankshaw-7-2",
+    "crankshaw-7-3",
+    "sys-figure-1",
+    "teach-choice-generation",
+    "teach-include",
+    "teach-picture",
+    "teach-random-range",
+};
+/// Plants that do not stand, and the reason.
+const std::map<std::string, std::string> kExceptions = {
+    {"abop-1-24a", "stems of 254 segments, drawn as lines: ten times as wide they would be blots"},
+    {"abop-1-24d", "as abop-1-24a"},
+    {"abop-1-24e", "as abop-1-24a"},
+    {"abop-2-8c", "its boughs hang to the ground: a stem of 240 m at a tenth of its width"},
+    {"abop-5-11-compound-leaf", "a leaf, which lies flat"},
+    {"crankshaw-7-3-as-printed", "the defects of the print: a chain of 390 m"},
+};
+
+} // namespace
+
+TEST_CASE("plants of the gallery keep 70 % of their height under their weight") {
+    CHECK(kExceptions.size() <= 8);
+    std::vector<std::string> plants = kTrees;
+    plants.insert(plants.end(), kOthers.begin(), kOthers.end());
+    CHECK(plants.size() >= 30);
+    for (const std::string& name : plants) {
+        const double left = height_left(name);
+        CAPTURE(name, left);
+        CHECK(left >= kStandingHeight);
+        CHECK(left <= 1.05);
+        CHECK(kExceptions.count(name) == 0);
+    }
+}
+
+TEST_CASE("trees sag less than herbs") {
+    for (const std::string& name : kTrees) {
+        const double left = height_left(name);
+        CAPTURE(name, left);
+        CHECK(left >= 0.98);
+    }
+    CHECK(height_left("abop-lychnis") < 0.95);
+    CHECK(height_left("abop-1-24c") < 0.95);
+}
