@@ -9,6 +9,7 @@
 #include "runtime/meshing/mesh.h"
 #include "runtime/physics/animation.h"
 #include "runtime/pipeline/plant.h"
+#include "runtime/pipeline/plant_growth.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
@@ -186,6 +187,94 @@ ExitStatus write_bent(Export& run) {
     return ExitStatus::Ok;
 }
 
+/// Prints the counts of the plant and the times of the export.
+ExitStatus write_stats(const Export& run, const Plant& plant) {
+    const ExportCommand& command = run.command;
+    const std::string text = command.messages.format == MessageFormat::Json
+                                 ? export_stats_json(plant, run.mesh, run.timing)
+                                 : export_stats_text(plant, run.mesh, run.timing);
+    if (command.output == "-") { // standard output holds the plant
+        run.console.line(text);
+        return ExitStatus::Ok;
+    }
+    return report_result(run.console.write(text), run.console);
+}
+
+/// Writes the plant from its axiom to its last generation, a numbered file for each frame.
+/// `grown`: the last of them.
+ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
+    const ExportCommand& command = run.command;
+    for (std::uint32_t frame = 0; frame < command.frames; ++frame) {
+        const GrowthMoment moment =
+            moment_of_frame(frame, command.frames, growth.last_generation());
+        ExitStatus status = run.console.interrupted()
+                                ? ExitStatus::Interrupted
+                                : run.console.take(growth.pose(moment, run.project, grown));
+        if (status == ExitStatus::Ok) {
+            status = write_plant(run, grown, numbered_path(command.output, frame + 1));
+        }
+        if (status != ExitStatus::Ok) {
+            report_complete_frames(command.output, frame, command.frames, run.console);
+            return status;
+        }
+    }
+    return ExitStatus::Ok;
+}
+
+/// A message about options that do not go together; empty if there are none.
+std::string find_conflict(const ExportCommand& command, ExportFormat format) {
+    const bool bends = command.gravity || command.wind;
+    if (command.grow && command.frames == 0) {
+        return "--grow writes a numbered series; say of how many files with --frames";
+    }
+    if (command.grow && bends) {
+        return "--grow and --gravity or --wind do not go together";
+    }
+    if (command.grow && command.stream) {
+        return "--grow and --stream do not go together, because a generation is drawn between "
+               "stored words";
+    }
+    if (command.settle && !bends) {
+        return "--settle needs a force: --gravity or --wind";
+    }
+    if (command.frames != 0 && !bends && !command.grow) {
+        return "--frames needs something that moves: --gravity, --wind or --grow";
+    }
+    if (command.frames != 0 && command.output == "-" && command.grow) {
+        return "--grow writes several files, which do not go to standard output";
+    }
+    if (command.frames != 0 && command.output == "-" && !traits_of(format).motion) {
+        return fmt::format(
+            "--frames writes several files of this format, which do not go to standard "
+            "output; {} hold all frames in one",
+            format_names("and", [](const FormatTraits& each) { return each.motion; }));
+    }
+    return {};
+}
+
+/// Grows the plant of a compiled grammar in frames and writes them.
+ExitStatus export_growth(const ExportCommand& command,
+                         ExportFormat format,
+                         Grammar& grammar,
+                         const Project& project,
+                         const Console& console) {
+    Outcome<PlantGrowth> begun = PlantGrowth::begin(plant_options(command), grammar, project);
+    console.show(begun.messages());
+    if (!begun) {
+        return status_of(begun.stop());
+    }
+    PlantGrowth& growth = begun.value();
+    Export run{command, format, grammar, console, project, growth.plant(), {}, {}, {}};
+    Skeleton grown;
+    const ExitStatus status = write_growth(run, growth, grown);
+    if (status != ExitStatus::Ok || !command.stats) {
+        return status;
+    }
+    Plant last = growth.plant();
+    last.skeleton = std::move(grown);
+    return write_stats(run, last);
+}
+
 } // namespace
 
 ExitStatus run_command(const ExportCommand& command, const Console& console) {
@@ -198,18 +287,8 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
                               command.output)},
             console);
     }
-    const bool bends = command.gravity || command.wind;
-    if ((command.settle || command.frames != 0) && !bends) {
-        return report_error(Error{"--settle and --frames need a force: --gravity or --wind"},
-                            console);
-    }
-    if (command.frames != 0 && command.output == "-" && !traits_of(*format).motion) {
-        return report_error(
-            Error{fmt::format(
-                "--frames writes several files of this format, which do not go to standard "
-                "output; {} hold all frames in one",
-                format_names("and", [](const FormatTraits& each) { return each.motion; }))},
-            console);
+    if (const std::string conflict = find_conflict(command, *format); !conflict.empty()) {
+        return report_error(Error{conflict}, console);
     }
     Grammar grammar;
     Project project = make_project(console, command.run);
@@ -218,6 +297,10 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
         return status;
     }
     grammar.program.reset(); // frees memory for the plant
+    if (command.grow) {
+        return export_growth(command, *format, grammar, project, console);
+    }
+    const bool bends = command.gravity || command.wind;
     Plant plant;
     PipelineProgress progress(console, project.host);
     Outcome<Plant> grown = grow_plant(plant_options(command), grammar, project);
@@ -236,15 +319,7 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
         run.timing.physics_seconds =
             seconds_since(start) - run.timing.mesh_seconds - run.timing.write_seconds;
     }
-    const std::string text = command.messages.format == MessageFormat::Json
-                                 ? export_stats_json(plant, run.mesh, run.timing)
-                                 : export_stats_text(plant, run.mesh, run.timing);
-    if (command.output == "-") { // standard output holds the plant
-        console.line(text);
-        return status;
-    }
-    const Result<void> written = console.write(text);
-    return written ? status : report_error(written.error(), console);
+    return write_stats(run, plant);
 }
 
 } // namespace lsys::lsc

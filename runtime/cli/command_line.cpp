@@ -148,6 +148,9 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_parsed(app, "--frames", command.frames, integer(1, kMaxFrames), frames.c_str())
         ->type_name("N")
         ->group("Physics");
+    app.add_flag("--grow", command.grow,
+                 "The frames show the plant from its axiom to its last generation: numbered files, "
+                 "with parts of generations between whole ones");
     const auto rate = [](const std::string& text) { return parse_number(text, 0.1F, 1000.0F); };
     add_parsed(app, "--fps", command.frames_per_second, rate, "Frames per second (default 24)")
         ->type_name("F")
@@ -163,7 +166,8 @@ void add_export(CLI::App& app, ExportCommand& command) {
                "output. SVG is\n"
                "the projection to the XY plane. A skin has at most 65,535 moving joints.\n"
                "Examples: lsc export tree.lsys -o tree.glb\n"
-               "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 48 --fps 24");
+               "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 48 --fps 24\n"
+               "          lsc export tree.lsys -o tree.glb --grow --frames 100");
 }
 
 void add_forest(CLI::App& app, ForestCommand& command) {

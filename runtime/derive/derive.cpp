@@ -363,6 +363,18 @@ std::optional<Stop> Derivation::derive() {
     return stop ? stop : check_brackets();
 }
 
+bool Derivation::follow() {
+    const std::span<Origin> origins = state_->word.origins();
+    LSYS_CHECK(origins.size() == state_->word.module_count(), origins.size());
+    if (origins.size() > kNone) {
+        return false;
+    }
+    for (std::uint32_t i = 0; i < origins.size(); ++i) {
+        origins[i] = {i, state_->age | kFollowed};
+    }
+    return true;
+}
+
 std::optional<Stop> Derivation::check_brackets() {
     return state_->run([this] { return state_->check_brackets(); });
 }

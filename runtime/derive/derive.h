@@ -83,6 +83,11 @@ public:
     [[nodiscard]] std::optional<Stop> run_to(std::uint32_t age);
     /// Runs the whole derivation: start(), run_to(DeriveOptions::generations), check_brackets().
     [[nodiscard]] std::optional<Stop> derive();
+    /// Follows the modules of the word: the origin of each becomes its index, with kFollowed and
+    /// age(). After step() the origin of a module names the module of the former word that it was
+    /// copied from, or, with the new age, rewritten from. Returns false if the word has more than
+    /// 2^32 - 1 modules. Precondition: DeriveOptions::origins.
+    [[nodiscard]] bool follow();
     /// Checks that every `]` of the word has its `[`. Commands call it on the last word. The error
     /// names the production that wrote the `]` if only one can have.
     [[nodiscard]] std::optional<Stop> check_brackets();

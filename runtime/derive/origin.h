@@ -11,6 +11,10 @@
 
 namespace lsys {
 
+/// Bit of Origin::generation of a followed module (Derivation::follow()): `place` is the index of a
+/// module in the word that was followed, and all that is written for it keeps that index.
+inline constexpr std::uint32_t kFollowed = 1U << 31;
+
 struct Origin {
     /// Index in Bytecode::template_codes of the module of the axiom or successor. kNone: unknown,
     /// because the module was in the word of a saved state.

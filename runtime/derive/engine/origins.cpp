@@ -48,6 +48,9 @@ private:
         }
         if (entry->candidate == kNone) {
             *out_++ = word_.origins[index_];
+        } else if ((word_.origins[index_].generation & kFollowed) != 0) {
+            const Origin followed{word_.origins[index_].place, request_.generation | kFollowed};
+            out_ = std::fill_n(out_, entry->code_count, followed);
         } else {
             for (std::uint32_t i = 0; i < entry->code_count; ++i) {
                 out_[i] = {entry->first_place + i, request_.generation};

@@ -1,6 +1,6 @@
 // The origins of the modules that a pass writes: a second walk over the records of the counting
 // pass, if DeriveOptions::origins asks for them. The modules of a successor have that place as
-// origin; a copied module keeps its origin.
+// origin; a copied module keeps its origin. Successors of a followed module keep its index.
 #pragma once
 
 #include "runtime/derive/engine/active_mask.h"

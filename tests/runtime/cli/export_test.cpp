@@ -143,6 +143,46 @@ TEST_CASE("frames are numbered files that begin at rest") {
     CHECK(read_text(folder / "tree.0003.stl") != read_text(folder / "tree.0002.stl"));
 }
 
+TEST_CASE("frames that grow are numbered files from the axiom to the last generation") {
+    const auto file_of = [](const std::string& generations) {
+        return run_lsc({"export", "-", "-o", "-", "--format", "stl", "-n", generations}, kTree).out;
+    };
+    const ScratchFolder folder;
+    const LscRun run = run_lsc({"export", "-", "-o", folder / "tree.stl", "--grow", "--frames", "9",
+                                "--stats", "--message-format", "json"},
+                               kTree);
+    REQUIRE(run.status == 0);
+    CHECK(count_files(folder) == 9);
+    for (int generation = 0; generation <= 4; ++generation) {
+        CHECK(read_text(folder / ("tree.000" + std::to_string(2 * generation + 1) + ".stl")) ==
+              file_of(std::to_string(generation)));
+    }
+    for (int frame = 1; frame < 9; ++frame) {
+        CHECK(read_text(folder / ("tree.000" + std::to_string(frame) + ".stl")) !=
+              read_text(folder / ("tree.000" + std::to_string(frame + 1) + ".stl")));
+    }
+    const nlohmann::json stats = nlohmann::json::parse(run.out);
+    const LscRun whole = run_lsc(
+        {"export", "-", "-o", folder / "whole.stl", "--stats", "--message-format", "json"}, kTree);
+    CHECK(stats["segments"] == nlohmann::json::parse(whole.out)["segments"]);
+
+    const auto refused = [&](const std::vector<std::string>& more, const std::string& part) {
+        std::vector<std::string> arguments{"export", "-", "-o", folder / "no.glb"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const LscRun refusal = run_lsc(arguments, kTree);
+        CHECK(refusal.status == 2);
+        CHECK(refusal.err.find(part) != std::string::npos);
+    };
+    refused({"--grow"}, "--frames");
+    refused({"--grow", "--frames", "2", "--wind", "1,0,0"}, "do not go together");
+    refused({"--grow", "--frames", "2", "--stream"}, "do not go together");
+    refused({"--frames", "2"}, "--gravity, --wind or --grow");
+    const LscRun piped =
+        run_lsc({"export", "-", "-o", "-", "--format", "glb", "--grow", "--frames", "2"}, kTree);
+    CHECK(piped.status == 2);
+    CHECK(count_files(folder) == 10);
+}
+
 TEST_CASE("glb and gltf hold all frames in one file, also on standard output") {
     const ScratchFolder folder;
     const std::vector<std::string> force{"--frames", "3", "--fps", "12", "--wind", "8,0,0,0.5"};

@@ -1,0 +1,442 @@
+#include "runtime/turtle/growth.h"
+
+#include "runtime/turtle/impl/correspondence.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+/// Where something stands, before (0) and after (1).
+template <typename T>
+using Ends = std::array<T, 2>;
+
+/// A frame and the point that children start from.
+struct Joint {
+    glm::dquat frame{1.0, 0.0, 0.0, 0.0};
+    glm::dvec3 tip{};
+};
+
+/// How something moves against its parent.
+struct Motion {
+    Ends<glm::quat> turn;
+    Ends<glm::vec3> offset;            // from the parent's tip, in its frame
+    std::uint32_t parent = kNoSegment; // of the segments to write
+    bool eases = false;                // grows or shrinks
+};
+
+struct MovingSegment {
+    Motion motion;
+    Ends<float> length{};
+    Ends<float> base_radius{};
+    Ends<float> tip_radius{};
+    bool is_apart = false; // does not begin at its parent's end, though it does at one end of time
+};
+
+struct MovingObject {
+    Motion motion;
+    Ends<float> size{};
+};
+
+struct MovingPolygon {
+    Motion motion; // of its frame
+    std::uint32_t first_corner = 0;
+};
+
+double mixed(float before, float after, double part) {
+    return static_cast<double>(before) +
+           part * (static_cast<double>(after) - static_cast<double>(before));
+}
+
+glm::dvec3 mixed(const Ends<glm::vec3>& ends, double part) {
+    return glm::dvec3(ends[0]) + part * (glm::dvec3(ends[1]) - glm::dvec3(ends[0]));
+}
+
+/// Precondition: the turns are on the same side (shorter_way()).
+glm::dquat mixed(const Ends<glm::quat>& ends, double part) {
+    return glm::normalize(glm::dquat(ends[0]) * (1.0 - part) + glm::dquat(ends[1]) * part);
+}
+
+/// A turn and its negative are the same; the nearer one is the shorter way.
+void shorter_way(Ends<glm::quat>& turn) {
+    if (glm::dot(turn[0], turn[1]) < 0.0F) {
+        turn[1] = -turn[1];
+    }
+}
+
+/// Slow at both ends.
+double eased(double part) {
+    return part * part * (3.0 - 2.0 * part);
+}
+
+glm::dvec3 tip_of(const glm::dvec3& base, const glm::dquat& frame, double length) {
+    return base + frame * glm::dvec3(0.0, length, 0.0);
+}
+
+/// A start of growth is this near to the parent's end, as a part of its coordinates, by rounding.
+constexpr double kRounding = 1e-5;
+
+} // namespace
+
+struct SkeletonGrowth::State {
+    Skeleton before;
+    Skeleton after;
+    GrowthCounts counts;
+    LargeVector<MovingSegment> segments; // of `after`, then those that shrink
+    LargeVector<MovingObject> objects;
+    LargeVector<MovingPolygon> polygons;
+    LargeVector<Ends<glm::vec3>> corners;     // from the parent's tip, in its frame
+    LargeVector<std::uint32_t> gone_segments; // in `before`
+    LargeVector<std::uint32_t> gone_objects;
+    LargeVector<std::uint32_t> gone_polygons;
+    // Only while it is made.
+    LargeVector<Ends<Joint>> joints; // by segment
+    LargeVector<std::uint32_t> now;  // the segment to write that continues one of `before`
+
+    [[nodiscard]] Joint joint(std::uint32_t segment, std::size_t end) const {
+        return segment == kNoSegment ? Joint{} : joints[segment][end];
+    }
+    /// The segment to write that stands for a segment of `before`.
+    [[nodiscard]] std::uint32_t now_of(std::uint32_t segment) const {
+        return segment == kNoSegment ? kNoSegment : now[segment];
+    }
+
+    void set_end(Motion& motion,
+                 std::size_t end,
+                 const glm::dvec3& place,
+                 const glm::dquat& frame) const {
+        const Joint from = joint(motion.parent, end);
+        const glm::dquat back = glm::conjugate(from.frame);
+        motion.turn[end] = glm::quat(back * frame);
+        motion.offset[end] = glm::vec3(back * (place - from.tip));
+    }
+    /// The end at which it is nothing, once the other end is set: at the parent's tip, turned
+    /// against it as at the other end. What has no parent stays in its place.
+    static void set_nothing(Motion& motion, std::size_t end) {
+        motion.turn[end] = motion.turn[1 - end];
+        motion.offset[end] = motion.parent == kNoSegment ? motion.offset[1 - end] : glm::vec3(0.0F);
+        motion.eases = true;
+    }
+
+    void add_joints(const MovingSegment& moving) {
+        Ends<Joint> made;
+        for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+            const Joint from = joint(moving.motion.parent, end);
+            made[end].frame = glm::normalize(from.frame * glm::dquat(moving.motion.turn[end]));
+            made[end].tip = tip_of(from.tip + from.frame * glm::dvec3(moving.motion.offset[end]),
+                                   made[end].frame, static_cast<double>(moving.length[end]));
+        }
+        joints.push_back(made);
+    }
+
+    void set_widths(MovingSegment& moving, std::size_t end, const Segment& segment) {
+        moving.length[end] = segment.length;
+        moving.base_radius[end] = segment.base_radius;
+        moving.tip_radius[end] = segment.tip_radius;
+    }
+
+    void add_segment(std::uint32_t index, const SegmentPiece& piece) {
+        const Segment& segment = after.segments[index];
+        MovingSegment moving;
+        moving.motion.parent = segment.parent;
+        set_end(moving.motion, 1, segment.base, segment.frame);
+        set_widths(moving, 1, segment);
+        if (piece.of == kNoSegment) {
+            set_nothing(moving.motion, 0);
+            ++counts.grown;
+        } else {
+            const Segment& old = before.segments[piece.of];
+            const glm::dquat frame(old.frame);
+            const double low = static_cast<double>(old.length) * static_cast<double>(piece.low);
+            set_end(moving.motion, 0, tip_of(old.base, frame, low), frame);
+            moving.length[0] = old.length * (piece.high - piece.low);
+            moving.base_radius[0] = static_cast<float>(
+                mixed(old.base_radius, old.tip_radius, static_cast<double>(piece.low)));
+            moving.tip_radius[0] = static_cast<float>(
+                mixed(old.base_radius, old.tip_radius, static_cast<double>(piece.high)));
+            const glm::vec3& offset = moving.motion.offset[0];
+            const double near = kRounding * (1.0 + static_cast<double>(glm::length(old.base)));
+            if (segment.linked && static_cast<double>(glm::length(offset)) > near) {
+                moving.is_apart = true;
+            } else if (segment.linked) {
+                moving.motion.offset = {};
+            }
+            now[piece.of] = index; // the last piece
+            ++counts.kept;
+        }
+        shorter_way(moving.motion.turn);
+        add_joints(moving);
+        segments.push_back(moving);
+    }
+
+    void add_gone_segment(std::uint32_t index) {
+        const Segment& segment = before.segments[index];
+        MovingSegment moving;
+        moving.motion.parent = now_of(segment.parent);
+        set_end(moving.motion, 0, segment.base, segment.frame);
+        set_widths(moving, 0, segment);
+        set_nothing(moving.motion, 1);
+        now[index] = static_cast<std::uint32_t>(segments.size());
+        add_joints(moving);
+        segments.push_back(moving);
+        gone_segments.push_back(index);
+        ++counts.gone;
+    }
+
+    void move_segments(const std::vector<SegmentPiece>& pieces) {
+        now.assign(before.segments.size(), kNoSegment);
+        for (std::uint32_t i = 0; i < after.segments.size(); ++i) {
+            add_segment(i, pieces[i]);
+        }
+        for (std::uint32_t i = 0; i < before.segments.size(); ++i) {
+            if (now[i] == kNoSegment) {
+                add_gone_segment(i);
+            }
+        }
+    }
+
+    void move_objects(const std::vector<std::uint32_t>& old_of) {
+        std::vector<bool> is_kept(before.objects.size(), false);
+        for (std::uint32_t i = 0; i < after.objects.size(); ++i) {
+            const PlacedObject& object = after.objects[i];
+            MovingObject moving;
+            moving.motion.parent = object.parent;
+            set_end(moving.motion, 1, object.position, object.frame);
+            moving.size[1] = object.size;
+            if (old_of[i] == kNone) {
+                set_nothing(moving.motion, 0);
+                ++counts.grown;
+            } else {
+                const PlacedObject& old = before.objects[old_of[i]];
+                set_end(moving.motion, 0, old.position, old.frame);
+                moving.size[0] = old.size;
+                is_kept[old_of[i]] = true;
+                ++counts.kept;
+            }
+            shorter_way(moving.motion.turn);
+            objects.push_back(moving);
+        }
+        for (std::uint32_t i = 0; i < before.objects.size(); ++i) {
+            if (is_kept[i]) {
+                continue;
+            }
+            const PlacedObject& object = before.objects[i];
+            MovingObject moving;
+            moving.motion.parent = now_of(object.parent);
+            set_end(moving.motion, 0, object.position, object.frame);
+            moving.size[0] = object.size;
+            set_nothing(moving.motion, 1);
+            objects.push_back(moving);
+            gone_objects.push_back(i);
+            ++counts.gone;
+        }
+    }
+
+    /// The corner of a polygon as seen from the parent.
+    [[nodiscard]] glm::vec3
+    local_corner(const glm::vec3& corner, std::uint32_t parent, std::size_t end) const {
+        const Joint from = joint(parent, end);
+        return {glm::conjugate(from.frame) * (glm::dvec3(corner) - from.tip)};
+    }
+
+    /// Adds the corners at one end of time; at the other the polygon is nothing.
+    void add_corners(const glm::vec3* first,
+                     std::uint32_t count,
+                     std::uint32_t parent,
+                     std::size_t end) {
+        const glm::vec3 nothing =
+            parent == kNoSegment ? local_corner(*first, parent, end) : glm::vec3(0.0F);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            Ends<glm::vec3>& corner = corners.emplace_back();
+            corner[end] = local_corner(first[i], parent, end);
+            corner[1 - end] = nothing;
+        }
+    }
+
+    void move_polygons(const std::vector<std::uint32_t>& old_of) {
+        std::vector<bool> is_kept(before.polygons.size(), false);
+        for (std::uint32_t i = 0; i < after.polygons.size(); ++i) {
+            const Polygon& polygon = after.polygons[i];
+            MovingPolygon moving;
+            moving.first_corner = static_cast<std::uint32_t>(corners.size());
+            moving.motion.parent = polygon.parent;
+            set_end(moving.motion, 1, {}, polygon.frame);
+            add_corners(&after.corners[polygon.first_corner], polygon.corner_count, polygon.parent,
+                        1);
+            if (old_of[i] == kNone) {
+                set_nothing(moving.motion, 0);
+                ++counts.grown;
+            } else {
+                const Polygon& old = before.polygons[old_of[i]];
+                set_end(moving.motion, 0, {}, old.frame);
+                for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {
+                    // More corners than before: neighbours begin in one.
+                    const auto at = static_cast<std::uint32_t>(std::uint64_t{k} * old.corner_count /
+                                                               polygon.corner_count);
+                    corners[moving.first_corner + k][0] =
+                        local_corner(before.corners[old.first_corner + at], polygon.parent, 0);
+                }
+                is_kept[old_of[i]] = true;
+                counts.sharp += polygon.corner_count < old.corner_count ? 1 : 0;
+                ++counts.kept;
+            }
+            shorter_way(moving.motion.turn);
+            polygons.push_back(moving);
+        }
+        for (std::uint32_t i = 0; i < before.polygons.size(); ++i) {
+            if (is_kept[i]) {
+                continue;
+            }
+            const Polygon& polygon = before.polygons[i];
+            MovingPolygon moving;
+            moving.first_corner = static_cast<std::uint32_t>(corners.size());
+            moving.motion.parent = now_of(polygon.parent);
+            set_end(moving.motion, 0, {}, polygon.frame);
+            set_nothing(moving.motion, 1);
+            add_corners(&before.corners[polygon.first_corner], polygon.corner_count,
+                        moving.motion.parent, 0);
+            polygons.push_back(moving);
+            gone_polygons.push_back(i);
+            ++counts.gone;
+        }
+    }
+
+    static void copy_drawing(const Skeleton& from, Skeleton& out) {
+        out.segments = from.segments;
+        out.objects = from.objects;
+        out.polygons = from.polygons;
+        out.corners = from.corners;
+    }
+
+    /// What is drawn of `after`, then of `before`, with all that does not move.
+    void copy_fixed(Skeleton& out) const {
+        copy_drawing(after, out);
+        for (const std::uint32_t index : gone_segments) {
+            out.segments.push_back(before.segments[index]);
+        }
+        for (const std::uint32_t index : gone_objects) {
+            out.objects.push_back(before.objects[index]);
+        }
+        for (const std::uint32_t index : gone_polygons) {
+            out.polygons.push_back(before.polygons[index]);
+        }
+        out.corners.resize(corners.size());
+    }
+
+    void pose(double part, Skeleton& out) const {
+        const double ease = eased(part);
+        std::vector<Joint> placed(segments.size());
+        const Joint root;
+        const auto joint_of = [&](const Motion& motion) -> const Joint& {
+            return motion.parent == kNoSegment ? root : placed[motion.parent];
+        };
+        const auto place_of = [&](const Motion& motion, double now_part) {
+            const Joint& from = joint_of(motion);
+            return Joint{glm::normalize(from.frame * mixed(motion.turn, now_part)),
+                         from.tip + from.frame * mixed(motion.offset, now_part)};
+        };
+        for (std::size_t i = 0; i < segments.size(); ++i) {
+            const MovingSegment& moving = segments[i];
+            const double way = moving.motion.eases ? ease : part;
+            const Joint base = place_of(moving.motion, way);
+            const double length = mixed(moving.length[0], moving.length[1], way);
+            placed[i] = {base.frame, tip_of(base.tip, base.frame, length)};
+            Segment& segment = out.segments[i];
+            segment.base = base.tip;
+            segment.frame = base.frame;
+            segment.length = static_cast<float>(length);
+            segment.base_radius =
+                static_cast<float>(mixed(moving.base_radius[0], moving.base_radius[1], way));
+            segment.tip_radius =
+                static_cast<float>(mixed(moving.tip_radius[0], moving.tip_radius[1], way));
+            segment.parent = moving.motion.parent;
+            segment.linked = segment.linked && !moving.is_apart;
+        }
+        for (std::size_t i = 0; i < objects.size(); ++i) {
+            const MovingObject& moving = objects[i];
+            const double way = moving.motion.eases ? ease : part;
+            const Joint at = place_of(moving.motion, way);
+            PlacedObject& object = out.objects[i];
+            object.position = at.tip;
+            object.frame = at.frame;
+            object.size = static_cast<float>(mixed(moving.size[0], moving.size[1], way));
+            object.parent = moving.motion.parent;
+        }
+        for (std::size_t i = 0; i < polygons.size(); ++i) {
+            const MovingPolygon& moving = polygons[i];
+            const double way = moving.motion.eases ? ease : part;
+            const Joint& from = joint_of(moving.motion);
+            Polygon& polygon = out.polygons[i];
+            polygon.frame = place_of(moving.motion, way).frame;
+            polygon.parent = moving.motion.parent;
+            polygon.first_corner = moving.first_corner;
+            for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {
+                out.corners[polygon.first_corner + k] =
+                    from.tip + from.frame * mixed(corners[moving.first_corner + k], way);
+            }
+        }
+    }
+};
+
+SkeletonGrowth::SkeletonGrowth(Skeleton before,
+                               Skeleton after,
+                               std::uint32_t generation,
+                               std::span<const Origin> ancestors)
+    : state_(std::make_unique<State>()) {
+    State& state = *state_;
+    state.before = std::move(before);
+    state.after = std::move(after);
+    const Correspondence found =
+        find_correspondence(state.before, state.after, generation, ancestors);
+    state.move_segments(found.pieces);
+    state.move_objects(found.objects);
+    state.move_polygons(found.polygons);
+    state.joints = {};
+    state.now = {};
+}
+
+SkeletonGrowth::~SkeletonGrowth() = default;
+SkeletonGrowth::SkeletonGrowth(SkeletonGrowth&&) noexcept = default;
+SkeletonGrowth& SkeletonGrowth::operator=(SkeletonGrowth&&) noexcept = default;
+
+void SkeletonGrowth::pose(double part, Skeleton& out) const {
+    out.mesh_files = state_->after.mesh_files;
+    out.l3d_compatible_surface = state_->after.l3d_compatible_surface;
+    if (part <= 0.0) {
+        State::copy_drawing(state_->before, out);
+    } else if (part >= 1.0) {
+        State::copy_drawing(state_->after, out);
+    } else {
+        state_->copy_fixed(out);
+        state_->pose(part, out);
+    }
+}
+
+const Skeleton& SkeletonGrowth::before() const {
+    return state_->before;
+}
+const Skeleton& SkeletonGrowth::after() const {
+    return state_->after;
+}
+Skeleton SkeletonGrowth::take_after() {
+    return std::move(state_->after);
+}
+const GrowthCounts& SkeletonGrowth::counts() const {
+    return state_->counts;
+}
+std::uint64_t SkeletonGrowth::byte_count() const {
+    return state_->before.byte_count() + state_->after.byte_count() +
+           state_->segments.size() * sizeof(MovingSegment) +
+           state_->objects.size() * sizeof(MovingObject) +
+           state_->polygons.size() * sizeof(MovingPolygon) +
+           state_->corners.size() * sizeof(Ends<glm::vec3>);
+}
+
+} // namespace lsys
