@@ -1,0 +1,40 @@
+// ForestGrowth: a forest placed by domination over its years, in steps as small as wanted.
+#pragma once
+
+#include "grammar/base/outcome.h"
+#include "runtime/forest/tree_growth.h"
+#include "runtime/pipeline/forest.h"
+#include "runtime/pipeline/growth_moment.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace lsys {
+
+class ForestGrowth {
+public:
+    /// Starts with the seedlings of year 0. `scene` and `terrain` outlive the growth. Stop::Failed:
+    /// another placement, or errors of Domination::begin().
+    [[nodiscard]] static Outcome<ForestGrowth>
+    begin(const Scene& scene, const Terrain& terrain, const Project& project);
+    ~ForestGrowth();
+    ForestGrowth(ForestGrowth&&) noexcept;
+    ForestGrowth& operator=(ForestGrowth&&) noexcept;
+
+    /// Years of the scene.
+    [[nodiscard]] std::uint32_t last_year() const;
+    /// Advances to the moment, which is not after the last year, and writes its trees, painting
+    /// applied, to `trees`. At whole years they are those of place_forest() with that number of
+    /// years; between them those of trees_between(). An earlier moment than the last starts again.
+    [[nodiscard]] Outcome<void> trees(const GrowthMoment& moment,
+                                      const TreeHeight& height_of,
+                                      const Project& project,
+                                      LargeVector<Tree>& trees);
+
+private:
+    struct State;
+    explicit ForestGrowth(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+} // namespace lsys
