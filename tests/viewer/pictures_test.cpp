@@ -4,6 +4,7 @@
 #include "tests/viewer/picture.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -267,6 +269,73 @@ TEST_CASE("a series has as many pictures as asked for, each another") {
     CHECK(stats["width"] == 64);
 }
 
+TEST_CASE("a series that grows shows whole generations and moments between them") {
+    const ScratchFolder folder;
+    const std::string camera = "eye 300,300,900 target 0,250,0 fov 45";
+    const std::vector<std::string> view = {sample("abop-2-8a"), "--size", "96x72",
+                                           "--camera",          camera,   "--screenshot"};
+    const auto with = [&view](std::initializer_list<std::string> more) {
+        std::vector<std::string> arguments = view;
+        arguments.insert(arguments.end(), more);
+        return run_lsview(arguments);
+    };
+    const LscRun run = with({folder / "a.png", "-n", "3", "--grow", "--frames", "7"});
+    CAPTURE(run.err);
+    REQUIRE(run.status == 0);
+    CHECK(run.err.empty());
+    REQUIRE(with({folder / "one.png", "-n", "1"}).status == 0);
+    REQUIRE(with({folder / "three.png", "-n", "3"}).status == 0);
+    CHECK(read_text(folder / "a.0003.png") == read_text(folder / "one.png"));
+    CHECK(read_text(folder / "a.0007.png") == read_text(folder / "three.png"));
+    for (int i = 1; i < 7; ++i) {
+        CHECK(read_text(folder / fmt::format("a.{:04}.png", i)) !=
+              read_text(folder / fmt::format("a.{:04}.png", i + 1)));
+    }
+}
+
+TEST_CASE("a forest of domination grows year by year in a series") {
+    const ScratchFolder folder;
+    write_text(
+        folder / "wood.toml",
+        fmt::format("key = 3\n[terrain]\nsize = 40\n[placement]\nmethod = \"domination\"\n"
+                    "count = 60\nyears = 8\n[[species]]\ngrammar = \"{}\"\n"
+                    "stages = [1, 3]\nyears_of_stage = 4\nheroes = 2\nscale = [0.02, 0.03]\n",
+                    sample("abop-2-8a")));
+    const std::vector<std::string> view = {
+        folder / "wood.toml", "--size", "96x72", "--camera", "eye 60,30,60 target 20,0,20 fov 45",
+        "--screenshot"};
+    std::vector<std::string> series = view;
+    series.insert(series.end(), {folder / "a.png", "--grow", "--frames", "5"});
+    const LscRun run = run_lsview(series);
+    CAPTURE(run.err);
+    REQUIRE(run.status == 0);
+    std::vector<std::string> still = view;
+    still.insert(still.end(), {folder / "b.png", "--years", "8"});
+    REQUIRE(run_lsview(still).status == 0);
+    CHECK(read_text(folder / "a.0005.png") == read_text(folder / "b.png"));
+    for (int i = 1; i < 5; ++i) {
+        CHECK(read_text(folder / fmt::format("a.{:04}.png", i)) !=
+              read_text(folder / fmt::format("a.{:04}.png", i + 1)));
+    }
+}
+
+TEST_CASE("a series in which nothing moves says so") {
+    const ScratchFolder folder;
+    const auto said = [&folder](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {
+            sample("abop-1-24a"), "-n", "1", "--size", "32x24", "--frames", "2", "--screenshot",
+            folder / "a.png"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const LscRun run = run_lsview(arguments);
+        CHECK(run.status == 0);
+        return run.err;
+    };
+    CHECK(said({}).find("nothing moves") != std::string::npos);
+    CHECK(said({"--grow"}).empty());
+    CHECK(said({"--turntable"}).empty());
+    CHECK(said({"--wind", "9,0,0"}).empty());
+}
+
 TEST_CASE("wind moves a plant, and no wind leaves it as it is") {
     const std::vector<std::string> still = {sample("crankshaw-7-1"), "--size", "160x120"};
     std::vector<std::string> calm = still;
@@ -296,6 +365,15 @@ TEST_CASE("what cannot be shown ends with a message") {
         {{"-"}, 2, "standard input"},
         {{"none.lsys"}, 2, "cannot read `none.lsys`"},
         {{sample("abop-1-24a"), "--turntable"}, 2, "series of pictures"},
+        {{sample("abop-1-24a"), "--grow", "--screenshot", "-"}, 2, "add `--frames N`"},
+        {{sample("abop-1-24a"), "--grow", "--frames", "2", "--screenshot", folder / "a.png",
+          "--wind", "1,0,0"},
+         2,
+         "at rest"},
+        {{scene("meadow"), "--grow", "--frames", "2", "--size", "32x24", "--screenshot",
+          folder / "a.png"},
+         2,
+         "only a forest placed by domination grows"},
         {{sample("abop-1-24a"), "--screenshot", "-", "--frames", "2"}, 2, "standard output"},
         {{sample("abop-1-24a"), "--screenshot", "-", "--shaders", folder / "none"}, 2, "no shader"},
         {{sample("abop-1-24a"), "--screenshot", folder / "no/such.png"}, 2, "such.png"},

@@ -1,12 +1,18 @@
 #include "viewer/app/forest_pictures.h"
 
+#include "runtime/pipeline/forest_growth.h"
+#include "runtime/program/host.h"
 #include "viewer/app/picture_series.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <functional>
+#include <limits>
+#include <optional>
 #include <sys/resource.h>
+#include <utility>
 
 namespace lsys::view {
 
@@ -89,13 +95,53 @@ std::string stats_text(const ViewOptions& options,
     return stats.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+/// Shows the forest at a moment of its growth.
+ExitStatus show_moment(const GrowthMoment& moment,
+                       const Project& project,
+                       const Console& console,
+                       ForestGrowth& growth,
+                       ForestDocument& document,
+                       Renderer& renderer) {
+    const auto height_of = [&](const Tree& tree) {
+        return document.model.forms[document.model.form_of(tree)].height();
+    };
+    const ExitStatus status =
+        console.take(growth.trees(moment, height_of, project, document.grown.forest.trees));
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    if (const Result<void> shown = renderer.show_forest(document.model); !shown) {
+        return report_error(shown.error(), console);
+    }
+    static_cast<void>(renderer.bake_impostors(std::numeric_limits<double>::infinity()));
+    return ExitStatus::Ok;
+}
+
 } // namespace
 
 ExitStatus take_forest_pictures(const ViewOptions& options,
                                 const Camera& camera,
-                                const ForestDocument& document,
+                                ForestDocument& document,
                                 Renderer& renderer,
                                 const Console& console) {
+    std::optional<ForestGrowth> growth;
+    const Project project = make_project(console, options.run);
+    std::uint32_t frame_number = 0;
+    std::function<ExitStatus(const Frame&)> prepare;
+    if (options.grow) {
+        Outcome<ForestGrowth> begun =
+            ForestGrowth::begin(document.scene, *document.grown.terrain, project);
+        if (!begun) {
+            console.show(begun.messages());
+            return status_of(begun.stop());
+        }
+        growth.emplace(std::move(begun.value()));
+        prepare = [&](const Frame& /*frame*/) {
+            const GrowthMoment moment =
+                moment_of_frame(frame_number++, options.frames, growth->last_year());
+            return show_moment(moment, project, console, *growth, document, renderer);
+        };
+    }
     PictureSeries series;
     std::vector<double> cull;
     FrameStats shadow;
@@ -107,7 +153,8 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
     };
     Frame frame = frame_of(options, camera);
     frame.light = forest_light(document);
-    const ExitStatus status = take_series(options, frame, renderer, console, {}, after, series);
+    const ExitStatus status =
+        take_series(options, frame, renderer, console, prepare, after, series);
     return status != ExitStatus::Ok || options.stats.empty()
                ? status
                : write_stats_text(

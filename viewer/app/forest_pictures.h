@@ -8,10 +8,11 @@
 
 namespace lsys::view {
 
-/// `renderer` must show the forest.
+/// `renderer` must show the forest. With ViewOptions::grow the document's trees become those of each
+/// picture in turn.
 [[nodiscard]] ExitStatus take_forest_pictures(const ViewOptions& options,
                                               const Camera& camera,
-                                              const ForestDocument& document,
+                                              ForestDocument& document,
                                               Renderer& renderer,
                                               const Console& console);
 

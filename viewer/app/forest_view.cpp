@@ -62,7 +62,7 @@ ForestView::ForestView(const ViewOptions& options,
                        std::function<void()> wake)
     : View(options, console, renderer), settings(first_forest_settings(options)),
       wake_(std::move(wake)), painting_(renderer), frame_next_(options.camera.empty()),
-      loader_(make_forest, wake_),
+      plays_next_(options.grow), loader_(make_forest, wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
                  files_changed(files, since);
@@ -194,6 +194,9 @@ void ForestView::swap(ForestOutcome outcome) {
     const PlacementOptions& placement = document_->scene.placement;
     if (!outcome.request.edits.years) {
         default_years_ = placement.method == PlacementMethod::Domination ? placement.years : 0;
+    }
+    if (std::exchange(plays_next_, false)) {
+        play_or_pause();
     }
     settings.brush.species = static_cast<std::uint16_t>(
         std::min<std::size_t>(settings.brush.species, document_->scene.species.size() - 1));

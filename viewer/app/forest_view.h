@@ -132,6 +132,7 @@ private:
     ForestPainting painting_;
     std::vector<std::string> files_;
     bool frame_next_ = false; // at the next swap
+    bool plays_next_ = false; // from the next swap on
     bool logs_next_frame_ = false;
     bool has_impostors_ = true;
     std::optional<SceneOverrides> requested_;

@@ -68,7 +68,10 @@ run_forest_pictures(const ViewOptions& options, const Camera& camera, const Cons
     if (status != ExitStatus::Ok) {
         return status;
     }
-    if (const Result<void> shown = made.renderer->show_forest(std::move(document.model)); !shown) {
+    // A forest that grows is shown again and again.
+    if (const Result<void> shown =
+            made.renderer->show_forest(options.grow ? document.model : std::move(document.model));
+        !shown) {
         return report_error(shown.error(), console);
     }
     static_cast<void>(made.renderer->bake_impostors(std::numeric_limits<double>::infinity()));

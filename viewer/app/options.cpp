@@ -83,6 +83,11 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         ->group("Picture");
     app.add_flag("--turntable", options.turntable, "The series goes once around the plant")
         ->group("Picture");
+    app.add_flag("--grow", options.grow,
+                 "The series grows: a plant from its axiom to its last generation, with parts of "
+                 "generations between whole ones, or a forest of domination year by year; in a "
+                 "window growth plays at once")
+        ->group("Picture");
     app.add_option("--stats", options.stats,
                    "Write counts and times of the pictures as JSON; `-` is standard output")
         ->type_name("FILE")
@@ -176,6 +181,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
         "Examples: lsview tree.lsys --screenshot tree.png --size 1920x1080\n"
         "          lsview wood.toml\n"
         "          lsview wood.toml --screenshot wood.png\n"
+        "          lsview tree.lsys --screenshot tree.png --grow --frames 240\n"
         "          lsview oak.lsys birch.lsys --count 10000 --forest-size 700 --screenshot "
         "wood.png");
     try {
@@ -198,6 +204,13 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     }
     if (options.turntable && options.frames == 0) {
         return UsageError{"--turntable is a series of pictures", "add `--frames N`"};
+    }
+    if (options.grow && !options.screenshot.empty() && options.frames == 0) {
+        return UsageError{"--grow is a series of pictures", "add `--frames N`"};
+    }
+    if (options.grow && !options.is_forest && (options.gravity || options.wind)) {
+        return UsageError{"--grow shows a plant at rest, without --gravity and --wind",
+                          "leave them out, or --grow"};
     }
     if (options.frames != 0 && options.screenshot == "-") {
         return UsageError{"a series of pictures does not go to standard output",

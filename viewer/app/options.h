@@ -49,6 +49,7 @@ struct ViewOptions {
     std::uint32_t frames = 0; // count of a numbered series; 0: one picture
     float frames_per_second = 24.0F;
     bool turntable = false; // the series orbits once
+    bool grow = false;      // the series shows growth; in a window growth plays at once
     std::string stats;      // JSON file; `-`: standard output
 };
 

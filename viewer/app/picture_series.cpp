@@ -84,6 +84,11 @@ ExitStatus take_series(const ViewOptions& options,
                        const std::function<ExitStatus(const Frame& frame)>& prepare,
                        const std::function<void(const Frame& frame)>& after,
                        PictureSeries& series) {
+    if (options.frames > 1 && !options.turntable && !options.grow && !options.gravity &&
+        !options.wind) {
+        console.info("nothing moves, so all pictures of the series are alike: --grow shows growth, "
+                     "--turntable goes around, --wind blows");
+    }
     const Camera camera = frame.camera;
     const std::uint32_t count = std::max(options.frames, 1U);
     for (std::uint32_t i = 0; i < count; ++i) {

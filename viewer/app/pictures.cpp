@@ -1,6 +1,7 @@
 #include "viewer/app/pictures.h"
 
 #include "runtime/physics/physics.h"
+#include "runtime/pipeline/plant_growth.h"
 #include "runtime/program/host.h"
 #include "viewer/app/picture_series.h"
 
@@ -11,6 +12,8 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace lsys::view {
 
@@ -90,6 +93,43 @@ std::string stats_text(const ViewOptions& options,
     return stats.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+/// Shows the messages of a step of a growth. Those of its grammar and of its last drawing were shown
+/// with the document.
+ExitStatus take_news(const Outcome<void>& outcome, const Console& console) {
+    if (!outcome) {
+        return console.take(outcome);
+    }
+    for (const Message& message : outcome.messages().all()) {
+        if (message.kind == Message::Kind::Info) {
+            console.info(message.text);
+        }
+    }
+    return ExitStatus::Ok;
+}
+
+/// `grammar` becomes what the growth needs of the document's, and outlives it.
+ExitStatus begin_growth(const ViewOptions& options,
+                        const PlantDocument& document,
+                        Grammar& grammar,
+                        const Project& project,
+                        const Console& console,
+                        std::optional<PlantGrowth>& growth) {
+    grammar.sources = document.grammar.sources;
+    grammar.bytecode = document.grammar.bytecode;
+    grammar.is_module_file = document.grammar.is_module_file;
+    PlantOptions plant;
+    plant.file = options.file;
+    plant.generations = document.plant.generations;
+    plant.seed = document.plant.seed;
+    Outcome<PlantGrowth> begun = PlantGrowth::begin(plant, grammar, project);
+    if (!begun) {
+        console.show(begun.messages());
+        return status_of(begun.stop());
+    }
+    growth.emplace(std::move(begun.value()));
+    return ExitStatus::Ok;
+}
+
 } // namespace
 
 ExitStatus take_pictures(const ViewOptions& options,
@@ -102,6 +142,29 @@ ExitStatus take_pictures(const ViewOptions& options,
     Mesh mesh;
     const Project project = make_project(console, options.run);
     std::function<ExitStatus(const Frame&)> prepare;
+    Grammar grammar;
+    std::optional<PlantGrowth> growth;
+    std::uint32_t frame_number = 0;
+    if (options.grow) {
+        const ExitStatus begun = begin_growth(options, document, grammar, project, console, growth);
+        if (begun != ExitStatus::Ok) {
+            return begun;
+        }
+        prepare = [&](const Frame& /*frame*/) {
+            const GrowthMoment moment =
+                moment_of_frame(frame_number++, options.frames, growth->last_generation());
+            ExitStatus status = take_news(growth->pose(moment, project, pose), console);
+            if (status == ExitStatus::Ok) {
+                status =
+                    console.take(mesh_plant(document.plant, pose, options.mesh, project), mesh);
+            }
+            if (status == ExitStatus::Ok) {
+                renderer.show_plant(mesh);
+                renderer.show_lines(make_lines(pose, options.lines));
+            }
+            return status;
+        };
+    }
     if (motion.moves()) {
         prepare = [&](const Frame& frame) {
             motion.go_to(frame.time);

@@ -22,6 +22,13 @@ void draw_numbers(const PlantView& view) {
         line("No plant yet");
         return;
     }
+    if (const FilmMoment* const grown = view.grown()) {
+        line(fmt::format("{} modules, {} segments", grouped(grown->modules),
+                         grouped(grown->skeleton.segments.size())));
+        line(fmt::format("{} triangles; generation {:.2f}", grouped(grown->mesh.indices.size() / 3),
+                         static_cast<double>(grown->moment.generation) + grown->moment.part));
+        return;
+    }
     const Plant& plant = document->plant;
     line(fmt::format("{} modules, {} segments", grouped(plant.modules),
                      grouped(plant.skeleton.segments.size())));

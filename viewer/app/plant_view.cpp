@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace lsys::view {
@@ -50,7 +51,8 @@ PlantView::PlantView(const ViewOptions& options,
                      Renderer& renderer,
                      std::function<void()> wake)
     : View(options, console, renderer), settings(first_plant_settings(options)),
-      wake_(std::move(wake)), frame_next_(options.camera.empty()), loader_(wake_),
+      wake_(std::move(wake)), frame_next_(options.camera.empty()), plays_next_(options.grow),
+      loader_(wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
                  const auto shaders =
@@ -100,7 +102,11 @@ bool PlantView::update() {
         has_news = true;
     }
     grow();
-    bend();
+    if (!settings.plays && !is_part_grown_) {
+        bend();
+    } else if (!settings.plays && settings.simulates && !loader_.is_busy() && !failed()) {
+        requested_.reset(); // a moment of growth does not bend: show the plant
+    }
     if (shown_lines_ != settings.lines) {
         show_lines();
     }
@@ -153,8 +159,14 @@ void PlantView::swap(LoadOutcome outcome) {
     drop_unknown_definitions();
     motion_.reset();
     bending_.reset();
+    film_.reset(); // its files may have changed
+    is_part_grown_ = false;
+    grown_ = {};
     renderer_->show_plant(document_->mesh);
     show_lines();
+    if (std::exchange(plays_next_, false)) {
+        settings.plays = true;
+    }
     if (std::exchange(frame_next_, false)) {
         settings.camera = first_view(settings.camera, renderer_->bounds(), aspect_);
     }
@@ -176,6 +188,11 @@ void PlantView::show_lines() {
     if (plant == nullptr) {
         return;
     }
+    if (is_part_grown_) {
+        renderer_->show_lines(make_lines(grown_.skeleton, shown_lines_));
+        changed_ = true;
+        return;
+    }
     const bool is_bent = motion_ != nullptr && !bent_.skeleton.segments.empty();
     const Skeleton& skeleton = is_bent ? bent_.skeleton : plant->plant.skeleton;
     renderer_->show_lines(make_lines(skeleton, shown_lines_));
@@ -186,29 +203,83 @@ void PlantView::watch_files() {
     watch_.watch(watched(files_));
 }
 
+void PlantView::start_growth() {
+    if (generations() >= default_generations() && !is_part_grown_) {
+        settings.generations = 0;
+    }
+    if (!is_part_grown_ || std::floor(growth_position_) != static_cast<double>(generations())) {
+        growth_position_ = static_cast<double>(generations());
+    }
+    last_growth_ = SteadyClock::now();
+    motion_.reset();
+    bending_.reset();
+    if (film_ == nullptr) {
+        film_ = std::make_unique<PlantFilm>(wake_);
+    }
+}
+
+/// Shows the moment that the film has made.
+void PlantView::take_moment() {
+    std::optional<FilmMoment> made = film_->take();
+    if (!made) {
+        return;
+    }
+    if (made->failed) {
+        take_messages(made->messages, false);
+        settings.plays = false;
+        return;
+    }
+    grown_ = std::move(*made);
+    is_part_grown_ = true;
+    ++stats_.moments;
+    renderer_->show_plant(grown_.mesh);
+    show_lines();
+    changed_ = true;
+    if (grown_.moment.generation >= default_generations()) {
+        settings.plays = false;
+        requested_.reset(); // the plant itself, with its messages
+    }
+}
+
+/// Asks for the next moment of growth. Slow plants grow in slow motion.
 void PlantView::grow() {
-    const SteadyClock::time_point now = SteadyClock::now();
     if (!settings.plays || document_ == nullptr) {
-        last_growth_ = now;
+        if (film_ != nullptr) {
+            static_cast<void>(film_->take()); // of a growth that was paused
+        }
         return;
     }
-    const double interval = 1.0 / static_cast<double>(settings.generations_per_second);
-    const bool is_made =
-        requested_ && makes_same_plant(*requested_, settings) && !loader_.is_busy();
-    if (!is_made || std::chrono::duration<double>(now - last_growth_).count() < interval) {
+    if (film_ == nullptr) {
+        start_growth();
+    }
+    take_moment();
+    if (!settings.plays || film_->is_busy()) {
         return;
     }
+    constexpr double kMaxStep = 0.25; // s
+    const SteadyClock::time_point now = SteadyClock::now();
+    const double passed =
+        std::min(std::chrono::duration<double>(now - last_growth_).count(), kMaxStep);
     last_growth_ = now;
-    const std::uint32_t end = default_generations();
-    const std::uint32_t next = failed() ? end : generations() + 1;
-    settings.plays = next < end;
-    settings.generations = std::min(next, end);
+    const auto end = static_cast<double>(default_generations());
+    if (is_part_grown_) {
+        growth_position_ = std::min(
+            growth_position_ + passed * static_cast<double>(settings.generations_per_second), end);
+    }
+    const auto generation = static_cast<std::uint32_t>(growth_position_);
+    ViewOptions options = wanted();
+    options.grammar.generations = default_generations();
+    film_->request(options, {generation, growth_position_ - std::floor(growth_position_)});
+    settings.generations = generation;
+    if (requested_) {
+        requested_->generations = generation; // the film shows it
+    }
 }
 
 void PlantView::play_or_pause() {
     settings.plays = !settings.plays;
-    if (settings.plays && generations() >= default_generations()) {
-        settings.generations = 0;
+    if (settings.plays) {
+        start_growth();
     }
 }
 
@@ -283,6 +354,7 @@ void PlantView::open(const std::string& file) {
     settings.generations.reset();
     settings.seed.reset();
     settings.plays = false;
+    film_.reset();
     frame_next_ = true;
     is_new_file_ = true;
     files_ = {file};

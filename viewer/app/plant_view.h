@@ -3,6 +3,7 @@
 #pragma once
 
 #include "viewer/app/file_watch.h"
+#include "viewer/app/plant_film.h"
 #include "viewer/app/plant_loader.h"
 #include "viewer/app/plant_motion.h"
 #include "viewer/app/view.h"
@@ -50,6 +51,7 @@ struct PlantViewStats {
     double draw_seconds = 0.0;  // last picture
     double bend_seconds = 0.0;  // last moment
     double bend_time = 0.0;     // s, simulated
+    std::uint64_t moments = 0;  // of growth, shown
     FrameStats drawn;
     std::uint64_t swaps = 0;
 };
@@ -84,13 +86,17 @@ public:
     /// Generations without settings.
     [[nodiscard]] std::uint32_t default_generations() const;
     [[nodiscard]] std::uint32_t generations() const;
+    /// The moment of growth that is shown instead of the last plant; null: none.
+    [[nodiscard]] const FilmMoment* grown() const { return is_part_grown_ ? &grown_ : nullptr; }
 
 private:
     void take_outcome(LoadOutcome outcome);
     void swap(LoadOutcome outcome);
     void show_lines();
     void watch_files();
+    void start_growth();
     void grow();
+    void take_moment();
     void bend();
     void drop_unknown_definitions();
     [[nodiscard]] ViewOptions wanted() const;
@@ -108,6 +114,11 @@ private:
     std::optional<PlantViewSettings> requested_; // last request
     LineKind shown_lines_ = LineKind::None;
     SteadyClock::time_point last_growth_;
+    double growth_position_ = 0.0; // generations
+    bool plays_next_ = false;      // from the next swap on
+    bool is_part_grown_ = false;   // `grown_` is shown
+    FilmMoment grown_;
+    std::unique_ptr<PlantFilm> film_; // since growth was played
     BentPlant bent_;
     std::optional<Bending> bending_; // settings of motion_
     std::unique_ptr<PlantMotion> motion_;

@@ -171,15 +171,56 @@ TEST_CASE("settings make the plant anew, and constants that vanish are let go") 
     CHECK(viewed.view.settings.definitions.empty());
 }
 
-TEST_CASE("growth plays from the axiom to the end") {
+TEST_CASE("growth plays from the axiom to the end, with moments between generations") {
     ViewedPlant viewed(plant_options(sample("teach-param")));
     REQUIRE(viewed.until_swaps(1));
-    viewed.view.settings.generations_per_second = 1000.0F;
+    viewed.step();
+    const std::vector<std::uint8_t> whole = viewed.picture();
+    viewed.view.settings.generations_per_second = 20.0F;
     viewed.view.play_or_pause();
     CHECK(viewed.view.generations() == 0);
-    REQUIRE(viewed.until([&] { return !viewed.view.settings.plays; }));
-    REQUIRE(viewed.until([&] { return viewed.view.document()->plant.generations == 7; }));
-    CHECK(viewed.view.stats().swaps == 9); // the first, then 0 to 7
+    bool was_between = false;
+    REQUIRE(viewed.until([&] {
+        const FilmMoment* const grown = viewed.view.grown();
+        was_between = was_between || (grown != nullptr && grown->moment.part > 0.0);
+        return !viewed.view.settings.plays;
+    }));
+    CHECK(was_between);
+    CHECK(viewed.view.stats().moments >= 2);
+    // At the end it is the plant itself.
+    REQUIRE(viewed.until_swaps(2));
+    viewed.step();
+    CHECK(viewed.view.grown() == nullptr);
+    CHECK(viewed.view.document()->plant.generations == 7);
+    CHECK(viewed.picture() == whole);
+}
+
+TEST_CASE("growth that is paused stays, goes on, and makes way for a whole generation") {
+    ViewOptions options = plant_options(sample("teach-param"));
+    options.grow = true; // plays at once
+    ViewedPlant viewed(options);
+    REQUIRE(viewed.until([&] {
+        const FilmMoment* const grown = viewed.view.grown();
+        return grown != nullptr && grown->moment.part > 0.0;
+    }));
+    viewed.view.play_or_pause();
+    const GrowthMoment paused = viewed.view.grown()->moment;
+    for (int i = 0; i < 20; ++i) {
+        viewed.step();
+    }
+    REQUIRE(viewed.view.grown() != nullptr);
+    CHECK(viewed.view.grown()->moment.part == paused.part);
+    CHECK(viewed.view.stats().swaps == 1);
+    viewed.view.play_or_pause();
+    REQUIRE(viewed.until([&] {
+        const GrowthMoment& now = viewed.view.grown()->moment;
+        return now.generation > paused.generation || now.part > paused.part;
+    }));
+    step_generations(viewed.view, 1);
+    REQUIRE(viewed.until_swaps(2));
+    CHECK(viewed.view.grown() == nullptr);
+    CHECK_FALSE(viewed.view.settings.plays);
+    CHECK(viewed.view.document()->plant.generations == viewed.view.generations());
 }
 
 TEST_CASE("a plant bends in the wind and stands again without") {
@@ -210,10 +251,10 @@ TEST_CASE("another file is opened with all in view") {
 }
 
 TEST_CASE("another file is opened without the options of the first") {
-    ViewOptions options = options_of(sample("teach-param"));
+    ViewOptions options = plant_options(sample("teach-param"));
     options.grammar.dialect = "lsys";
     options.grammar.generations = 1;
-    Viewed viewed(options);
+    ViewedPlant viewed(options);
     REQUIRE(viewed.until_swaps(1));
     CHECK(viewed.view.generations() == 1);
     const ScratchFolder scratch;

@@ -1,0 +1,91 @@
+#include "viewer/app/plant_film.h"
+
+#include "runtime/base/out_of_memory.h"
+#include "runtime/pipeline/step.h"
+#include "runtime/program/host.h"
+
+#include <atomic>
+#include <utility>
+
+namespace lsys::view {
+
+namespace {
+
+/// The growth at hand. Used by the film's thread only.
+struct FilmState {
+    std::optional<ViewOptions> options; // that `growth` was begun with
+    Grammar grammar;
+    std::optional<PlantGrowth> growth;
+
+    [[nodiscard]] bool is_of(const ViewOptions& wanted) const {
+        return growth && options->file == wanted.file && options->grammar == wanted.grammar &&
+               options->seed == wanted.seed;
+    }
+
+    [[nodiscard]] Outcome<void> begin(const ViewOptions& wanted, const Project& project) {
+        Step step(project);
+        growth.reset();
+        grammar = {};
+        options = wanted;
+        if (!step.take(load_grammar(wanted.file, wanted.grammar, project), grammar)) {
+            return step.end();
+        }
+        PlantOptions plant;
+        plant.file = wanted.file;
+        plant.generations = wanted.grammar.generations;
+        plant.seed = wanted.seed;
+        Outcome<PlantGrowth> begun = PlantGrowth::begin(plant, grammar, project);
+        step.messages.append(std::move(begun.messages()));
+        if (!begun) {
+            return step.end(begun.stop());
+        }
+        growth.emplace(std::move(begun.value()));
+        return step.done();
+    }
+
+    [[nodiscard]] Outcome<void>
+    make(const FilmRequest& request, const Project& project, FilmMoment& made) {
+        Step step(project);
+        if (!is_of(request.options) && !step.take(begin(request.options, project))) {
+            return step.end();
+        }
+        if (!step.take(growth->pose(request.moment, project, made.skeleton)) ||
+            !step.take(mesh_plant(growth->plant(), made.skeleton, request.options.mesh, project),
+                       made.mesh)) {
+            return step.end();
+        }
+        made.modules = growth->plant().modules;
+        return step.done();
+    }
+};
+
+FilmMoment
+make_moment(FilmState& state, const FilmRequest& request, const std::atomic<bool>& cancelled) {
+    FilmMoment made;
+    made.moment = request.moment;
+    const Project project{make_file_host(&cancelled), request.options.run.limits,
+                          request.options.run.threads, false};
+    const auto work = [&] {
+        Outcome<void> outcome = state.make(request, project, made);
+        made.messages = std::move(outcome.messages());
+        made.failed = !outcome;
+        return true;
+    };
+    if (!catch_out_of_memory(work, [] { return false; })) {
+        made.messages.add_error("out of memory");
+        made.failed = true;
+    }
+    return made;
+}
+
+} // namespace
+
+PlantFilm::PlantFilm(std::function<void()> done)
+    : worker_(
+          [state = std::make_shared<FilmState>()](const FilmRequest& request,
+                                                  const std::atomic<bool>& cancelled) {
+              return make_moment(*state, request, cancelled);
+          },
+          std::move(done)) {}
+
+} // namespace lsys::view

@@ -1,0 +1,47 @@
+// PlantFilm: makes moments of a plant's growth on a thread of its own, for a window that plays it.
+#pragma once
+
+#include "runtime/pipeline/plant_growth.h"
+#include "viewer/app/latest_request_worker.h"
+#include "viewer/app/options.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace lsys::view {
+
+struct FilmRequest {
+    ViewOptions options; // of the plant; its generations are the last of the film
+    GrowthMoment moment;
+    SteadyClock::time_point since;
+    bool again = false;
+};
+
+/// The plant at a moment.
+struct FilmMoment {
+    Skeleton skeleton;
+    Mesh mesh;
+    GrowthMoment moment;
+    std::uint64_t modules = 0; // of the generation that grows
+    Messages messages;
+    bool failed = false;
+};
+
+class PlantFilm {
+public:
+    /// `done` is called on the film's thread whenever take() has a moment.
+    explicit PlantFilm(std::function<void()> done);
+
+    /// Derivation goes on from the moment before if the plant is the same.
+    void request(const ViewOptions& options, const GrowthMoment& moment) {
+        worker_.request({options, moment, SteadyClock::now(), false});
+    }
+    [[nodiscard]] std::optional<FilmMoment> take() { return worker_.take(); }
+    [[nodiscard]] bool is_busy() const { return worker_.is_busy(); }
+
+private:
+    LatestRequestWorker<FilmRequest, FilmMoment> worker_;
+};
+
+} // namespace lsys::view
