@@ -142,7 +142,7 @@ struct SkeletonGrowth::State {
         moving.tip_radius[end] = segment.tip_radius;
     }
 
-    void add_segment(std::uint32_t index, const Piece& piece) {
+    void add_segment(std::uint32_t index, const SegmentPiece& piece) {
         const Segment& segment = after.segments[index];
         MovingSegment moving;
         moving.motion.parent = segment.parent;
@@ -190,7 +190,7 @@ struct SkeletonGrowth::State {
         ++counts.gone;
     }
 
-    void move_segments(const std::vector<Piece>& pieces) {
+    void move_segments(const std::vector<SegmentPiece>& pieces) {
         now.assign(before.segments.size(), kNoSegment);
         for (std::uint32_t i = 0; i < after.segments.size(); ++i) {
             add_segment(i, pieces[i]);

@@ -98,7 +98,7 @@ bool are_alike(std::span<const std::uint32_t> old_items,
 void divide(std::uint32_t old_item,
             std::span<const std::uint32_t> axis,
             const Skeleton& after,
-            std::vector<Piece>& pieces) {
+            std::vector<SegmentPiece>& pieces) {
     double total = 0.0;
     for (const std::uint32_t item : axis) {
         total += static_cast<double>(after.segments[item].length);
@@ -116,10 +116,10 @@ void divide(std::uint32_t old_item,
     }
 }
 
-std::vector<Piece> find_pieces(const Followed& followed) {
+std::vector<SegmentPiece> find_pieces(const Followed& followed) {
     const Skeleton& before = followed.before;
     const Skeleton& after = followed.after;
-    std::vector<Piece> pieces(after.segments.size());
+    std::vector<SegmentPiece> pieces(after.segments.size());
     const ByModule old_items = followed.old_items(before.segment_origins);
     const ByModule new_items = followed.new_items(after.segment_origins);
     for (std::size_t module = 0; module < followed.modules; ++module) {

@@ -11,7 +11,7 @@
 namespace lsys {
 
 /// A piece of a segment of the earlier drawing, from `low` to `high` of its length.
-struct Piece {
+struct SegmentPiece {
     std::uint32_t of = kNoSegment;
     float low = 0.0F;
     float high = 1.0F;
@@ -20,7 +20,7 @@ struct Piece {
 /// For each item of the later drawing the one of the earlier that it continues; kNone,
 /// kNoSegment: none.
 struct Correspondence {
-    std::vector<Piece> pieces; // by segment; pieces of one segment follow each other
+    std::vector<SegmentPiece> pieces; // by segment; pieces of one segment follow each other
     std::vector<std::uint32_t> objects;
     std::vector<std::uint32_t> polygons;
 };

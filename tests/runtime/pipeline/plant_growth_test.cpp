@@ -103,8 +103,8 @@ bool is_same_mesh(const Mesh& a, const Mesh& b) {
                        a.positions.size() * sizeof(a.positions[0])) == 0;
 }
 
-/// The farthest way of an end of a segment, an object or a corner; both have the same parts.
-float farthest(const Skeleton& a, const Skeleton& b) {
+/// The longest_move way of an end of a segment, an object or a corner; both have the same parts.
+float longest_move(const Skeleton& a, const Skeleton& b) {
     REQUIRE(a.segments.size() == b.segments.size());
     REQUIRE(a.objects.size() == b.objects.size());
     REQUIRE(a.corners.size() == b.corners.size());
@@ -215,7 +215,7 @@ TEST_CASE("twice as many frames of a growth move half as far") {
         for (std::uint32_t i = 1; i <= frames; ++i) {
             const Skeleton next = grown.at(generation, 0.01 + 0.98 * static_cast<double>(i) /
                                                                   static_cast<double>(frames));
-            far = std::max(far, farthest(last, next));
+            far = std::max(far, longest_move(last, next));
             last = next;
         }
         return far;
