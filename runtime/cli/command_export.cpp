@@ -193,9 +193,10 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
         command.format ? command.format : format_of_path(command.output);
     if (!format) {
         return report_error(
-            Error{fmt::format("the name `{}` does not tell a format; say which with "
+            Error{fmt::format("the name `{}` does not tell a format: {}; say which with "
                               "--format",
-                              command.output)},
+                              command.output,
+                              format_names("or", [](const FormatTraits&) { return true; }))},
             console);
     }
     const bool bends = command.gravity || command.wind;
