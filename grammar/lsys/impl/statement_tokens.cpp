@@ -1,6 +1,7 @@
 #include "grammar/lsys/impl/statement_tokens.h"
 
 #include "grammar/ast/reports.h"
+#include "grammar/base/characters.h"
 #include "grammar/lsys/impl/bracket_search.h"
 #include "grammar/lsys/impl/lookahead.h"
 
@@ -76,11 +77,32 @@ Token begin_parts(ParseSession& session, std::string_view word, char next) {
     return keyword_token(session, word, span);
 }
 
+/// `#angle 30;`: reports the missing `set` and reads on after the `#`.
+Token setting_without_set(ParseSession& session, std::string_view word) {
+    ScanState& scan = session.scan;
+    const std::uint32_t key = scan.end - static_cast<std::uint32_t>(word.size());
+    if (session.wants(DiagnosticCode::UnknownStatement)) {
+        const SourceSpan span = session.match();
+        const std::string name(word);
+        Diagnostic& diagnostic = session.report(DiagnosticCode::UnknownStatement, span,
+                                                "there is no statement `#" + name + "`");
+        add_fix(diagnostic, "a setting is written `#set " + name + "`",
+                {span.file, session.scanned.source_begin(key), session.scanned.source_begin(key)},
+                "set ", true);
+    }
+    scan.keyword = Keyword::Set;
+    scan.end = key; // reads the key again
+    return begin_parts(session, spelling(Keyword::Set), word.front());
+}
+
 /// The `#word` that is neither a keyword nor followed by `:`.
 Token unknown_statement(ParseSession& session, std::string_view word, char next) {
     ScanState& scan = session.scan;
     if (colons_of_statement(session) >= 2) {
         return begin_parts(session, word, next); // a production; missing_opening() reports
+    }
+    if (is_setting(word) && session.scanned.text[scan.begin] == '#') {
+        return setting_without_set(session, word);
     }
     const std::optional<Keyword> meant = suggest_keyword(word);
     if (session.wants(DiagnosticCode::UnknownStatement)) {
@@ -109,12 +131,28 @@ bool is_axiom_by_another_name(ParseSession& session, std::string_view word) {
     return is_synonym(word, Keyword::Axiom) && colons_of_statement(session) == 1;
 }
 
+/// Whether the next character is the only `:` of the statement, and a number follows it, which
+/// begins no predecessor.
+bool is_number_after_colon(ParseSession& session) {
+    const std::string_view text = session.scanned.text;
+    const std::size_t colon = text.find(':', session.scan.end);
+    if (colons_of_statement(session) != 1 || colon == std::string_view::npos) {
+        return false;
+    }
+    const char next = next_character(text, static_cast<std::uint32_t>(colon) + 1);
+    return is_digit(next) || next == '.' || next == '(';
+}
+
 Token start(ParseSession& session, std::string_view word) {
     ScanState& scan = session.scan;
     open_statement(session, find_keyword(word));
     const char next = next_character(session.scanned.text, scan.end);
     if (scan.keyword == Keyword::Label && next != ':') {
         return unknown_statement(session, word, next);
+    }
+    if (scan.keyword == Keyword::Label && is_setting(word) &&
+        session.scanned.text[scan.begin] == '#' && is_number_after_colon(session)) {
+        return setting_without_set(session, word);
     }
     if (scan.keyword == Keyword::Label && is_axiom_by_another_name(session, word)) {
         if (session.wants(DiagnosticCode::UnknownStatement)) {
@@ -212,6 +250,27 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
     }
     open_statement(session, Keyword::Label);
     return discard_statement(session);
+}
+
+Token opening_colon(ParseSession& session) {
+    ScanState& scan = session.scan;
+    if (scan.keyword == Keyword::Generations && colons_of_statement(session) == 1) {
+        const char next = next_character(session.scanned.text, scan.end);
+        if (is_digit(next) || next == '.' || next == '(') { // which begins no predecessor
+            if (session.wants(DiagnosticCode::SyntaxError)) {
+                const SourceSpan span = session.match();
+                Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError, span,
+                                                        "a `=` stands here, not a `:`");
+                add_fix(diagnostic, "write `=`", span, "=", true);
+            }
+            const SourceSpan span = session.token();
+            scan.enter(Part::Value);
+            return Token(Parser::token::TOK_ASSIGN, span);
+        }
+    }
+    const SourceSpan span = session.token();
+    after_opening_colon(session);
+    return Token(Parser::token::TOK_COLON, span);
 }
 
 void after_opening_colon(ParseSession& session) {
